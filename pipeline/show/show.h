@@ -1,0 +1,121 @@
+// A show as data: everything a YAML show file says, validated and in inside units (M, radians),
+// with every default filled in.  docs/show-format.md describes the file key by key.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipeline/grade/grade_settings.h"
+#include "pipeline/sky/star_catalogue.h"
+#include "projections/projection.h"
+#include "trajectories/trajectory.h"
+
+namespace domefall {
+
+// ---- what the camera does ----
+
+// [Riazuelo] sec. sec_cam: rotations by phi about C, vartheta about B', psi about C', of the
+// boosted (Theta, Phi, R).  Radians.
+struct EulerAngles {
+  double phi = 0, vartheta = 0, psi = 0;
+};
+struct LookAtHole {};
+struct LookAlongMotion {};  // against the static frame, continued smoothly inside the horizon
+struct LookAtSky {          // at the primary image of a place on sky I, lensing included
+  SkyDirection target;
+};
+using Attitude = std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngles>;
+
+struct Camera {
+  Attitude attitude = LookAtHole{};
+  double roll =
+      0;  // radians, about the line of sight, clockwise on the image; not with Euler angles
+  double elevation = 0;  // radians above the dome's front rim at which a look-at target stands;
+                         // Domemaster only
+  double dome_tilt =
+      0;  // radians by which the theatre's dome leans towards the front: the image is
+          // turned so that what stood at elevation e stands at e + dome_tilt
+};
+
+// ---- the timeline ----
+
+struct Segment {
+  double duration_s = 0;  // show seconds, > 0
+  Trajectory trajectory;
+  // Proper time of the trajectory at the segment's first and last instant, units of M (seconds in
+  // flat space); linear between.
+  double tau_begin = 0, tau_end = 0;
+  Camera camera;
+};
+
+// ---- the sky ----
+
+struct BlackSky {};
+// Built in: [Riazuelo] sec. ssec_bckgsky, 5-degree checkerboard of 8000 K blackbody squares, a
+// factor 4 in intensity between light and dark, and 2000 K polar discs of 5 degrees diameter.
+struct GridSky {};
+// Equirectangular image, equatorial J2000, seen from inside.
+struct PanoramaSky {
+  std::filesystem::path image;
+};
+using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky>;
+
+struct StarField {
+  std::filesystem::path catalogue;
+  double max_magnitude = 6.5;
+};
+
+struct RegionSky {
+  SkyBackground background;
+  double background_gain = 1;  // artistic; 1 is physical
+  std::optional<StarField> stars;
+  double star_gain = 1;  // artistic; 1 is physical
+};
+
+// Intensity of a panorama without spectra at frequency ratio g = 1/(1+z): g^power for blueshift,
+// exp(1 - 1/g) for redshift.  [Riazuelo] sec. ssec_rgb.
+struct PanoramaShift {
+  double blueshift_power = 2;
+};
+
+// A star is a truncated Gaussian in angle.  Its width grows with its (observed) brightness:
+// sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
+struct StarBlobs {
+  double min_sigma = 0;            // radians; the renderer never goes below 0.8 pixel
+  double growth = 0.25;            // 0: every star the same size; 0.5: every star the same peak
+  double reference_magnitude = 5;  // up to here min_sigma
+  double max_sigma = 0;            // radians
+};
+
+struct Exposure {
+  double ev = 0;  // stops: pixel value 1 is kReferenceLuminance / 2^ev
+};
+
+// ---- the whole ----
+
+enum class GradedFormat { kNone, kPng, kTiff };
+
+struct Show {
+  std::filesystem::path file;
+  std::string title;
+  double frames_per_second = 30;
+  Projection projection = Domemaster{4096};
+  // Solar masses; nothing: flat space.
+  std::optional<double> mass_solar;
+  // Where the hole is seen from afar at the start, and the position angle (radians, from north
+  // through east) in which an orbit's motion (Phi) sets out as seen from the hole.
+  SkyDirection hole_at;
+  double heading = 0;
+  std::vector<Segment> timeline;
+  RegionSky sky_one, sky_three;  // skies of regions I and III
+  PanoramaShift panorama_shift;
+  StarBlobs blobs;
+  Exposure exposure;
+  GradeSettings grade;
+  GradedFormat graded_format = GradedFormat::kPng;
+};
+
+}  // namespace domefall

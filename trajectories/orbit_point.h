@@ -1,0 +1,16 @@
+// What a trajectory emits: a point of an orbit in the plane of its motion.
+#pragma once
+
+#include "trajectories/observer_state.h"
+
+namespace domefall {
+
+struct OrbitPoint {
+  Region region = Region::kI;
+  double r = kFlatSpace;  // units of M
+  double azimuth = 0;     // radians swept in the orbital plane since the start, in the sense of Phi
+  V3d celerity{0, 0, 0};  // gamma * velocity against the rain tetrad, components (R, Theta, Phi);
+                          // Phi is the direction of the orbital motion, -Theta the orbit's north
+};
+
+}  // namespace domefall

@@ -1,0 +1,24 @@
+// A trajectory is a small value that answers one question: where is the observer, and how does it
+// move, at proper time tau.  One header per kind; this one makes them exchangeable.
+#pragma once
+
+#include <variant>
+
+#include "trajectories/circular_orbit.h"
+#include "trajectories/given_velocity.h"
+#include "trajectories/orbit_point.h"
+#include "trajectories/radial_infall.h"
+#include "trajectories/static_observer.h"
+
+namespace domefall {
+
+using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity>;
+
+// The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
+// tau must be in [0, lifetime).
+OrbitPoint point_at(const Trajectory& trajectory, double tau);
+
+// Proper time from the start to the singularity; infinity for an observer that never meets it.
+double lifetime(const Trajectory& trajectory);
+
+}  // namespace domefall
