@@ -1,0 +1,106 @@
+#include "projections/projection.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+struct Centred {
+  double x, y;  // pixels from the middle of the image
+};
+
+Centred centred(const Projection& p, PixelPosition pixel) {
+  return {pixel.i - (columns(p) + 1) / 2.0, pixel.j - (rows(p) + 1) / 2.0};
+}
+
+// sin(theta)/theta, its limit at 0 included.
+double sinc(double theta) { return theta < 1e-8 ? 1.0 : std::sin(theta) / theta; }
+
+// The paper's 2 tan(alpha/2)/C: tan(theta/2) per pixel.
+double half_tangent_per_pixel(const Stereographic& s) {
+  return 2 * std::tan(s.fov / 4) / s.columns;
+}
+
+CameraDirection direction(const Domemaster& d, Centred at) {
+  const double scale = pi / d.size;
+  const double theta = std::hypot(at.x, at.y) * scale;
+  const double k = sinc(theta) * scale;
+  return {{at.x * k, at.y * k, std::cos(theta)}};
+}
+
+// N = -Z + 2 W/|W|^2 with W = Z + w, written so that nothing cancels near the middle.
+CameraDirection direction(const Stereographic& s, Centred at) {
+  const double scale = half_tangent_per_pixel(s);
+  const double x = at.x * scale, y = at.y * scale;
+  const double w2 = x * x + y * y;
+  return {{2 * x / (1 + w2), 2 * y / (1 + w2), (1 - w2) / (1 + w2)}};
+}
+
+// Pixels per unit of (X.N, Y.N); infinite towards -Z.
+double magnification(const Domemaster& d, const CameraDirection& n) {
+  const double sine = std::hypot(n.v.x, n.v.y);
+  if (sine == 0) return n.v.z > 0 ? d.size / pi : HUGE_VAL;
+  return d.size / pi * std::atan2(sine, n.v.z) / sine;
+}
+
+double magnification(const Stereographic& s, const CameraDirection& n) {
+  // 1 + cos(theta), from the sine where the sum would cancel.
+  const double sine2 = n.v.x * n.v.x + n.v.y * n.v.y;
+  const double one_plus_cos = n.v.z >= 0 ? 1 + n.v.z : sine2 / (1 - n.v.z);
+  return 1 / (half_tangent_per_pixel(s) * one_plus_cos);
+}
+
+}  // namespace
+
+int columns(const Projection& p) {
+  if (const auto* d = std::get_if<Domemaster>(&p)) return d->size;
+  return std::get<Stereographic>(p).columns;
+}
+
+int rows(const Projection& p) {
+  if (const auto* d = std::get_if<Domemaster>(&p)) return d->size;
+  return std::get<Stereographic>(p).rows;
+}
+
+CameraDirection direction_at(const Projection& p, PixelPosition pixel) {
+  return std::visit([&](const auto& q) { return direction(q, centred(p, pixel)); }, p);
+}
+
+std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n) {
+  const double m = std::visit([&](const auto& q) { return magnification(q, n); }, p);
+  if (!std::isfinite(m)) return std::nullopt;
+  return PixelPosition{(columns(p) + 1) / 2.0 + m * n.v.x, (rows(p) + 1) / 2.0 + m * n.v.y};
+}
+
+bool is_inside(const Projection& p, PixelPosition pixel) {
+  if (!std::holds_alternative<Domemaster>(p)) return true;
+  const Centred at = centred(p, pixel);
+  const double radius = columns(p) / 2.0;
+  return at.x * at.x + at.y * at.y <= radius * radius;
+}
+
+double pixel_solid_angle(const Projection& p, PixelPosition pixel) {
+  const Centred at = centred(p, pixel);
+  if (const auto* d = std::get_if<Domemaster>(&p)) {
+    const double scale = pi / d->size;
+    return scale * scale * sinc(std::hypot(at.x, at.y) * scale);
+  }
+  const double k = half_tangent_per_pixel(std::get<Stereographic>(p));
+  const double w2 = (at.x * at.x + at.y * at.y) * k * k;
+  const double side = 2 * k / (1 + w2);
+  return side * side;
+}
+
+double central_pixel_angle(const Projection& p) {
+  if (const auto* d = std::get_if<Domemaster>(&p)) return pi / d->size;
+  return 2 * half_tangent_per_pixel(std::get<Stereographic>(p));
+}
+
+std::string_view projection_name(const Projection& p) {
+  return std::holds_alternative<Domemaster>(p) ? "domemaster" : "stereographic";
+}
+
+}  // namespace domefall

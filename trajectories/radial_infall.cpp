@@ -1,0 +1,21 @@
+#include "trajectories/radial_infall.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace domefall {
+
+double proper_time_to(const RadialInfall& fall, double r) {
+  const double a = fall.from_r;
+  return std::numbers::sqrt2 / 3 * (a - r) * (a * a + a * r + r * r) /
+         (a * std::sqrt(a) + r * std::sqrt(r));
+}
+
+OrbitPoint point_at(const RadialInfall& fall, double tau) {
+  const double root =
+      std::cbrt(fall.from_r * std::sqrt(fall.from_r) - 3 / std::numbers::sqrt2 * tau);
+  const double r = root * root;
+  return {r > 2 ? Region::kI : Region::kII, r, 0, V3d(0, 0, 0)};
+}
+
+}  // namespace domefall

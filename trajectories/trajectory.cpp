@@ -1,0 +1,14 @@
+#include "trajectories/trajectory.h"
+
+namespace domefall {
+
+OrbitPoint point_at(const Trajectory& trajectory, double tau) {
+  return std::visit([tau](const auto& kind) { return point_at(kind, tau); }, trajectory);
+}
+
+double lifetime(const Trajectory& trajectory) {
+  const auto* fall = std::get_if<RadialInfall>(&trajectory);
+  return fall ? proper_time_to(*fall, 0) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace domefall
