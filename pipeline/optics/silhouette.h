@@ -1,0 +1,26 @@
+// The edges of what an observer in the rain frame sees, in closed form.  M = 1.
+// With s = sqrt(2/r), both are roots of (1+s) T^2 - (2r/sqrt 27) T + (1-s) = 0 in T = tan(delta/2),
+// where delta is the angle from -R: the rays with |L/E| = 3 sqrt 3.
+#pragma once
+
+#include "pipeline/optics/radius.h"
+
+namespace domefall {
+
+// tan(delta/2) of the silhouette's edge: sky I lies beyond it.  [Riazuelo] eq. tan_delta_final.
+// r > 0; 0 in flat space (r infinite).  For r > 3 the numerator is a small difference of large
+// terms, so its conjugate is used.  Measured against 40 digits: relative error < 4 epsilon for
+// 1e-6 < r < 1e8.
+double tan_half_silhouette(const Radius& at);
+
+// tan(delta/2) of the edge of region III, which lies within it.  [Riazuelo] sec. on region III.
+// 0 < r <= 2; zero at r = 2, where the region appears as a point.
+double tan_half_region_three(const Radius& at);
+
+// The other root of the quadratic, negative inside the horizon: there it is -tan_half_region_three.
+double tan_half_other_root(const Radius& at);
+
+double silhouette_edge(const Radius& at);    // radians
+double region_three_edge(const Radius& at);  // radians
+
+}  // namespace domefall

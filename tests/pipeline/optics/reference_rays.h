@@ -1,0 +1,37 @@
+// The rows of tests/reference/rays.csv that this suite understands.
+#pragma once
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace domefall {
+
+struct ReferenceRay {
+  std::string observer, origin, edge;
+  long double r_decimal;
+  double r, delta, offset, phi, one_plus_z, slope, amplification;
+};
+
+inline double number_or_zero(const std::string& text) { return text.empty() ? 0 : std::stod(text); }
+
+inline std::vector<ReferenceRay> reference_rays(const std::string& observer) {
+  std::ifstream file(DOMEFALL_TEST_DATA "/rays.csv");
+  if (!file) throw std::runtime_error("no " DOMEFALL_TEST_DATA "/rays.csv");
+  std::vector<ReferenceRay> rays;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with(observer + ",")) continue;
+    std::vector<std::string> cell;
+    std::istringstream cells(line);
+    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+    cell.resize(10);
+    rays.push_back({cell[0], cell[5], cell[3], std::stold(cell[1]), number_or_zero(cell[1]),
+                    number_or_zero(cell[2]), number_or_zero(cell[4]), number_or_zero(cell[6]),
+                    number_or_zero(cell[7]), number_or_zero(cell[8]), number_or_zero(cell[9])});
+  }
+  return rays;
+}
+
+}  // namespace domefall

@@ -1,0 +1,104 @@
+#include "pipeline/optics/sky_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "pipeline/optics/exact_azimuth.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kRadii[] = {1e-6, 1e-3, 0.05, 0.5, 1,   1.5, 1.999, 2 - 1e-9, 2,   2 + 1e-12,
+                             2.5,  2.9,  3,    3.1, 6.0, 10,  30.0,  1e3,      1e5, 1e8};
+
+struct Case {
+  double r;
+  Edge edge;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (double r : kRadii) {
+    all.push_back({r, Edge::kSilhouette});
+    if (r < 2) all.push_back({r, Edge::kRegionThree});
+  }
+  return all;
+}
+
+double exact_at(const Case& c, double x) {
+  const double sign = c.edge == Edge::kSilhouette ? 1 : -1;
+  return exact_azimuth(ray_off_edge(c.r, c.edge, sign * 4 * std::atan(x / 2)));
+}
+
+TEST(SkyTable, AgreesWithTheExactIntegralFromTheEdgeToTheFarEnd) {
+  std::mt19937_64 random(7);
+  for (const Case& c : cases()) {
+    const SkyTable table(c.r, c.edge);
+    EXPECT_LE(table.node_count(), 1024u);
+    std::uniform_real_distribution<double> decade(-13, 0);
+    double worst = 0, where = 0;
+    for (int k = 0; k < 3000; ++k) {
+      const double x = table.x_max() * std::pow(10, decade(random));
+      const double error = std::abs(table.azimuth(x) - exact_at(c, x));
+      if (error > worst) worst = error, where = x;
+    }
+    EXPECT_LT(worst, 1e-9) << "r=" << c.r << " edge " << static_cast<int>(c.edge) << " x=" << where;
+  }
+}
+
+TEST(SkyTable, ContinuesLogarithmicallyBelowItsRange) {
+  const SkyTable table(6, Edge::kSilhouette);
+  for (double x : {1e-16, 1e-20, 1e-30})
+    EXPECT_NEAR(table.azimuth(x), exact_at({6, Edge::kSilhouette}, x), 1e-9);
+}
+
+TEST(SkyTable, SlopeIsTheDerivativeOfTheExactIntegral) {
+  for (const Case& c : cases()) {
+    const SkyTable table(c.r, c.edge);
+    for (double part : {1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9}) {
+      const double x = part * table.x_max(), h = 1e-3 * x;
+      // Four-point central difference in delta.
+      const auto f = [&](double k) { return exact_at(c, x + k * h); };
+      const double dx = (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / (12 * h);
+      const double expected = std::abs(dx) * (1 + x * x / 4) / 2;
+      EXPECT_NEAR(table.slope(x), expected, 1e-7 * expected) << "r=" << c.r << " part=" << part;
+    }
+  }
+}
+
+TEST(SkyTable, InverseReturnsToTheSameRay) {
+  std::mt19937_64 random(8);
+  for (const Case& c : cases()) {
+    const SkyTable table(c.r, c.edge);
+    std::uniform_real_distribution<double> turns(0, 25);
+    for (int k = 0; k < 500; ++k) {
+      const double phi = turns(random);
+      const double x = table.distance(phi);
+      EXPECT_NEAR(table.azimuth(x), phi, 1e-11 * (1 + phi)) << "r=" << c.r;
+    }
+  }
+}
+
+TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
+  for (const Case& c : cases()) {
+    const SkyTable table(c.r, c.edge);
+    double previous = 1e300;
+    for (double y = std::log(table.x_max()) - 40; y < std::log(table.x_max()); y += 0.003) {
+      const double phi = table.azimuth(std::exp(y));
+      ASSERT_LT(phi, previous) << "r=" << c.r << " y=" << y;
+      previous = phi;
+    }
+  }
+}
+
+TEST(SkyTable, TheFarEndIsUndeflected) {
+  for (const Case& c : cases()) {
+    const SkyTable table(c.r, c.edge);
+    EXPECT_NEAR(table.azimuth(table.x_max()), 0, 1e-9) << c.r;
+  }
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,74 @@
+#include "pipeline/optics/traced_ray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/pipeline/optics/reference_rays.h"
+
+namespace domefall {
+namespace {
+
+RayRequest request_of(const ReferenceRay& row) {
+  RayRequest q;
+  q.observer = row.observer == "rain" ? TraceObserver::kRain : TraceObserver::kStatic;
+  q.at = Radius(row.r_decimal);
+  q.delta = row.delta;
+  if (!row.edge.empty()) q.edge = row.edge == "silhouette" ? Edge::kSilhouette : Edge::kRegionThree;
+  q.offset = row.offset;
+  return q;
+}
+
+const char* name(Origin origin) {
+  return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
+}
+
+std::string place(const ReferenceRay& row) {
+  return row.observer + " r=" + std::to_string(row.r) + " delta=" + std::to_string(row.delta) +
+         " " + row.edge + " " + std::to_string(row.offset);
+}
+
+class ReferenceRows : public testing::TestWithParam<const char*> {};
+
+TEST_P(ReferenceRows, HaveTheRightOrigin) {
+  for (const ReferenceRay& row : reference_rays(GetParam()))
+    EXPECT_EQ(name(trace_ray(request_of(row), TraceMethod::kExact).origin), row.origin)
+        << place(row);
+}
+
+// Nearer than this to an edge the reference's own slopes have lost digits (r = 3).
+bool beside_an_edge(const ReferenceRay& row) {
+  return !row.edge.empty() && std::abs(row.offset) < 9e-7;
+}
+
+TEST_P(ReferenceRows, ExactAzimuthIsRightToOneInTenToTheTwelve) {
+  for (const ReferenceRay& row : reference_rays(GetParam())) {
+    if (row.origin == "IV") continue;
+    const TracedRay ray = trace_ray(request_of(row), TraceMethod::kExact);
+    const double close = beside_an_edge(row) ? 1e4 : 1;
+    EXPECT_NEAR(ray.phi, row.phi, close * 1e-12 * std::max(1.0, row.phi)) << place(row);
+    EXPECT_NEAR(ray.one_plus_z, row.one_plus_z, 1e-12 * row.one_plus_z) << place(row);
+    if (beside_an_edge(row)) continue;
+    EXPECT_NEAR(ray.slope, row.slope, 1e-8 * std::abs(row.slope)) << place(row);
+  }
+}
+
+TEST_P(ReferenceRows, TableAzimuthIsRightToOneInTenToTheEight) {
+  for (const ReferenceRay& row : reference_rays(GetParam())) {
+    if (row.origin == "IV") continue;
+    const TracedRay ray = trace_ray(request_of(row), TraceMethod::kTable);
+    EXPECT_NEAR(ray.phi, row.phi, 1e-8) << place(row);
+    if (beside_an_edge(row)) continue;
+    EXPECT_NEAR(ray.slope, row.slope, 1e-6 * std::abs(row.slope)) << place(row);
+    // |sin phi| loses what phi loses: the bound is relative to how near the axis the image is.
+    const double axis = std::abs(std::sin(row.phi));
+    EXPECT_NEAR(ray.amplification, row.amplification, (1e-6 + 1e-9 / axis) * row.amplification)
+        << place(row);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfThe, ReferenceRows, testing::Values("rain", "static"),
+                         [](const auto& row) { return std::string(row.param); });
+
+}  // namespace
+}  // namespace domefall
