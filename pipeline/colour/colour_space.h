@@ -1,0 +1,45 @@
+// Colour as types: CIE XYZ and the scene-linear working space do not mix.
+#pragma once
+
+#include <Imath/ImathMatrix.h>
+
+namespace domefall {
+
+// CIE 1931 tristimulus values; Y in the photometric unit of the context (cd/m^2 or lux).
+struct Xyz {
+  double x, y, z;
+};
+
+// Linear light with the AP1 primaries and the ACES white (ACEScg), in the same unit: the luminance
+// of (1, 1, 1) is 1.  The white of Domefall's skies is D65, so XYZ are adapted to the ACES white
+// (Bradford) and a D65 light is neutral.
+struct WorkingRgb {
+  float r, g, b;
+};
+
+inline constexpr const char* kWorkingSpaceName = "ACEScg";
+
+// CIE x, y of red, green, blue and white.
+struct Chromaticities {
+  double red[2], green[2], blue[2], white[2];
+};
+inline constexpr Chromaticities kAp1{
+    {0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}};
+inline constexpr Chromaticities kRec709{
+    {0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, {0.3127, 0.3290}};
+
+// Matrices apply to columns: out[i] = sum over j of m[i][j] in[j].
+using ColourMatrix = Imath::M33d;
+
+ColourMatrix xyz_from_rgb(const Chromaticities& space);
+// D65-relative XYZ to the working space.
+const ColourMatrix& working_from_xyz();
+// Linear Rec.709 (sRGB primaries, D65) to the working space.
+const ColourMatrix& working_from_rec709();
+
+WorkingRgb to_working(const Xyz& colour);
+
+// Luminance of a working-space colour in the scene's own (D65-relative) terms.
+double luminance(const WorkingRgb& colour);
+
+}  // namespace domefall
