@@ -1,0 +1,55 @@
+#include "pipeline/sky/grid_sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/colour/blackbody.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kCell = 5 * std::numbers::pi / 180;
+constexpr double kPolarRadius = kCell / 2;
+constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
+// Luminance (cd/m^2) at no redshift: a light square is as bright as the heart of the Milky Way.
+constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
+
+// The square wave of half period 1 (+1 on [0, 1)) averaged over a box of this width.
+double box_filtered_wave(double x, double width) {
+  const auto integral = [](double t) {
+    const double phase = t - 2 * std::floor(t / 2);
+    return phase < 1 ? phase : 2 - phase;
+  };
+  return (integral(x + width / 2) - integral(x - width / 2)) / width;
+}
+
+}  // namespace
+
+WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g) {
+  static const double square_scale = 1 / blackbody_xyz(kSquareTemperature).y;
+  static const double polar_scale = 1 / blackbody_xyz(kPolarTemperature).y;
+  const V3d& d = direction.v;
+  const double across = std::hypot(d.x, d.y);
+  const double width = std::max(footprint, 1e-9);
+  const double to_pole = std::atan2(across, std::abs(d.z));
+  const double disc = std::clamp((kPolarRadius - to_pole) / width + 0.5, 0.0, 1.0);
+  WorkingRgb light{0, 0, 0};
+  if (disc < 1) {
+    const double columns =
+        box_filtered_wave(std::atan2(d.y, d.x) / kCell, width / kCell / std::max(across, 1e-6));
+    const double rows = box_filtered_wave(std::atan2(d.z, across) / kCell, width / kCell);
+    const double mean = (kLightSquare + kDarkSquare) / 2, swing = (kLightSquare - kDarkSquare) / 2;
+    const auto k = static_cast<float>((mean + swing * columns * rows) * (1 - disc) * square_scale);
+    const WorkingRgb c = blackbody_colours().surface(kSquareTemperature * g);
+    light = {c.r * k, c.g * k, c.b * k};
+  }
+  if (disc > 0) {
+    const auto k = static_cast<float>(kPolarDisc * disc * polar_scale);
+    const WorkingRgb c = blackbody_colours().surface(kPolarTemperature * g);
+    light = {light.r + c.r * k, light.g + c.g * k, light.b + c.b * k};
+  }
+  return light;
+}
+
+}  // namespace domefall
