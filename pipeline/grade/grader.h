@@ -1,0 +1,36 @@
+// Scene-linear frames to display-encoded ones, by OpenColorIO.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "pipeline/grade/grade_settings.h"
+#include "pipeline/image/frame_buffer.h"
+
+namespace domefall {
+
+// ACEScg -> the show's ASC CDL in ACEScct, left out altogether where it changes nothing -> display
+// and view of an OpenColorIO configuration -> 16 bits, clamped and rounded.  A pixel depends on
+// nothing but its own input; copies share one processor and may be used by any number of threads.
+class Grader {
+ public:
+  // Throws InputError for a configuration that cannot be used, and for an unknown display or view
+  // with the list of those known.
+  explicit Grader(const GradeSettings& settings);
+
+  // Rows y0 <= y < y1.  `out` has the size of `in`.  Any split into rows gives the same values.
+  void grade_rows(const HalfFrame& in, GradedFrame& out, int y0, int y1) const;
+  // The whole frame, on the calling thread.
+  GradedFrame grade(const HalfFrame& in) const;
+
+  // As settled by the settings and the configuration's defaults.
+  const std::string& display() const { return display_; }
+  const std::string& view() const { return view_; }
+
+ private:
+  struct Processor;
+  std::shared_ptr<const Processor> processor_;
+  std::string display_, view_;
+};
+
+}  // namespace domefall

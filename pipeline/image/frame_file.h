@@ -1,0 +1,43 @@
+// Rendered frames on the disk: scene-linear OpenEXR, half floats, channels R, G, B, lossless ZIP.
+//
+// The header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which
+// show this is (the fields of FrameInfo) and which pixels were written (their xxHash), but neither
+// when nor where: the same frame has the same bytes, whatever the machine and the number of
+// threads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/frame_condition.h"
+
+namespace domefall {
+
+struct FrameInfo {
+  std::string title;       // of the show
+  std::string key;         // digest of everything that decides this frame, hexadecimal
+  int frame = 0;           // number in the show, from 0
+  std::string region;      // of the observer: I, II, ...
+  double r = 0;            // of the observer, M
+  double proper_time = 0;  // of the observer, M
+  double frames_per_second = 0;
+  std::string projection;
+  std::string software;
+};
+
+// Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for a
+// path that cannot be written, TemporaryError for a disk that is full or fails.
+void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);
+
+// Reads back what write_frame wrote.  Throws InputError naming the file if it is missing, damaged
+// or was not written by write_frame.
+std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);
+
+// Decodes the whole frame and compares its pixels with the hash in its header, since a header alone
+// opens after any truncation, and a flipped bit in the pixels is seen nowhere else.
+FrameCondition examine_frame(const std::filesystem::path& path, const std::string& key, int width,
+                             int height);
+
+}  // namespace domefall

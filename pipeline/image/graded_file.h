@@ -1,0 +1,35 @@
+// Graded frames on the disk, for projectors and encoders: 16-bit RGB, PNG or TIFF by the path's
+// extension (.png; .tif, .tiff).
+//
+// Lines of the file's description ("name: value") carry the fields of GradedInfo and an xxHash of
+// the pixels.  The same frame has the same bytes wherever and whenever it is written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/frame_condition.h"
+
+namespace domefall {
+
+struct GradedInfo {
+  std::string key;  // digest of everything that decides this frame and its grade, hexadecimal
+  std::string title;
+  int frame = 0;
+  std::string display, view;  // of the OpenColorIO configuration
+  std::string software;
+};
+
+// Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for
+// another extension or a path that cannot be written, TemporaryError for a disk that is full or
+// fails.
+void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
+                  const GradedInfo& info);
+
+// Decodes the whole frame and compares its pixels with the hash in its description: OpenImageIO 2.4
+// says nothing of a truncated TIFF.
+FrameCondition examine_graded(const std::filesystem::path& path, const std::string& key, int width,
+                              int height);
+
+}  // namespace domefall
