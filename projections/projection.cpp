@@ -1,5 +1,7 @@
 #include "projections/projection.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -39,6 +41,34 @@ CameraDirection direction(const Stereographic& s, Centred at) {
   return {{2 * x / (1 + w2), 2 * y / (1 + w2), (1 - w2) / (1 + w2)}};
 }
 
+// Ratios of neighbouring terms of the series of sin(theta)/theta and cos(theta) in theta^2.
+struct SeriesRatios {
+  std::array<double, 11> sine, cosine;
+};
+constexpr SeriesRatios kRatios = [] {
+  SeriesRatios ratios{};
+  for (int n = 1; n <= 11; ++n) {
+    ratios.sine[n - 1] = 1.0 / ((2 * n) * (2 * n + 1));
+    ratios.cosine[n - 1] = 1.0 / ((2 * n - 1) * (2 * n));
+  }
+  return ratios;
+}();
+
+// direction() up to theta = pi/2, where the series' next term is below 1e-17.
+CameraDirection inside_direction(const Domemaster& d, Centred at) {
+  const double scale = pi / d.size;
+  const double t = (at.x * at.x + at.y * at.y) * scale * scale;
+  double sine = 0, cosine = 0;
+  for (std::size_t n = kRatios.sine.size(); n-- > 0;) {
+    sine = (1 - t * sine) * kRatios.sine[n];
+    cosine = (1 - t * cosine) * kRatios.cosine[n];
+  }
+  const double k = (1 - t * sine) * scale;
+  return {{at.x * k, at.y * k, 1 - t * cosine}};
+}
+
+CameraDirection inside_direction(const Stereographic& s, Centred at) { return direction(s, at); }
+
 // Pixels per unit of (X.N, Y.N); infinite towards -Z.
 double magnification(const Domemaster& d, const CameraDirection& n) {
   const double sine = std::hypot(n.v.x, n.v.y);
@@ -65,6 +95,12 @@ int rows(const Projection& p) {
   return std::get<Stereographic>(p).rows;
 }
 
+Projection refined(const Projection& p, int factor) {
+  if (const auto* d = std::get_if<Domemaster>(&p)) return Domemaster{d->size * factor};
+  const auto& s = std::get<Stereographic>(p);
+  return Stereographic{s.columns * factor, s.rows * factor, s.fov};
+}
+
 CameraDirection direction_at(const Projection& p, PixelPosition pixel) {
   return std::visit([&](const auto& q) { return direction(q, centred(p, pixel)); }, p);
 }
@@ -80,6 +116,26 @@ bool is_inside(const Projection& p, PixelPosition pixel) {
   const Centred at = centred(p, pixel);
   const double radius = columns(p) / 2.0;
   return at.x * at.x + at.y * at.y <= radius * radius;
+}
+
+ColumnRange inside_columns(const Projection& p, int row) {
+  const int width = columns(p);
+  if (!std::holds_alternative<Domemaster>(p)) return {0, width - 1};
+  const double y = row - (width - 1) / 2.0, radius = width / 2.0;
+  const double half = std::sqrt(std::max(0.0, radius * radius - y * y));
+  ColumnRange range{std::max(0, static_cast<int>((width - 1) / 2.0 - half) - 1), 0};
+  while (range.first < width && !is_inside(p, {range.first + 1.0, row + 1.0})) ++range.first;
+  range.last = width - 1 - range.first;  // the dome is symmetric
+  return range;
+}
+
+void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out) {
+  std::visit(
+      [&](const auto& q) {
+        for (int i = range.first; i <= range.last; ++i)
+          *out++ = inside_direction(q, centred(p, {i + 1.0, row + 1.0}));
+      },
+      p);
 }
 
 double pixel_solid_angle(const Projection& p, PixelPosition pixel) {

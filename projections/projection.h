@@ -39,6 +39,9 @@ using Projection = std::variant<Domemaster, Stereographic>;
 int columns(const Projection& p);
 int rows(const Projection& p);
 
+// The same picture with `factor` times `factor` pixels for each.
+Projection refined(const Projection& p, int factor);
+
 // The direction that a pixel position looks along.  Exact to a few epsilon; defined for any finite
 // position (on a Domemaster beyond theta = pi it winds on, which no pixel of the image does).
 CameraDirection direction_at(const Projection& p, PixelPosition pixel);
@@ -48,6 +51,17 @@ std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n);
 
 // Whether the projection shows anything there: the Domemaster's incircle, else everything.
 bool is_inside(const Projection& p, PixelPosition pixel);
+
+// The pixels of a row (from 0) whose centres are inside: columns first..last (from 0), none if
+// first > last.
+struct ColumnRange {
+  int first, last;
+};
+ColumnRange inside_columns(const Projection& p, int row);
+
+// direction_at for the centres of those pixels, into out[last - first + 1], in a quarter of the
+// time: sine and cosine are power series, cut below 1e-17.  Measured: within 6e-16 of direction_at.
+void inside_directions(const Projection& p, int row, ColumnRange columns, CameraDirection* out);
 
 // Solid angle (sr) of the pixel centred there: the product of its two angular scales.
 double pixel_solid_angle(const Projection& p, PixelPosition pixel);

@@ -56,6 +56,15 @@ class SkyTable {
 
   std::size_t node_count() const { return intervals_.size() + 1; }
 
+  struct Sweep {
+    double azimuth, slope;
+  };
+  // azimuth() and slope() of any number of x without a branch, for loops that are to become SIMD
+  // code: a copy of what a look-up needs, which no store of the loop can be taken to alter.  Good
+  // while the table lives.  x below x_min is looked up there: the logarithmic law is the caller's.
+  class Lookup;
+  Lookup lookup() const;
+
  private:
   static constexpr int kPerOctaveBits = 4;
   struct Interval {
@@ -82,5 +91,45 @@ class SkyTable {
   std::int64_t first_key_;
   std::vector<Interval> intervals_;
 };
+
+class SkyTable::Lookup {
+ public:
+  double x_min() const { return x_min_; }
+  // As distance_from_half_angle().
+  double distance(double sin_half, double cos_half) const {
+    const double sine = sign_ * (sin_half * cos_edge_ - cos_half * sin_edge_);
+    const double cosine = cos_half * cos_edge_ + sin_half * sin_edge_;
+    return 2 * sine / (1 + cosine);
+  }
+  Sweep operator()(double x) const {
+    const double at = x > x_min_ ? x : x_min_;
+    const std::int64_t k = key(at) - first_key_;
+    const Interval& q = intervals_[k < last_ ? k : last_];
+    const double u = (at - q.start) * q.inverse_width;
+    const double phi =
+        q.c[0] + u * (q.c[1] + u * (q.c[2] + u * (q.c[3] + u * (q.c[4] + u * q.c[5]))));
+    const double d =
+        q.c[1] + u * (2 * q.c[2] + u * (3 * q.c[3] + u * (4 * q.c[4] + u * 5 * q.c[5])));
+    return {phi, std::abs(d * q.inverse_width) * ((1 + at * at / 4) / 2)};
+  }
+
+ private:
+  friend class SkyTable;
+  const Interval* intervals_ = nullptr;
+  std::int64_t first_key_ = 0, last_ = 0;
+  double x_min_ = 0, sign_ = 1, sin_edge_ = 0, cos_edge_ = 1;
+};
+
+inline SkyTable::Lookup SkyTable::lookup() const {
+  Lookup l;
+  l.intervals_ = intervals_.data();
+  l.first_key_ = first_key_;
+  l.last_ = static_cast<std::int64_t>(intervals_.size()) - 1;
+  l.x_min_ = x_min_;
+  l.sign_ = sign_;
+  l.sin_edge_ = sin_edge_;
+  l.cos_edge_ = cos_edge_;
+  return l;
+}
 
 }  // namespace domefall

@@ -70,49 +70,49 @@ int face_size(const FloatImage& image) {
 
 }  // namespace
 
-const float* SkyMap::Level::face(int k) const {
+const SkyMap::Texel* SkyMap::Level::face(int k) const {
   const auto side = static_cast<std::size_t>(size + 2);
-  return texels.data() + static_cast<std::size_t>(k) * side * side * 3;
+  return texels.data() + static_cast<std::size_t>(k) * side * side;
 }
 
-float* SkyMap::Level::face(int k) {
+SkyMap::Texel* SkyMap::Level::face(int k) {
   const auto side = static_cast<std::size_t>(size + 2);
-  return texels.data() + static_cast<std::size_t>(k) * side * side * 3;
+  return texels.data() + static_cast<std::size_t>(k) * side * side;
 }
 
 SkyMap::SkyMap(const FloatImage& equirectangular) {
   const auto make_level = [](int size) {
     const auto side = static_cast<std::size_t>(size + 2);
-    return Level{size, std::vector<float>(6 * side * side * 3)};
+    return Level{size, std::vector<Texel>(6 * side * side)};
   };
   const int size = face_size(equirectangular);
   const ColourMatrix& m = working_from_rec709();
   levels_.push_back(make_level(size));
   for (int face = 0; face < 6; ++face) {
-    float* texel = levels_[0].face(face);
+    Texel* texel = levels_[0].face(face);
     for (int j = -1; j <= size; ++j)
-      for (int i = -1; i <= size; ++i, texel += 3) {
+      for (int i = -1; i <= size; ++i, ++texel) {
         const FacePoint at{face, (2 * i + 1.0) / size - 1, (2 * j + 1.0) / size - 1};
         const auto c = equirectangular_at(equirectangular, direction_of(at));
         for (int k = 0; k < 3; ++k)
-          texel[k] = static_cast<float>(kPanoramaUnit *
-                                        (m[k][0] * c[0] + m[k][1] * c[1] + m[k][2] * c[2]));
+          texel->rgb0[k] = static_cast<float>(kPanoramaUnit *
+                                              (m[k][0] * c[0] + m[k][1] * c[1] + m[k][2] * c[2]));
       }
   }
   for (int half = size / 2; half >= 1; half /= 2) {
     levels_.push_back(make_level(half));
     const Level& fine = levels_[levels_.size() - 2];
     Level& coarse = levels_.back();
-    const std::size_t fine_row = static_cast<std::size_t>(fine.size + 2) * 3;
+    const std::size_t fine_row = static_cast<std::size_t>(fine.size + 2);
     for (int face = 0; face < 6; ++face)
       for (int j = 0; j < half; ++j)
         for (int i = 0; i < half; ++i) {
-          const float* a =
-              fine.face(face) + static_cast<std::size_t>(2 * j + 1) * fine_row + (2 * i + 1) * 3;
-          float* out =
-              coarse.face(face) + (static_cast<std::size_t>(j + 1) * (half + 2) + i + 1) * 3;
-          for (int k = 0; k < 3; ++k)
-            out[k] = (a[k] + a[k + 3] + a[fine_row + k] + a[fine_row + k + 3]) / 4;
+          const Texel* a =
+              fine.face(face) + static_cast<std::size_t>(2 * j + 1) * fine_row + 2 * i + 1;
+          Texel& out = coarse.face(face)[static_cast<std::size_t>(j + 1) * (half + 2) + i + 1];
+          for (int k = 0; k < 4; ++k)
+            out.rgb0[k] =
+                (a[0].rgb0[k] + a[1].rgb0[k] + a[fine_row].rgb0[k] + a[fine_row + 1].rgb0[k]) / 4;
         }
     fill_border(coarse);
   }
@@ -129,24 +129,23 @@ void SkyMap::fill_border(Level& level) const {
             face_of(direction_of({face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1}));
         const int x = std::clamp(static_cast<int>((at.u + 1) / 2 * n), 0, n - 1);
         const int y = std::clamp(static_cast<int>((at.v + 1) / 2 * n), 0, n - 1);
-        const float* from =
-            level.face(at.face) + (static_cast<std::size_t>(y + 1) * (n + 2) + x + 1) * 3;
-        std::copy_n(from, 3,
-                    level.face(face) + (static_cast<std::size_t>(j + 1) * (n + 2) + i + 1) * 3);
+        level.face(face)[static_cast<std::size_t>(j + 1) * (n + 2) + i + 1] =
+            level.face(at.face)[static_cast<std::size_t>(y + 1) * (n + 2) + x + 1];
       }
 }
 
-std::array<float, 3> SkyMap::bilinear(const Level& level, int face, double u, double v) const {
+SkyMap::Texel SkyMap::bilinear(const Level& level, int face, double u, double v) {
   const int n = level.size;
   const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // texel 0 is the border
   const int i = std::min(static_cast<int>(x), n), j = std::min(static_cast<int>(y), n);
   const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
-  const float* a = level.face(face) + (static_cast<std::size_t>(j) * (n + 2) + i) * 3;
-  const float* b = a + static_cast<std::size_t>(n + 2) * 3;
-  std::array<float, 3> out;
-  for (int k = 0; k < 3; ++k) {
-    const float top = a[k] + fx * (a[k + 3] - a[k]), bottom = b[k] + fx * (b[k + 3] - b[k]);
-    out[k] = top + fy * (bottom - top);
+  const Texel* a = level.face(face) + static_cast<std::size_t>(j) * (n + 2) + i;
+  const Texel* b = a + (n + 2);
+  Texel out;
+  for (int k = 0; k < 4; ++k) {
+    const float top = a[0].rgb0[k] + fx * (a[1].rgb0[k] - a[0].rgb0[k]);
+    const float bottom = b[0].rgb0[k] + fx * (b[1].rgb0[k] - b[0].rgb0[k]);
+    out.rgb0[k] = top + fy * (bottom - top);
   }
   return out;
 }
@@ -155,21 +154,24 @@ WorkingRgb SkyMap::sample(const V3d& direction, double footprint) const {
   const FacePoint at = face_of(direction);
   const double texels = footprint * levels_[0].size / (pi / 2);
   if (texels <= 1) {
-    const auto c = bilinear(levels_[0], at.face, at.u, at.v);
-    return {c[0], c[1], c[2]};
+    const Texel c = bilinear(levels_[0], at.face, at.u, at.v);
+    return {c.rgb0[0], c.rgb0[1], c.rgb0[2]};
   }
-  const double level = std::min(std::log2(texels), static_cast<double>(levels_.size() - 1));
-  const auto fine = static_cast<std::size_t>(level);
-  const std::size_t coarse = std::min(fine + 1, levels_.size() - 1);
-  const auto w = static_cast<float>(level - static_cast<double>(fine));
-  const auto a = bilinear(levels_[fine], at.face, at.u, at.v);
-  const auto b = bilinear(levels_[coarse], at.face, at.u, at.v);
-  return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
+  // The logarithm, straight between powers of two: as good a passage between levels.
+  const auto octave = static_cast<std::size_t>(std::ilogb(texels));
+  const std::size_t last = levels_.size() - 1;
+  const std::size_t fine = std::min(octave, last), coarse = std::min(octave + 1, last);
+  const auto w = static_cast<float>(std::ldexp(texels, -static_cast<int>(octave)) - 1);
+  const Texel a = bilinear(levels_[fine], at.face, at.u, at.v);
+  const Texel b = bilinear(levels_[coarse], at.face, at.u, at.v);
+  Texel out;
+  for (int k = 0; k < 4; ++k) out.rgb0[k] = a.rgb0[k] + w * (b.rgb0[k] - a.rgb0[k]);
+  return {out.rgb0[0], out.rgb0[1], out.rgb0[2]};
 }
 
 std::size_t SkyMap::bytes() const {
   std::size_t sum = 0;
-  for (const Level& level : levels_) sum += level.texels.size() * sizeof(float);
+  for (const Level& level : levels_) sum += level.texels.size() * sizeof(Texel);
   return sum;
 }
 

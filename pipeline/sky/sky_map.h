@@ -26,15 +26,18 @@ class SkyMap {
   std::size_t bytes() const;
 
  private:
+  struct alignas(16) Texel {
+    float rgb0[4];  // padded to a register
+  };
   struct Level {
     int size;                   // texels along an edge of a face, without the border
-    std::vector<float> texels;  // 6 faces of (size + 2)^2 RGB, a border of one texel around each
-    const float* face(int k) const;
-    float* face(int k);
+    std::vector<Texel> texels;  // 6 faces of (size + 2)^2, a border of one texel around each
+    const Texel* face(int k) const;
+    Texel* face(int k);
   };
 
+  static Texel bilinear(const Level& level, int face, double u, double v);
   void fill_border(Level& level) const;
-  std::array<float, 3> bilinear(const Level& level, int face, double u, double v) const;
 
   std::vector<Level> levels_;
 };

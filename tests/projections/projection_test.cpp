@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace domefall {
 namespace {
@@ -108,6 +110,28 @@ TEST(Projections, HandednessPutsYDownTheImage) {
        {Projection(Domemaster{100}), Projection(Stereographic{100, 100, 1})}) {
     EXPECT_GT(direction_at(p, {90, 50.5}).v.x, 0);
     EXPECT_GT(direction_at(p, {50.5, 90}).v.y, 0);
+  }
+}
+
+// Rows that only touch the circle, odd and even sizes, and a flat picture.
+TEST(Projections, ARowsColumnsAreThoseInsideAndItsDirectionsTheirs) {
+  for (const Projection& p :
+       {Projection(Domemaster{1}), Projection(Domemaster{2}), Projection(Domemaster{63}),
+        Projection(Domemaster{512}), Projection(Stereographic{64, 40, 2.0})}) {
+    for (int row = 0; row < rows(p); ++row) {
+      const ColumnRange range = inside_columns(p, row);
+      std::vector<CameraDirection> n(
+          static_cast<std::size_t>(std::max(0, range.last - range.first + 1)));
+      inside_directions(p, row, range, n.data());
+      for (int i = 0; i < columns(p); ++i) {
+        const PixelPosition at{i + 1.0, row + 1.0};
+        const bool in_range = i >= range.first && i <= range.last;
+        ASSERT_EQ(in_range, is_inside(p, at)) << "row " << row << " column " << i;
+        if (!in_range) continue;
+        const Imath::V3d& v = n[static_cast<std::size_t>(i - range.first)].v;
+        EXPECT_LT((v - direction_at(p, at).v).length(), 1e-15);
+      }
+    }
   }
 }
 
