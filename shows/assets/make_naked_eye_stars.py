@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Makes naked_eye_stars.csv, the stars of V <= 6.5, from the star data of d3-celestial.
+
+    make_naked_eye_stars.py d3-celestial-0.7.35.tgz > naked_eye_stars.csv
+
+The archive is the npm package of that name and version (`npm pack d3-celestial@0.7.35`); its
+SHA-256 is checked. Stars without a colour get an empty b_v. Standard library only.
+"""
+
+import csv
+import hashlib
+import json
+import math
+import re
+import sys
+import tarfile
+
+SHA256 = "490796718c201e15f38c324bda5458fc4de22519313093bf261b628185eaae81"
+FAINTEST = 6.5
+
+GREEK = dict(zip(
+    "αβγδεζηθικλμνξοπρστυφχψω",
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho sigma "
+    "tau upsilon phi chi psi omega".split()))
+SUPERSCRIPTS = str.maketrans("¹²³⁴⁵⁶⁷⁸⁹⁰", "1234567890")
+
+# Positions to be met, in degrees (J2000): SIMBAD's, rounded.
+CHECKS = {"Sirius": (101.2872, -16.7161), "Vega": (279.2347, 38.7837),
+          "Betelgeuse": (88.7929, 7.4071)}
+
+
+def designation(entry):
+    """Bayer letter, else Flamsteed number, with the constellation: 'alpha CMa', '61 Cyg'."""
+    letter = entry.get("bayer", "").translate(SUPERSCRIPTS)
+    letter = re.sub(r"[α-ω]", lambda m: GREEK.get(m[0], "sigma"), letter)
+    label = letter or entry.get("flam", "")
+    return f"{label} {entry['c']}" if label and entry.get("c") else ""
+
+
+def angle(a, b):
+    """Degrees between two (ra, dec), for small angles."""
+    (ra, dec), (ra2, dec2) = a, b
+    return math.hypot((ra - ra2) * math.cos(math.radians(dec)), dec - dec2)
+
+
+def rows(stars, names):
+    for star in stars:
+        v_mag = star["properties"]["mag"]
+        if v_mag > FAINTEST:
+            continue
+        ra, dec = star["geometry"]["coordinates"]
+        entry = names.get(str(star["id"]), {})
+        yield [star["id"], f"{ra % 360:.4f}", f"{dec:.4f}", f"{v_mag:.2f}",
+               star["properties"]["bv"], entry.get("name", ""), designation(entry)]
+
+
+def main():
+    archive = sys.argv[1]
+    with open(archive, "rb") as file:
+        if hashlib.sha256(file.read()).hexdigest() != SHA256:
+            sys.exit(f"{archive}: not the package this was written for")
+    with tarfile.open(archive) as package:
+        def load(name):
+            return json.load(package.extractfile(f"package/data/{name}"))
+        stars, names = load("stars.8.json")["features"], load("starnames.json")
+    table = sorted(rows(stars, names), key=lambda row: (float(row[3]), row[0]))
+
+    out = csv.writer(sys.stdout, lineterminator="\n")
+    print("# Stars of V <= 6.5, J2000, from d3-celestial 0.7.35 (BSD-3-Clause), which compiled them"
+          " from XHIP and Hipparcos.")
+    out.writerow("hip ra_deg dec_deg v_mag b_v name designation".split())
+    out.writerows(table)
+
+    places = {row[5]: (float(row[1]), float(row[2])) for row in table if row[5]}
+    for name, place in CHECKS.items():
+        off = angle(places[name], place)
+        print(f"{name}: {off * 3600:.1f} arcsec off", file=sys.stderr)
+        if off > 2e-4:
+            sys.exit(f"{name} is not where it should be")
+    print(f"{len(table)} stars, {len(places)} with a proper name, "
+          f"{sum(not row[4] for row in table)} without a colour", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
