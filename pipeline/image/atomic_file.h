@@ -3,21 +3,18 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <string_view>
 
 namespace domefall {
 
-// Lets `write` fill a file with a temporary name, .NAME.<host>.<pid>.<nonce>.tmp, in the folder of
-// `path`; flushes it to the disk, renames it to `path` and flushes the folder.  A file that was at
-// `path` is there until the new one takes its place.  If anything fails or throws, the temporary is
-// removed, `path` is left as it was, and the exception goes on.
-//
-// `write` must make the file (or throw); it need not flush it.
+// Writes a file under a temporary name, .NAME.<host>.<pid>.<nonce>.tmp, in the folder of `path`,
+// flushes it to the disk, renames it to `path` and flushes the folder.  A file that was at `path` is
+// there until the new one takes its place.  If anything fails, the temporary is removed and `path`
+// is left as it was.
 //
 // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a
 // disk that is full, a quota or a file server; both name the path and the reason.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path& temporary)>& write);
+void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
 // Removes from a folder (not from those below it) the temporaries of writers that are dead: of this
 // host and with a process number that is not in use, or of any host and older than a day.  Returns

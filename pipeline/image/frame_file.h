@@ -27,6 +27,10 @@ struct FrameInfo {
   std::string software;
 };
 
+// How many threads share the packing and unpacking of one file; 0 (the start): the caller's alone.
+// The bytes are the same.
+void set_file_threads(int threads);
+
 // Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for a
 // path that cannot be written, TemporaryError for a disk that is full or fails.
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);

@@ -1,0 +1,60 @@
+#include "pipeline/image/digest.h"
+
+#include <xxhash.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+
+struct Digest::State {
+  XXH3_state_t* xxh = XXH3_createState();
+  State() { XXH3_128bits_reset(xxh); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { XXH3_freeState(xxh); }
+};
+
+Digest::Digest() : state_(std::make_unique<State>()) {}
+Digest::~Digest() = default;
+
+Digest& Digest::add(std::string_view text) {
+  const std::uint64_t size = text.size();
+  XXH3_128bits_update(state_->xxh, &size, sizeof size);
+  XXH3_128bits_update(state_->xxh, text.data(), text.size());
+  return *this;
+}
+
+Digest& Digest::add(double value) {
+  XXH3_128bits_update(state_->xxh, &value, sizeof value);
+  return *this;
+}
+
+Digest& Digest::add_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string() + ": the file cannot be read");
+  Digest contents;
+  std::vector<char> block(1 << 20);
+  while (in) {
+    in.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_128bits_update(contents.state_->xxh, block.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw InputError(file.string() + ": reading stopped");
+  return add(contents.hex());
+}
+
+std::string Digest::hex() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
+  std::array<char, 33> text;
+  std::snprintf(text.data(), text.size(), "%016llx%016llx",
+                static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return text.data();
+}
+
+}  // namespace domefall

@@ -1,0 +1,31 @@
+// A digest of everything that decides a result, for telling frames of one version of a show from
+// those of another.  XXH3, 128 bits: against accident, not malice.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace domefall {
+
+class Digest {
+ public:
+  Digest();
+  ~Digest();
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
+
+  // Each value is preceded by its length, so that neighbours cannot run into each other.
+  Digest& add(std::string_view text);
+  Digest& add(double value);                            // by its bits
+  Digest& add_file(const std::filesystem::path& file);  // its contents; InputError if unreadable
+
+  std::string hex() const;  // 32 digits
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace domefall

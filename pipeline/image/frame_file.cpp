@@ -1,0 +1,168 @@
+#include "pipeline/image/frame_file.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+
+#include <cstring>
+
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/digest.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/memory_stream.h"
+
+namespace domefall {
+namespace {
+
+// ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
+const Imf::Chromaticities kAcesCg({0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f},
+                                  {0.32168f, 0.33767f});
+constexpr const char *kTitle = "showTitle", *kKey = "frameKey", *kFrame = "frameNumber",
+                     *kRegion = "observerRegion", *kRadius = "observerRadius",
+                     *kProperTime = "observerProperTime", *kRate = "showFramesPerSecond",
+                     *kProjection = "projection", *kPixelDigest = "pixelDigest";
+
+// zlib's.  Measured on a 4k frame with stars: 0.8 s of CPU and 24.7 MB, against 2.2 s and 22.2 MB at the
+// usual 6.
+constexpr int kZipLevel = 2;
+
+// Half floats of this machine's byte order; every machine Debian runs OpenEXR on for us is
+// little-endian, as the file is.
+std::string digest_of(const HalfFrame& frame) {
+  return Digest()
+      .add(std::string_view(reinterpret_cast<const char*>(frame.pixels.data()),
+                            frame.pixels.size() * sizeof(Imath::half)))
+      .hex();
+}
+
+Imf::FrameBuffer buffer_of(const HalfFrame& frame) {
+  Imf::FrameBuffer buffer;
+  const std::size_t pixel = 3 * sizeof(Imath::half);
+  auto* base =
+      reinterpret_cast<char*>(const_cast<Imath::half*>(frame.pixels.data()));  // Imf has no const
+  const char* names[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c)
+    buffer.insert(names[c], Imf::Slice(Imf::HALF, base + c * sizeof(Imath::half), pixel,
+                                       pixel * static_cast<std::size_t>(frame.width)));
+  return buffer;
+}
+
+Imf::Header header_of(const HalfFrame& frame, const FrameInfo& info) {
+  Imf::Header header(frame.width, frame.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = kZipLevel;
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF));
+  Imf::addChromaticities(header, kAcesCg);
+  const auto text = [&header](const char* name, const std::string& value) {
+    header.insert(name, Imf::StringAttribute(value));
+  };
+  text("colorSpace", "ACEScg");
+  text(kTitle, info.title);
+  text(kKey, info.key);
+  header.insert(kFrame, Imf::IntAttribute(info.frame));
+  text(kRegion, info.region);
+  header.insert(kRadius, Imf::DoubleAttribute(info.r));
+  header.insert(kProperTime, Imf::DoubleAttribute(info.proper_time));
+  header.insert(kRate, Imf::DoubleAttribute(info.frames_per_second));
+  text(kProjection, info.projection);
+  text("software", info.software);
+  text(kPixelDigest, digest_of(frame));
+  return header;
+}
+
+template <class Attribute, class Value>
+void read_attribute(const Imf::Header& header, const char* name, Value& value) {
+  const auto* attribute = header.findTypedAttribute<Attribute>(name);
+  if (!attribute) throw std::runtime_error(std::string("it has no attribute ") + name);
+  value = attribute->value();
+}
+
+FrameInfo info_of(const Imf::Header& header) {
+  FrameInfo info;
+  read_attribute<Imf::StringAttribute>(header, kTitle, info.title);
+  read_attribute<Imf::StringAttribute>(header, kKey, info.key);
+  read_attribute<Imf::IntAttribute>(header, kFrame, info.frame);
+  read_attribute<Imf::StringAttribute>(header, kRegion, info.region);
+  read_attribute<Imf::DoubleAttribute>(header, kRadius, info.r);
+  read_attribute<Imf::DoubleAttribute>(header, kProperTime, info.proper_time);
+  read_attribute<Imf::DoubleAttribute>(header, kRate, info.frames_per_second);
+  read_attribute<Imf::StringAttribute>(header, kProjection, info.projection);
+  read_attribute<Imf::StringAttribute>(header, "software", info.software);
+  return info;
+}
+
+void check_layout(const Imf::Header& header) {
+  const auto& box = header.dataWindow();
+  if (box.min != Imath::V2i(0) || box != header.displayWindow())
+    throw std::runtime_error("its windows are not those of a frame");
+  int count = 0;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    ++count;
+    if (!std::strchr("RGB", channel.name()[0]) || channel.name()[1] != 0 ||
+        channel.channel().type != Imf::HALF || channel.channel().xSampling != 1 ||
+        channel.channel().ySampling != 1)
+      throw std::runtime_error("its channels are not half floats R, G, B");
+  }
+  if (count != 3) throw std::runtime_error("its channels are not half floats R, G, B");
+}
+
+// Throws std::exception of some kind for anything that is wrong with the file.
+std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
+  Imf::InputFile file(path.c_str(), Imf::globalThreadCount());
+  const Imf::Header& header = file.header();
+  check_layout(header);
+  FrameInfo info = info_of(header);
+  std::string digest;
+  read_attribute<Imf::StringAttribute>(header, kPixelDigest, digest);
+  const Imath::V2i size = header.dataWindow().max + Imath::V2i(1);
+  HalfFrame frame(size.x, size.y);
+  file.setFrameBuffer(buffer_of(frame));
+  file.readPixels(0, size.y - 1);
+  if (digest_of(frame) != digest)
+    throw std::runtime_error("its pixels are not those that were written");
+  return {std::move(frame), std::move(info)};
+}
+
+}  // namespace
+
+void set_file_threads(int threads) { Imf::setGlobalThreadCount(threads); }
+
+void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info) {
+  MemoryStream stream(path.filename().string());
+  {
+    Imf::OutputFile file(stream, header_of(frame, info), Imf::globalThreadCount());
+    file.setFrameBuffer(buffer_of(frame));
+    file.writePixels(frame.height);
+  }
+  write_atomically(path, stream.contents());
+}
+
+std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {
+  try {
+    return decode(path);
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": not a frame that can be used: " + error.what());
+  }
+}
+
+FrameCondition examine_frame(const std::filesystem::path& path, const std::string& key, int width,
+                             int height) {
+  if (!std::filesystem::exists(path)) return FrameCondition::kMissing;
+  try {
+    const auto [frame, info] = decode(path);
+    const bool same = info.key == key && frame.width == width && frame.height == height;
+    return same ? FrameCondition::kGood : FrameCondition::kStale;
+  } catch (const std::exception&) {
+    return FrameCondition::kDamaged;
+  }
+}
+
+}  // namespace domefall
