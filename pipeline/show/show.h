@@ -85,7 +85,7 @@ struct PanoramaShift {
 // sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
 struct StarBlobs {
   double min_sigma = 0;            // radians; the renderer never goes below 0.8 pixel
-  double growth = 0.25;            // 0: every star the same size; 0.5: every star the same peak
+  double growth = 0.2;             // 0: every star the same size; 0.5: every star the same peak
   double reference_magnitude = 5;  // up to here min_sigma
   double max_sigma = 0;            // radians
 };
@@ -117,5 +117,15 @@ struct Show {
   GradeSettings grade;
   GradedFormat graded_format = GradedFormat::kPng;
 };
+
+// GM/c^3 of the sun: seconds in one M of a hole of one solar mass (IAU 2015 nominal GM).
+inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
+
+inline constexpr int kMostFrames = 10'000'000;
+
+// The durations' sum times the frame rate, rounded to the nearest whole number (halves away from
+// zero), at least 1.  Frame n shows the instant n / frames_per_second, so a show of 2 s at 30
+// frames per second has the frames 0 to 59 and ends just before the instant 2 s.
+int frame_count(const Show& show);
 
 }  // namespace domefall

@@ -1,0 +1,162 @@
+#include "pipeline/show/item.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "pipeline/show/nearest_word.h"
+#include "pipeline/show/yaml_document.h"
+
+namespace domefall {
+namespace {
+
+bool is_quoted(const Item& item) { return item.node.Tag() == "!"; }
+
+std::string kind_of(const Item& item) {
+  if (item.node.IsMap()) return "a map";
+  if (item.node.IsSequence()) return "a list";
+  if (!item.node.IsScalar()) return "nothing";
+  return is_quoted(item) ? "the text '" + shown(item.node.Scalar()) + "'"
+                         : "'" + shown(item.node.Scalar()) + "'";
+}
+
+std::string in_unit(const Range& range) {
+  return range.unit.empty() ? "" : " (" + std::string(range.unit) + ")";
+}
+
+// The scalar's characters, unless it is tagged or its quote is open.
+std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
+  if (!item.node.IsScalar()) {
+    item.fail("must be " + wanted + ", got " + kind_of(item));
+    return std::nullopt;
+  }
+  const std::string& tag = item.node.Tag();
+  if (!tag.empty() && tag != "?" && tag != "!") {
+    item.fail("bears the YAML tag '" + shown(tag) + "'; shows use none");
+    return std::nullopt;
+  }
+  if (is_quoted(item) && item.node.Scalar().find(kEndOfShow) != std::string::npos) {
+    item.fail("opens a quote that is never closed");
+    return std::nullopt;
+  }
+  return item.node.Scalar();
+}
+
+std::optional<std::string> broken_bound(const Range& range, double value) {
+  if (range.low_excluded && !(value > range.low)) return "exceed " + short_number(range.low);
+  if (!range.low_excluded && !(value >= range.low)) return "be at least " + short_number(range.low);
+  if (range.high_excluded && !(value < range.high)) return "stay below " + short_number(range.high);
+  if (!range.high_excluded && !(value <= range.high))
+    return "be at most " + short_number(range.high);
+  return std::nullopt;
+}
+
+}  // namespace
+
+void Item::fail(const std::string& what) const {
+  problems->add(at, (path.empty() ? "the show" : path) + " " + what);
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+bool is_text_or_number(const Item& item) { return item.node.IsScalar(); }
+
+std::optional<std::string> read_text(const Item& item) {
+  auto text = scalar(item, "text");
+  if (!text) return std::nullopt;
+  if (text->find_first_not_of(' ') == std::string::npos) {
+    item.fail("must not be empty");
+    return std::nullopt;
+  }
+  for (const char c : *text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      item.fail("must be one line without control characters, got '" + shown(*text) + "'");
+      return std::nullopt;
+    }
+  return text;
+}
+
+std::optional<double> read_number(const Item& item, const Range& range) {
+  const std::string wanted = "a number" + in_unit(range);
+  const auto text = scalar(item, wanted);
+  if (!text) return std::nullopt;
+  const char* begin = text->data() + (text->starts_with('+') ? 1 : 0);
+  const char* end = text->data() + text->size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  const bool special = *text == ".nan" || *text == ".inf" || *text == "-.inf" || *text == "+.inf";
+  if (error == std::errc::result_out_of_range || special ||
+      (error == std::errc() && !std::isfinite(value))) {
+    item.fail("must be a finite number" + in_unit(range) + " that a double holds, got " +
+              shown(*text));
+    return std::nullopt;
+  }
+  if (is_quoted(item) || error != std::errc() || stop != end) {
+    item.fail("must be " + wanted + ", got " + kind_of(item));
+    return std::nullopt;
+  }
+  if (const auto bound = broken_bound(range, value)) {
+    const bool low = value <= range.low && !range.low_reason.empty();
+    item.fail("must " + *bound + in_unit(range) + ", got " + shown(*text) +
+              (low ? ": " + std::string(range.low_reason) : ""));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<int> read_whole_number(const Item& item, const Range& range) {
+  const auto value = read_number(item, range);
+  if (!value) return std::nullopt;
+  if (*value == std::floor(*value)) return static_cast<int>(*value);
+  item.fail("must be a whole number" + in_unit(range) + ", got " + shown(item.node.Scalar()));
+  return std::nullopt;
+}
+
+std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words) {
+  const auto text = scalar(item, listed(words));
+  if (!text) return std::nullopt;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    if (*text == words[k]) return k;
+  item.fail("must be " + listed(words) + ", got '" + shown(*text) + "'" +
+            did_you_mean(*text, words));
+  return std::nullopt;
+}
+
+std::optional<std::vector<Item>> read_list(const Item& item) {
+  if (!item.node.IsSequence() || item.node.size() == 0) {
+    item.fail(std::string("must be a list of at least one entry, got ") +
+              (item.node.IsSequence() ? "an empty one" : kind_of(item)));
+    return std::nullopt;
+  }
+  std::vector<Item> items;
+  for (const auto& child : item.node) {
+    const auto mark = child.Mark();
+    items.push_back({child,
+                     {mark.line, mark.column},
+                     item.path + "[" + std::to_string(items.size()) + "]",
+                     item.problems});
+  }
+  return items;
+}
+
+std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
+                                                const Range& range) {
+  if (!item.node.IsSequence() || item.node.size() != count) {
+    item.fail("must be a list of " + std::to_string(count) + " numbers" + in_unit(range) +
+              ", got " +
+              (item.node.IsSequence() ? std::to_string(item.node.size()) : kind_of(item)));
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  const auto children = read_list(item);
+  for (const Item& child : *children)
+    if (const auto value = read_number(child, range)) values.push_back(*value);
+  if (values.size() < count) return std::nullopt;
+  return values;
+}
+
+}  // namespace domefall

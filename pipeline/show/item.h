@@ -1,0 +1,72 @@
+// A value in a show file that knows its place and its path ("timeline[0].trajectory.from_r"), and
+// the readers that check kind, unit and range.  A reader that finds a mistake reports it and
+// returns nothing, so that the rest of the file is still checked.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/show/problems.h"
+
+namespace domefall {
+
+struct Item {
+  const YAML::Node node;  // const: assigning a YAML::Node would change the tree
+  TextPlace at;           // of the value; of its key where the value is empty
+  std::string path;       // empty: the whole show
+  Problems* problems;
+
+  // Reports "PATH what", here.
+  void fail(const std::string& what) const;
+};
+
+// Bounds of a number.  Only the bound that is broken is named, with its unit and, where the law is
+// not obvious, with its reason.
+struct Range {
+  std::string_view unit{};
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_excluded = false, high_excluded = false;
+  std::string_view low_reason{};
+
+  constexpr Range above(double bound, std::string_view reason = {}) const {
+    return {unit, bound, high, true, high_excluded, reason};
+  }
+  constexpr Range at_least(double bound) const {
+    return {unit, bound, high, false, high_excluded, {}};
+  }
+  constexpr Range below(double bound) const {
+    return {unit, low, bound, low_excluded, true, low_reason};
+  }
+  constexpr Range at_most(double bound) const {
+    return {unit, low, bound, low_excluded, false, low_reason};
+  }
+  constexpr Range within(double a, double b) const { return at_least(a).at_most(b); }
+};
+
+inline constexpr Range kPureNumber{};
+inline constexpr Range kDegrees{"degrees"};
+inline constexpr Range kUnitsOfM{"units of M"};
+
+// "1", "0.05", "1e+08".
+std::string short_number(double value);
+
+bool is_text_or_number(const Item& item);
+// Plain words, quoted text or a number taken as text; not empty, no control characters.
+std::optional<std::string> read_text(const Item& item);
+std::optional<double> read_number(const Item& item, const Range& range);
+std::optional<int> read_whole_number(const Item& item, const Range& range);
+// The index of one of the words.
+std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words);
+// Not empty; the elements' paths end in [k].
+std::optional<std::vector<Item>> read_list(const Item& item);
+std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
+                                                const Range& range);
+
+}  // namespace domefall

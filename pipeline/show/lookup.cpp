@@ -1,0 +1,94 @@
+#include "pipeline/show/lookup.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/show/assets.h"
+#include "pipeline/show/nearest_word.h"
+#include "pipeline/show/section.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_readable_file(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error) && std::ifstream(file).good();
+}
+
+}  // namespace
+
+std::optional<fs::path> Lookup::find(const std::string& name) const {
+  for (const fs::path& file : {folder_ / name, fs::path(name)})
+    if (is_readable_file(file)) return file;
+  return std::nullopt;
+}
+
+std::optional<fs::path> Lookup::file(const Item& item, const std::string& name) const {
+  if (auto found = find(name)) return found;
+  const fs::path beside = folder_ / name;
+  std::error_code error;
+  const bool folder = fs::is_directory(beside, error);
+  const bool there = !folder && fs::exists(beside, error);
+  item.fail("names the file '" + shown(name) + "', " +
+            (folder  ? "which is a folder"
+             : there ? "which cannot be read"
+                     : "which is neither beside the show nor in the working folder"));
+  return std::nullopt;
+}
+
+std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name) const {
+  fs::path file = shipped_asset(name);
+  if (is_readable_file(file)) return file;
+  item.fail("needs Domefall's own file " + std::string(name) + ", which is missing from " +
+            assets_folder().string() + " (the variable DOMEFALL_ASSETS can name another folder)");
+  return std::nullopt;
+}
+
+std::optional<SkyDirection> Lookup::star(const Item& item,
+                                         std::span<const std::string_view> words) {
+  const auto name = read_text(item);
+  if (!name) return std::nullopt;
+  if (!stars_) {
+    const auto file = shipped(item, kNakedEyeStars);
+    if (!file) return std::nullopt;
+    try {
+      stars_ = read_star_catalogue(*file, std::numeric_limits<double>::infinity());
+    } catch (const InputError& error) {
+      item.fail("needs the star catalogue: " + std::string(error.what()));
+      return std::nullopt;
+    }
+  }
+  if (auto found = find_star(*stars_, *name)) return found;
+  std::string near(nearest_word(*name, words));
+  if (near.empty() && name->size() < 60) near = nearest_star_name(*stars_, *name);
+  item.fail((words.empty() ? "" : "must be " + listed(words) + " or a place on the sky; it ") +
+            "names the star '" + shown(*name) + "', which the naked-eye catalogue does not have" +
+            (near.empty() ? "" : "; did you mean " + near + "?"));
+  return std::nullopt;
+}
+
+std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
+                                           std::span<const std::string_view> words) {
+  if (is_text_or_number(item)) return lookup.star(item, words);
+  const Section place(item, {"ra_deg", "dec_deg", "star"});
+  if (place.find("star")) {
+    place.one_of({"star", "ra_deg"});
+    place.one_of({"star", "dec_deg"});
+    return lookup.star(*place.find("star"));
+  }
+  const auto ra = place.required_number("ra_deg", kDegrees.within(0, 360));
+  const auto dec = place.required_number("dec_deg", kDegrees.within(-90, 90));
+  if (!ra || !dec) return std::nullopt;
+  return sky_direction(*ra, *dec);
+}
+
+SkyDirection sky_direction(double ra_deg, double dec_deg) {
+  const double ra = radians(ra_deg), dec = radians(dec_deg);
+  return {V3d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec))};
+}
+
+}  // namespace domefall

@@ -1,0 +1,78 @@
+#include "pipeline/show/picture_sections.h"
+
+#include "pipeline/show/assets.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kMinSigmaDeg = 0.05, kMaxSigmaDeg = 0.3;
+
+// One number for all channels, or a list of red, green and blue.
+void read_channels(const Section& cdl, std::string_view key, const Range& range,
+                   std::array<double, 3>& channels) {
+  const Item* item = cdl.find(key);
+  if (!item) return;
+  if (item->node.IsSequence()) {
+    const auto values = read_numbers(*item, 3, range);
+    if (values) channels = {(*values)[0], (*values)[1], (*values)[2]};
+  } else if (const auto value = read_number(*item, range)) {
+    channels.fill(*value);
+  }
+}
+
+}  // namespace
+
+StarBlobs read_star_blobs(const Section& show) {
+  const Section s = subsection(show, "stars",
+                               {"min_sigma_deg", "growth", "reference_magnitude", "max_sigma_deg"});
+  const Range sigma = kDegrees.above(0).at_most(10);
+  StarBlobs blobs;
+  const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
+  const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
+  if (most < least)
+    s.find("max_sigma_deg")
+        ->fail("must be at least min_sigma_deg = " + short_number(least) + " (degrees), got " +
+               short_number(most));
+  blobs.min_sigma = radians(least);
+  blobs.max_sigma = radians(most);
+  blobs.growth = s.number("growth", kPureNumber.within(0, 0.5), blobs.growth);
+  blobs.reference_magnitude = s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40),
+                                       blobs.reference_magnitude);
+  return blobs;
+}
+
+Exposure read_exposure(const Section& show) {
+  const Section s = subsection(show, "exposure", {"ev"});
+  return {s.number("ev", Range{"stops"}.within(-30, 30), 0)};
+}
+
+GradeSettings read_grade(const Section& show, const Lookup& lookup) {
+  const Section s = subsection(show, "grade", {"config", "display", "view", "cdl"});
+  GradeSettings grade;
+  grade.config = shipped_asset(kDomeConfig);
+  if (const Item* config = s.find("config"))
+    if (const auto name = read_text(*config))
+      if (const auto file = lookup.file(*config, *name)) grade.config = *file;
+  if (const Item* display = s.find("display")) grade.display = read_text(*display).value_or("");
+  if (const Item* view = s.find("view")) grade.view = read_text(*view).value_or("");
+  const Section cdl = subsection(s, "cdl", {"slope", "offset", "power", "saturation"});
+  read_channels(cdl, "slope", kPureNumber.within(0, 1e6), grade.slope);
+  read_channels(cdl, "offset", kPureNumber.within(-1e6, 1e6), grade.offset);
+  read_channels(cdl, "power", kPureNumber.above(0).at_most(100), grade.power);
+  grade.saturation = cdl.number("saturation", kPureNumber.within(0, 100), grade.saturation);
+  return grade;
+}
+
+GradedFormat read_graded_format(const Section& show) {
+  const Section s = subsection(show, "output", {"graded"});
+  switch (s.choice("graded", {"png", "tiff", "none"}).value_or(0)) {
+    case 1:
+      return GradedFormat::kTiff;
+    case 2:
+      return GradedFormat::kNone;
+    default:
+      return GradedFormat::kPng;
+  }
+}
+
+}  // namespace domefall

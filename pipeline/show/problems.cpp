@@ -1,0 +1,61 @@
+#include "pipeline/show/problems.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kMostListed = 20;
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+}  // namespace
+
+Problems::Problems(std::string file, std::string text) : file_(std::move(file)) {
+  std::istringstream in(std::move(text));
+  for (std::string line; std::getline(in, line);) lines_.push_back(std::move(line));
+  if (lines_.empty()) lines_.emplace_back();
+}
+
+void Problems::add(TextPlace at, const std::string& what) { problems_.push_back({at, what}); }
+
+std::string Problems::place(TextPlace at) const {
+  // What yaml-cpp misses at the end of the file is put behind its last character.
+  const bool at_end = at.line >= static_cast<int>(lines_.size());
+  const std::size_t line = at_end ? lines_.size() - 1 : static_cast<std::size_t>(at.line);
+  const std::size_t bytes = at_end ? lines_[line].size() : static_cast<std::size_t>(at.column);
+  const std::string before = lines_[line].substr(0, bytes);
+  const auto column =
+      before.size() - static_cast<std::size_t>(std::ranges::count_if(before, continues_character));
+  return file_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": ";
+}
+
+void Problems::raise() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> sorted = problems_;
+  std::ranges::stable_sort(sorted, [](const Problem& a, const Problem& b) {
+    return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+  });
+  std::string message;
+  for (std::size_t k = 0; k < std::min(sorted.size(), kMostListed); ++k)
+    message += (k > 0 ? "\n" : "") + place(sorted[k].at) + sorted[k].what;
+  if (sorted.size() > kMostListed)
+    message += "\n" + file_ + ": and " + std::to_string(sorted.size() - kMostListed) + " more";
+  throw InputError(message);
+}
+
+std::string shown(std::string_view text) {
+  std::string out;
+  int characters = 0;
+  for (const char c : text) {
+    if (!continues_character(c) && ++characters > 40) return out + "...";
+    out.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c);
+  }
+  return out;
+}
+
+}  // namespace domefall

@@ -1,0 +1,66 @@
+#include "pipeline/show/read_show.h"
+
+#include "pipeline/show/picture_sections.h"
+#include "pipeline/show/sky_section.h"
+#include "pipeline/show/timeline_section.h"
+#include "pipeline/show/yaml_document.h"
+
+namespace domefall {
+namespace {
+
+// Sagittarius A*.
+constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936;
+constexpr double kHeadingDeg = 90, kMostSolarMasses = 1e13;
+
+void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
+  const Section s = subsection(section, "black_hole", {"mass_solar", "at", "heading_deg"});
+  show.hole_at = sky_direction(kGalacticCentreRaDeg, kGalacticCentreDecDeg);
+  if (const Item* at = s.find("at"))
+    show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
+  show.heading = radians(s.number("heading_deg", kDegrees.within(-360, 360), kHeadingDeg));
+  if (!section.find("black_hole")) return;
+  const auto mass = s.required_number(
+      "mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
+  // A hole whose mass is in error is still a hole for the rest of the checks.
+  if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
+}
+
+void read_sections(const Item& root, Lookup& lookup, Show& show) {
+  const Section section(root, {"title", "frames_per_second", "size", "black_hole", "timeline",
+                               "camera", "sky", "stars", "exposure", "grade", "output"});
+  if (!root.node.IsMap()) return;
+  show.title = show.file.stem().string();
+  if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
+  show.frames_per_second =
+      section.number("frames_per_second", Range{"frames per second"}.within(1, 240), 30);
+  read_black_hole(section, lookup, show);
+  const ShowCamera camera = read_show_camera(section, lookup);
+  show.projection = camera.projection;
+  show.timeline = read_timeline(section, show, camera, lookup);
+  read_sky(root, section, lookup, show);
+  show.blobs = read_star_blobs(section);
+  show.exposure = read_exposure(section);
+  show.grade = read_grade(section, lookup);
+  show.graded_format = read_graded_format(section);
+}
+
+}  // namespace
+
+Show read_show(const std::filesystem::path& file) {
+  const std::string text = read_show_text(file);
+  Problems problems(file.string(), text);
+  const YAML::Node node = parse_yaml(text, problems);
+  if (!node.IsDefined() || node.IsNull())
+    problems.add({}, "the show is empty; it needs a timeline at least");
+  problems.raise();
+
+  Show show;
+  show.file = file;
+  Lookup lookup(file.parent_path());
+  const TextPlace start{node.Mark().line, node.Mark().column};
+  read_sections({node, start, "", &problems}, lookup, show);
+  problems.raise();
+  return show;
+}
+
+}  // namespace domefall

@@ -1,0 +1,120 @@
+#include "pipeline/show/section.h"
+
+#include <algorithm>
+
+#include "pipeline/show/nearest_word.h"
+
+namespace domefall {
+namespace {
+
+TextPlace place_of(const YAML::Node& node) { return {node.Mark().line, node.Mark().column}; }
+
+std::string join(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
+}
+
+}  // namespace
+
+Section::Section(const Item& item, std::initializer_list<std::string_view> known) {
+  item_.emplace(item);
+  if (!item.node.IsMap()) {
+    const bool list = item.node.IsSequence();
+    item.fail(std::string("must be a map of keys (") +
+              listed(std::span(known.begin(), known.size())) + "), got " +
+              (list                   ? "a list"
+               : item.node.IsScalar() ? "'" + shown(item.node.Scalar()) + "'"
+                                      : "nothing"));
+    item_.reset();
+    return;
+  }
+  for (const auto& entry : item.node) add(entry.first, entry.second, {known.begin(), known.size()});
+}
+
+void Section::add(const YAML::Node& key, const YAML::Node& value,
+                  std::span<const std::string_view> known) {
+  Problems& problems = *item_->problems;
+  if (!key.IsScalar()) {
+    problems.add(place_of(key), join(item_->path, "?") + " is no key; keys are plain words");
+    return;
+  }
+  const std::string& name = key.Scalar();
+  const std::string path = join(item_->path, shown(name));
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    const std::string_view nearest = nearest_word(name, known);
+    misspelt_.insert(std::string(nearest));
+    problems.add(place_of(key),
+                 path + " is an unknown key; " +
+                     (nearest.empty() ? "known here: " + listed(known)
+                                      : "did you mean " + std::string(nearest) + "?"));
+    return;
+  }
+  if (const auto first = entries_.find(name); first != entries_.end()) {
+    problems.add(place_of(key), path + " is repeated; it is given at line " +
+                                    std::to_string(first->second.line + 1) + " already");
+    return;
+  }
+  const bool empty = !value.IsMap() && !value.IsSequence() && !value.IsScalar();
+  const TextPlace at = place_of(empty ? key : value);
+  entries_.emplace(name, Entry{key.Mark().line, Item{value, at, path, &problems}});
+}
+
+const Item* Section::find(std::string_view key) const {
+  const auto at = entries_.find(key);
+  return at == entries_.end() ? nullptr : &at->second.value;
+}
+
+const Item* Section::require(std::string_view key, const std::string& what) const {
+  const Item* found = find(key);
+  if (!found && item_ && !misspelt_.contains(key))
+    item_->problems->add(item_->at, join(item_->path, key) + " is missing" + what);
+  return found;
+}
+
+const Item* Section::one_of(std::initializer_list<std::string_view> keys) const {
+  const Item* first = nullptr;
+  for (const std::string_view key : keys) {
+    const Item* found = find(key);
+    if (first && found)
+      found->fail("excludes " + first->path.substr(first->path.rfind('.') + 1) +
+                  "; give one of them");
+    else if (found)
+      first = found;
+  }
+  return first;
+}
+
+std::optional<double> Section::number(std::string_view key, const Range& range) const {
+  const Item* item = find(key);
+  return item ? read_number(*item, range) : std::nullopt;
+}
+
+double Section::number(std::string_view key, const Range& range, double fallback) const {
+  return number(key, range).value_or(fallback);
+}
+
+std::optional<double> Section::required_number(std::string_view key, const Range& range) const {
+  const Item* item = require(key, range.unit.empty() ? "" : " (" + std::string(range.unit) + ")");
+  return item ? read_number(*item, range) : std::nullopt;
+}
+
+std::optional<std::size_t> Section::choice(std::string_view key,
+                                           std::initializer_list<std::string_view> words) const {
+  const Item* item = find(key);
+  return item ? read_choice(*item, {words.begin(), words.size()}) : std::nullopt;
+}
+
+std::optional<Item> peek(const Item& map, std::string_view key) {
+  if (!map.node.IsMap()) return std::nullopt;
+  for (const auto& entry : map.node)
+    if (entry.first.IsScalar() && entry.first.Scalar() == key)
+      return Item{entry.second, place_of(entry.second), join(map.path, key), map.problems};
+  return std::nullopt;
+}
+
+Section subsection(const Section& parent, std::string_view key,
+                   std::initializer_list<std::string_view> known) {
+  const Item* item = parent.find(key);
+  return item ? Section(*item, known) : Section();
+}
+
+}  // namespace domefall

@@ -1,0 +1,54 @@
+// A map in a show file, with the keys it may have.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <set>
+
+#include "pipeline/show/item.h"
+
+namespace domefall {
+
+class Section {
+ public:
+  // A section that the show leaves out: none of its keys is given.
+  Section() = default;
+  // Reports an item that is no map, unknown keys (with the nearest known one) and repeated keys,
+  // which yaml-cpp would accept.
+  Section(const Item& item, std::initializer_list<std::string_view> known);
+
+  // The value of a key; null if it is not given.
+  const Item* find(std::string_view key) const;
+  // Reports a missing key, unless a misspelling of it has been reported.
+  const Item* require(std::string_view key, const std::string& what) const;
+  // Reports keys that exclude each other; returns the first of them that is given.
+  const Item* one_of(std::initializer_list<std::string_view> keys) const;
+
+  // Nothing if the key is not given or its value is wrong.
+  std::optional<double> number(std::string_view key, const Range& range) const;
+  // The fallback, in the same unit, if the key is not given.
+  double number(std::string_view key, const Range& range, double fallback) const;
+  std::optional<double> required_number(std::string_view key, const Range& range) const;
+  std::optional<std::size_t> choice(std::string_view key,
+                                    std::initializer_list<std::string_view> words) const;
+
+ private:
+  void add(const YAML::Node& key, const YAML::Node& value, std::span<const std::string_view> known);
+
+  struct Entry {
+    int line;  // of the key
+    Item value;
+  };
+  std::optional<Item> item_;
+  std::map<std::string, Entry, std::less<>> entries_;
+  std::set<std::string, std::less<>> misspelt_;
+};
+
+// The value of a key, before it is known which keys the map may have; nothing if it is no map.
+std::optional<Item> peek(const Item& map, std::string_view key);
+
+// A section under a key, empty if the key is not given.
+Section subsection(const Section& parent, std::string_view key,
+                   std::initializer_list<std::string_view> known);
+
+}  // namespace domefall

@@ -1,0 +1,98 @@
+#include "pipeline/show/sky_section.h"
+
+#include <array>
+
+#include "pipeline/show/assets.h"
+#include "pipeline/show/nearest_word.h"
+
+namespace domefall {
+namespace {
+
+constexpr Range kGain = kPureNumber.within(0, 1e6);
+constexpr Range kMagnitudes = Range{"magnitudes"}.within(-30, 40);
+
+std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
+  if (const auto file = lookup.shipped(item, kMilkyWay)) return PanoramaSky{*file};
+  return std::nullopt;
+}
+
+std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup) {
+  static constexpr std::array<std::string_view, 3> kWords{"milky_way", "grid", "black"};
+  const auto text = read_text(item);
+  if (!text) return std::nullopt;
+  if (*text == kWords[0]) return milky_way(item, lookup);
+  if (*text == kWords[1]) return GridSky{};
+  if (*text == kWords[2]) return BlackSky{};
+  const bool looks_like_file = text->find_first_of("./") != std::string::npos;
+  if (looks_like_file || lookup.find(*text)) {
+    if (const auto file = lookup.file(item, *text)) return PanoramaSky{*file};
+    return std::nullopt;
+  }
+  item.fail("must be " + listed(kWords) + " or an image file, got '" + shown(*text) + "'" +
+            did_you_mean(*text, kWords));
+  return std::nullopt;
+}
+
+std::optional<std::filesystem::path> read_catalogue(const Item& item, const Lookup& lookup) {
+  static constexpr std::array<std::string_view, 2> kWords{"naked_eye", "none"};
+  const auto text = read_text(item);
+  if (!text) return std::nullopt;
+  if (*text == kWords[0]) return lookup.shipped(item, kNakedEyeStars);
+  const bool looks_like_file = text->find_first_of("./") != std::string::npos;
+  if (looks_like_file || lookup.find(*text)) return lookup.file(item, *text);
+  item.fail("must be naked_eye, none or a star catalogue (.csv), got '" + shown(*text) + "'" +
+            did_you_mean(*text, kWords));
+  return std::nullopt;
+}
+
+void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
+  if (item.node.IsScalar()) {
+    if (item.node.Scalar() == "none") {
+      sky.stars.reset();
+    } else if (const auto file = read_catalogue(item, lookup)) {
+      sky.stars = StarField{*file, sky.stars.value_or(StarField{}).max_magnitude};
+    }
+    return;
+  }
+  const Section section(item, {"catalogue", "max_magnitude", "gain"});
+  StarField field = sky.stars.value_or(StarField{});
+  const Item* catalogue = section.find("catalogue");
+  if (catalogue || field.catalogue.empty()) {
+    const auto file =
+        catalogue ? read_catalogue(*catalogue, lookup) : lookup.shipped(item, kNakedEyeStars);
+    field.catalogue = file.value_or("");
+  }
+  field.max_magnitude = section.number("max_magnitude", kMagnitudes, field.max_magnitude);
+  sky.star_gain = section.number("gain", kGain, sky.star_gain);
+  sky.stars = field;
+}
+
+// What the section says, laid over `sky`.
+void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
+  if (const Item* background = section.find("background"))
+    if (const auto found = read_background(*background, lookup)) sky.background = *found;
+  sky.background_gain = section.number("gain", kGain, sky.background_gain);
+  if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
+}
+
+}  // namespace
+
+void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
+  const Section sky =
+      subsection(section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power"});
+  const Section one = subsection(sky, "region_I", {"background", "gain", "stars"});
+  const Section three = subsection(sky, "region_III", {"background", "gain", "stars"});
+  // The shipped files are asked for only where the show does not name others.
+  if (!one.find("background"))
+    if (const auto background = milky_way(root, lookup)) show.sky_one.background = *background;
+  if (!one.find("stars"))
+    if (const auto file = lookup.shipped(root, kNakedEyeStars)) show.sky_one.stars = {*file, 6.5};
+  read_region(one, lookup, show.sky_one);
+  show.sky_three = show.sky_one;
+  read_region(three, lookup, show.sky_three);
+  sky.choice("region_IV", {"black"});
+  show.panorama_shift.blueshift_power =
+      sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);
+}
+
+}  // namespace domefall

@@ -1,0 +1,71 @@
+#include "pipeline/show/timeline_section.h"
+
+#include <cmath>
+
+namespace domefall {
+namespace {
+
+// Whether the observer rests in the static frame, to rounding.
+bool is_at_rest(const Trajectory& trajectory) {
+  if (std::holds_alternative<StaticObserver>(trajectory)) return true;
+  const auto* given = std::get_if<GivenVelocity>(&trajectory);
+  if (!given || given->r <= kStaticInnermost) return false;
+  const V3d rest = given->r == kFlatSpace ? V3d(0, 0, 0) : static_celerity(given->r);
+  return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
+}
+
+void check_motion(const Item& segment, const Segment& read) {
+  if (!std::holds_alternative<LookAlongMotion>(read.camera.attitude)) return;
+  if (!is_at_rest(read.trajectory)) return;
+  segment.fail(
+      "has a camera that looks along the motion, but its observer does not move; give "
+      "the segment another camera.look_at");
+}
+
+std::optional<TimedTrajectory> read_motion(const Section& section, const Stage& stage,
+                                           Lookup& lookup) {
+  const Item* trajectory = section.find("trajectory");
+  if (!trajectory && !stage.mass_solar)
+    return TimedTrajectory{StaticObserver{}, 0, stage.duration_s};
+  section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
+  return trajectory ? read_trajectory(*trajectory, stage, lookup) : std::nullopt;
+}
+
+Segment read_segment(const Item& item, const Show& show, const ShowCamera& camera, Lookup& lookup) {
+  const Section section(item, {"duration_s", "trajectory", "camera"});
+  const auto duration = section.required_number("duration_s", Range{"seconds"}.above(0));
+  Segment segment;
+  segment.duration_s = duration.value_or(1);
+  const CameraKeys keys = read_segment_camera(section.find("camera"), camera, lookup);
+  segment.camera = camera_from(keys, show.projection);
+  const Stage stage{show.mass_solar, show.hole_at, show.heading, segment.duration_s};
+  if (const auto motion = read_motion(section, stage, lookup)) {
+    segment.trajectory = motion->trajectory;
+    segment.tau_begin = motion->tau_begin;
+    segment.tau_end = motion->tau_end;
+    check_motion(item, segment);
+  }
+  return segment;
+}
+
+}  // namespace
+
+std::vector<Segment> read_timeline(const Section& section, const Show& show,
+                                   const ShowCamera& camera, Lookup& lookup) {
+  std::vector<Segment> timeline;
+  const Item* list = section.require("timeline", ": a list of segments");
+  const auto items = list ? read_list(*list) : std::nullopt;
+  if (!items) return timeline;
+  double frames = 0;
+  for (const Item& item : *items) {
+    timeline.push_back(read_segment(item, show, camera, lookup));
+    const bool fitted = frames <= kMostFrames;
+    frames += timeline.back().duration_s * show.frames_per_second;
+    if (fitted && frames > kMostFrames)
+      item.fail("brings the show to " + short_number(frames) + " frames; at most " +
+                std::to_string(kMostFrames) + " are possible");
+  }
+  return timeline;
+}
+
+}  // namespace domefall

@@ -1,0 +1,13 @@
+// The show's `timeline`.
+#pragma once
+
+#include "pipeline/show/camera_section.h"
+#include "pipeline/show/trajectory_section.h"
+
+namespace domefall {
+
+// `show` has everything but its timeline already.
+std::vector<Segment> read_timeline(const Section& section, const Show& show,
+                                   const ShowCamera& camera, Lookup& lookup);
+
+}  // namespace domefall

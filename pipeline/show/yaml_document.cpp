@@ -1,0 +1,120 @@
+#include "pipeline/show/yaml_document.h"
+
+#include <yaml-cpp/depthguard.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kLargestFile = 4 << 20;
+
+// Length of the well-formed UTF-8 character that starts the text; 0 if there is none.  Overlong
+// forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) {
+    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (length == 0 || first > 0xF4) return 0;
+  const unsigned low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const unsigned high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  if (byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t k = 2; k < length; ++k)
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  return length;
+}
+
+void check_characters(std::string_view text, Problems& problems) {
+  TextPlace at;
+  for (std::size_t k = 0; k < text.size();) {
+    const auto c = static_cast<unsigned char>(text[k]);
+    const std::size_t length = character_length(text.substr(k));
+    char code[8];
+    std::snprintf(code, sizeof code, "0x%02X", c);
+    if (length == 0) {
+      problems.add(at, std::string("the byte ") + code + " is not UTF-8; save the show as UTF-8");
+      return;
+    }
+    if ((c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7F) {
+      problems.add(at, std::string("the control character ") + code + " has no place in a show");
+      return;
+    }
+    k += length;
+    at.column += static_cast<int>(length);
+    if (c == '\n') at = {at.line + 1, 0};
+  }
+}
+
+// yaml-cpp stumbles over a tab some way behind it.
+std::optional<int> tab_in_indentation(const std::string& text, int line) {
+  std::size_t start = 0;
+  for (int k = 0; k < line && start != std::string::npos; ++k) {
+    start = text.find('\n', start);
+    if (start != std::string::npos) ++start;
+  }
+  if (start == std::string::npos) return std::nullopt;
+  const std::size_t at = text.find_first_not_of(' ', start);
+  if (at == std::string::npos || text[at] != '\t') return std::nullopt;
+  return static_cast<int>(at - start);
+}
+
+void add_syntax_error(const YAML::ParserException& error, const std::string& text,
+                      Problems& problems) {
+  const TextPlace at{error.mark.line, error.mark.column};
+  if (dynamic_cast<const YAML::DeepRecursion*>(&error))
+    problems.add(at, "the show is nested too deeply");
+  else if (const auto tab = tab_in_indentation(text, at.line))
+    problems.add({at.line, *tab}, "a tab cannot indent YAML; use spaces");
+  else
+    problems.add(at, "this is not valid YAML: " + error.msg);
+}
+
+}  // namespace
+
+std::string read_show_text(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(file.string() + ": this is a folder; a show is a YAML file");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError(file.string() + ": the show cannot be read: " +
+                     (errno ? std::strerror(errno) : "unknown reason"));
+  std::string text(kLargestFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) throw TemporaryError(file.string() + ": reading the show broke off");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kLargestFile)
+    throw InputError(file.string() + ": a show file is at most 4 MiB; this one is larger");
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
+YAML::Node parse_yaml(const std::string& text, Problems& problems) {
+  check_characters(text, problems);
+  problems.raise();
+  try {
+    const auto documents = YAML::LoadAll(text + "\n# " + std::string(kEndOfShow) + "\n");
+    if (documents.size() > 1)
+      problems.add({documents[1].Mark().line, documents[1].Mark().column},
+                   "a show file holds one YAML document; a second one starts here");
+    problems.raise();
+    return documents.empty() ? YAML::Node(YAML::NodeType::Undefined) : documents[0];
+  } catch (const YAML::ParserException& error) {
+    add_syntax_error(error, text, problems);
+  } catch (const YAML::Exception& error) {
+    problems.add({}, std::string("this is not valid YAML: ") + error.what());
+  }
+  problems.raise();
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+}  // namespace domefall

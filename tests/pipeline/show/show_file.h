@@ -1,0 +1,66 @@
+// Writes show files into a folder of the test's own, with stand-ins for the shipped assets.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+
+class ShowFile : public testing::Test {
+ protected:
+  ShowFile() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              ("domefall_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
+               std::to_string(getpid()));
+    write("assets/milky_way.exr", "");
+    write("assets/dome.ocio", "");
+    write("assets/naked_eye_stars.csv",
+          "ra_deg,dec_deg,v_mag,b_v,name,designation\n"
+          "101.287,-16.716,-1.44,0.009,Sirius,alpha CMa\n"
+          "88.793,7.407,0.45,1.5,Betelgeuse,alpha Ori\n"
+          "279.235,38.784,0.03,-0.001,Vega,alpha Lyr\n");
+    setenv("DOMEFALL_ASSETS", (folder_ / "assets").c_str(), 1);
+  }
+  ~ShowFile() override {
+    unsetenv("DOMEFALL_ASSETS");
+    std::filesystem::remove_all(folder_);
+  }
+  ShowFile(const ShowFile&) = delete;
+  ShowFile& operator=(const ShowFile&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& bytes) {
+    const auto file = folder_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+
+  Show read(const std::string& yaml) { return read_show(write("show.yaml", yaml)); }
+
+  // What reading it complains of, without the folder; empty if nothing.
+  std::string complaint(const std::string& yaml) {
+    try {
+      read(yaml);
+    } catch (const InputError& error) {
+      std::string message = error.what();
+      const std::string folder = folder_.string() + "/";
+      for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
+        message.erase(at, folder.size());
+      return message;
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace domefall
