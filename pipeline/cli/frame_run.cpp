@@ -1,0 +1,192 @@
+#include "pipeline/cli/frame_run.h"
+
+#include <charconv>
+#include <cstdio>
+#include <future>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "pipeline/cli/interruption.h"
+#include "pipeline/cli/progress.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/frame_file.h"
+#include "pipeline/image/graded_file.h"
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/renderer.h"
+
+namespace domefall {
+namespace {
+
+constexpr const char* kSoftware = "Domefall " DOMEFALL_VERSION;
+
+class Run {
+ public:
+  explicit Run(const FrameRun& run) : run_(run), keys_(run.show) {
+    if (grades()) grader_.emplace(run.show.grade);
+    name_ = run.show.file.stem().string();
+    set_file_threads(run.threads > 0 ? run.threads
+                                     : static_cast<int>(std::thread::hardware_concurrency()));
+    make_folder(run.folder / "linear");
+    if (grades()) make_folder(run.folder / "graded");
+  }
+
+  void all() {
+    Progress progress(run_.frames.size());
+    // One frame is graded and written while the next is rendered.
+    std::future<void> writing;
+    for (const int number : run_.frames) {
+      stop_if_interrupted();
+      const FrameState state = frame_state(run_.show, number);
+      const std::string key = keys_.scene(state);
+      auto frame = std::make_shared<std::optional<HalfFrame>>();
+      const bool linear_good = is_linear_good(state, key);
+      if (linear_good && is_graded_good(state, key)) {
+        progress.skipped();
+        continue;
+      }
+      if (linear_good)
+        *frame = read_frame(linear_path(number)).first;
+      else
+        *frame = rendered(state);
+      if (writing.valid()) writing.get(), progress.made();
+      writing = std::async(std::launch::async, [this, state, key, frame, linear_good] {
+        if (!linear_good) write_frame(linear_path(state.frame), **frame, info(state, key));
+        if (grades()) write_graded_frame(state, key, **frame);
+      });
+    }
+    if (writing.valid()) writing.get(), progress.made();
+    std::fprintf(stderr, "%zu frames made, %zu already there, in %.1f s: %s\n",
+                 progress.made_count(), progress.skipped_count(), progress.seconds(),
+                 run_.folder.c_str());
+  }
+
+ private:
+  static void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw InputError(folder.string() + ": the folder cannot be made: " + error.message());
+    sweep_temporaries(folder);
+  }
+
+  bool grades() const { return run_.show.graded_format != GradedFormat::kNone; }
+
+  std::filesystem::path path(const char* folder, int frame, const char* extension) const {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%05d.", frame);
+    return run_.folder / folder / (name_ + number + extension);
+  }
+  std::filesystem::path linear_path(int frame) const { return path("linear", frame, "exr"); }
+  std::filesystem::path graded_path(int frame) const {
+    return path("graded", frame, run_.show.graded_format == GradedFormat::kTiff ? "tif" : "png");
+  }
+
+  bool is_linear_good(const FrameState& state, const std::string& key) const {
+    return examine_frame(linear_path(state.frame), key, columns(state.projection),
+                         rows(state.projection)) == FrameCondition::kGood;
+  }
+
+  bool is_graded_good(const FrameState& state, const std::string& key) const {
+    return !grades() ||
+           examine_graded(graded_path(state.frame), keys_.graded(key), columns(state.projection),
+                          rows(state.projection)) == FrameCondition::kGood;
+  }
+
+  HalfFrame rendered(const FrameState& state) {
+    if (!run_.render)
+      throw InputError(
+          linear_path(state.frame).string() +
+          ": the frame is missing, damaged or of another version of the show; render it first");
+    if (!renderer_) renderer_.emplace(run_.show, run_.threads);
+    StageTimes times;
+    try {
+      HalfFrame frame = renderer_->render(state, &times);
+      if (run_.explain)
+        std::fprintf(stderr, "frame %d: region %s, r = %.9g M\n%s", state.frame,
+                     region_name(state.observer.region), state.observer.r,
+                     describe(plan_frame(run_.show, state), times).c_str());
+      return frame;
+    } catch (const std::runtime_error& error) {
+      if (dynamic_cast<const InputError*>(&error)) throw;
+      throw std::runtime_error("frame " + std::to_string(state.frame) + ": " + error.what());
+    }
+  }
+
+  FrameInfo info(const FrameState& state, const std::string& key) const {
+    FrameInfo info;
+    info.title = run_.show.title;
+    info.key = key;
+    info.frame = state.frame;
+    info.region = region_name(state.observer.region);
+    info.r = state.observer.r;
+    info.proper_time = state.observer.proper_time;
+    info.frames_per_second = run_.show.frames_per_second;
+    info.projection = projection_name(state.projection);
+    info.software = kSoftware;
+    return info;
+  }
+
+  void write_graded_frame(const FrameState& state, const std::string& key,
+                          const HalfFrame& frame) const {
+    GradedInfo info;
+    info.key = keys_.graded(key);
+    info.title = run_.show.title;
+    info.frame = state.frame;
+    info.display = grader_->display();
+    info.view = grader_->view();
+    info.software = kSoftware;
+    write_graded(graded_path(state.frame), grader_->grade(frame), info);
+  }
+
+  const FrameRun& run_;
+  FrameKeys keys_;
+  std::optional<Grader> grader_;
+  std::optional<Renderer> renderer_;
+  std::string name_;
+};
+
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+constexpr int kSmallest = 16, kLargest = 16384;
+
+bool in_range(const std::optional<int>& pixels) {
+  return pixels && *pixels >= kSmallest && *pixels <= kLargest;
+}
+
+}  // namespace
+
+void run_frames(const FrameRun& run) { Run(run).all(); }
+
+Projection resized(const Projection& projection, const std::string& size) {
+  if (size.empty()) return projection;
+  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
+    const std::size_t cross = size.find('x');
+    const auto width = whole_number(std::string_view(size).substr(0, cross));
+    const auto height = cross == std::string::npos
+                            ? std::nullopt
+                            : whole_number(std::string_view(size).substr(cross + 1));
+    if (!in_range(width) || !in_range(height))
+      throw InputError("--size " + size +
+                       ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
+    return Stereographic{*width, *height, flat->fov};
+  }
+  std::optional<int> pixels = whole_number(size);
+  if (size.ends_with('k')) {
+    const auto thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
+    if (thousands && *thousands >= 1 && *thousands <= 16) pixels = *thousands * 1024;
+  }
+  if (!in_range(pixels))
+    throw InputError("--size " + size +
+                     ": a dome takes 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384");
+  return Domemaster{*pixels};
+}
+
+}  // namespace domefall

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "pipeline/cli/verbs.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+const char* kind_of(const Trajectory& t) {
+  constexpr const char* kNames[] = {"static", "circular", "infall", "velocity"};
+  return kNames[t.index()];
+}
+
+void print_segments(const Show& show) {
+  for (std::size_t k = 0; k < show.timeline.size(); ++k) {
+    const Segment& s = show.timeline[k];
+    const double from = point_at(s.trajectory, s.tau_begin).r,
+                 to = point_at(s.trajectory, s.tau_end).r;
+    std::printf("segment %zu    %s, %.6g s", k, kind_of(s.trajectory), s.duration_s);
+    if (std::isinf(from))
+      std::puts(", flat space");
+    else
+      std::printf(", r = %.6g M to %.6g M, %.6g M of proper time\n", from, to,
+                  s.tau_end - s.tau_begin);
+  }
+}
+
+void check(const std::string& file) {
+  const Show show = read_show(file);
+  // Reading the assets and the grading configuration is part of the check.
+  const FrameKeys keys(show);
+  if (show.graded_format != GradedFormat::kNone) {
+    const Grader grader(show.grade);
+    std::printf("graded for   %s, %s\n", grader.display().c_str(), grader.view().c_str());
+  }
+  const int count = frame_count(show);
+  std::set<Region> regions;
+  double closest = kFlatSpace;
+  for (int n = 0; n < count; ++n) {
+    const ObserverState o = frame_state(show, n).observer;
+    regions.insert(o.region);
+    closest = std::min(closest, o.r);
+  }
+  std::printf("title        %s\nframes       %d at %g a second, %s of %d x %d\n",
+              show.title.c_str(), count, show.frames_per_second,
+              std::string(projection_name(show.projection)).c_str(), columns(show.projection),
+              rows(show.projection));
+  print_segments(show);
+  if (!show.mass_solar) return;
+  std::printf("regions     ");
+  for (const Region r : regions) std::printf(" %s", region_name(r));
+  std::printf("\nclosest      r = %.6g M\n", closest);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  auto* verb = app.add_subcommand("check", "Validate a show and say what it does");
+  auto show = std::make_shared<std::string>();
+  verb->add_option("show", *show, "show file (YAML)")->required();
+  verb->callback([show] { check(*show); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,77 @@
+#include <numbers>
+
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/graded_file.h"
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+struct Options {
+  std::string show, out, size = "1280x720";
+  int frame = 0, threads = 0;
+  double fov_deg = 100;
+};
+
+// A dome show on a flat screen: the look of someone in the seats, straight at what the camera looks
+// at, or 45 degrees up the front of the dome where it is given by angles.
+void flatten(Show& show, FrameState& state, const Projection& flat) {
+  const bool dome = std::holds_alternative<Domemaster>(show.projection);
+  const Camera& camera = show.timeline[static_cast<std::size_t>(state.segment)].camera;
+  state.projection = flat;
+  if (!dome || !std::holds_alternative<EulerAngles>(camera.attitude)) {
+    state.observer.tetrad_from_camera = camera_axes(camera, flat, state.observer);
+    return;
+  }
+  const M33d dome_axes = camera_axes(camera, show.projection, state.observer);
+  const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
+  const double half = std::numbers::sqrt2 / 2;
+  state.observer.tetrad_from_camera =
+      from_columns(column(dome_axes, 0), (front - zenith) * half, (front + zenith) * half);
+}
+
+void preview(const Options& o) {
+  Show show = read_show(o.show);
+  parse_frames(std::to_string(o.frame), frame_count(show));
+  const Projection flat =
+      resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
+  FrameState state = frame_state(show, o.frame);
+  flatten(show, state, flat);
+  if (show.grade.display.empty() && show.grade.view.empty()) show.grade.display = "sRGB - Display";
+  const Grader grader(show.grade);
+  const HalfFrame frame = Renderer(show, o.threads).render(state);
+  const FrameKeys keys(show);
+  GradedInfo info;
+  info.key = keys.graded(keys.scene(state));
+  info.title = show.title;
+  info.frame = o.frame;
+  info.display = grader.display();
+  info.view = grader.view();
+  info.software = "Domefall " DOMEFALL_VERSION;
+  write_graded(o.out, grader.grade(frame), info);
+}
+
+}  // namespace
+
+void add_preview(CLI::App& app) {
+  auto* verb =
+      app.add_subcommand("preview", "One frame as a flat picture (stereographic), for a screen");
+  auto o = std::make_shared<Options>();
+  verb->add_option("show", o->show, "show file (YAML)")->required();
+  verb->add_option("--frame", o->frame, "frame number, from 0")->check(CLI::NonNegativeNumber);
+  verb->add_option("--out", o->out, "picture to write, .png or .tif")->required();
+  verb->add_option("--size", o->size, "WIDTHxHEIGHT")->capture_default_str();
+  verb->add_option("--fov", o->fov_deg, "horizontal opening angle, degrees")
+      ->check(CLI::Range(0.001, 340.0))
+      ->capture_default_str();
+  verb->add_option("--threads", o->threads, "0: one per processor")->check(CLI::Range(0, 1024));
+  verb->callback([o] { preview(*o); });
+}
+
+}  // namespace domefall

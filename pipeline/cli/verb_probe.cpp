@@ -1,0 +1,67 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/render/view_tracer.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+struct Options {
+  std::string show, size, pixel;
+  int frame = 0;
+};
+
+PixelPosition parse_pixel(const std::string& text) {
+  PixelPosition at{};
+  int used = 0;
+  if (std::sscanf(text.c_str(), "%lf,%lf%n", &at.i, &at.j, &used) != 2 ||
+      used != static_cast<int>(text.size()) || !std::isfinite(at.i) || !std::isfinite(at.j))
+    throw InputError("--pixel " + text + ": expected X,Y, counted from 1 at the top left");
+  return at;
+}
+
+void probe(const Options& o) {
+  Show show = read_show(o.show);
+  show.projection = resized(show.projection, o.size);
+  parse_frames(std::to_string(o.frame), frame_count(show));
+  const FrameState state = frame_state(show, o.frame);
+  const PixelPosition pixel = parse_pixel(o.pixel);
+  const HoleOptics optics = make_hole_optics(state.observer.region, state.observer.r, {});
+  const Look look = ViewTracer(state, optics).look(direction_at(show.projection, pixel));
+  std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
+              state.observer.r);
+  if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
+  if (look.sky == SeenSky::kNone) {
+    std::puts("sees         the past singularity (region IV)");
+    return;
+  }
+  const V3d& d = look.sky_direction;
+  double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
+  if (ra < 0) ra += 360;
+  std::printf("sees         sky %s, RA %.6f deg, Dec %.6f deg\n",
+              look.sky == SeenSky::kOne ? "I" : "III", ra,
+              std::atan2(d.z, std::hypot(d.x, d.y)) * 180 / std::numbers::pi);
+  std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
+  std::printf("compression  %.6g towards the hole, %.6g across\n", look.radial_scale,
+              look.tangential_scale);
+}
+
+}  // namespace
+
+void add_probe(CLI::App& app) {
+  auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift");
+  auto o = std::make_shared<Options>();
+  verb->add_option("show", o->show, "show file (YAML)")->required();
+  verb->add_option("--frame", o->frame, "frame number, from 0")->check(CLI::NonNegativeNumber);
+  verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")->required();
+  verb->add_option("--size", o->size, "as for render");
+  verb->callback([o] { probe(*o); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,54 @@
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+struct Options {
+  std::string show, frames, size, out;
+  int threads = 0;
+  bool explain = false;
+};
+
+// Shared by render and grade: both walk the same frames and put them in the same places.
+void run(const Options& o, bool render) {
+  Show show = read_show(o.show);
+  show.projection = resized(show.projection, o.size);
+  const std::filesystem::path folder = o.out.empty()
+                                           ? std::filesystem::path("out") / show.file.stem()
+                                           : std::filesystem::path(o.out);
+  run_frames(
+      {show, parse_frames(o.frames, frame_count(show)), folder, o.threads, o.explain, render});
+}
+
+void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
+  verb.add_option("show", o->show, "show file (YAML)")->required();
+  verb.add_option("--frames", o->frames,
+                  "7, 0-299, 0-599x10 (every tenth), or several joined by commas; default all");
+  verb.add_option("--size", o->size,
+                  "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture");
+  verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto* verb =
+      app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG or TIFF");
+  auto o = std::make_shared<Options>();
+  add_frame_options(*verb, o);
+  verb->add_option("--threads", o->threads, "0: one per processor")->check(CLI::Range(0, 1024));
+  verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
+  verb->callback([o] { run(*o, true); });
+}
+
+void add_grade(CLI::App& app) {
+  auto* verb = app.add_subcommand("grade", "Grade frames again that are already rendered");
+  auto o = std::make_shared<Options>();
+  add_frame_options(*verb, o);
+  verb->callback([o] { run(*o, false); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,52 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+void print_states(const std::string& file, const std::string& frames) {
+  const Show show = read_show(file);
+  std::puts(
+      "# r and proper_time in M (proper_time in s without a hole); celerity (gamma v) against the "
+      "rain tetrad along R,"
+      " Theta, Phi;\n# ra_deg and dec_deg: the observer's place as seen from the hole; camera axes "
+      "in the boosted"
+      " (R, Theta, Phi)\n"
+      "frame,show_time_s,segment,region,r,proper_time,celerity_r,celerity_theta,celerity_phi,ra_"
+      "deg,dec_deg,"
+      "x_r,x_theta,x_phi,y_r,y_theta,y_phi,z_r,z_theta,z_phi");
+  for (const int n : parse_frames(frames, frame_count(show))) {
+    const FrameState s = frame_state(show, n);
+    const ObserverState& o = s.observer;
+    const V3d place = column(o.sky_from_tetrad, 0);
+    double ra = std::atan2(place.y, place.x) * 180 / std::numbers::pi;
+    if (ra < 0) ra += 360;
+    const double dec = std::atan2(place.z, std::hypot(place.x, place.y)) * 180 / std::numbers::pi;
+    std::printf("%d,%.9g,%d,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g", n, s.show_time_s,
+                s.segment, region_name(o.region), o.r, o.proper_time, o.celerity.x, o.celerity.y,
+                o.celerity.z, ra, dec);
+    for (int k = 0; k < 3; ++k) {
+      const V3d axis = column(o.tetrad_from_camera, k);
+      std::printf(",%.17g,%.17g,%.17g", axis.x, axis.y, axis.z);
+    }
+    std::puts("");
+  }
+}
+
+}  // namespace
+
+void add_states(CLI::App& app) {
+  auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV");
+  auto show = std::make_shared<std::string>(), frames = std::make_shared<std::string>();
+  verb->add_option("show", *show, "show file (YAML)")->required();
+  verb->add_option("--frames", *frames, "7, 0-299, 0-599x10; default all");
+  verb->callback([show, frames] { print_states(*show, *frames); });
+}
+
+}  // namespace domefall

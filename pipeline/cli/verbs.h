@@ -1,0 +1,17 @@
+// The verbs of the command line, one file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace domefall {
+
+// Each adds its subcommand, which does its work when the line is parsed.
+void add_check(CLI::App& app);
+void add_render(CLI::App& app);
+void add_grade(CLI::App& app);
+void add_preview(CLI::App& app);
+void add_states(CLI::App& app);
+void add_probe(CLI::App& app);
+void add_trace(CLI::App& app);
+
+}  // namespace domefall

@@ -1,0 +1,69 @@
+#include "pipeline/render/frame_key.h"
+
+#include "pipeline/image/digest.h"
+
+namespace domefall {
+namespace {
+
+void add_sky(Digest& digest, const RegionSky& sky) {
+  digest.add(static_cast<double>(sky.background.index())).add(sky.background_gain);
+  if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
+    digest.add_file(panorama->image);
+  digest.add(sky.stars ? "stars" : "no stars");
+  if (sky.stars)
+    digest.add_file(sky.stars->catalogue).add(sky.stars->max_magnitude).add(sky.star_gain);
+}
+
+void add_matrix(Digest& digest, const M33d& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) digest.add(m[i][j]);
+}
+
+void add_projection(Digest& digest, const Projection& p) {
+  digest.add(projection_name(p)).add(columns(p)).add(rows(p));
+  if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(flat->fov);
+}
+
+std::string digest_of_grade(const Show& show) {
+  const GradeSettings& g = show.grade;
+  Digest digest;
+  digest.add_file(g.config).add(g.display).add(g.view).add(g.saturation);
+  for (const auto& triple : {g.slope, g.offset, g.power})
+    for (const double v : triple) digest.add(v);
+  digest.add(show.graded_format == GradedFormat::kTiff ? "tiff" : "png");
+  return digest.hex();
+}
+
+}  // namespace
+
+FrameKeys::FrameKeys(const Show& show) {
+  Digest common;
+  common.add(DOMEFALL_VERSION).add(show.title).add(show.frames_per_second);
+  add_sky(common, show.sky_one);
+  const StarBlobs& b = show.blobs;
+  for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);
+  common.add(show.panorama_shift.blueshift_power).add(show.exposure.ev);
+  common_ = common.hex();
+  Digest three;
+  add_sky(three, show.sky_three);
+  sky_three_ = three.hex();
+  if (show.graded_format != GradedFormat::kNone) grade_ = digest_of_grade(show);
+}
+
+std::string FrameKeys::scene(const FrameState& state) const {
+  const ObserverState& o = state.observer;
+  Digest digest;
+  digest.add(common_).add(state.frame).add(region_name(o.region)).add(o.r).add(o.proper_time);
+  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(v);
+  add_matrix(digest, o.sky_from_tetrad);
+  add_matrix(digest, o.tetrad_from_camera);
+  add_projection(digest, state.projection);
+  if (o.region == Region::kII) digest.add(sky_three_);
+  return digest.hex();
+}
+
+std::string FrameKeys::graded(const std::string& scene_key) const {
+  return Digest().add(scene_key).add(grade_).hex();
+}
+
+}  // namespace domefall

@@ -1,0 +1,27 @@
+// The key of a frame: a digest of all that its pixels depend on, and of nothing else, so that a
+// change of one segment leaves the frames of the others good.
+#pragma once
+
+#include <string>
+
+#include "pipeline/show/frame_state.h"
+
+namespace domefall {
+
+class FrameKeys {
+ public:
+  // Reads the show's assets once.  Throws InputError if one is unreadable.
+  explicit FrameKeys(const Show& show);
+
+  // Of the scene-linear frame.
+  std::string scene(const FrameState& state) const;
+  // Of the graded frame made from it.
+  std::string graded(const std::string& scene_key) const;
+
+ private:
+  std::string common_;     // digest of the settings that all frames share
+  std::string sky_three_;  // only frames that see region III depend on it
+  std::string grade_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,123 @@
+#include "pipeline/render/pixel_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pipeline/render/photometry.h"
+#include "pipeline/render/vector_math.h"
+#include "pipeline/sky/grid_sky.h"
+
+namespace domefall {
+namespace {
+
+// Along each axis, where one look per pixel is not enough.
+constexpr int kFineSamples = 4;
+constexpr int kFinePerPixel = kFineSamples * kFineSamples;
+static_assert(LookBatch::kSize % kFinePerPixel == 0);
+// A pixel this near (in pixels) to the edge of a sky is sampled finely.
+constexpr double kEdgePixels = 4;
+// So is one whose footprint on the sky is longer than this (radians) and that elongated: blurring it
+// to its length would lose what it still resolves across.
+constexpr double kLongFootprint = 0.01, kElongation = 3;
+
+WorkingRgb operator*(const WorkingRgb& c, double k) {
+  const auto f = static_cast<float>(k);
+  return {c.r * f, c.g * f, c.b * f};
+}
+
+// [Riazuelo] sec. ssec_rgb: what a panorama without spectra does under a frequency ratio
+// g = 1/(1+z): keep its hue and scale by a power for blueshift, by an exponential for redshift.
+double panorama_intensity(const PanoramaShift& shift, double g) {
+  if (g < 1) return exponential(1 - 1 / g);
+  return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
+}
+
+}  // namespace
+
+PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
+                       const Sky* one, const Sky* three)
+    : show_(show),
+      projection_(state.projection),
+      tracer_(state, optics),
+      one_(one),
+      three_(three),
+      scale_(exposure_scale(show.exposure)) {}
+
+WorkingRgb PixelLight::light(const LookBatch& batch, int k, double pixel_angle) const {
+  const Sky* sky = batch.sky[k] == SeenSky::kOne     ? one_
+                   : batch.sky[k] == SeenSky::kThree ? three_
+                                                     : nullptr;
+  if (sky == nullptr) return {0, 0, 0};
+  const double g = batch.frequency_ratio[k], gain = scale_ * sky->background_gain;
+  const double footprint = pixel_angle * std::max(batch.radial_scale[k], batch.tangential_scale[k]);
+  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky->background))
+    return (*map)->sample(batch.sky_direction(k), footprint) *
+           (panorama_intensity(show_.panorama_shift, g) * gain);
+  if (std::holds_alternative<Grid>(sky->background))
+    return grid_light({batch.sky_direction(k)}, footprint, g) * gain;
+  return {0, 0, 0};
+}
+
+bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const {
+  if (batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
+  const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
+  const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
+  return longer * pixel_angle > kLongFootprint && longer > kElongation * shorter;
+}
+
+void PixelLight::shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const {
+  for (int k = 0; k < count; ++k, rgb += 3) {
+    const WorkingRgb c = light(batch, k, pixel_angle);
+    rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
+  }
+}
+
+// Each of these pixels becomes the mean of a square of looks.
+void PixelLight::supersample(int row, const std::vector<int>& pixels, double pixel_angle,
+                             float* rgb) const {
+  const Projection finer = refined(projection_, kFineSamples);
+  constexpr int kAtOnce = LookBatch::kSize / kFinePerPixel;
+  LookBatch batch;
+  std::array<CameraDirection, LookBatch::kSize> n;
+  std::array<float, 3 * LookBatch::kSize> fine;
+  for (std::size_t first = 0; first < pixels.size(); first += kAtOnce) {
+    const std::size_t end = std::min(pixels.size(), first + kAtOnce);
+    int count = 0;
+    for (std::size_t p = first; p < end; ++p)
+      for (int b = 0; b < kFineSamples; ++b, count += kFineSamples)
+        inside_directions(finer, kFineSamples * row + b,
+                          {kFineSamples * pixels[p], kFineSamples * (pixels[p] + 1) - 1},
+                          n.data() + count);
+    tracer_.look(n.data(), count, batch);
+    shade(batch, count, pixel_angle / kFineSamples, fine.data());
+    const float* sample = fine.data();
+    for (std::size_t p = first; p < end; ++p) {
+      float sum[3] = {0, 0, 0};
+      for (int k = 0; k < kFinePerPixel; ++k, sample += 3)
+        for (int c = 0; c < 3; ++c) sum[c] += sample[c];
+      for (int c = 0; c < 3; ++c) rgb[3 * pixels[p] + c] = sum[c] / kFinePerPixel;
+    }
+  }
+}
+
+void PixelLight::fill_row(int row, float* rgb) const {
+  const double angle = central_pixel_angle(projection_);
+  const ColumnRange inside = inside_columns(projection_, row);
+  std::fill_n(rgb, 3 * columns(projection_), 0.0f);
+  LookBatch batch;
+  std::array<CameraDirection, LookBatch::kSize> n;
+  std::vector<int> fine;
+  for (int first = inside.first; first <= inside.last; first += LookBatch::kSize) {
+    const int last = std::min(inside.last, first + LookBatch::kSize - 1), count = last - first + 1;
+    inside_directions(projection_, row, {first, last}, n.data());
+    tracer_.look(n.data(), count, batch);
+    shade(batch, count, angle, rgb + 3 * first);
+    for (int k = 0; k < count; ++k)
+      if (batch.sky[k] != SeenSky::kNone || batch.to_edge[k] < HUGE_VAL)
+        if (needs_more_samples(batch, k, angle)) fine.push_back(first + k);
+  }
+  supersample(row, fine, angle, rgb);
+}
+
+}  // namespace domefall

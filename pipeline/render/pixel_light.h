@@ -1,0 +1,31 @@
+// The light of the skies in a row of pixels.
+#pragma once
+
+#include "pipeline/render/scene.h"
+#include "pipeline/render/view_tracer.h"
+
+namespace domefall {
+
+class PixelLight {
+ public:
+  // The skies may be null: dark.  Everything must outlive it.
+  PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics, const Sky* one,
+             const Sky* three);
+
+  // Scene-linear working-space pixel values of row `row` (from 0) into rgb[3 * columns].
+  void fill_row(int row, float* rgb) const;
+
+ private:
+  void shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const;
+  WorkingRgb light(const LookBatch& batch, int k, double pixel_angle) const;
+  bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
+  void supersample(int row, const std::vector<int>& columns, double pixel_angle, float* rgb) const;
+
+  const Show& show_;
+  Projection projection_;
+  ViewTracer tracer_;
+  const Sky *one_, *three_;
+  double scale_;  // pixel value per cd/m^2
+};
+
+}  // namespace domefall

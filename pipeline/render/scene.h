@@ -1,0 +1,48 @@
+// What a show needs loaded, and nothing else: skies and stars by region, made at their first use.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "pipeline/show/show.h"
+#include "pipeline/sky/sky_map.h"
+
+namespace domefall {
+
+// A star ready to be shifted: bolometric flux (W/m^2, gain included) and temperature at no redshift.
+struct SceneStar {
+  SkyDirection direction;
+  double flux;
+  double temperature;
+  double angular_radius;  // radians, of a blackbody of this flux and temperature
+};
+
+struct Grid {};
+struct Black {};
+
+// The sky of one region.
+struct Sky {
+  std::variant<Black, Grid, std::shared_ptr<const SkyMap>> background;
+  float background_gain = 1;
+  std::shared_ptr<const std::vector<SceneStar>> stars;  // never null; empty if there are none
+};
+
+class Scene {
+ public:
+  explicit Scene(const Show& show) : show_(show) {}
+
+  // Loaded at the first call; files that both regions name are loaded once.  Throws InputError.
+  const Sky& sky_one();
+  const Sky& sky_three();
+
+ private:
+  Sky load(const RegionSky& region);
+
+  const Show& show_;
+  std::mutex loading_;
+  std::unique_ptr<Sky> one_, three_;
+};
+
+}  // namespace domefall

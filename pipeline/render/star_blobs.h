@@ -1,0 +1,55 @@
+// Stars as they appear in one frame: every image whose flux matters, as a blob in angle.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/scene.h"
+#include "pipeline/show/frame_state.h"
+
+namespace domefall {
+
+// A truncated Gaussian in angle about a direction: weight exp(-q) - exp(-q_max), q = c^2/(2 sigma^2),
+// c the chord to the centre, out to kBlobReach sigma; zero and continuous at its end.
+struct StarBlob {
+  CameraDirection centre;
+  double sigma;  // radians
+  float rgb[3];  // pixel value times solid angle: the blob's sum over pixels of value * solid angle
+  float norm;    // 1 / (sum of weight * solid angle over the pixel grid), which makes that exact
+  int first_row, last_row, first_column, last_column;  // pixels from 0, clipped to the image
+};
+
+inline constexpr double kBlobReach = 4.5;
+
+// An image fainter than this peak pixel value, drawn at its smallest, is left out.
+inline constexpr double kFaintestPeak = 2e-4;
+
+// The observed images of one star, brightest possible orders first, before any blob is made.
+// Appends to `blobs` those that fall into the picture.  `table` is null in flat space.
+class BlobMaker {
+ public:
+  BlobMaker(const Show& show, const FrameState& state, const HoleOptics& optics,
+            const SkyTable* table);
+  void append(const SceneStar& star, std::vector<StarBlob>& blobs) const;
+
+ private:
+  bool append_image(const SceneStar& star, const V3d& source, int order,
+                    std::vector<StarBlob>& blobs) const;
+  void place(StarBlob& blob) const;
+
+  const StarBlobs& law_;
+  Projection projection_;
+  M33d sky_from_tetrad_, tetrad_from_camera_;
+  Aberration from_tetrad_;
+  const HoleOptics& optics_;
+  const SkyTable* table_;
+  double scale_;      // pixel value per cd/m^2
+  double min_sigma_;  // radians, at least 0.8 pixel
+  double max_sigma_;
+};
+
+// Adds the part of a blob that lies on row `row` (from 0) to rgb[3 * columns].
+void draw_row(const StarBlob& blob, const Projection& projection, int row, float* rgb);
+
+}  // namespace domefall

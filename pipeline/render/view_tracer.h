@@ -1,0 +1,59 @@
+// From a direction of view to the place on the sky whose light comes from there: camera,
+// aberration, lensing, redshift.  The inner loop of Domefall.
+#pragma once
+
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
+#include "pipeline/show/frame_state.h"
+#include "projections/projection.h"
+
+namespace domefall {
+
+// Which sky a look ends on.
+enum class SeenSky : char { kNone, kOne, kThree };
+
+// Everything known of one direction of view.
+struct Look {
+  SeenSky sky = SeenSky::kNone;
+  V3d sky_direction;           // equatorial J2000; meaningless for kNone
+  double frequency_ratio = 1;  // observed / emitted
+  // Angles on the sky per angle of view, along and across the direction of the hole.
+  double radial_scale = 0, tangential_scale = 0;
+  // Angle of view to the nearest edge between skies and the dark, radians; infinite without one.
+  double to_edge = HUGE_VAL;
+};
+
+// The same of many directions, by quantity.
+struct LookBatch {
+  static constexpr int kSize = 128;
+  template <class T>
+  using Column = std::array<T, kSize>;
+  alignas(64) Column<double> sky_x, sky_y, sky_z;
+  alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
+  alignas(64) Column<double> distance;  // table coordinate, <= 0 off the sky
+  Column<SeenSky> sky;
+
+  V3d sky_direction(int k) const { return {sky_x[k], sky_y[k], sky_z[k]}; }
+};
+
+class ViewTracer {
+ public:
+  // The optics must outlive it; a sky without a table is dark.
+  ViewTracer(const FrameState& state, const HoleOptics& optics);
+
+  // One direction, step by step.  The oracle of the batch.
+  Look look(const CameraDirection& n) const;
+
+  // count <= LookBatch::kSize directions as SIMD code.  Measured: within 1e-15 radians on the sky
+  // and a relative 1e-14 of look() (the functions of vector_math.h against the C library's).
+  void look(const CameraDirection* n, int count, LookBatch& batch) const;
+
+ private:
+  M33d tetrad_from_camera_, sky_from_tetrad_;
+  V3d celerity_;
+  const HoleOptics& optics_;
+  bool flat_;
+  double s_, one_minus_s_;  // sqrt(2/r), and 1 minus it from the altitude
+};
+
+}  // namespace domefall
