@@ -18,8 +18,11 @@ static_assert(LookBatch::kSize % kFinePerPixel == 0);
 // A pixel this near (in pixels) to the edge of a sky is sampled finely.
 constexpr double kEdgePixels = 4;
 // So is one whose footprint on the sky is longer than this (radians) and that elongated: blurring it
-// to its length would lose what it still resolves across.
-constexpr double kLongFootprint = 0.01, kElongation = 3;
+// to its length would lose what it still resolves across.  A grid has sharp lines, a panorama's
+// texels are softer.
+constexpr double kLongOnGrid = 0.002, kLongOnPanorama = 0.01, kElongation = 3;
+
+bool is_grid(const Sky* sky) { return sky && std::holds_alternative<Grid>(sky->background); }
 
 WorkingRgb operator*(const WorkingRgb& c, double k) {
   const auto f = static_cast<float>(k);
@@ -42,6 +45,7 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
       tracer_(state, optics),
       one_(one),
       three_(three),
+      long_footprint_(is_grid(one) || is_grid(three) ? kLongOnGrid : kLongOnPanorama),
       scale_(exposure_scale(show.exposure)) {}
 
 WorkingRgb PixelLight::light(const LookBatch& batch, int k, double pixel_angle) const {
@@ -63,7 +67,7 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
   if (batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-  return longer * pixel_angle > kLongFootprint && longer > kElongation * shorter;
+  return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
 }
 
 void PixelLight::shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const {

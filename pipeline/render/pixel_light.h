@@ -25,6 +25,7 @@ class PixelLight {
   Projection projection_;
   ViewTracer tracer_;
   const Sky *one_, *three_;
+  double long_footprint_;
   double scale_;  // pixel value per cd/m^2
 };
 
