@@ -16,7 +16,7 @@ struct StarBlob {
   CameraDirection centre;
   double sigma;  // radians
   float rgb[3];  // pixel value times solid angle: the blob's sum over pixels of value * solid angle
-  float norm;    // 1 / (sum of weight * solid angle over the pixel grid), which makes that exact
+  float norm;    // 1 / (integral of the weight over the sphere)
   int first_row, last_row, first_column, last_column;  // pixels from 0, clipped to the image
 };
 
