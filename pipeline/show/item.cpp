@@ -1,5 +1,7 @@
 #include "pipeline/show/item.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -40,6 +42,29 @@ std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
     return std::nullopt;
   }
   return item.node.Scalar();
+}
+
+// .nan, -.inf and the like, which YAML takes for numbers.
+bool is_yaml_special(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  const auto is = [&](std::string_view word) {
+    return std::ranges::equal(text, word, {}, [](unsigned char c) { return std::tolower(c); });
+  };
+  return is(".nan") || is(".inf");
+}
+
+// What to do about a text that should have been a number and is one up to `stop`.
+std::string mended(const Item& item, const Range& range, const char* stop) {
+  const std::string& text = item.node.Scalar();
+  const auto read = static_cast<std::size_t>(stop - text.data());
+  if (read == 0 || text.empty()) return "";
+  const std::string_view rest = std::string_view(text).substr(std::min(read, text.size()));
+  if (rest.empty()) return "; leave the quotes out";
+  if (rest[0] == ',') return "; write a decimal point";
+  if (rest[0] == '_') return "; write the digits without '_'";
+  if (rest[0] == ':') return "; write one decimal number, not parts of sixty";
+  if (std::isdigit(static_cast<unsigned char>(rest[0])) || rest[0] == 'x') return "";
+  return range.unit.empty() ? "" : "; leave the unit out";
 }
 
 std::optional<std::string> broken_bound(const Range& range, double value) {
@@ -88,15 +113,14 @@ std::optional<double> read_number(const Item& item, const Range& range) {
   const char* end = text->data() + text->size();
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  const bool special = *text == ".nan" || *text == ".inf" || *text == "-.inf" || *text == "+.inf";
-  if (error == std::errc::result_out_of_range || special ||
-      (error == std::errc() && !std::isfinite(value))) {
+  if (error == std::errc::result_out_of_range || is_yaml_special(*text) ||
+      (error == std::errc() && stop == end && !std::isfinite(value))) {
     item.fail("must be a finite number" + in_unit(range) + " that a double holds, got " +
               shown(*text));
     return std::nullopt;
   }
   if (is_quoted(item) || error != std::errc() || stop != end) {
-    item.fail("must be " + wanted + ", got " + kind_of(item));
+    item.fail("must be " + wanted + ", got " + kind_of(item) + mended(item, range, stop));
     return std::nullopt;
   }
   if (const auto bound = broken_bound(range, value)) {

@@ -18,10 +18,10 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (const Item* at = s.find("at"))
     show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
   show.heading = radians(s.number("heading_deg", kDegrees.within(-360, 360), kHeadingDeg));
-  if (!section.find("black_hole")) return;
-  const auto mass = s.required_number(
-      "mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
-  // A hole whose mass is in error is still a hole for the rest of the checks.
+  // A hole whose mass is misspelt or in error is still a hole for the rest of the checks.
+  if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return;
+  const auto mass =
+      s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
   if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
 }
 

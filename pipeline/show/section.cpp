@@ -65,7 +65,7 @@ const Item* Section::find(std::string_view key) const {
 
 const Item* Section::require(std::string_view key, const std::string& what) const {
   const Item* found = find(key);
-  if (!found && item_ && !misspelt_.contains(key))
+  if (!found && item_ && !is_misspelt(key))
     item_->problems->add(item_->at, join(item_->path, key) + " is missing" + what);
   return found;
 }

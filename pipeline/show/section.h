@@ -19,6 +19,8 @@ class Section {
 
   // The value of a key; null if it is not given.
   const Item* find(std::string_view key) const;
+  // Whether an unknown key has been reported with this one as what was probably meant.
+  bool is_misspelt(std::string_view key) const { return misspelt_.contains(key); }
   // Reports a missing key, unless a misspelling of it has been reported.
   const Item* require(std::string_view key, const std::string& what) const;
   // Reports keys that exclude each other; returns the first of them that is given.

@@ -14,6 +14,10 @@ bool is_at_rest(const Trajectory& trajectory) {
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
+double swept_azimuth(const Segment& s) {
+  return point_at(s.trajectory, s.tau_end).azimuth - point_at(s.trajectory, s.tau_begin).azimuth;
+}
+
 void check_motion(const Item& segment, const Segment& read) {
   if (!std::holds_alternative<LookAlongMotion>(read.camera.attitude)) return;
   if (!is_at_rest(read.trajectory)) return;
@@ -31,14 +35,19 @@ std::optional<TimedTrajectory> read_motion(const Section& section, const Stage& 
   return trajectory ? read_trajectory(*trajectory, stage, lookup) : std::nullopt;
 }
 
-Segment read_segment(const Item& item, const Show& show, const ShowCamera& camera, Lookup& lookup) {
-  const Section section(item, {"duration_s", "trajectory", "camera"});
+// `azimuth` has been swept before.
+Segment read_segment(const Item& item, const Show& show, double azimuth, const ShowCamera& camera,
+                     Lookup& lookup) {
+  const Section section(
+      item, {"duration_s", "trajectory", "camera", "rate_m_per_s", "orbits", "time_lapse"});
+  for (const std::string_view key : {"rate_m_per_s", "orbits", "time_lapse"})
+    if (const Item* pace = section.find(key)) pace->fail("belongs in the segment's trajectory");
   const auto duration = section.required_number("duration_s", Range{"seconds"}.above(0));
   Segment segment;
   segment.duration_s = duration.value_or(1);
   const CameraKeys keys = read_segment_camera(section.find("camera"), camera, lookup);
   segment.camera = camera_from(keys, show.projection);
-  const Stage stage{show.mass_solar, show.hole_at, show.heading, segment.duration_s};
+  const Stage stage{show.mass_solar, show.hole_at, show.heading, azimuth, segment.duration_s};
   if (const auto motion = read_motion(section, stage, lookup)) {
     segment.trajectory = motion->trajectory;
     segment.tau_begin = motion->tau_begin;
@@ -56,15 +65,21 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
   const Item* list = section.require("timeline", ": a list of segments");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return timeline;
-  double frames = 0;
+  double frames = 0, azimuth = 0;
   for (const Item& item : *items) {
-    timeline.push_back(read_segment(item, show, camera, lookup));
+    timeline.push_back(read_segment(item, show, azimuth, camera, lookup));
+    azimuth += swept_azimuth(timeline.back());
     const bool fitted = frames <= kMostFrames;
     frames += timeline.back().duration_s * show.frames_per_second;
     if (fitted && frames > kMostFrames)
       item.fail("brings the show to " + short_number(frames) + " frames; at most " +
                 std::to_string(kMostFrames) + " are possible");
   }
+  if (frames < 0.5)
+    list->fail("ends after " + short_number(frames / show.frames_per_second) +
+               " s, before half a frame is over; at " + short_number(show.frames_per_second) +
+               " frames per second a frame lasts " + short_number(1 / show.frames_per_second) +
+               " s");
   return timeline;
 }
 

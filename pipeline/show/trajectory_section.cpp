@@ -1,5 +1,6 @@
 #include "pipeline/show/trajectory_section.h"
 
+#include <algorithm>
 #include <array>
 
 #include "pipeline/show/placement.h"
@@ -8,9 +9,11 @@
 namespace domefall {
 namespace {
 
-// The radii for which rays have been measured.
-constexpr double kNearest = 1e-6, kFarthest = 1e8;
-constexpr double kDefaultEnd = 0.05, kDefaultRate = 2, kMostRate = 1e12;
+constexpr double kNearest = 1e-6, kFarthest = 1e9;
+constexpr double kDefaultEnd = 0.05, kDefaultRate = 1, kMostRate = 1e12;
+// A fall is timed from its start, where the rounding of r^(3/2) is worth 1e-4 of r at 1e-8 of the
+// start (measured); deeper it would soon be worth all of it.
+constexpr double kLongestFall = 1e8;
 
 // How far proper time runs in the segment by the key that says it; nothing if it is in error.
 std::optional<double> read_proper_time(const Section& s, const Stage& stage,
@@ -67,7 +70,7 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
 std::optional<double> read_fall_time(const Section& s, const Stage& stage,
                                      const RadialInfall& fall) {
   const auto tau = read_proper_time(s, stage, std::nullopt);
-  const double most = proper_time_to(fall, kNearest);
+  const double most = proper_time_to(fall, std::max(kNearest, fall.from_r / kLongestFall));
   if (!tau || *tau <= most) return tau;
   s.one_of({"rate_m_per_s", "time_lapse"})
       ->fail("lets " + short_number(*tau) + " M of proper time pass in the segment, but from r = " +
@@ -98,6 +101,13 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
                         ": a free fall only goes inward");
     return std::nullopt;
   }
+  if (end * kLongestFall < *from_r) {
+    (to ? to : s.find("from_r"))
+        ->fail(std::string(to ? "" : "needs to_r, whose default 0.05 is too deep: to_r ") +
+               "must be at least from_r / 1e8 = " + short_number(*from_r / kLongestFall) +
+               " (units of M), got " + short_number(end) + "; fall on in a further segment");
+    return std::nullopt;
+  }
   return TimedTrajectory{fall, 0, proper_time_to(fall, end)};
 }
 
@@ -118,7 +128,7 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
     observer.r = *r;
   }
   const V3d frame = static_frame && stage.mass_solar ? static_celerity(observer.r) : V3d(0, 0, 0);
-  const auto celerity = read_celerity(s, stage, frame, lookup);
+  const auto celerity = read_celerity(s, stage, observer.r, frame, lookup);
   if (!celerity) return std::nullopt;
   observer.celerity = *celerity;
   return TimedTrajectory{observer, 0, proper_time_in(stage, stage.duration_s)};

@@ -12,6 +12,7 @@ struct Stage {
   std::optional<double> mass_solar;  // nothing: flat space
   SkyDirection hole_at;
   double heading = 0;     // radians
+  double azimuth = 0;     // radians swept before the segment
   double duration_s = 1;  // of the segment
 };
 

@@ -1,24 +1,33 @@
 #include "pipeline/show/velocity_section.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
 #include "pipeline/show/placement.h"
 
 namespace domefall {
 namespace {
 
-// Beyond it a speed in double precision no longer holds the factor to 1e-7.
-constexpr double kMostLorentzFactor = 1e4;
+constexpr double kMostLorentzFactor = 1e9;
 
-std::optional<double> read_speed(const Section& s) {
+// gamma v: a speed in double precision would not hold a Lorentz factor of 1e9.
+std::optional<double> read_gamma_v(const Section& s) {
   s.one_of({"speed", "lorentz_factor"});
   if (s.find("lorentz_factor")) {
     const auto factor = s.number("lorentz_factor", kPureNumber.within(1, kMostLorentzFactor));
-    if (!factor) return std::nullopt;
-    return std::sqrt((*factor - 1) * (*factor + 1)) / *factor;
+    return factor ? std::optional(std::sqrt((*factor - 1) * (*factor + 1))) : std::nullopt;
   }
-  return s.required_number("speed", Range{"speed of light = 1"}.at_least(0).below(1));
+  const auto v = s.required_number("speed", Range{"speed of light = 1"}.at_least(0).below(1));
+  return v ? std::optional(*v / std::sqrt((1 - *v) * (1 + *v))) : std::nullopt;
+}
+
+// gamma v against the rain tetrad of what has `own` against `frame`.  [Riazuelo] eq. Lambda_cov.
+V3d boosted(const V3d& frame, const V3d& own) {
+  const double gamma = std::sqrt(1 + own.dot(own)), frame_gamma = std::sqrt(1 + frame.dot(frame));
+  return own + frame * (gamma + frame.dot(own) / (1 + frame_gamma));
 }
 
 std::optional<V3d> read_components(const Item& item) {
@@ -35,44 +44,37 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-std::optional<V3d> read_direction(const Item& item, const Stage& stage, Lookup& lookup) {
-  static constexpr std::array<std::string_view, 4> kWords{"inward", "outward", "forward",
-                                                          "backward"};
-  static const std::array<V3d, 4> kDirections{V3d(-1, 0, 0), V3d(1, 0, 0), V3d(0, 0, 1),
-                                              V3d(0, 0, -1)};
+// Where an observer of celerity `frame` at radius r sees a place on the sky.
+V3d seen_towards(const SkyDirection& place, const Stage& stage, double r, const V3d& frame) {
+  const M33d tetrad = place_tetrad(stage.hole_at, stage.heading, stage.azimuth);
+  return to_observer(frame, primary_image(r, apply_transposed(tetrad, place.v)).v).direction;
+}
+
+std::optional<V3d> read_direction(const Item& item, const Stage& stage, double r, const V3d& frame,
+                                  Lookup& lookup) {
+  static constexpr std::array<std::string_view, 6> kWords{"inward",   "outward", "forward",
+                                                          "backward", "north",   "south"};
+  static const std::array<V3d, 6> kDirections{V3d(-1, 0, 0), V3d(1, 0, 0),  V3d(0, 0, 1),
+                                              V3d(0, 0, -1), V3d(0, -1, 0), V3d(0, 1, 0)};
   for (std::size_t k = 0; k < kWords.size(); ++k)
     if (item.node.IsScalar() && item.node.Scalar() == kWords[k]) return kDirections[k];
   if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
-  if (!stage.mass_solar) {
-    const auto place = read_sky_place(item, lookup, kWords);
-    if (!place) return std::nullopt;
-    return apply_transposed(place_tetrad(stage.hole_at, stage.heading, 0), place->v);
-  }
-  if (names_sky_place(item)) {
-    item.fail(
-        "is a place on the sky, which near a black hole is no direction of motion; "
-        "give {radial, theta, phi} or a word");
-    return std::nullopt;
-  }
-  if (!item.node.IsScalar()) {
-    Section(item, {"radial", "theta", "phi"});
-    return std::nullopt;
-  }
-  read_choice(item, kWords);
-  return std::nullopt;
+  const auto place = read_sky_place(item, lookup, kWords);
+  return place ? std::optional(seen_towards(*place, stage, r, frame)) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const V3d& frame,
+std::optional<V3d> read_celerity(const Section& s, const Stage& stage, double r, const V3d& frame,
                                  Lookup& lookup) {
-  const auto speed = read_speed(s);
-  if (speed && *speed == 0 && !s.find("direction")) return frame;
+  const auto gamma_v = read_gamma_v(s);
+  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return frame;
   const Item* item =
-      s.require("direction", ": inward, outward, forward, backward or {radial, theta, phi}");
-  const auto direction = item ? read_direction(*item, stage, lookup) : std::nullopt;
-  if (!speed || !direction) return std::nullopt;
-  return celerity_against(frame, *speed, *direction);
+      s.require("direction",
+                ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
+  const auto direction = item ? read_direction(*item, stage, r, frame, lookup) : std::nullopt;
+  if (!gamma_v || !direction) return std::nullopt;
+  return boosted(frame, *direction * *gamma_v);
 }
 
 }  // namespace domefall

@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-constexpr std::size_t kLargestFile = 4 << 20;
+constexpr std::size_t kLargestFile = 1 << 20;
 
 // Length of the well-formed UTF-8 character that starts the text; 0 if there is none.  Overlong
 // forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
@@ -45,6 +45,10 @@ void check_characters(std::string_view text, Problems& problems) {
     }
     if ((c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7F) {
       problems.add(at, std::string("the control character ") + code + " has no place in a show");
+      return;
+    }
+    if (c == '\r' && !text.substr(k).starts_with("\r\n")) {
+      problems.add(at, "the line ends with a bare carriage return; save the show with LF or CRLF");
       return;
     }
     k += length;
@@ -93,7 +97,7 @@ std::string read_show_text(const std::filesystem::path& file) {
   if (in.bad()) throw TemporaryError(file.string() + ": reading the show broke off");
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.size() > kLargestFile)
-    throw InputError(file.string() + ": a show file is at most 4 MiB; this one is larger");
+    throw InputError(file.string() + ": a show file is at most 1 MiB; this one is larger");
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
 }

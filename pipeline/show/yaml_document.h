@@ -11,7 +11,7 @@
 namespace domefall {
 
 // The file's bytes without a byte order mark.  Throws InputError if it cannot be read, is a folder
-// or is beyond 4 MiB; TemporaryError if reading breaks off.
+// or is beyond 1 MiB; TemporaryError if reading breaks off.
 std::string read_show_text(const std::filesystem::path& file);
 
 // A comment that is appended before parsing: yaml-cpp 0.7 lets the end of the file close a quote,

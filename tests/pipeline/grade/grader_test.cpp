@@ -1,0 +1,123 @@
+#include "pipeline/grade/grader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+GradeSettings shipped(const std::string& view = "") {
+  GradeSettings settings;
+  settings.config = DOMEFALL_SOURCE_DIR "/shows/assets/dome.ocio";
+  settings.view = view;
+  return settings;
+}
+
+// One row: black, then growing greys, a stop apart.
+HalfFrame greys() {
+  HalfFrame frame(32, 1);
+  for (int i = 1; i < 32; ++i)
+    for (int c = 0; c < 3; ++c) frame.row(0)[3 * i + c] = std::ldexp(1.0f, i - 16);
+  return frame;
+}
+
+TEST(DomeView, IsTheDefaultAndBlackIsBlack) {
+  const Grader grader(shipped());
+  EXPECT_EQ(grader.display(), "Dome G2.2 Rec.709");
+  EXPECT_EQ(grader.view(), "Dome");
+  const GradedFrame out = grader.grade(greys());
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(out.row(0)[c], 0);
+}
+
+TEST(DomeView, RisesFromTheFaintestStarToWhiteWithoutAStepBack) {
+  const GradedFrame out = Grader(shipped()).grade(greys());
+  EXPECT_GT(out.row(0)[3 * 4], 0) << "2.4e-4 is not lost in black";
+  for (int i = 2; i < 32; ++i) EXPECT_GE(out.row(0)[3 * i], out.row(0)[3 * (i - 1)]);
+  EXPECT_EQ(out.row(0)[3 * 31], 65535);
+  EXPECT_LT(out.row(0)[3 * 16], 65535) << "1 is not white yet";
+}
+
+// A star of 3000 K, from faint to 10,000 times the Milky Way.
+TEST(DomeView, KeepsTheHueOfAStarHoweverBright) {
+  HalfFrame frame(12, 1);
+  for (int i = 0; i < 12; ++i) {
+    const float v = std::ldexp(0.25f, i);
+    frame.row(0)[3 * i] = v, frame.row(0)[3 * i + 1] = 0.8f * v, frame.row(0)[3 * i + 2] = 0.5f * v;
+  }
+  const GradedFrame out = Grader(shipped()).grade(frame);
+  const auto ratio = [&](int i, int c) {
+    return static_cast<double>(out.row(0)[3 * i + c]) / out.row(0)[3 * i];
+  };
+  for (int i = 1; i < 12; ++i)
+    for (int c = 1; c < 3; ++c) EXPECT_NEAR(ratio(i, c), ratio(0, c), 0.005);
+}
+
+TEST(Grader, GivesTheSameBytesForAnySplitIntoRows) {
+  HalfFrame frame(17, 9);
+  for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+    frame.pixels[k] = 0.01f * static_cast<float>(k % 131);
+  for (const char* view : {"Dome", "Star log", "ACES SDR", "Un-tone-mapped", "Raw"}) {
+    const Grader grader(shipped(view));
+    const GradedFrame whole = grader.grade(frame);
+    GradedFrame parts(17, 9);
+    grader.grade_rows(frame, parts, 0, 4);
+    grader.grade_rows(frame, parts, 4, 9);
+    EXPECT_EQ(whole.pixels, parts.pixels) << view;
+  }
+}
+
+TEST(Grader, RawIsTheFrameItself) {
+  const GradedFrame out = Grader(shipped("Raw")).grade(greys());
+  for (int i = 1; i < 17; ++i)
+    EXPECT_NEAR(out.row(0)[3 * i], std::min(65535.0, std::ldexp(65535.0, i - 16)), 1);
+}
+
+// 18 % grey untouched by tone: the display's gamma alone.
+TEST(Grader, UnToneMappedIsTheDisplaysGamma) {
+  const GradedFrame out = Grader(shipped("Un-tone-mapped")).grade(greys());
+  EXPECT_NEAR(out.row(0)[3 * 13], 65535 * std::pow(0.125, 1 / 2.2), 20);
+}
+
+// An ACEScct code step of 1/17.52 is one stop (S-2016-001): so is that offset in the CDL.
+TEST(Grader, ACdlOffsetOfOneStopIsOneStop) {
+  GradeSettings brighter = shipped("Un-tone-mapped");
+  brighter.offset = {1 / 17.52, 1 / 17.52, 1 / 17.52};
+  const GradedFrame plain = Grader(shipped("Un-tone-mapped")).grade(greys()),
+                    graded = Grader(brighter).grade(greys());
+  for (int i = 10; i < 15; ++i)
+    EXPECT_NEAR(graded.row(0)[3 * i], plain.row(0)[3 * (i + 1)], 20) << i;
+}
+
+TEST(Grader, ListsWhatItKnowsWhenAskedForAnother) {
+  try {
+    Grader grader(shipped("Doom"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::strstr(error.what(),
+                          "has no view 'Doom' for the display 'Dome G2.2 Rec.709'; it "
+                          "has 'Dome', 'ACES SDR', 'Star log'"),
+              nullptr)
+        << error.what();
+  }
+  GradeSettings settings = shipped();
+  settings.display = "Wall";
+  EXPECT_THROW(Grader{settings}, InputError);
+}
+
+TEST(Grader, RefusesWhatIsNoConfigurationByName) {
+  GradeSettings settings;
+  settings.config = "/nonexistent/config.ocio";
+  try {
+    Grader grader(settings);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("/nonexistent/config.ocio: "));
+  }
+}
+
+}  // namespace
+}  // namespace domefall

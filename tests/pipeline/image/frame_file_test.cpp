@@ -1,0 +1,183 @@
+#include "pipeline/image/frame_file.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstring>
+#include <random>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/image/graded_file.h"
+#include "test_folder.h"
+
+namespace domefall {
+namespace {
+
+using FrameFile = TestFolder;
+using GradedFile = TestFolder;
+
+HalfFrame sample_frame() {
+  HalfFrame frame(40, 37);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(0, 3);
+  for (auto& v : frame.pixels) v = value(random);
+  frame.pixels[5] = 65504.0f;
+  return frame;
+}
+
+FrameInfo sample_info() {
+  FrameInfo info;
+  info.title = "Grüße, a \"title\"";
+  info.key = "0123456789abcdef0123456789abcdef";
+  info.frame = 42;
+  info.region = "II";
+  info.r = 1.0 / 3;
+  info.proper_time = 77.25;
+  info.frames_per_second = 30;
+  info.projection = "domemaster";
+  info.software = "Domefall";
+  return info;
+}
+
+TEST_F(FrameFile, ComesBackBitForBitWithItsInfo) {
+  const HalfFrame frame = sample_frame();
+  const auto path = folder_ / "f.exr";
+  write_frame(path, frame, sample_info());
+  const auto [read, info] = read_frame(path);
+  EXPECT_EQ(std::memcmp(read.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2), 0);
+  EXPECT_EQ(info.title, sample_info().title);
+  EXPECT_EQ(info.key, sample_info().key);
+  EXPECT_EQ(info.frame, 42);
+  EXPECT_EQ(info.r, 1.0 / 3);
+  EXPECT_EQ(info.proper_time, 77.25);
+  EXPECT_EQ(info.region, "II");
+  EXPECT_EQ(examine_frame(path, sample_info().key, 40, 37), FrameCondition::kGood);
+  EXPECT_EQ(examine_frame(path, "another", 40, 37), FrameCondition::kStale);
+  EXPECT_EQ(examine_frame(path, sample_info().key, 41, 37), FrameCondition::kStale);
+  EXPECT_EQ(examine_frame(folder_ / "none.exr", "", 40, 37), FrameCondition::kMissing);
+}
+
+TEST_F(FrameFile, HasTheSameBytesForAnyNumberOfThreads) {
+  const HalfFrame frame = sample_frame();
+  write_frame(folder_ / "a.exr", frame, sample_info());
+  set_file_threads(4);
+  write_frame(folder_ / "b.exr", frame, sample_info());
+  set_file_threads(0);
+  EXPECT_EQ(contents(folder_ / "a.exr"), contents(folder_ / "b.exr"));
+}
+
+// Read by another program's reader.
+TEST_F(FrameFile, SaysWhatItsPixelsAre) {
+  write_frame(folder_ / "a.exr", sample_frame(), sample_info());
+  const auto in = OIIO::ImageInput::open((folder_ / "a.exr").string());
+  ASSERT_TRUE(in);
+  const OIIO::ImageSpec& spec = in->spec();
+  EXPECT_EQ(spec.nchannels, 3);
+  EXPECT_EQ(spec.channelnames[0], "R");
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::HALF);
+  EXPECT_EQ(spec.get_string_attribute("showTitle"), sample_info().title);
+  EXPECT_EQ(spec.get_string_attribute("colorSpace"), "ACEScg");
+  const auto* chromaticities = spec.find_attribute("chromaticities");
+  ASSERT_TRUE(chromaticities);
+  const auto* c = static_cast<const float*>(chromaticities->data());
+  EXPECT_FLOAT_EQ(c[0], 0.713f);
+  EXPECT_FLOAT_EQ(c[7], 0.33767f);
+}
+
+// Whatever the damage, a frame that is taken for good has the pixels that were written.
+template <class Examine>
+void damage(const std::string& whole, const std::filesystem::path& path, Examine examine) {
+  for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 97) {
+    std::ofstream(path, std::ios::binary) << whole.substr(0, length);
+    EXPECT_EQ(examine(path), FrameCondition::kDamaged) << "cut at " << length;
+  }
+  std::mt19937 random(11);
+  int found = 0, tried = 400;
+  for (int k = 0; k < tried; ++k) {
+    std::string flipped = whole;
+    flipped[random() % whole.size()] ^= static_cast<char>(1 << random() % 8);
+    std::ofstream(path, std::ios::binary) << flipped;
+    found += examine(path) != FrameCondition::kGood;
+  }
+  // The rest struck attributes that no pixel depends on.
+  EXPECT_GT(found, tried * 3 / 4);
+}
+
+TEST_F(FrameFile, IsKnownForDamagedWhereverItIsCutOrABitFlips) {
+  const HalfFrame frame = sample_frame();
+  const auto path = folder_ / "f.exr";
+  write_frame(path, frame, sample_info());
+  damage(contents(path), path, [&](const auto& file) {
+    const auto condition = examine_frame(file, sample_info().key, 40, 37);
+    if (condition == FrameCondition::kGood) {
+      EXPECT_EQ(std::memcmp(read_frame(file).first.pixels.data(), frame.pixels.data(),
+                            frame.pixels.size() * 2),
+                0);
+    }
+    return condition;
+  });
+}
+
+TEST_F(FrameFile, OfAnotherProgramIsRefusedByName) {
+  put(folder_ / "f.exr", "not an image");
+  try {
+    read_frame(folder_ / "f.exr");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with((folder_ / "f.exr").string() + ": "));
+  }
+}
+
+GradedFrame graded_sample() {
+  GradedFrame frame(33, 21);
+  std::mt19937 random(5);
+  for (auto& v : frame.pixels) v = static_cast<unsigned short>(random());
+  return frame;
+}
+
+GradedInfo graded_info() {
+  GradedInfo info;
+  info.key = "fedcba98765432100123456789abcdef";
+  info.title = "two\nlines";
+  info.frame = 7;
+  info.display = "Dome";
+  info.view = "Dome";
+  info.software = "Domefall";
+  return info;
+}
+
+TEST_F(GradedFile, KeepsEveryBitAsPngAndAsTiff) {
+  const GradedFrame frame = graded_sample();
+  for (const char* name : {"g.png", "g.tif"}) {
+    const auto path = folder_ / name;
+    write_graded(path, frame, graded_info());
+    const std::string once = contents(path);
+    write_graded(path, frame, graded_info());
+    EXPECT_EQ(contents(path), once) << "the same frame has the same bytes";
+    EXPECT_EQ(examine_graded(path, graded_info().key, 33, 21), FrameCondition::kGood);
+    EXPECT_EQ(examine_graded(path, "another", 33, 21), FrameCondition::kStale);
+    EXPECT_EQ(examine_graded(folder_ / "none.png", "", 33, 21), FrameCondition::kMissing);
+    const auto in = OIIO::ImageInput::open(path.string());
+    GradedFrame read(33, 21);
+    ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT16, read.pixels.data()));
+    EXPECT_EQ(read.pixels, frame.pixels);
+    // The time of writing would make the bytes different a second later.
+    const auto time = in->spec().get_string_attribute("DateTime");
+    EXPECT_TRUE(time.empty() || time.starts_with("1970")) << name;
+  }
+}
+
+TEST_F(GradedFile, IsKnownForDamagedWhereverItIsCutOrABitFlips) {
+  for (const char* name : {"g.png", "g.tif"}) {
+    const auto path = folder_ / name;
+    write_graded(path, graded_sample(), graded_info());
+    damage(contents(path), path,
+           [&](const auto& file) { return examine_graded(file, graded_info().key, 33, 21); });
+  }
+}
+
+TEST_F(GradedFile, OfAnotherKindIsRefused) {
+  EXPECT_THROW(write_graded(folder_ / "g.jpg", graded_sample(), graded_info()), InputError);
+}
+
+}  // namespace
+}  // namespace domefall
