@@ -14,14 +14,6 @@ namespace {
 
 bool is_quoted(const Item& item) { return item.node.Tag() == "!"; }
 
-std::string kind_of(const Item& item) {
-  if (item.node.IsMap()) return "a map";
-  if (item.node.IsSequence()) return "a list";
-  if (!item.node.IsScalar()) return "nothing";
-  return is_quoted(item) ? "the text '" + shown(item.node.Scalar()) + "'"
-                         : "'" + shown(item.node.Scalar()) + "'";
-}
-
 std::string in_unit(const Range& range) {
   return range.unit.empty() ? "" : " (" + std::string(range.unit) + ")";
 }
@@ -53,18 +45,13 @@ bool is_yaml_special(std::string_view text) {
   return is(".nan") || is(".inf");
 }
 
-// What to do about a text that should have been a number and is one up to `stop`.
-std::string mended(const Item& item, const Range& range, const char* stop) {
-  const std::string& text = item.node.Scalar();
-  const auto read = static_cast<std::size_t>(stop - text.data());
-  if (read == 0 || text.empty()) return "";
-  const std::string_view rest = std::string_view(text).substr(std::min(read, text.size()));
+// What to do about a text that should have been a number and is one but for its `rest`.
+std::string_view mended(std::string_view rest, const Range& range) {
   if (rest.empty()) return "; leave the quotes out";
   if (rest[0] == ',') return "; write a decimal point";
   if (rest[0] == '_') return "; write the digits without '_'";
   if (rest[0] == ':') return "; write one decimal number, not parts of sixty";
-  if (std::isdigit(static_cast<unsigned char>(rest[0])) || rest[0] == 'x') return "";
-  return range.unit.empty() ? "" : "; leave the unit out";
+  return range.unit.empty() || rest[0] == 'x' ? "" : "; leave the unit out";
 }
 
 std::optional<std::string> broken_bound(const Range& range, double value) {
@@ -80,6 +67,15 @@ std::optional<std::string> broken_bound(const Range& range, double value) {
 
 void Item::fail(const std::string& what) const {
   problems->add(at, (path.empty() ? "the show" : path) + " " + what);
+}
+
+std::string kind_of(const Item& item) {
+  if (item.node.IsMap()) return "a map";
+  if (item.node.IsSequence()) return "a list";
+  if (!item.node.IsScalar()) return "nothing";
+  return std::string(is_quoted(item) ? "the text '" : "'")
+      .append(shown(item.node.Scalar()))
+      .append("'");
 }
 
 std::string short_number(double value) {
@@ -120,7 +116,8 @@ std::optional<double> read_number(const Item& item, const Range& range) {
     return std::nullopt;
   }
   if (is_quoted(item) || error != std::errc() || stop != end) {
-    item.fail("must be " + wanted + ", got " + kind_of(item) + mended(item, range, stop));
+    item.fail("must be " + wanted + ", got " + kind_of(item) +
+              std::string(stop == begin ? "" : mended({stop, end}, range)));
     return std::nullopt;
   }
   if (const auto bound = broken_bound(range, value)) {

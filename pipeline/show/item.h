@@ -57,6 +57,9 @@ inline constexpr Range kUnitsOfM{"units of M"};
 // "1", "0.05", "1e+08".
 std::string short_number(double value);
 
+// For a message, what the item is: "a map", "a list", "nothing", the text '3' or 3 in quotes.
+std::string kind_of(const Item& item);
+
 bool is_text_or_number(const Item& item);
 // Plain words, quoted text or a number taken as text; not empty, no control characters.
 std::optional<std::string> read_text(const Item& item);

@@ -42,7 +42,7 @@ void Problems::raise() const {
   });
   std::string message;
   for (std::size_t k = 0; k < std::min(sorted.size(), kMostListed); ++k)
-    message += (k > 0 ? "\n" : "") + place(sorted[k].at) + sorted[k].what;
+    message.append(k > 0 ? "\n" : "").append(place(sorted[k].at)).append(sorted[k].what);
   if (sorted.size() > kMostListed)
     message += "\n" + file_ + ": and " + std::to_string(sorted.size() - kMostListed) + " more";
   throw InputError(message);

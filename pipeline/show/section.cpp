@@ -18,12 +18,8 @@ std::string join(const std::string& path, std::string_view key) {
 Section::Section(const Item& item, std::initializer_list<std::string_view> known) {
   item_.emplace(item);
   if (!item.node.IsMap()) {
-    const bool list = item.node.IsSequence();
     item.fail(std::string("must be a map of keys (") +
-              listed(std::span(known.begin(), known.size())) + "), got " +
-              (list                   ? "a list"
-               : item.node.IsScalar() ? "'" + shown(item.node.Scalar()) + "'"
-                                      : "nothing"));
+              listed(std::span(known.begin(), known.size())) + "), got " + kind_of(item));
     item_.reset();
     return;
   }

@@ -38,10 +38,7 @@ std::optional<TimedTrajectory> read_motion(const Section& section, const Stage& 
 // `azimuth` has been swept before.
 Segment read_segment(const Item& item, const Show& show, double azimuth, const ShowCamera& camera,
                      Lookup& lookup) {
-  const Section section(
-      item, {"duration_s", "trajectory", "camera", "rate_m_per_s", "orbits", "time_lapse"});
-  for (const std::string_view key : {"rate_m_per_s", "orbits", "time_lapse"})
-    if (const Item* pace = section.find(key)) pace->fail("belongs in the segment's trajectory");
+  const Section section(item, {"duration_s", "trajectory", "camera"});
   const auto duration = section.required_number("duration_s", Range{"seconds"}.above(0));
   Segment segment;
   segment.duration_s = duration.value_or(1);
