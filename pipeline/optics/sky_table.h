@@ -2,7 +2,7 @@
 // made from the exact integral, evaluated in a few nanoseconds, and invertible, so that pixels and
 // stars use the same one.
 //
-// The coordinate is x = 2 tan(|delta - edge|/4), the distance to the edge for small angles and
+// The coordinate is x = 2 tan(|delta - edge|/4), half the distance to the edge for small angles and
 // smooth up to the far end.  Towards the edge phi = -ln x + const + O(x ln x), so the intervals
 // divide each octave of x into 16 and are found from the bits of x; in each, phi is a quintic that
 // matches value, slope and curvature at both ends.  Those come from Chebyshev interpolation of the

@@ -1,6 +1,6 @@
 #include "pipeline/render/renderer.h"
 
-#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -32,6 +32,12 @@ bool shows_anything(const RegionSky& sky) {
 }
 
 bool has_stars(const RegionSky& sky) { return sky.stars && sky.star_gain > 0; }
+
+// More threads than processors gain nothing, and TBB would say so on the terminal.
+int threads_of(int wanted) {
+  const int processors = tbb::info::default_concurrency();
+  return wanted > 0 ? std::min(wanted, processors) : processors;
+}
 
 // Stars in batches, each batch into its own list, the lists in order: the same blobs in the same
 // order for any number of threads.
@@ -91,9 +97,7 @@ struct Renderer::Arena {
 };
 
 Renderer::Renderer(const Show& show, int threads)
-    : show_(show),
-      scene_(show),
-      arena_(new Arena{tbb::task_arena(threads > 0 ? threads : tbb::task_arena::automatic)}) {
+    : show_(show), scene_(show), arena_(new Arena{tbb::task_arena(threads_of(threads))}) {
   arena_->arena.initialize();
 }
 

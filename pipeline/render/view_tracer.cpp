@@ -63,7 +63,7 @@ DOMEFALL_SIMD void distances(const SkyTable::Lookup& lookup, const Rain& rain, i
   const SkyTable::Lookup table = lookup;
   for (int k = 0; k < count; ++k) {
     const double x = table.distance(rain.sin_half[k], rain.cos_half[k]);
-    const double to_edge = std::abs(x) / rain.inverse_doppler[k];
+    const double to_edge = 2 * std::abs(x) / rain.inverse_doppler[k];
     batch.distance[k] = x;
     batch.to_edge[k] = to_edge < batch.to_edge[k] ? to_edge : batch.to_edge[k];
   }
@@ -139,12 +139,12 @@ Look ViewTracer::look(const CameraDirection& n) const {
   double x = -1;
   if (optics_.sky_one) {
     x = optics_.sky_one->distance_from_half_angle(half.sine, half.cosine);
-    look.to_edge = std::abs(x) * in.frequency_ratio;
+    look.to_edge = 2 * std::abs(x) * in.frequency_ratio;
     if (x > 0) table = &*optics_.sky_one, look.sky = SeenSky::kOne;
   }
   if (optics_.sky_three) {
     const double x3 = optics_.sky_three->distance_from_half_angle(half.sine, half.cosine);
-    look.to_edge = std::min(look.to_edge, std::abs(x3) * in.frequency_ratio);
+    look.to_edge = std::min(look.to_edge, 2 * std::abs(x3) * in.frequency_ratio);
     if (!table && x3 > 0) x = x3, table = &*optics_.sky_three, look.sky = SeenSky::kThree;
   }
   if (!table) return look;

@@ -33,7 +33,9 @@ WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g)
   const double across = std::hypot(d.x, d.y);
   const double width = std::max(footprint, 1e-9);
   const double to_pole = std::atan2(across, std::abs(d.z));
-  const double disc = std::clamp((kPolarRadius - to_pole) / width + 0.5, 0.0, 1.0);
+  // Its edge blurred over the footprint; of a footprint wider than the disc, the share that it fills.
+  const double share = std::min(1.0, kCell * kCell / (width * width));
+  const double disc = share * std::clamp((kPolarRadius - to_pole) / width + 0.5, 0.0, 1.0);
   WorkingRgb light{0, 0, 0};
   if (disc < 1) {
     const double columns =

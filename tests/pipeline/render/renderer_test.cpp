@@ -1,0 +1,141 @@
+#include "pipeline/render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/view_tracer.h"
+#include "scenes.h"
+
+namespace domefall {
+namespace {
+
+bool same_bytes(const HalfFrame& a, const HalfFrame& b) {
+  return a.pixels.size() == b.pixels.size() &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof a.pixels[0]) == 0;
+}
+
+TEST(Renderer, AFrameIsTheSameBytesForAnyNumberOfThreadsAloneOrInARun) {
+  Show show = starry(show_of(RadialInfall{2.5}, Domemaster{200}));
+  show.timeline[0].tau_end = 1.6;
+  Renderer run(show, 1);
+  for (const int frame : {3, 14, 15, 29}) {
+    const HalfFrame in_run = run.render(frame_state(show, frame));
+    for (const int threads : {1, 2, 5}) {
+      EXPECT_TRUE(same_bytes(in_run, Renderer(show, threads).render(frame_state(show, frame))))
+          << "frame " << frame << ", " << threads << " threads";
+    }
+  }
+}
+
+TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
+  const Show flat = starry(show_of(StaticObserver{}, Domemaster{32}));
+  const FramePlan plan = plan_frame(flat, frame_state(flat, 0));
+  EXPECT_FALSE(plan.gravity);
+  EXPECT_FALSE(plan.table_one);
+  StageTimes times;
+  Renderer(flat, 1).render(frame_state(flat, 0), &times);
+  EXPECT_EQ(times.table_nodes, 0u);
+
+  const Show black = show_of(StaticObserver{10}, Domemaster{32});
+  Renderer(black, 1).render(frame_state(black, 0), &times);
+  EXPECT_EQ(times.table_nodes, 0u);
+  EXPECT_EQ(times.images, 0u);
+
+  const Show outside = starry(show_of(StaticObserver{10}, Domemaster{32}));
+  EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0)).table_three)
+      << "region III is not seen from outside";
+}
+
+TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
+  const Show show = starry(show_of(StaticObserver{4}, Domemaster{256}));
+  const FrameState state = frame_state(show, 0);
+  const HalfFrame frame = Renderer(show, 2).render(state);
+  const HoleOptics optics = make_hole_optics(Region::kI, 4, {});
+  const ViewTracer tracer(state, optics);
+  int dark = 0, outside = 0;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const PixelPosition pixel{x + 1.0, y + 1.0};
+      const float light = frame.row(y)[3 * x] + frame.row(y)[3 * x + 1] + frame.row(y)[3 * x + 2];
+      const Look look = tracer.look(direction_at(show.projection, pixel));
+      if (!is_inside(show.projection, pixel)) {
+        ++outside;
+        EXPECT_EQ(light, 0);
+      } else if (look.sky == SeenSky::kNone && look.to_edge > 0.05) {
+        ++dark;
+        EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
+      } else if (look.sky == SeenSky::kOne) {
+        EXPECT_GT(light, 0) << "a black speck at " << x << " " << y;
+      }
+    }
+  EXPECT_GT(dark, 1000);
+  EXPECT_GT(outside, 10000);
+}
+
+// Extremes: every pixel finite, or render throws.
+TEST(Renderer, HasNoPixelThatIsNotFinite) {
+  for (const Trajectory& trajectory :
+       {Trajectory(StaticObserver{2.0000001}), Trajectory(StaticObserver{1e8}),
+        Trajectory(CircularOrbit{3.0000001}), Trajectory(RadialInfall{1e-6}),
+        Trajectory(RadialInfall{2.0}), Trajectory(RadialInfall{1.9999999}),
+        Trajectory(GivenVelocity{30, V3d(-1e9, 0, 0)}),
+        Trajectory(GivenVelocity{0.3, V3d(0, 1e6, 0)}),
+        Trajectory(GivenVelocity{kFlatSpace, V3d(0, 1e9, 0)})}) {
+    for (const bool grid : {false, true}) {
+      Show show = starry(show_of(trajectory, Domemaster{48}));
+      if (grid) show.sky_one.background = show.sky_three.background = GridSky{};
+      EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
+    }
+  }
+}
+
+// Every look at the panorama and the grid filters by its footprint: a picture of half the size is
+// the mean of four pixels of the larger one.
+TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
+  Show show = show_of(StaticObserver{20}, Domemaster{512});
+  show.sky_one.background = GridSky{};
+  const HalfFrame large = Renderer(show, 2).render(frame_state(show, 0));
+  show.projection = Domemaster{256};
+  const HalfFrame small = Renderer(show, 2).render(frame_state(show, 0));
+  double difference = 0, sum = 0;
+  for (int y = 20; y < 236; ++y)
+    for (int x = 20; x < 236; ++x) {
+      const float mean = (large.row(2 * y)[6 * x] + large.row(2 * y)[6 * x + 3] +
+                          large.row(2 * y + 1)[6 * x] + large.row(2 * y + 1)[6 * x + 3]) /
+                         4;
+      difference += std::abs(mean - small.row(y)[3 * x]), sum += mean;
+    }
+  EXPECT_LT(difference / sum, 0.05);
+}
+
+TEST(FrameKeys, AreOfAllThatAFrameDependsOnAndNothingElse) {
+  const Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
+  const FrameState state = frame_state(show, 0);
+  const std::string key = FrameKeys(show).scene(state);
+  EXPECT_EQ(FrameKeys(show).scene(state), key);
+  EXPECT_NE(FrameKeys(show).scene(frame_state(show, 1)), key);
+
+  Show other = show;
+  other.exposure.ev = 0.5;
+  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
+  other = show;
+  other.sky_one.stars->max_magnitude = 5;
+  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
+  other = show;
+  other.timeline[0].camera.roll = 0.1;
+  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
+
+  other = show;
+  other.sky_three.background_gain = 2;
+  EXPECT_EQ(FrameKeys(other).scene(frame_state(other, 0)), key) << "not seen from outside";
+  other = show;
+  Segment later = show.timeline[0];
+  later.trajectory = StaticObserver{5};
+  other.timeline.push_back(later);
+  EXPECT_EQ(FrameKeys(other).scene(frame_state(other, 0)), key) << "another segment";
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,60 @@
+// Small shows for the tests of rendering.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "pipeline/render/renderer.h"
+
+namespace domefall {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+inline const std::string kTestAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
+
+// A panorama of a few clouds, small, so that a test spends its time on what it tests.
+inline std::filesystem::path small_panorama() {
+  static const std::filesystem::path file = [] {
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("domefall_panorama_" + std::to_string(getpid()) + ".tif");
+    OIIO::ImageSpec spec(128, 64, 3, OIIO::TypeDesc::FLOAT);
+    std::vector<float> pixels;
+    for (int k = 0; k < 128 * 64 * 3; ++k)
+      pixels.push_back(static_cast<float>(1 + std::sin(k * 0.05) * std::cos(k * 0.0007)) / 2 +
+                       0.1f);
+    const auto out = OIIO::ImageOutput::create(path.string());
+    out->open(path.string(), spec);
+    out->write_image(OIIO::TypeDesc::FLOAT, pixels.data());
+    return path;
+  }();
+  return file;
+}
+
+inline Show show_of(const Trajectory& trajectory, const Projection& projection) {
+  Show show;
+  show.projection = projection;
+  show.graded_format = GradedFormat::kNone;
+  show.hole_at = {V3d(-0.0547, -0.872, -0.484).normalized()};
+  Segment segment;
+  segment.duration_s = 1;
+  segment.trajectory = trajectory;
+  segment.camera.elevation = 45 * kDegree;
+  show.timeline = {segment};
+  show.blobs.min_sigma = 0.05 * kDegree;
+  show.blobs.max_sigma = 0.3 * kDegree;
+  return show;
+}
+
+inline Show starry(Show show) {
+  show.sky_one.background = PanoramaSky{small_panorama()};
+  show.sky_one.stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky_three = show.sky_one;
+  return show;
+}
+
+}  // namespace domefall

@@ -1,0 +1,72 @@
+#include "pipeline/render/view_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+
+namespace domefall {
+namespace {
+
+// Observers of every kind, with aberration from none to a Lorentz factor of 1000.
+std::vector<Show> observers() {
+  const Projection dome = Domemaster{64};
+  return {show_of(StaticObserver{3}, dome),
+          show_of(StaticObserver{1e7}, dome),
+          show_of(StaticObserver{}, dome),
+          show_of(CircularOrbit{6}, dome),
+          show_of(RadialInfall{2}, dome),
+          show_of(RadialInfall{1.2}, dome),
+          show_of(RadialInfall{0.05}, dome),
+          show_of(GivenVelocity{30, V3d(300, -800, 500)}, dome),
+          show_of(GivenVelocity{kFlatSpace, V3d(0, 1, 2)}, dome)};
+}
+
+TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (const Show& show : observers()) {
+    const FrameState state = frame_state(show, 0);
+    const HoleOptics optics = make_hole_optics(state.observer.region, state.observer.r, {});
+    const ViewTracer tracer(state, optics);
+    LookBatch batch;
+    std::array<CameraDirection, LookBatch::kSize> n;
+    for (int round = 0; round < 50; ++round) {
+      for (auto& direction : n)
+        direction.v = V3d(normal(random), normal(random), normal(random)).normalized();
+      n[0].v = apply_transposed(state.observer.tetrad_from_camera, V3d(-1, 0, 0));
+      n[1].v = -n[0].v;
+      tracer.look(n.data(), LookBatch::kSize, batch);
+      for (int k = 0; k < LookBatch::kSize; ++k) {
+        const Look look = tracer.look(n[static_cast<std::size_t>(k)]);
+        ASSERT_EQ(batch.sky[k], look.sky);
+        if (look.sky == SeenSky::kNone) continue;
+        // Near the axis of a lens sin(phi)/sin(delta) amplifies the last bits of both.
+        const double scale = 1 + look.radial_scale + look.tangential_scale;
+        ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 2e-15 * scale);
+        ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-13);
+        ASSERT_NEAR(batch.radial_scale[k] / look.radial_scale, 1, 1e-11);
+        ASSERT_NEAR(batch.tangential_scale[k], look.tangential_scale, 1e-12 * scale);
+        ASSERT_NEAR(batch.sky_direction(k).length(), 1, 1e-14);
+      }
+    }
+  }
+}
+
+// The hole's edge as the renderer draws it, from the light side and from the dark.
+TEST(ViewTracer, TheSilhouetteAtTheHorizonHas84Point2DegreesAcross) {
+  const Show show = show_of(RadialInfall{2}, Domemaster{64});
+  const FrameState state = frame_state(show, 0);
+  const HoleOptics optics = make_hole_optics(state.observer.region, state.observer.r, {});
+  const ViewTracer tracer(state, optics);
+  const double edge = std::acos(23.0 / 31);
+  for (const double side : {-1e-9, 1e-9}) {
+    const double delta = edge + side;
+    const V3d n(-std::cos(delta), std::sin(delta), 0);
+    const Look look = tracer.look({apply_transposed(state.observer.tetrad_from_camera, n)});
+    EXPECT_EQ(look.sky, side > 0 ? SeenSky::kOne : SeenSky::kNone);
+    EXPECT_NEAR(look.to_edge, 1e-9, 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace domefall
