@@ -61,7 +61,7 @@ ColumnRange inside_columns(const Projection& p, int row);
 
 // direction_at for the centres of those pixels, into out[last - first + 1], in a quarter of the
 // time: sine and cosine are power series, cut below 1e-17.  Measured: within 6e-16 of direction_at.
-void inside_directions(const Projection& p, int row, ColumnRange columns, CameraDirection* out);
+void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out);
 
 // Solid angle (sr) of the pixel centred there: the product of its two angular scales.
 double pixel_solid_angle(const Projection& p, PixelPosition pixel);

@@ -1,5 +1,6 @@
 #include "pipeline/cli/frame_run.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <future>
@@ -148,18 +149,16 @@ class Run {
   std::string name_;
 };
 
-std::optional<int> whole_number(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 constexpr int kSmallest = 16, kLargest = 16384;
 
-bool in_range(const std::optional<int>& pixels) {
-  return pixels && *pixels >= kSmallest && *pixels <= kLargest;
+// -1 for what is no whole number.
+int whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : -1;
 }
+
+bool in_range(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
 }  // namespace
 
@@ -168,25 +167,24 @@ void run_frames(const FrameRun& run) { Run(run).all(); }
 Projection resized(const Projection& projection, const std::string& size) {
   if (size.empty()) return projection;
   if (const auto* flat = std::get_if<Stereographic>(&projection)) {
-    const std::size_t cross = size.find('x');
-    const auto width = whole_number(std::string_view(size).substr(0, cross));
-    const auto height = cross == std::string::npos
-                            ? std::nullopt
-                            : whole_number(std::string_view(size).substr(cross + 1));
+    const std::size_t cross = std::min(size.find('x'), size.size());
+    const int width = whole_number(std::string_view(size).substr(0, cross));
+    const int height =
+        whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
     if (!in_range(width) || !in_range(height))
       throw InputError("--size " + size +
                        ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
-    return Stereographic{*width, *height, flat->fov};
+    return Stereographic{width, height, flat->fov};
   }
-  std::optional<int> pixels = whole_number(size);
+  int pixels = whole_number(size);
   if (size.ends_with('k')) {
-    const auto thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
-    if (thousands && *thousands >= 1 && *thousands <= 16) pixels = *thousands * 1024;
+    const int thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
+    if (thousands >= 1 && thousands <= kLargest / 1024) pixels = thousands * 1024;
   }
   if (!in_range(pixels))
     throw InputError("--size " + size +
                      ": a dome takes 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384");
-  return Domemaster{*pixels};
+  return Domemaster{pixels};
 }
 
 }  // namespace domefall

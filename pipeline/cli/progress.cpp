@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -42,7 +43,7 @@ void Progress::draw() const {
   const double rate = static_cast<double>(made_) / seconds();
   std::fprintf(stderr, "\r[%s] %zu/%zu frames", bar.c_str(), done, total_);
   if (made_ > 0) {
-    const auto left = static_cast<long>(static_cast<double>(total_ - done) / rate + 0.5);
+    const auto left = std::lround(static_cast<double>(total_ - done) / rate);
     std::fprintf(stderr, "  %.2f frames/s  ETA %ld:%02ld:%02ld ", rate, left / 3600, left / 60 % 60,
                  left % 60);
   }

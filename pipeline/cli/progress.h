@@ -11,7 +11,9 @@ class Progress {
   explicit Progress(std::size_t total);
   ~Progress();
   Progress(const Progress&) = delete;
+  Progress(Progress&&) = delete;
   Progress& operator=(const Progress&) = delete;
+  Progress& operator=(Progress&&) = delete;
 
   // One more frame is done: made, or found good already.
   void made();

@@ -54,7 +54,9 @@ class Descriptor {
   }
   ~Descriptor() { close(fd_); }
   Descriptor(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
 
   void write(std::string_view rest) const {
     while (!rest.empty()) {

@@ -16,7 +16,9 @@ struct Digest::State {
   XXH3_state_t* xxh = XXH3_createState();
   State() { XXH3_128bits_reset(xxh); }
   State(const State&) = delete;
+  State(State&&) = delete;
   State& operator=(const State&) = delete;
+  State& operator=(State&&) = delete;
   ~State() { XXH3_freeState(xxh); }
 };
 

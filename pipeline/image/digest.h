@@ -14,7 +14,9 @@ class Digest {
   Digest();
   ~Digest();
   Digest(const Digest&) = delete;
+  Digest(Digest&&) = delete;
   Digest& operator=(const Digest&) = delete;
+  Digest& operator=(Digest&&) = delete;
 
   // Each value is preceded by its length, so that neighbours cannot run into each other.
   Digest& add(std::string_view text);

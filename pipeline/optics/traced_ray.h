@@ -31,6 +31,6 @@ struct TracedRay {
   double amplification;  // sin(delta)/|sin(phi) slope|
 };
 
-TracedRay trace_ray(const RayRequest& request, TraceMethod method);
+TracedRay trace_ray(const RayRequest& q, TraceMethod method);
 
 }  // namespace domefall

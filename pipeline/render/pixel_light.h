@@ -19,7 +19,7 @@ class PixelLight {
   void shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const;
   WorkingRgb light(const LookBatch& batch, int k, double pixel_angle) const;
   bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
-  void supersample(int row, const std::vector<int>& columns, double pixel_angle, float* rgb) const;
+  void supersample(int row, const std::vector<int>& pixels, double pixel_angle, float* rgb) const;
 
   const Show& show_;
   Projection projection_;

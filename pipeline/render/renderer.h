@@ -33,6 +33,10 @@ class Renderer {
   // threads: 0 for one per processor.  The show must outlive the renderer.
   Renderer(const Show& show, int threads);
   ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer(Renderer&&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  Renderer& operator=(Renderer&&) = delete;
 
   // The same bytes for any number of threads, alone or in a run.  Throws InputError if an asset
   // cannot be read, std::runtime_error naming the pixel if a value is not finite.

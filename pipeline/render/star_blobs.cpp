@@ -39,12 +39,13 @@ double weight_integral(double sigma) {
 
 constexpr int kChunk = 64;
 
-DOMEFALL_SIMD void weigh(const CameraDirection* n, int count, V3d centre, double inverse_two_sigma2,
-                         float* weight) {
+DOMEFALL_SIMD void weigh(const CameraDirection* n, int count, const V3d& middle,
+                         double inverse_two_sigma2, float* weight) {
   const double cut = kCut;
+  const double x = middle.x, y = middle.y, z = middle.z;
   for (int k = 0; k < count; ++k) {
-    const V3d d = n[k].v - centre;
-    const double q = (d.x * d.x + d.y * d.y + d.z * d.z) * inverse_two_sigma2;
+    const double dx = n[k].v.x - x, dy = n[k].v.y - y, dz = n[k].v.z - z;
+    const double q = (dx * dx + dy * dy + dz * dz) * inverse_two_sigma2;
     const double w = exponential(-q) - cut;
     weight[k] = static_cast<float>(w > 0 ? w : 0);
   }

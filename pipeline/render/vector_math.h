@@ -63,7 +63,7 @@ inline double exponential(double x) {
       1.0 / 479001600, 1.0 / 6227020800, 1.0 / 87178291200};
   double p = kOneOver[12];
   for (int k = 11; k >= 0; --k) p = p * y + kOneOver[k];
-  const double power = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
+  const auto power = std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
   return x < -700 ? 0 : (1 + (y + y * y * p)) * power;
 }
 

@@ -78,7 +78,8 @@ M33d camera_axes(const Camera& camera, const Projection& projection,
     const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));
     return dome ? tilted(axes, camera.dome_tilt) : axes;
   }
-  const V3d f = *target, up = up_across(f), right = f.cross(up);
+  const V3d& f = *target;
+  const V3d up = up_across(f), right = f.cross(up);
   if (!dome) return rolled(right, -up, f, camera.roll);
   // Roll turns the scene about the target, so it comes before the target is set on the dome.
   const M33d screen = rolled(right, -up, f, camera.roll);

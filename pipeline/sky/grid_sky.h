@@ -10,6 +10,6 @@ namespace domefall {
 
 // Light of the grid (cd/m^2, working space) in a direction, averaged over a square of `footprint`
 // radians on the sky, at frequency ratio g = observed/emitted: each blackbody is seen at g T.
-WorkingRgb grid_light(const SkyDirection& direction, double footprint, double frequency_ratio);
+WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g);
 
 }  // namespace domefall

@@ -103,7 +103,7 @@ SkyMap::SkyMap(const FloatImage& equirectangular) {
     levels_.push_back(make_level(half));
     const Level& fine = levels_[levels_.size() - 2];
     Level& coarse = levels_.back();
-    const std::size_t fine_row = static_cast<std::size_t>(fine.size + 2);
+    const auto fine_row = static_cast<std::size_t>(fine.size + 2);
     for (int face = 0; face < 6; ++face)
       for (int j = 0; j < half; ++j)
         for (int i = 0; i < half; ++i) {
