@@ -101,6 +101,11 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
   return q;
 }
 
+// Observers of the reference table whose light is not traced yet: they need region IV.
+bool is_beyond_us(const std::string& observer) {
+  return observer == "outgoing" || observer == "T_II" || observer == "T_IV";
+}
+
 const char* name_of(Origin origin) {
   return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
 }
@@ -108,7 +113,14 @@ const char* name_of(Origin origin) {
 void trace(const std::string& file, const std::string& method) {
   RayTable table(file);
   std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");
+  int left_out = 0;
   for (std::array<std::string, 5> cell; table.next(cell);) {
+    if (is_beyond_us(cell[RayTable::kObserver])) {
+      for (const std::string& text : cell) std::printf("%s,", text.c_str());
+      std::puts(",,,,");
+      ++left_out;
+      continue;
+    }
     const RayRequest request = request_of(table, cell);
     const TracedRay ray =
         trace_ray(request, method == "exact" ? TraceMethod::kExact : TraceMethod::kTable);
@@ -118,6 +130,11 @@ void trace(const std::string& file, const std::string& method) {
       std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
     std::puts("");
   }
+  if (left_out > 0)
+    std::fprintf(stderr,
+                 "%s: %d rows are of the observers outgoing, T_II or T_IV, which are not traced: "
+                 "their results are left empty\n",
+                 file.c_str(), left_out);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# 0 done; 2 the input is wrong; 75 worth trying again; 128 + n stopped by signal n. stdout is data, stderr is talk.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+write_show fall.yaml
+
+exits 0 "$DOMEFALL" --help
+exits 0 "$DOMEFALL" check fall.yaml
+exits 2 "$DOMEFALL" check none.yaml
+says '^none.yaml: '
+[ ! -s stdout ] || fail "talk on stdout"
+exits 2 "$DOMEFALL" rendr fall.yaml
+exits 2 "$DOMEFALL" render fall.yaml --frames 5-99
+says '23'
+exits 2 "$DOMEFALL" render fall.yaml --frames x
+exits 2 "$DOMEFALL" render fall.yaml --size 5m --out o
+says 'size 5m'
+sed 's/size: 96/size: 9x/' fall.yaml >bad.yaml
+exits 2 "$DOMEFALL" render bad.yaml --out o
+says '^bad.yaml:3:7: size '
+[ ! -e o ] || fail "a broken show left a folder"
+
+# A folder that is a file.
+touch occupied
+exits 2 "$DOMEFALL" render fall.yaml --out occupied
+says '^occupied/linear: '
+
+# A disk that fills up: a limit on the size of files refuses in the middle of a write, as it does.
+exits 75 bash -c "trap '' XFSZ; ulimit -f 8; exec '$DOMEFALL' render fall.yaml --out full"
+says '^full/linear/fall_000.*exr: File too large'
+[ -z "$(find full -type f)" ] || fail "a full disk left files: $(find full -type f | head -3)"
+exits 0 "$DOMEFALL" render fall.yaml --frames 0-2 --out full
+
+# Asked to stop, it ends in order, and may be sent again.
+"$DOMEFALL" render fall.yaml --size 512 --out stopped 2>stderr &
+sleep 0.6
+kill -TERM $!
+code=0
+wait $! || code=$?
+[ "$code" -eq 143 ] || fail "exit code $code after SIGTERM"
+[ -z "$(find stopped -name '*.tmp')" ] || fail "a stopped run left temporaries"

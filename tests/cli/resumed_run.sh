@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# kill -9 in the middle of a run, then again: no frame lost, none damaged, none made twice.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+write_show fall.yaml
+
+exits 0 "$DOMEFALL" render fall.yaml --out whole
+says '24 frames made, 0 already there'
+
+for after in 0.15 0.4 0.7; do
+  rm -rf broken
+  "$DOMEFALL" render fall.yaml --out broken 2>/dev/null &
+  sleep "$after"
+  kill -9 $! 2>/dev/null || true
+  wait $! 2>/dev/null || true
+  there=$(find broken -name '*.png' 2>/dev/null | wc -l)
+  # Nothing half-written bears a frame's name.
+  while IFS= read -r file; do
+    cmp -s "$file" "whole/${file#broken/}" || fail "$file is not the frame it says"
+  done < <(find broken -name '*.exr' -o -name '*.png' 2>/dev/null)
+  exits 0 "$DOMEFALL" render fall.yaml --out broken
+  says "$((24 - there)) frames made, $there already there"
+  same_frames whole broken
+done
+
+# Done already: nothing is made, nothing is touched.
+touch -d '2001-01-01' whole/linear/*.exr
+exits 0 "$DOMEFALL" render fall.yaml --out whole
+says '0 frames made, 24 already there'
+[ -z "$(find whole/linear -newermt 2002-01-01 -name '*.exr')" ] || fail "a good frame was made again"
+
+# Damage of every kind is mended, and only that.
+truncate -s -100 broken/linear/fall_00003.exr
+printf 'x' | dd of=broken/linear/fall_00007.exr bs=1 seek=3000 conv=notrunc status=none
+truncate -s 200 broken/graded/fall_00011.png
+rm broken/graded/fall_00013.png broken/linear/fall_00017.exr
+exits 0 "$DOMEFALL" render fall.yaml --out broken
+says '5 frames made, 19 already there'
+same_frames whole broken
+
+# A change of one segment makes its frames again, and not the other's.
+sed -i 's/to_r: 1}/to_r: 0.9}/' fall.yaml
+exits 0 "$DOMEFALL" render fall.yaml --out broken
+says '11 frames made, 13 already there'
+
+# A regrade renders nothing; it refuses frames of another version of the show.
+sed -i '$a grade: {view: Star log}' fall.yaml
+touch -d '2001-01-01' broken/linear/*.exr
+exits 0 "$DOMEFALL" grade fall.yaml --out broken
+says '24 frames made'
+[ -z "$(find broken/linear -newermt 2002-01-01 -name '*.exr')" ] || fail "a regrade rendered"
+cmp -s whole/graded/fall_00000.png broken/graded/fall_00000.png && fail "the grade had no effect"
+sed -i '$a exposure: {ev: 1}' fall.yaml
+exits 2 "$DOMEFALL" grade fall.yaml --out broken
+says 'fall_00000.exr: .*render it first'
