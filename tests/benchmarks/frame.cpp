@@ -1,0 +1,125 @@
+// What a dome frame costs, as multiples of copying it: first light at r = 7 M, the Milky Way and 8,874
+// stars with every image that matters.  Files and grading are measured apart, at 4k.
+//
+//     build/release/tests/bench_frame
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/frame_file.h"
+#include "pipeline/image/graded_file.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kFrame = 240;
+
+Show first_light(int size) {
+  Show show = read_show(DOMEFALL_SOURCE_DIR "/shows/first_light.yaml");
+  show.projection = Domemaster{size};
+  return show;
+}
+
+double cpu_seconds() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+// CPU seconds of copying a frame of this size, all threads together: the unit.
+double copy_seconds(const HalfFrame& frame) {
+  HalfFrame copy(frame.width, frame.height);
+  double best = 1e9;
+  for (int k = 0; k < 7; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    std::memcpy(copy.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2);
+    benchmark::DoNotOptimize(copy.pixels.data());
+    benchmark::ClobberMemory();
+    best = std::min(
+        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+void report(benchmark::State& state, double cpu, const HalfFrame& frame) {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  const double per_frame = cpu / static_cast<double>(state.iterations());
+  state.counters["cpu_s"] = per_frame;
+  state.counters["copies"] = per_frame / copy_seconds(frame);
+  state.counters["peak_MiB"] = static_cast<double>(use.ru_maxrss) / 1024;
+}
+
+void render_frame(benchmark::State& state) {
+  const Show show = first_light(static_cast<int>(state.range(0)));
+  Renderer renderer(show, 0);
+  const FrameState at = frame_state(show, kFrame);
+  HalfFrame frame = renderer.render(at);  // loads the sky
+  const double start = cpu_seconds();
+  for (auto _ : state) frame = renderer.render(at);
+  report(state, cpu_seconds() - start, frame);
+}
+
+void load_and_render_frame(benchmark::State& state) {
+  const Show show = first_light(static_cast<int>(state.range(0)));
+  const FrameState at = frame_state(show, kFrame);
+  HalfFrame frame;
+  const double start = cpu_seconds();
+  for (auto _ : state) frame = Renderer(show, 0).render(at);
+  report(state, cpu_seconds() - start, frame);
+}
+
+HalfFrame rendered(const Show& show) { return Renderer(show, 0).render(frame_state(show, kFrame)); }
+
+void grade_frame(benchmark::State& state) {
+  const Show show = first_light(4096);
+  const HalfFrame frame = rendered(show);
+  const Grader grader(show.grade);
+  GradedFrame out;
+  const double start = cpu_seconds();
+  for (auto _ : state) out = grader.grade(frame);
+  report(state, cpu_seconds() - start, frame);
+}
+
+void write_linear(benchmark::State& state) {
+  const HalfFrame frame = rendered(first_light(4096));
+  const auto path = std::filesystem::temp_directory_path() / "domefall_bench.exr";
+  const double start = cpu_seconds();
+  for (auto _ : state) write_frame(path, frame, {});
+  report(state, cpu_seconds() - start, frame);
+  std::filesystem::remove(path);
+}
+
+void write_png(benchmark::State& state) {
+  const Show show = first_light(4096);
+  const HalfFrame frame = rendered(show);
+  const GradedFrame graded = Grader(show.grade).grade(frame);
+  const auto path = std::filesystem::temp_directory_path() / "domefall_bench.png";
+  const double start = cpu_seconds();
+  for (auto _ : state) write_graded(path, graded, {});
+  report(state, cpu_seconds() - start, frame);
+  std::filesystem::remove(path);
+}
+
+BENCHMARK(render_frame)
+    ->Arg(1024)
+    ->Arg(4096)
+    ->Arg(8192)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(load_and_render_frame)->Arg(4096)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(grade_frame)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(write_linear)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(write_png)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace domefall
