@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNearest = 1e-6, kFarthest = 1e9;
 constexpr double kDefaultEnd = 0.05, kDefaultRate = 1, kMostRate = 1e12;
-// A fall is timed from its start, where the rounding of r^(3/2) is worth 1e-4 of r at 1e-8 of the
-// start (measured); deeper it would soon be worth all of it.
+// A fall is timed from its start.  Rounding of r^(3/2) there misplaces an end at 1e-8 of the start
+// by 6e-4 of itself, at 1e-9 by 2 %, at 1e-11 it can be 0 (measured, 2e5 random falls each).
 constexpr double kLongestFall = 1e8;
 
 // How far proper time runs in the segment by the key that says it; nothing if it is in error.
