@@ -1,0 +1,78 @@
+"""What the launchers share: the program, the frames of a show, and which of them are on disk.
+
+Everything they know about a show they ask `domefall`; nothing is read from the YAML here.
+Needs Python 3.9 and nothing beyond its standard library.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+# The exit codes of domefall and of the launchers.
+DONE, FAILURE, BAD_INPUT, TRY_AGAIN = 0, 1, 2, 75
+
+
+def say(message):
+    print(message, file=sys.stderr, flush=True)
+
+
+def stop(message, code):
+    say(message)
+    sys.exit(code)
+
+
+def find_domefall():
+    """The absolute path of the program: $DOMEFALL, else the first one on the PATH."""
+    name = os.environ.get("DOMEFALL") or "domefall"
+    found = shutil.which(name)
+    if not found:
+        stop(f"{name}: no such program; put domefall on the PATH or name it in DOMEFALL", BAD_INPUT)
+    return os.path.abspath(found)
+
+
+def ask(domefall, *arguments):
+    """What a verb of domefall prints; if it fails, this program ends with its message and code."""
+    answer = subprocess.run([domefall, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            text=True, check=False)
+    if answer.returncode != 0:
+        code = answer.returncode if answer.returncode > 0 else TRY_AGAIN
+        stop((answer.stderr or answer.stdout).rstrip(), code)
+    return answer.stdout
+
+
+def frames_of(domefall, show, frames):
+    """Checks the show with its assets and lists the numbers of the frames that `frames` names
+    (as in `domefall render --frames`; empty: all)."""
+    ask(domefall, "check", show)
+    table = ask(domefall, "states", show, *(["--frames", frames] if frames else []))
+    first_column = (line.split(",", 1)[0] for line in table.splitlines())
+    return [int(cell) for cell in first_column if cell.isdigit()]
+
+
+def as_ranges(frames):
+    """Sorted numbers as domefall writes them: 0-9,12."""
+    ranges = []
+    for number in frames:
+        if ranges and ranges[-1][1] == number - 1:
+            ranges[-1][1] = number
+        else:
+            ranges.append([number, number])
+    return ",".join(str(a) if a == b else f"{a}-{b}" for a, b in ranges)
+
+
+def chunks_of(frames, size):
+    return [frames[k:k + size] for k in range(0, len(frames), size)]
+
+
+def frames_without_file(show, out, frames):
+    """The frames that lack their linear file, or their graded one where the show is graded. Says
+    nothing about what is in the files: domefall itself looks into them when it is run again."""
+    names = {}
+    for folder in ("linear", "graded"):
+        path = pathlib.Path(out) / folder
+        names[folder] = {entry.stem for entry in path.iterdir()} if path.is_dir() else None
+    # A show that is not graded has no such folder; one without linear/ was never begun.
+    wanted = [names["linear"] or set()] + ([names["graded"]] if names["graded"] is not None else [])
+    stem = pathlib.Path(show).stem
+    return [n for n in frames if not all(f"{stem}_{n:05d}" in there for there in wanted)]

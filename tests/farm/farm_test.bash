@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# What the tests of the launchers share; to be sourced. A test sets up its own scratch folder,
+# $scratch, which goes away when it ends.
+
+: "${DOMEFALL:?the program under test}" "${DOMEFALL_SOURCE:?the source tree}"
+export DOMEFALL
+worker_program=$DOMEFALL
+export farm=$DOMEFALL_SOURCE/farm
+# Short, and outside the source: the paths of sockets have at most 107 bytes.
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/farm.XXXXXX")
+# Processes that this test started, and theirs, are known by this mark in their environment.
+export DOMEFALL_FARM_TEST=$scratch
+
+fail() {
+  printf 'FAILED: %s\n' "$*" >&2
+  exit 1
+}
+pass() { printf 'ok (%2d s): %s\n' "$SECONDS" "$*"; }
+
+# until_ok SECONDS command...: polls until the command succeeds.
+until_ok() {
+  local end=$((SECONDS + $1))
+  shift
+  until "$@" >/dev/null 2>&1; do
+    ((SECONDS < end)) || return 1
+    sleep 0.05
+  done
+}
+
+# The processes that bear this test's mark, but for the shell that asks.
+marked() {
+  local file pid
+  # Processes come and go meanwhile, and those of other users cannot be read.
+  grep -lzxF "DOMEFALL_FARM_TEST=$scratch" /proc/[0-9]*/environ 2>/dev/null | while read -r file; do
+    pid=${file#/proc/} pid=${pid%/environ}
+    [[ $pid == "$$" || $pid == "$BASHPID" || ! -e /proc/$pid/exe ]] || echo "$pid"
+  done
+}
+
+# The workers of this test that run, one a line; of those on a range, where one is named.
+workers() {
+  local pid
+  for pid in $(marked); do
+    [[ /proc/$pid/exe -ef $worker_program ]] || continue
+    grep -qzxF render "/proc/$pid/cmdline" || continue
+    [[ -z ${1-} ]] || grep -qzxF -e "$1" "/proc/$pid/cmdline" || continue
+    echo "$pid"
+  done 2>/dev/null
+}
+
+# Ends what is left of this test's processes.
+end_marked() {
+  local pids
+  mapfile -t pids < <(marked)
+  ((${#pids[@]} == 0)) || kill -KILL "${pids[@]}" 2>/dev/null || true
+  until_ok 5 nothing_marked || printf 'still running: %s\n' "$(marked | paste -sd' ')" >&2
+}
+nothing_marked() { [[ -z $(marked) ]]; }
+
+# A fall through the horizon, of 40 frames: one region and both, stars and the Milky Way.
+write_show() {
+  cat >"$1" <<'YAML'
+title: A fall for the farm
+frames_per_second: 10
+size: 64
+black_hole: {mass_solar: 4.3e6}
+camera: {look_at: hole, elevation_deg: 45}
+timeline:
+  - {duration_s: 2, trajectory: {type: infall, from_r: 30, to_r: 4}}
+  - {duration_s: 2, trajectory: {type: infall, from_r: 4, to_r: 0.5}}
+YAML
+}
+
+# same_frames A B COUNT: B holds the first COUNT frames of A, byte by byte, linear and graded, and
+# nothing else.
+same_frames() {
+  local kind frame name
+  for kind in linear/exr graded/png; do
+    for ((frame = 0; frame < $3; ++frame)); do
+      name=${kind%/*}/fall_$(printf %05d "$frame").${kind#*/}
+      cmp "$1/$name" "$2/$name" || return 1
+    done
+    [[ $(find "$2/${kind%/*}" -mindepth 1 | wc -l) == "$3" ]] || {
+      ls -lA "$2/${kind%/*}" >&2
+      return 1
+    }
+  done
+}
+
+# A program like domefall, but no file that it writes may have more than 1 kB while FILE is not there:
+# the disk seems full, and domefall exits with 75.
+write_full_disk_program() {
+  cat >"$1" <<SCRIPT
+#!/bin/bash
+[[ -e $2 ]] || { trap '' XFSZ; ulimit -f 1; }
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x "$1"
+}
+
+# Which files are there, by inode and time: a frame that is made again has another.
+made() { find "$1" -name 'fall_*' -printf '%f %i %T@\n' 2>/dev/null | sort; }
+
+# still_made LIST FOLDER: all files of a list of made's are there, and are the same.
+still_made() { [[ -z $(comm -23 "$1" <(made "$2")) ]]; }
+
+# How many linear frames are there.
+frames_in() { find "$1/linear" -name 'fall_*.exr' 2>/dev/null | wc -l; }
+at_least() { (($(frames_in "$1") >= $2)); }

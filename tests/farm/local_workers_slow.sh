@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# farm/render-local against a single run: the same bytes, whatever happens to the workers.
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=farm_test.bash
+source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
+trap 'end_marked; rm -rf "$scratch"' EXIT
+cd "$scratch"
+write_show fall.yaml
+launch=("$farm/render-local" fall.yaml --workers 2 --threads 2)
+
+# code_of LOG command...: runs it and prints its exit code.
+code_of() {
+  local log=$1 code=0
+  shift
+  "$@" >"$log" 2>&1 || code=$?
+  echo "$code"
+}
+expect() { # expect CODE LOG command...
+  local code
+  code=$(code_of "${@:2}")
+  [[ $code == "$1" ]] || {
+    cat "$2" >&2
+    fail "${*:3}: exit code $code, not $1"
+  }
+}
+says() { grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 does not say: $2"; }; }
+says_not() { ! grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 says: $2"; }; }
+
+"$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log
+
+two_workers_make_the_bytes_of_a_single_run() {
+  expect 0 two.log "${launch[@]}" --out two --chunk 9
+  says two.log "[5/5]"
+  says two.log "all 40 frames are there"
+  same_frames single two 40 || fail "the frames differ"
+  made two >two.made
+  expect 0 again.log "${launch[@]}" --out two
+  made two | cmp - two.made || fail "frames were made twice"
+}
+
+a_range_may_be_split_and_joined() {
+  expect 0 part.log "${launch[@]}" --out part --frames 5-8,2 --chunk 3
+  [[ $(frames_in part) == 5 ]] || fail "not the 5 frames that were asked for"
+  made part >part.made
+  expect 0 rest.log "${launch[@]}" --out part --frames 0-9
+  still_made part.made part || fail "frames were made twice"
+  same_frames single part 10 || fail "the frames differ"
+}
+
+a_killed_worker_loses_nothing() {
+  local worker
+  "${launch[@]}" --out killed --chunk 20 >killed.log 2>&1 &
+  until_ok 20 at_least killed 6 || fail "no frames"
+  worker=$(workers 0-19)
+  kill -STOP "$worker"
+  made killed >killed.made
+  kill -KILL "$worker"
+  wait $! || fail "the launcher: exit code $?"
+  says killed.log "frames 0-19: killed by SIGKILL"
+  says killed.log "frames 0-19: next try in 1 s"
+  same_frames single killed 40 || fail "the frames differ"
+  still_made killed.made killed || fail "frames were made twice"
+}
+
+a_stopped_run_and_a_killed_one_are_taken_up() {
+  local code=0 launcher
+  "${launch[@]}" --out torn >stopped.log 2>&1 &
+  until_ok 20 at_least torn 4 || fail "no frames"
+  kill -TERM $!
+  wait $! || code=$?
+  [[ $code == 143 ]] || fail "stopped by SIGTERM: exit code $code, not 143"
+  [[ -z $(workers) ]] || fail "workers outlive their launcher"
+  [[ -z $(find torn -name '*.tmp') ]] || fail "temporary files are left"
+  says stopped.log "missing: frames "
+  made torn >stopped.made
+
+  "${launch[@]}" --out torn --chunk 20 >torn.log 2>&1 &
+  launcher=$!
+  until_ok 20 at_least torn $(($(frames_in torn) + 4)) || fail "no frames"
+  # shellcheck disable=SC2046 # one word for each worker
+  kill -KILL "$launcher" $(workers)
+  wait "$launcher" 2>/dev/null || true
+  made torn >torn.made
+  (($(frames_in torn) < 40)) || fail "too late: all frames are made"
+
+  expect 0 resumed.log "${launch[@]}" --out torn
+  same_frames single torn 40 || fail "the frames differ"
+  still_made stopped.made torn || fail "frames from before the stop were made twice"
+  still_made torn.made torn || fail "frames from before the kill were made twice"
+}
+
+a_full_disk_is_tried_again() {
+  write_full_disk_program full space
+  DOMEFALL=./full expect 75 full.log "${launch[@]}" --out full.d --frames 0-3 --chunk 4 --retries 1
+  says full.log "frames 0-3: exit code 75"
+  says full.log "given up after 2 tries"
+  says full.log "missing: frames 0-3 (4 of 4)"
+
+  DOMEFALL=./full "${launch[@]}" --out full.d --frames 0-9 --chunk 10 >healed.log 2>&1 &
+  until_ok 20 grep -q "next try" healed.log || fail "not tried again"
+  touch space
+  wait $! || fail "the launcher: exit code $?"
+  same_frames single full.d 10 || fail "the frames differ"
+}
+
+a_wrong_input_is_not_tried_again() {
+  sed 's/from_r: 4/from_r: -4/' fall.yaml >wrong.yaml
+  expect 2 wrong.log "$farm/render-local" wrong.yaml --out wrong.d
+  says wrong.log "wrong.yaml:8:"
+  [[ ! -e wrong.d ]] || fail "a wrong show left a folder"
+  expect 2 size.log "${launch[@]}" --out wrong.d --size 5 --chunk 2
+  says size.log "--size 5:"
+  says_not size.log "next try"
+  (($(grep -c 'exit code 2' size.log) <= 2)) || fail "went on after exit code 2"
+  expect 2 frames.log "${launch[@]}" --out wrong.d --frames 0-40
+}
+
+for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and_joined \
+  a_killed_worker_loses_nothing a_stopped_run_and_a_killed_one_are_taken_up \
+  a_full_disk_is_tried_again a_wrong_input_is_not_tried_again; do
+  $claim
+  pass "$claim"
+done
