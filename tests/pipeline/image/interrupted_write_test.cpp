@@ -1,0 +1,156 @@
+// What atomic_file promises when a write cannot end: on a full disk, without permission, killed.
+
+#include <gmock/gmock.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/frame_file.h"
+#include "pipeline/image/graded_file.h"
+#include "test_folder.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kCannotTry = 77;
+
+// Runs `body` in a process of its own and returns its exit code.
+int in_a_child(const std::function<int()>& body) {
+  const pid_t child = fork();
+  if (child == 0) _exit(body());
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+// Nobody's pixels: noise that no compression makes to fit.
+template <class Frame>
+Frame noise(int side) {
+  Frame frame(side, side);
+  unsigned state = 1;
+  for (auto& value : frame.pixels) {
+    state = state * 1664525u + 1013904223u;
+    value = static_cast<unsigned short>(state >> 18);
+  }
+  return frame;
+}
+
+class InterruptedWrite : public TestFolder {
+ protected:
+  fs::path file(const std::string& extension) const { return folder_ / ("frame" + extension); }
+
+  // `write` fails as it must on a full disk and leaves the older file and no other.
+  void fails_on_a_full_disk(const fs::path& path,
+                            const std::function<void(const fs::path&)>& write) const {
+    write_atomically(path, "old");
+    EXPECT_THAT([&] { write(path); }, testing::ThrowsMessage<TemporaryError>(
+                                          path.string() + ": No space left on device"));
+    EXPECT_EQ(contents(path), "old");
+    EXPECT_TRUE(fs::remove(path));
+    EXPECT_EQ(file_count(), 0) << path;
+  }
+};
+
+// A file system of 256 KiB, in a mount name space of a thread's own: a forked child would lack
+// OpenImageIO's threads and wait for them for ever.  OpenEXR and OpenImageIO would each tell of a
+// full disk in a way of their own, or not at all.
+TEST_F(InterruptedWrite, OnAFullDiskLeavesTheOldFileAndMayBeTriedAgain) {
+  bool mounted = false;
+  std::thread([&] {
+    mounted = unshare(CLONE_NEWNS) == 0 &&
+              mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+              mount("none", folder_.c_str(), "tmpfs", 0, "size=256k,mode=777") == 0;
+    if (!mounted) return;
+    fails_on_a_full_disk(file(".txt"), [](const fs::path& path) {
+      write_atomically(path, std::string(1 << 20, 'n'));
+    });
+    fails_on_a_full_disk(
+        file(".exr"), [](const fs::path& path) { write_frame(path, noise<HalfFrame>(400), {}); });
+    for (const char* kind : {".png", ".tif"})
+      fails_on_a_full_disk(file(kind), [](const fs::path& path) {
+        write_graded(path, noise<GradedFrame>(400), {});
+      });
+  }).join();
+  if (!mounted) GTEST_SKIP() << "no file system can be mounted here";
+  EXPECT_EQ(file_count(), 0) << "a file went to the folder below the mount";
+}
+
+TEST_F(InterruptedWrite, WithoutPermissionIsTheUsersToMend) {
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  const int result = in_a_child([this] {
+    if (geteuid() == 0 && setuid(65534) != 0) return kCannotTry;  // root may write anywhere
+    try {
+      write_atomically(file(".exr"), "contents");
+      return 1;
+    } catch (const InputError&) {
+      return 0;
+    }
+  });
+  fs::permissions(folder_, fs::perms::owner_all);
+  if (result == kCannotTry) GTEST_SKIP() << "root, and cannot become another user";
+  EXPECT_EQ(result, 0);
+}
+
+TEST_F(InterruptedWrite, WhereAFolderHasItsNameIsTheUsersToMend) {
+  fs::create_directories(file(".exr") / "inside");
+  EXPECT_THROW(write_atomically(file(".exr"), "contents"), InputError);
+  EXPECT_EQ(file_count(), 1);
+}
+
+// A writer killed at any moment leaves one of the files that it wrote, whole, and at most a
+// temporary, which the next run sweeps.
+TEST_F(InterruptedWrite, KilledLeavesAWholeFileAndATemporaryThatIsSwept) {
+  const std::string even(3 << 20, 'e'), odd(2 << 20, 'o');
+  write_atomically(file(".exr"), even);
+  int left = 0;
+  for (int run = 0; run < 12; ++run) {
+    const pid_t writer = fork();
+    if (writer == 0)
+      for (int k = 0;; ++k) write_atomically(file(".exr"), k % 2 ? odd : even);
+    std::this_thread::sleep_for(std::chrono::milliseconds(11 + 7 * run));
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    const std::string found = contents(file(".exr"));
+    EXPECT_TRUE(found == even || found == odd) << "run " << run << ": " << found.size() << " bytes";
+    const int temporaries = file_count() - 1;
+    EXPECT_EQ(sweep_temporaries(folder_), temporaries);
+    EXPECT_EQ(file_count(), 1);
+    left += temporaries;
+  }
+  EXPECT_GT(left, 0) << "no kill came in the middle of a write: nothing was tested";
+}
+
+TEST_F(InterruptedWrite, SweepingNeverLooksIntoFoldersBelow) {
+  fs::create_directory(folder_ / "below");
+  put(folder_ / "below" / ".a.exr.elsewhere.1.1-0.tmp", "x");
+  fs::last_write_time(folder_ / "below" / ".a.exr.elsewhere.1.1-0.tmp",
+                      fs::file_time_type::clock::now() - std::chrono::hours(48));
+  EXPECT_EQ(sweep_temporaries(folder_), 0);
+  EXPECT_EQ(sweep_temporaries(folder_ / "below"), 1);
+}
+
+TEST_F(InterruptedWrite, ANameOfTheLongestLengthHasRoomForItsTemporary) {
+  const fs::path longest = folder_ / std::string(255, 'x');
+  write_atomically(longest, "contents");
+  EXPECT_EQ(contents(longest), "contents");
+}
+
+TEST(FileError, IsTemporaryWhereTryingAgainMayHelp) {
+  for (const int error : {ENOSPC, EDQUOT, EIO, ESTALE, ETIMEDOUT, EMFILE})
+    EXPECT_THROW(throw_file_error("/f", error), TemporaryError) << error;
+  for (const int error : {ENOENT, ENOTDIR, EACCES, EPERM, EROFS, ENAMETOOLONG})
+    EXPECT_THROW(throw_file_error("/f", error), InputError) << error;
+}
+
+}  // namespace
+}  // namespace domefall
