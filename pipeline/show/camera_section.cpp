@@ -16,7 +16,8 @@ Domemaster read_dome(const Item* size) {
   Domemaster dome{4096};
   if (!size) return dome;
   if (!size->node.IsScalar()) {
-    size->fail("must be 1k, 2k, 4k, 8k or a number of pixels: a domemaster is square");
+    size->fail("must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got " +
+               kind_of(*size));
     return dome;
   }
   for (std::size_t k = 0; k < kSizeNames.size(); ++k)
@@ -35,7 +36,8 @@ Stereographic read_flat(const Item* size, const Section& camera) {
   flat.fov = radians(camera.number("fov_deg", kDegrees.above(0).below(360), kFovDeg));
   if (!size) return flat;
   if (!size->node.IsSequence() || size->node.size() != 2) {
-    size->fail("must be [width, height] in pixels: this projection is flat");
+    size->fail("must be [width, height] in pixels (this projection is flat), got " +
+               kind_of(*size));
     return flat;
   }
   const std::vector<Item> sides = *read_list(*size);

@@ -40,6 +40,13 @@ M33d tilted(const M33d& axes, double tilt) {
   return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
 }
 
+// `part` of the segment's duration has passed.
+double proper_time_at(const Segment& s, double part) {
+  if (s.pace == Pace::kSteady) return s.tau_begin + part * (s.tau_end - s.tau_begin);
+  const double end = lifetime(s.trajectory), left = end - s.tau_begin;
+  return end - left * std::pow((end - s.tau_end) / left, part);
+}
+
 // Azimuth swept by the segments before this one.
 double azimuth_before(const Show& show, int segment) {
   double sum = 0;
@@ -102,7 +109,7 @@ FrameState frame_state(const Show& show, int frame) {
     begin += show.timeline[static_cast<std::size_t>(state.segment++)].duration_s;
   const Segment& segment = show.timeline[static_cast<std::size_t>(state.segment)];
   const double part = std::min(1.0, (state.show_time_s - begin) / segment.duration_s);
-  const double tau = segment.tau_begin + part * (segment.tau_end - segment.tau_begin);
+  const double tau = proper_time_at(segment, part);
   const OrbitPoint start = point_at(segment.trajectory, segment.tau_begin);
   const OrbitPoint point = point_at(segment.trajectory, tau);
 

@@ -65,7 +65,7 @@ std::optional<SkyDirection> Lookup::star(const Item& item,
   if (auto found = find_star(*stars_, *name)) return found;
   std::string near(nearest_word(*name, words));
   if (near.empty() && name->size() < 60) near = nearest_star_name(*stars_, *name);
-  item.fail((words.empty() ? "" : "must be " + listed(words) + " or a place on the sky; it ") +
+  item.fail((words.empty() ? "" : "must be " + listed(words) + ", or a place on the sky; it ") +
             "names the star '" + shown(*name) + "', which the naked-eye catalogue does not have" +
             (near.empty() ? "" : "; did you mean " + near + "?"));
   return std::nullopt;

@@ -42,12 +42,20 @@ struct Camera {
 
 // ---- the timeline ----
 
+// How proper time runs from a segment's first to its last instant.
+enum class Pace {
+  kSteady,  // evenly
+  kSlowing,  // so that the time left to the singularity shrinks by equal factors in equal show times:
+  // a fall in which log r falls evenly, and neither the way in is long nor the end a flash
+};
+
 struct Segment {
   double duration_s = 0;  // show seconds, > 0
   Trajectory trajectory;
   // Proper time of the trajectory at the segment's first and last instant, units of M (seconds in
-  // flat space); linear between.
+  // flat space).
   double tau_begin = 0, tau_end = 0;
+  Pace pace = Pace::kSteady;
   Camera camera;
 };
 

@@ -49,6 +49,7 @@ Segment read_segment(const Item& item, const Show& show, double azimuth, const S
     segment.trajectory = motion->trajectory;
     segment.tau_begin = motion->tau_begin;
     segment.tau_end = motion->tau_end;
+    segment.pace = motion->pace;
     check_motion(item, segment);
   }
   return segment;

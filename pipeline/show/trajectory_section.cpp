@@ -80,14 +80,16 @@ std::optional<double> read_fall_time(const Section& s, const Stage& stage,
 }
 
 std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage) {
-  const Section s(item, {"type", "from_r", "to_r", "rate_m_per_s", "time_lapse"});
+  const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse"});
   const Item* timing = s.one_of({"to_r", "rate_m_per_s", "time_lapse"});
   const Item* to = s.find("to_r");
   const auto to_r = s.number("to_r", kUnitsOfM.at_least(kNearest).at_most(kFarthest));
   const auto from_r = s.required_number("from_r", kUnitsOfM.above(0).at_most(kFarthest));
   if (!from_r || (to && !to_r)) return std::nullopt;
   const RadialInfall fall{*from_r};
+  const bool slowing = s.choice("pace", {"steady", "slowing"}).value_or(0) == 1;
   if (timing && !to) {
+    if (slowing) s.find("pace")->fail("of 'slowing' needs to_r, not a rate");
     const auto tau = read_fall_time(s, stage, fall);
     return tau ? std::optional(TimedTrajectory{fall, 0, *tau}) : std::nullopt;
   }
@@ -108,7 +110,8 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
                " (units of M), got " + short_number(end) + "; fall on in a further segment");
     return std::nullopt;
   }
-  return TimedTrajectory{fall, 0, proper_time_to(fall, end)};
+  return TimedTrajectory{fall, 0, proper_time_to(fall, end),
+                         slowing ? Pace::kSlowing : Pace::kSteady};
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
@@ -146,8 +149,8 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
                                                           "velocity"};
   const auto type = peek(item, "type");
   if (!type) {
-    const Section any(item, {"type", "r", "from_r", "to_r", "rate_m_per_s", "time_lapse", "orbits",
-                             "speed", "lorentz_factor", "against", "direction"});
+    const Section any(item, {"type", "r", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse",
+                             "orbits", "speed", "lorentz_factor", "against", "direction"});
     any.require("type", ": static, circular, infall or velocity");
     return std::nullopt;
   }

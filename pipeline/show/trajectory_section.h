@@ -19,6 +19,7 @@ struct Stage {
 struct TimedTrajectory {
   Trajectory trajectory;
   double tau_begin = 0, tau_end = 0;
+  Pace pace = Pace::kSteady;
 };
 
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,

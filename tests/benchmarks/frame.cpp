@@ -18,7 +18,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kFrame = 240;
+constexpr int kFrame = 136;
 
 Show first_light(int size) {
   Show show = read_show(DOMEFALL_SOURCE_DIR "/shows/first_light.yaml");
