@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
 """Makes naked_eye_stars.csv, the stars of V <= 6.5, from the star data of d3-celestial.
 
-    make_naked_eye_stars.py d3-celestial-0.7.35.tgz > naked_eye_stars.csv
+    make_naked_eye_stars.py [d3-celestial-0.7.35.tgz] > naked_eye_stars.csv
 
-The archive is the npm package of that name and version (`npm pack d3-celestial@0.7.35`); its
-SHA-256 is checked. Stars without a colour get an empty b_v. Standard library only.
+The archive is the npm package of that name and version; without one it is fetched with `npm pack`.
+Its SHA-256 is checked. Stars without a colour get an empty b_v. Standard library only.
 """
 
 import csv
 import hashlib
 import json
 import math
+import os
 import re
+import subprocess
 import sys
 import tarfile
+import tempfile
 
+PACKAGE = "d3-celestial@0.7.35"
 SHA256 = "490796718c201e15f38c324bda5458fc4de22519313093bf261b628185eaae81"
 FAINTEST = 6.5
 
@@ -54,15 +58,30 @@ def rows(stars, names):
                star["properties"]["bv"], entry.get("name", ""), designation(entry)]
 
 
-def main():
-    archive = sys.argv[1]
+def fetched(folder):
+    """The package as npm gives it, in that folder."""
+    done = subprocess.run(["npm", "pack", "--silent", PACKAGE], cwd=folder, check=True,
+                          stdout=subprocess.PIPE, text=True)
+    return os.path.join(folder, done.stdout.split()[-1])
+
+
+def read_package(archive):
+    """The stars and their names, from the one archive this was written for."""
     with open(archive, "rb") as file:
         if hashlib.sha256(file.read()).hexdigest() != SHA256:
             sys.exit(f"{archive}: not the package this was written for")
     with tarfile.open(archive) as package:
         def load(name):
             return json.load(package.extractfile(f"package/data/{name}"))
-        stars, names = load("stars.8.json")["features"], load("starnames.json")
+        return load("stars.8.json")["features"], load("starnames.json")
+
+
+def main():
+    if len(sys.argv) > 1:
+        stars, names = read_package(sys.argv[1])
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            stars, names = read_package(fetched(folder))
     table = sorted(rows(stars, names), key=lambda row: (float(row[3]), row[0]))
 
     out = csv.writer(sys.stdout, lineterminator="\n")
