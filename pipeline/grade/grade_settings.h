@@ -9,7 +9,7 @@
 namespace domefall {
 
 struct GradeSettings {
-  std::filesystem::path config;  // OpenColorIO configuration; empty: the one that Domefall ships
+  std::filesystem::path config;  // OpenColorIO's; read_show puts in the shipped one
   std::string display;           // empty: the configuration's default
   std::string view;              // empty: the display's default
   // ASC CDL, applied in ACEScct before the view; these defaults leave the frame as it is.

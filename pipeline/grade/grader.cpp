@@ -3,6 +3,8 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/image/errors.h"
@@ -11,14 +13,58 @@ namespace domefall {
 
 namespace ocio = OCIO_NAMESPACE;
 
+namespace {
+
+using Code = std::array<unsigned short, 3>;
+
+void apply(const ocio::CPUProcessor& cpu, const Imath::half* in, unsigned short* out, long pixels) {
+  constexpr std::ptrdiff_t half = sizeof(Imath::half), word = sizeof(unsigned short);
+  // OpenColorIO takes what it reads as void*, too.
+  const ocio::PackedImageDesc source(const_cast<Imath::half*>(in), pixels, 1, 3,
+                                     ocio::BIT_DEPTH_F16, half, 3 * half, 3 * half * pixels);
+  ocio::PackedImageDesc target(out, pixels, 1, 3, ocio::BIT_DEPTH_UINT16, word, 3 * word,
+                               3 * word * pixels);
+  cpu.apply(source, target);
+}
+
+Code graded_black(const ocio::CPUProcessor& cpu) {
+  const Imath::half black[3] = {0.0f, 0.0f, 0.0f};
+  Code code;
+  apply(cpu, black, code.data(), 1);
+  return code;
+}
+
+// Columns begin <= x < end hold all of a row that is not black.
+struct Lit {
+  int begin, end;
+};
+
+Lit lit_columns(const Imath::half* row, int width) {
+  const auto is_black = [row](int x) {
+    return (row[3 * x].bits() | row[3 * x + 1].bits() | row[3 * x + 2].bits()) == 0;
+  };
+  Lit lit{0, width};
+  while (lit.begin < lit.end && is_black(lit.begin)) ++lit.begin;
+  while (lit.begin < lit.end && is_black(lit.end - 1)) --lit.end;
+  return lit;
+}
+
+void fill_black(unsigned short* row, int begin, int end, const Code& black) {
+  for (int x = begin; x < end; ++x) std::copy(black.begin(), black.end(), row + 3 * x);
+}
+
+}  // namespace
+
 struct Grader::Processor {
   ocio::ConstCPUProcessorRcPtr cpu;
+  Code black;
 };
 
 namespace {
 
 ocio::ConstConfigRcPtr read_config(const GradeSettings& settings) {
   const std::string file = settings.config.string();
+  if (file.empty()) throw InputError("no OpenColorIO configuration is named");
   try {
     return ocio::Config::CreateFromFile(file.c_str());
   } catch (const ocio::Exception& error) {
@@ -92,25 +138,26 @@ Grader::Grader(const GradeSettings& settings) {
   group->appendTransform(view);
   try {
     const auto processor = config->getProcessor(group);
-    processor_ = std::make_shared<const Processor>(Processor{processor->getOptimizedCPUProcessor(
-        ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT)});
+    const auto cpu = processor->getOptimizedCPUProcessor(
+        ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
+    processor_ = std::make_shared<const Processor>(Processor{cpu, graded_black(*cpu)});
   } catch (const ocio::Exception& error) {
     throw InputError(settings.config.string() + ": the view '" + view_ + "' of the display '" +
                      display_ + "' cannot be made from " + kWorkingSpaceName + ": " + error.what());
   }
 }
 
+// The corners of a domemaster, a fifth of it, are black, and black is graded once: only the columns
+// from a row's first light to its last go through the processor.
 void Grader::grade_rows(const HalfFrame& in, GradedFrame& out, int y0, int y1) const {
-  const long width = in.width, rows = y1 - y0;
-  const auto half = static_cast<std::ptrdiff_t>(sizeof(Imath::half)),
-             word = static_cast<std::ptrdiff_t>(sizeof(unsigned short));
-  // OpenColorIO takes what it reads as void*, too.
-  auto* from = const_cast<Imath::half*>(in.row(y0));
-  const ocio::PackedImageDesc source(from, width, rows, 3, ocio::BIT_DEPTH_F16, half, 3 * half,
-                                     3 * half * width);
-  ocio::PackedImageDesc target(out.row(y0), width, rows, 3, ocio::BIT_DEPTH_UINT16, word, 3 * word,
-                               3 * word * width);
-  processor_->cpu->apply(source, target);
+  for (int y = y0; y < y1; ++y) {
+    const Lit lit = lit_columns(in.row(y), in.width);
+    fill_black(out.row(y), 0, lit.begin, processor_->black);
+    if (lit.begin < lit.end)
+      apply(*processor_->cpu, in.row(y) + 3 * lit.begin, out.row(y) + 3 * lit.begin,
+            lit.end - lit.begin);
+    fill_black(out.row(y), lit.end, in.width, processor_->black);
+  }
 }
 
 GradedFrame Grader::grade(const HalfFrame& in) const {
