@@ -27,12 +27,18 @@ until_ok() {
   done
 }
 
-# The processes that bear this test's mark, but for the shell that asks.
+# The processes that bear this test's mark, but for the shell that asks. slurmstepd writes its title
+# over its environment; it is known by its folder.
 marked() {
   local file pid
   # Processes come and go meanwhile, and those of other users cannot be read.
-  grep -lzxF "DOMEFALL_FARM_TEST=$scratch" /proc/[0-9]*/environ 2>/dev/null | while read -r file; do
-    pid=${file#/proc/} pid=${pid%/environ}
+  {
+    grep -lzxF "DOMEFALL_FARM_TEST=$scratch" /proc/[0-9]*/environ
+    find /proc/[0-9]*/cwd -maxdepth 0 -lname "$scratch*" | while read -r file; do
+      ! grep -qx slurmstepd "${file%cwd}comm" || echo "$file"
+    done
+  } 2>/dev/null | while read -r file; do
+    pid=${file#/proc/} pid=${pid%/*}
     [[ $pid == "$$" || $pid == "$BASHPID" || ! -e /proc/$pid/exe ]] || echo "$pid"
   done
 }
@@ -50,12 +56,13 @@ workers() {
 
 # Ends what is left of this test's processes.
 end_marked() {
+  until_ok 10 killed_marked || printf 'still running: %s\n' "$(marked | paste -sd' ')" >&2
+}
+killed_marked() {
   local pids
   mapfile -t pids < <(marked)
-  ((${#pids[@]} == 0)) || kill -KILL "${pids[@]}" 2>/dev/null || true
-  until_ok 5 nothing_marked || printf 'still running: %s\n' "$(marked | paste -sd' ')" >&2
+  ((${#pids[@]} == 0)) || { kill -KILL "${pids[@]}" && false; }
 }
-nothing_marked() { [[ -z $(marked) ]]; }
 
 # A fall through the horizon, of 40 frames: one region and both, stars and the Milky Way.
 write_show() {

@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# farm/render-slurm against a single run, on a real Slurm: the same bytes, whatever happens to tasks.
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=farm_test.bash
+source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
+# shellcheck source-path=SCRIPTDIR source=slurm_cluster.bash
+source "$(dirname "${BASH_SOURCE[0]}")/slurm_cluster.bash"
+trap 'rm -rf "$scratch"' EXIT
+skip_without_slurm
+cd "$scratch"
+write_show fall.yaml
+trap 'slurm_down; rm -rf "$scratch"' EXIT
+slurm_up
+pass "Slurm is up"
+"$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log
+
+launch=("$farm/render-slurm" fall.yaml --cpus 1)
+over() { [[ -z $(squeue -h -t PD,R,CG,CF,RQ -j "$1") ]]; }
+# Of each task of an array, a line: index, state, restarts.
+tasks() { squeue -h -r -t all -j "$1" -O 'ArrayTaskID:8,State:16,RestartCnt:8' | tr -s ' ' | sort -n; }
+wait_for() { # wait_for JOB FOLDER
+  until_ok 40 over "$1" || {
+    tasks "$1"
+    tail -n 20 "$2"/log/* >&2
+    fail "job $1 does not end"
+  }
+}
+has_tasks() { # has_tasks JOB FOLDER line...
+  [[ $(tasks "$1" | sed 's/ *$//') == "$(printf '%s\n' "${@:3}")" ]] || {
+    tasks "$1" >&2
+    tail -n 20 "$2"/log/* >&2
+    fail "job $1 should read: ${*:3}"
+  }
+}
+says() { grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 does not say: $2"; }; }
+
+both_work() { [[ -n $(workers 0-19) && -n $(workers 20-39) ]] && at_least "$1" 6; }
+
+a_wrong_show_is_not_submitted() {
+  local code=0
+  sed 's/from_r: 4/from_r: -4/' fall.yaml >wrong.yaml
+  "$farm/render-slurm" wrong.yaml --out wrong >wrong.log 2>&1 || code=$?
+  [[ $code == 2 ]] || fail "a wrong show: exit code $code, not 2"
+  says wrong.log "wrong.yaml:8:"
+  [[ -z $(squeue -h -t all) ]] || fail "a wrong show was submitted"
+  [[ ! -e wrong ]] || fail "a wrong show left a folder"
+}
+
+# In two parts, so that the other array runs while this one waits for its second try.
+begin_torn() {
+  local worker
+  torn=$("${launch[@]}" --out torn --chunk 20)
+  after=$(sbatch --parsable --output=/dev/null --dependency="afterok:$torn" \
+    --wrap "touch $scratch/after.done")
+  until_ok 20 both_work torn || fail "no two tasks at work"
+  worker=$(workers 0-19)
+  kill -STOP "$worker"
+  made torn >torn.made
+  kill -KILL "$worker"
+  # What Slurm sends where the time limit is near.
+  scancel --batch --signal=USR1 "${torn}_1"
+}
+a_killed_worker_and_a_short_time_limit_lose_nothing() {
+  wait_for "$torn" torn
+  has_tasks "$torn" torn "0 COMPLETED 1" "1 COMPLETED 1"
+  says "torn/log/render_${torn}_0.log" "frames 0-19: killed by signal 9; back to the queue"
+  says "torn/log/render_${torn}_1.log" "frames 20-39: the time limit is near; back to the queue"
+  same_frames single torn 40 || fail "the frames differ"
+  still_made torn.made torn || fail "frames were made twice"
+  # Requeueing by RequeueExit would have cancelled it.
+  until_ok 20 test -e after.done || fail "job $after, which waits with afterok, did not run"
+}
+
+begin_full() {
+  write_full_disk_program full space
+  full=$(DOMEFALL=./full "${launch[@]}" --out full.d --frames 0-3 --chunk 4 --retries 1)
+}
+a_full_disk_is_tried_again_but_not_for_ever() {
+  local log=full.d/log/render_${full}_0.log
+  wait_for "$full" full.d
+  has_tasks "$full" full.d "0 FAILED 1"
+  says "$log" "frames 0-3: exit code 75; back to the queue (restart 1 of at most 1)"
+  says "$log" "frames 0-3: exit code 75; given up after 1 restarts"
+  [[ $(frames_in full.d) == 0 ]] || fail "frames on a full disk"
+}
+
+a_dead_task_and_a_cancelled_one_are_made_up_for() {
+  local job worker
+  job=$("${launch[@]}" --out dead --chunk 20)
+  until_ok 20 both_work dead || fail "no two tasks at work"
+  worker=$(workers 0-19)
+  kill -KILL "$(ps -o ppid= -p "$worker" | tr -d ' ')" "$worker"
+  scancel "${job}_1"
+  wait_for "$job" dead
+  has_tasks "$job" dead "0 FAILED 0" "1 CANCELLED 0"
+  (($(frames_in dead) < 40)) || fail "too late: all frames are made"
+  made dead >dead.made
+  "${launch[@]}" --out dead --chunk 20 --wait >rerun.log 2>&1 || fail "$(cat rerun.log)"
+  says rerun.log "all 40 frames are there"
+  same_frames single dead 40 || fail "the frames differ"
+  still_made dead.made dead || fail "frames were made twice"
+}
+
+a_wrong_input_on_a_node_stops_the_array() {
+  local code=0 job
+  "${launch[@]}" --out small --chunk 2 --size 5 --wait >small.job 2>small.log || code=$?
+  job=$(cat small.job)
+  [[ $code == 2 ]] || fail "a wrong size: exit code $code, not 2"
+  says small.log "missing: frames 0-39 (40 of 40)"
+  says "small/log/render_${job}_0.log" "--size 5:"
+  tasks "$job" >small.tasks
+  awk '$3 != 0' small.tasks | cmp - /dev/null || fail "a wrong input was tried again"
+  # Those that ran when the first failed do too; the others never begin.
+  (($(grep -c FAILED small.tasks) <= 2 * slurm_nodes)) || fail "$(cat small.tasks)"
+  grep -q CANCELLED small.tasks || fail "$(cat small.tasks)"
+}
+
+a_wrong_show_is_not_submitted
+pass a_wrong_show_is_not_submitted
+begin_torn
+begin_full
+for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
+  a_full_disk_is_tried_again_but_not_for_ever a_dead_task_and_a_cancelled_one_are_made_up_for \
+  a_wrong_input_on_a_node_stops_the_array; do
+  $claim
+  pass "$claim"
+done
