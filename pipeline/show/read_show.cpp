@@ -11,6 +11,8 @@ namespace {
 // Sagittarius A*.
 constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936;
 constexpr double kHeadingDeg = 90, kMostSolarMasses = 1e13;
+// Far below any hole that could still be there; keeps proper times finite.
+constexpr double kFewestSolarMasses = 1e-20;
 
 void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   const Section s = subsection(section, "black_hole", {"mass_solar", "at", "heading_deg"});
@@ -22,6 +24,10 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return;
   const auto mass =
       s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
+  if (mass && *mass > 0 && *mass < kFewestSolarMasses)
+    s.find("mass_solar")
+        ->fail("must be 0 (flat space) or at least " + short_number(kFewestSolarMasses) +
+               " (solar masses), got " + short_number(*mass));
   if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kNearest = 1e-6, kFarthest = 1e9;
 constexpr double kDefaultEnd = 0.05, kDefaultRate = 1, kMostRate = 1e12;
+// So that the azimuth keeps nine digits behind the point.
+constexpr double kMostOrbits = 1e6;
 // A fall is timed from its start.  Rounding of r^(3/2) there misplaces an end at 1e-8 of the start
 // by 6e-4 of itself, at 1e-9 by 2 %, at 1e-11 it can be 0 (measured, 2e5 random falls each).
 constexpr double kLongestFall = 1e8;
@@ -27,7 +29,7 @@ std::optional<double> read_proper_time(const Section& s, const Stage& stage,
     return proper_time_in(stage, *lapse * stage.duration_s);
   }
   if (s.find("orbits")) {
-    const auto orbits = positive("orbits", "revolutions", 1e6);
+    const auto orbits = positive("orbits", "revolutions", kMostOrbits);
     if (!orbits || !period) return std::nullopt;
     return *orbits * *period;
   }
@@ -63,6 +65,14 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
                .at_most(kFarthest));
   const auto tau = read_proper_time(s, stage, r ? std::optional(period({*r})) : std::nullopt);
   if (!r || !tau) return std::nullopt;
+  const double orbits = *tau / period({*r});
+  if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
+    const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
+    (pace ? *pace : item)
+        .fail("makes " + short_number(orbits) + " orbits in the segment; at most " +
+              short_number(kMostOrbits) + " are possible");
+    return std::nullopt;
+  }
   return TimedTrajectory{CircularOrbit{*r}, 0, *tau};
 }
 

@@ -80,6 +80,17 @@ TEST_F(FrameStates, AzimuthRunsOnFromSegmentToSegment) {
       expect_near(column(frame_state(s, n).observer.sky_from_tetrad, k), column(swept(n), k));
 }
 
+// The time left goes with r^(3/2), so equal factors of one are equal factors of the other.
+TEST_F(FrameStates, ASlowingFallShrinksByEqualFactorsInEqualTimes) {
+  const Show s = show(
+      "  - {duration_s: 4, trajectory: {type: infall, from_r: 30, to_r: 0.05, pace: slowing}}\n",
+      "frames_per_second: 10\n");
+  for (int n = 0; n < 40; ++n) {
+    const double r = 30 * std::pow(0.05 / 30, n / 40.0);
+    EXPECT_NEAR(frame_state(s, n).observer.r / r, 1, 1e-10) << n;
+  }
+}
+
 TEST_F(FrameStates, AFrameDependsOnItsNumberAlone) {
   const Show s = show("  - {duration_s: 3, trajectory: {type: infall, from_r: 9, to_r: 0.1}}\n");
   const FrameState first = frame_state(s, 70);

@@ -17,6 +17,7 @@ namespace domefall {
 class ShowFile : public testing::Test {
  protected:
   ShowFile() {
+    // The tests of one program may run at the same time, in processes of their own.
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::temp_directory_path() /
               ("domefall_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +

@@ -157,6 +157,12 @@ TEST_F(ShowKeys, RatesAreUnitsOfMPerSecondOfShow) {
       << "1 M per second is the default";
 }
 
+TEST_F(ShowKeys, AFallMaySlowDown) {
+  EXPECT_EQ(segment("{type: infall, from_r: 12}").pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: steady}").pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: slowing}").pace, Pace::kSlowing);
+}
+
 TEST_F(ShowKeys, OrbitsCountRevolutionsInTheSegment) {
   const Segment s = segment("{type: circular, r: 6, orbits: 1.5}");
   EXPECT_EQ(std::get<CircularOrbit>(s.trajectory).r, 6);

@@ -1,0 +1,142 @@
+// Cameras, skies and grades that cannot be had.
+// Every message in full, with its line and column.
+#include "show_mistakes.h"
+
+namespace domefall {
+namespace {
+
+using ShowErrorsInPictures = ShowMistakes;
+
+TEST_F(ShowErrorsInPictures, FrameRateSizeAndHole) {
+  expect_complaints({
+      {"FrameRateTooLow", kShow + "frames_per_second: 0.5\n",
+       "3:20: frames_per_second must be at least 1 (frames per second), got 0.5"},
+      {"FrameRateTooHigh", kShow + "frames_per_second: 241\n",
+       "3:20: frames_per_second must be at most 240 (frames per second), got 241"},
+      {"SizeWithBlank", kShow + "size: 4 k\n",
+       "3:7: size must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '4 k'; did "
+       "you mean 4k?"},
+      {"SizeNoWord", kShow + "size: 3k\n",
+       "3:7: size must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '3k'"},
+      {"SizeTooSmall", kShow + "size: 15\n", "3:7: size must be at least 16 (pixels), got 15"},
+      {"SizeTooLarge", kShow + "size: 16385\n",
+       "3:7: size must be at most 16384 (pixels), got 16385"},
+      {"SizeBroken", kShow + "size: 1024.5\n",
+       "3:7: size must be a whole number (pixels), got 1024.5"},
+      {"DomeNotSquare", kShow + "size: [1920, 1080]\n",
+       "3:7: size must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got a "
+       "list"},
+      {"FlatSizeOneNumber",
+       kShow + "size: 4k\n"
+               "camera: {projection: stereographic}\n",
+       "3:7: size must be [width, height] in pixels (this projection is flat), got '4k'"},
+      {"NegativeMass",
+       "black_hole: {mass_solar: -1}\n"
+       "timeline: [{duration_s: 1, trajectory: {type: static, r: 9}}]\n",
+       "1:26: black_hole.mass_solar must be at least 0 (solar masses; 0 is flat space), got -1"},
+      {"NextToNoMass",
+       "black_hole: {mass_solar: 1e-300}\n"
+       "timeline: [{duration_s: 1, trajectory: {type: static, r: 9}}]\n",
+       "1:26: black_hole.mass_solar must be 0 (flat space) or at least 1e-20 (solar masses), got "
+       "1e-300"},
+      {"MassMisspelt",
+       "black_hole: {mass: 4e6}\n"
+       "timeline: [{duration_s: 1, trajectory: {type: infall, from_r: 9}}]\n",
+       "1:14: black_hole.mass is an unknown key; did you mean mass_solar?"},
+      {"DeclinationOutOfRange",
+       "black_hole: {mass_solar: 1, at: {ra_deg: 10, dec_deg: 91}}\n"
+       "timeline: [{duration_s: 1, trajectory: {type: static, r: 9}}]\n",
+       "1:55: black_hole.at.dec_deg must be at most 90 (degrees), got 91"},
+      {"HalfAPlace", kShow + "camera: {look_at: {ra_deg: 10}}\n",
+       "3:19: camera.look_at.dec_deg is missing (degrees)"},
+  });
+}
+
+TEST_F(ShowErrorsInPictures, Cameras) {
+  expect_complaints({
+      {"FovOnADome", kShow + "camera: {fov_deg: 90}\n",
+       "3:19: camera.fov_deg goes with the stereographic projection only; a domemaster shows 180 "
+       "degrees"},
+      {"FovTooWide", kShow + "camera: {projection: stereographic, fov_deg: 360}\n",
+       "3:46: camera.fov_deg must stay below 360 (degrees), got 360"},
+      {"ElevationOnAFlatPicture", kShow + "camera: {projection: stereographic, elevation_deg: 3}\n",
+       "3:52: camera.elevation_deg is for domes; this projection is flat"},
+      {"EulerAndLookAt", kShow + "camera: {euler_deg: [0, 0, 0], look_at: hole}\n",
+       "3:41: camera.look_at excludes euler_deg; give one of them"},
+      {"EulerAndRoll", kShow + "camera: {roll_deg: 3, euler_deg: [0, 0, 0]}\n",
+       "3:20: camera.roll_deg excludes euler_deg; give one of them"},
+      {"TwoEulerAngles", kShow + "camera: {euler_deg: [0, 0]}\n",
+       "3:21: camera.euler_deg must be a list of 3 numbers (degrees), got 2"},
+      {"ProjectionInASegment",
+       kHole + "timeline:\n"
+               "  - duration_s: 1\n"
+               "    trajectory: {type: static, r: 9}\n"
+               "    camera: {projection: domemaster}\n",
+       "5:26: timeline[0].camera.projection holds for the whole show; it belongs in the show's own "
+       "camera section"},
+      {"MotionOfAStaticObserver", kShow + "camera: {look_at: motion}\n",
+       "2:12: timeline[0] has a camera that looks along the motion, but its observer does not "
+       "move; give the segment another camera.look_at"},
+      {"StarMisspelt", kShow + "camera: {look_at: Betelgeuze}\n",
+       "3:19: camera.look_at must be hole or motion, or a place on the sky; it names the star "
+       "'Betelgeuze', which the naked-eye catalogue does not have; did you mean Betelgeuse?"},
+      {"UnknownStar", kShow + "camera: {look_at: Qwertyuiop}\n",
+       "3:19: camera.look_at must be hole or motion, or a place on the sky; it names the star "
+       "'Qwertyuiop', which the naked-eye catalogue does not have"},
+      {"HoleMisspelt", kShow + "camera: {look_at: holes}\n",
+       "3:19: camera.look_at must be hole or motion, or a place on the sky; it names the star "
+       "'holes', which the naked-eye catalogue does not have; did you mean hole?"},
+      {"RollUnderTheShowsEulerAngles",
+       kHole + "camera: {euler_deg: [0, 0, 0]}\n"
+               "timeline:\n"
+               "  - {duration_s: 1, trajectory: {type: static, r: 9}, camera: {roll_deg: 9}}\n",
+       "4:74: timeline[0].camera.roll_deg goes with look_at only; the show's camera is turned by "
+       "euler_deg"},
+  });
+}
+
+TEST_F(ShowErrorsInPictures, SkiesAndStars) {
+  expect_complaints({
+      {"MissingPanorama", kShow + "sky: {region_I: {background: sky.exr}}\n",
+       "3:30: sky.region_I.background names the file 'sky.exr', which is neither beside the show "
+       "nor in the working folder"},
+      {"PanoramaIsAFolder", kShow + "sky: {region_I: {background: ./assets}}\n",
+       "3:30: sky.region_I.background names the file './assets', which is a folder"},
+      {"BackgroundMisspelt", kShow + "sky: {region_III: {background: milkyway}}\n",
+       "3:32: sky.region_III.background must be milky_way, grid or black or an image file, got "
+       "'milkyway'; did you mean milky_way?"},
+      {"MissingCatalogue", kShow + "sky: {region_I: {stars: {catalogue: hip.csv}}}\n",
+       "3:37: sky.region_I.stars.catalogue names the file 'hip.csv', which is neither beside the "
+       "show nor in the working folder"},
+      {"CatalogueMisspelt", kShow + "sky: {region_I: {stars: naked_eyes}}\n",
+       "3:25: sky.region_I.stars must be naked_eye, none or a star catalogue (.csv), got "
+       "'naked_eyes'; did you mean naked_eye?"},
+      {"NegativeGain", kShow + "sky: {region_I: {gain: -0.5}}\n",
+       "3:24: sky.region_I.gain must be at least 0, got -0.5"},
+      {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",
+       "3:24: sky.blueshift_power must be at most 10, got 11"},
+      {"MaxSigmaBelowMin", kShow + "stars: {min_sigma_deg: 0.5, max_sigma_deg: 0.2}\n",
+       "3:44: stars.max_sigma_deg must be at least min_sigma_deg = 0.5 (degrees), got 0.2"},
+      {"GrowthTooLarge", kShow + "stars: {growth: 0.6}\n",
+       "3:17: stars.growth must be at most 0.5, got 0.6"},
+  });
+}
+
+TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
+  expect_complaints({
+      {"ExposureTooHigh", kShow + "exposure: {ev: 31}\n",
+       "3:16: exposure.ev must be at most 30 (stops), got 31"},
+      {"MissingConfig", kShow + "grade: {config: house.ocio}\n",
+       "3:17: grade.config names the file 'house.ocio', which is neither beside the show nor in "
+       "the working folder"},
+      {"PowerZero", kShow + "grade: {cdl: {power: 0}}\n",
+       "3:22: grade.cdl.power must exceed 0, got 0"},
+      {"SlopeOfTwo", kShow + "grade: {cdl: {slope: [1, 1]}}\n",
+       "3:22: grade.cdl.slope must be a list of 3 numbers, got 2"},
+      {"UnknownFormat", kShow + "output: {graded: jpeg}\n",
+       "3:18: output.graded must be png, tiff or none, got 'jpeg'"},
+  });
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,229 @@
+// Thousands of damaged shows: each is either refused with places or read into a show whose frames
+// can be had.  The seed is fixed, so a failure comes back; it prints the show.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "pipeline/show/frame_state.h"
+#include "show_file.h"
+
+namespace domefall {
+namespace {
+
+const char* const kGoodShows[] = {
+    "title: Fall\n"
+    "size: 1k\n"
+    "black_hole: {mass_solar: 4.3e6, at: Sirius, heading_deg: 20}\n"
+    "camera: {look_at: hole, roll_deg: 5, dome_tilt_deg: 10}\n"
+    "timeline:\n"
+    "  - {duration_s: 2, trajectory: {type: infall, from_r: 30, to_r: 3}}\n"
+    "  - {duration_s: 2, trajectory: {type: infall, from_r: 3, pace: slowing}}\n"
+    "  - duration_s: 1.5\n"
+    "    trajectory: {type: circular, r: 6, orbits: 2}\n"
+    "    camera: {look_at: motion, elevation_deg: 30}\n",
+
+    "frames_per_second: 24\n"
+    "size: [320, 200]\n"
+    "black_hole:\n"
+    "  mass_solar: 10\n"
+    "  at: {ra_deg: 83, dec_deg: -5.5}\n"
+    "camera:\n"
+    "  projection: stereographic\n"
+    "  fov_deg: 100\n"
+    "  euler_deg: [10, 120, -4]\n"
+    "timeline:\n"
+    "  - duration_s: 3\n"
+    "    trajectory:\n"
+    "      type: velocity\n"
+    "      r: 1.4\n"
+    "      lorentz_factor: 12\n"
+    "      against: free_fall\n"
+    "      direction: {radial: 1, theta: 2, phi: 3}\n"
+    "  - duration_s: 3\n"
+    "    trajectory: {type: velocity, r: 9, speed: 0.4, direction: Vega}\n"
+    "  - &stay\n"
+    "    duration_s: 1\n"
+    "    trajectory: {type: static, r: 2.001}\n"
+    "  - *stay\n",
+
+    "sky:\n"
+    "  region_I: {background: grid, gain: 2, stars: {max_magnitude: 5, gain: 0.5}}\n"
+    "  region_III: {background: black, stars: none}\n"
+    "  blueshift_power: 3\n"
+    "stars: {min_sigma_deg: 0.1, growth: 0.1, reference_magnitude: 4, max_sigma_deg: 0.5}\n"
+    "exposure: {ev: 2}\n"
+    "grade:\n"
+    "  display: \"Dome\"\n"
+    "  cdl: {slope: [1, 0.9, 1.1], offset: 0.01, power: 1.1, saturation: 0.9}\n"
+    "output: {graded: tiff}\n"
+    "timeline:\n"
+    "  - {duration_s: 1}\n"
+    "  - {duration_s: 2, trajectory: {type: velocity, speed: 0.9, direction: Betelgeuse}}\n",
+};
+
+using Random = std::mt19937;  // the same numbers everywhere, unlike the standard's distributions
+
+std::size_t below(Random& random, std::size_t bound) { return random() % bound; }
+
+// Bytes that mean something to YAML or to numbers, and two that are no text.
+char meaningful_byte(Random& random) {
+  static const std::string kBytes = "{}[]:,-#&*!|>'\"%@`?~.0123456789eE+<= \t\n\r\x7F\xC3\xFF_nai";
+  return kBytes[below(random, kBytes.size())];
+}
+
+std::string with_lines_swapped(const std::string& text, Random& random) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::swap(lines[below(random, lines.size())], lines[below(random, lines.size())]);
+  std::string out;
+  for (const std::string& line : lines) out += line + "\n";
+  return out;
+}
+
+std::string mutated(std::string text, Random& random) {
+  const std::size_t at = below(random, text.size());
+  const std::size_t length = 1 + below(random, std::min<std::size_t>(8, text.size() - at));
+  switch (below(random, 6)) {
+    case 0:
+      return text.erase(at, length);
+    case 1:
+      return text.insert(at, text.substr(at, length));
+    case 2:
+      return text.insert(at, 1, meaningful_byte(random));
+    case 3:
+      text[at] = meaningful_byte(random);
+      return text;
+    case 4: {
+      // A number's digits, so that many mutants are shows.
+      const std::size_t digit = text.find_first_of("0123456789", at);
+      if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(random, 10));
+      return text;
+    }
+    default:
+      return with_lines_swapped(text, random);
+  }
+}
+
+bool is_finite(const V3d& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void expect_finite_frame(const Show& show, int frame) {
+  const FrameState s = frame_state(show, frame);
+  const ObserverState& o = s.observer;
+  EXPECT_TRUE(std::isfinite(s.show_time_s));
+  EXPECT_TRUE(std::isfinite(o.proper_time));
+  EXPECT_GT(o.r, 0);
+  EXPECT_EQ(o.r == kFlatSpace, !show.mass_solar);
+  EXPECT_TRUE(is_finite(o.celerity)) << o.celerity;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(column(o.sky_from_tetrad, k).length(), 1, 1e-12);
+    EXPECT_NEAR(column(o.tetrad_from_camera, k).length(), 1, 1e-12);
+  }
+}
+
+void expect_finite_numbers(const Show& show) {
+  std::vector<double> numbers{show.frames_per_second,
+                              show.heading,
+                              show.mass_solar.value_or(1),
+                              show.panorama_shift.blueshift_power,
+                              show.blobs.min_sigma,
+                              show.blobs.growth,
+                              show.blobs.reference_magnitude,
+                              show.blobs.max_sigma,
+                              show.exposure.ev,
+                              show.grade.saturation};
+  for (const auto& channels : {show.grade.slope, show.grade.offset, show.grade.power})
+    numbers.insert(numbers.end(), channels.begin(), channels.end());
+  for (const RegionSky& sky : {show.sky_one, show.sky_three})
+    numbers.insert(numbers.end(), {sky.background_gain, sky.star_gain,
+                                   sky.stars.value_or(StarField{}).max_magnitude});
+  for (const Segment& s : show.timeline) {
+    numbers.insert(numbers.end(), {s.duration_s, s.tau_begin, s.tau_end, s.camera.roll,
+                                   s.camera.elevation, s.camera.dome_tilt});
+    EXPECT_GT(s.duration_s, 0);
+    EXPECT_GE(s.tau_end, s.tau_begin);
+  }
+  EXPECT_THAT(numbers, testing::Each(testing::Truly([](double x) { return std::isfinite(x); })));
+}
+
+class ShowFuzz : public ShowFile {
+ protected:
+  // Whether it is a show.
+  bool survives(const std::string& yaml) {
+    try {
+      const Show show = read(yaml);
+      expect_finite_numbers(show);
+      const int count = frame_count(show);
+      EXPECT_GE(count, 1);
+      EXPECT_LE(count, kMostFrames);
+      expect_finite_frame(show, 0);
+      expect_finite_frame(show, count - 1);
+      return true;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith((folder_ / "show.yaml:").string()));
+      return false;
+    }
+  }
+
+  void run(int mutants, int most_mutations) {
+    Random random(20260101);
+    int shows = 0;
+    for (int k = 0; k < mutants; ++k) {
+      std::string yaml = kGoodShows[static_cast<std::size_t>(k) % std::size(kGoodShows)];
+      const std::size_t mutations = 1 + below(random, static_cast<std::size_t>(most_mutations));
+      for (std::size_t m = 0; m < mutations && !yaml.empty(); ++m) yaml = mutated(yaml, random);
+      shows += survives(yaml);
+      ASSERT_FALSE(HasFailure()) << "mutant " << k << ":\n" << yaml;
+    }
+    // Neither kind is so rare that the test is idle.
+    EXPECT_GT(shows, mutants / 20);
+    EXPECT_GT(mutants - shows, mutants / 20);
+    RecordProperty("shows", shows);
+  }
+};
+
+TEST_F(ShowFuzz, TheGoodShowsAreGood) {
+  for (const char* show : kGoodShows) EXPECT_TRUE(survives(show)) << show;
+}
+
+TEST_F(ShowFuzz, SlightlyDamagedShowsAreReadOrRefused) { run(2000, 1); }
+
+TEST_F(ShowFuzz, BadlyDamagedShowsAreReadOrRefused) { run(2000, 5); }
+
+TEST_F(ShowFuzz, ShowsCutAnywhereAreReadOrRefused) {
+  for (const std::string show : kGoodShows)
+    for (std::size_t length = 0; length < show.size(); ++length) {
+      survives(show.substr(0, length));
+      ASSERT_FALSE(HasFailure()) << show.substr(0, length);
+    }
+}
+
+TEST_F(ShowFuzz, ExtremeNumbersWithinTheBoundsStayFinite) {
+  const std::string hole = "black_hole: {mass_solar: ";
+  for (const char* mass : {"1e-20", "1e-9", "1e13"})
+    for (const char* duration : {"0.02", "300000"})
+      for (const char* trajectory :
+           {"{type: infall, from_r: 1e9, to_r: 10}", "{type: infall, from_r: 100, to_r: 1e-6}",
+            "{type: infall, from_r: 1e9, to_r: 10, pace: slowing}",
+            "{type: infall, from_r: 1.1e-6, to_r: 1e-6, pace: slowing}",
+            "{type: circular, r: 3.0000000001, orbits: 1e6}", "{type: circular, r: 1e9}",
+            "{type: circular, r: 9, time_lapse: 1e12}", "{type: static, r: 2.0000000000001}",
+            "{type: velocity, r: 2.0000000000001, lorentz_factor: 1e9, direction: Vega}",
+            "{type: velocity, r: 1e-6, against: free_fall, speed: 0.9999999999999999, "
+            "direction: outward}"})
+        for (const char* look_at : {"hole", "Sirius"}) {
+          const std::string yaml = hole + mass + "}\ncamera: {look_at: " + look_at +
+                                   "}\ntimeline: [{duration_s: " + duration +
+                                   ", trajectory: " + trajectory + "}]\n";
+          survives(yaml);
+          ASSERT_FALSE(HasFailure()) << yaml;
+        }
+}
+
+}  // namespace
+}  // namespace domefall

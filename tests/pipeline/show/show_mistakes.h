@@ -1,0 +1,39 @@
+// Tables of broken shows and of what their authors are told.
+#pragma once
+
+#include <vector>
+
+#include "show_file.h"
+
+namespace domefall {
+
+class ShowMistakes : public ShowFile {
+ protected:
+  struct Mistake {
+    const char* name;
+    std::string yaml;
+    // Without the file's name, which every line begins with: "3:7: size must be ...".
+    std::string told;
+  };
+
+  static inline const std::string kHole = "black_hole: {mass_solar: 1}\n";
+  // Nothing is wrong with these two lines.
+  static inline const std::string kShow =
+      kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n";
+
+  static std::string moving(const std::string& trajectory) {
+    return kHole + "timeline:\n  - {duration_s: 2, trajectory: " + trajectory + "}\n";
+  }
+
+  void expect_complaints(const std::vector<Mistake>& mistakes) {
+    EXPECT_EQ(complaint(kShow), "");
+    for (const Mistake& m : mistakes) {
+      std::string told = "show.yaml:" + m.told;
+      for (auto at = told.find('\n'); at != std::string::npos; at = told.find('\n', at + 1))
+        told.insert(at + 1, "show.yaml:");
+      EXPECT_EQ(complaint(m.yaml), told) << m.name;
+    }
+  }
+};
+
+}  // namespace domefall
