@@ -48,7 +48,7 @@ std::vector<int> parse_frames(const std::string& text, int count) {
     if (last >= count)
       fail(text, "the show has " + std::to_string(count) + " frames, the last is " +
                      std::to_string(count - 1));
-    for (int k = first; k <= last; k += step) frames.insert(k);
+    for (long k = first; k <= last; k += step) frames.insert(static_cast<int>(k));
   } while (take(rest, ','));
   if (!rest.empty()) fail(text, "expected frames such as 7, 0-299 or 0-599x10");
   return {frames.begin(), frames.end()};

@@ -5,8 +5,7 @@
 
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
-#include "pipeline/render/frame_key.h"
-#include "pipeline/render/renderer.h"
+#include "pipeline/render/scene.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
 
@@ -34,8 +33,9 @@ void print_segments(const Show& show) {
 
 void check(const std::string& file) {
   const Show show = read_show(file);
-  // Reading the assets and the grading configuration is part of the check.
-  const FrameKeys keys(show);
+  // A file that is there may still be damaged: what the frames will read is read.
+  Scene scene(show);
+  scene.sky_one();
   if (show.graded_format != GradedFormat::kNone) {
     const Grader grader(show.grade);
     std::printf("graded for   %s, %s\n", grader.display().c_str(), grader.view().c_str());
@@ -52,6 +52,7 @@ void check(const std::string& file) {
               show.title.c_str(), count, show.frames_per_second,
               std::string(projection_name(show.projection)).c_str(), columns(show.projection),
               rows(show.projection));
+  if (regions.contains(Region::kII)) scene.sky_three();
   print_segments(show);
   if (!show.mass_solar) return;
   std::printf("regions     ");
