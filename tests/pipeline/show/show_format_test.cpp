@@ -1,0 +1,77 @@
+// The manual of show files: its examples are shows, and no key is missing.
+#include <sstream>
+
+#include "pipeline/show/frame_state.h"
+#include "show_file.h"
+
+namespace domefall {
+namespace {
+
+std::string manual() {
+  std::ifstream in(DOMEFALL_SOURCE_DIR "/docs/show-format.md");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> examples(const std::string& text) {
+  const std::string opening = "```yaml\n", closing = "```\n";
+  std::vector<std::string> found;
+  for (auto at = text.find(opening); at != std::string::npos; at = text.find(opening, at)) {
+    at += opening.size();
+    found.push_back(text.substr(at, text.find(closing, at) - at));
+  }
+  return found;
+}
+
+using ShowFormat = ShowFile;
+
+TEST_F(ShowFormat, EveryExampleIsAShow) {
+  write("art/summer_sky.exr", "");
+  const auto all = examples(manual());
+  ASSERT_GE(all.size(), 8u);
+  for (const std::string& yaml : all) {
+    EXPECT_EQ(complaint(yaml), "") << yaml;
+    const Show show = read(yaml);
+    EXPECT_NO_THROW(frame_state(show, frame_count(show) - 1)) << yaml;
+  }
+}
+
+// What a section refuses to know, it lists: so every key is in the manual that a section knows.
+TEST_F(ShowFormat, EveryKeyIsInTheManual) {
+  const std::string text = manual();
+  int keys = 0;
+  const auto expect_described = [&](const std::string& yaml) {
+    const std::string told = complaint(yaml), intro = "known here: ";
+    const auto at = told.find(intro);
+    ASSERT_NE(at, std::string::npos) << yaml << told;
+    std::string list = told.substr(at + intro.size());
+    list = list.substr(0, list.find('\n'));
+    if (const auto last = list.find(" or "); last != std::string::npos) list.replace(last, 4, ", ");
+    std::istringstream words(list);
+    for (std::string key; std::getline(words >> std::ws, key, ',');) {
+      if (key == "star") key = "{star: Vega}";
+      if (key == "ra_deg" || key == "dec_deg") key = "{ra_deg, dec_deg}";
+      if (key == "radial" || key == "theta" || key == "phi") key = "{radial, theta, phi}";
+      EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key << " of " << yaml;
+      ++keys;
+    }
+  };
+  expect_described("qqq: 1\n");
+  for (const char* section :
+       {"black_hole", "camera", "sky", "stars", "exposure", "grade", "output"})
+    expect_described(std::string(section) + ": {qqq: 1}\n");
+  expect_described("timeline: [{qqq: 1}]\n");
+  expect_described("grade: {cdl: {qqq: 1}}\n");
+  expect_described("sky: {region_I: {qqq: 1}}\n");
+  expect_described("black_hole: {at: {qqq: 1}}\n");
+  for (const char* type : {"infall", "circular", "static", "velocity"})
+    expect_described(
+        "black_hole: {mass_solar: 1}\n"
+        "timeline: [{duration_s: 1, trajectory: {qqq: 1, type: " +
+        std::string(type) + "}}]\n");
+  EXPECT_GE(keys, 60);
+}
+
+}  // namespace
+}  // namespace domefall
