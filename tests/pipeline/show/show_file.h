@@ -41,6 +41,8 @@ class ShowFile : public testing::Test {
   std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto file = folder_ / name;
     std::filesystem::create_directories(file.parent_path());
+    // Truncated instead, each of thousands of files would be flushed to the disk (ext4).
+    std::filesystem::remove(file);
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }
