@@ -62,7 +62,15 @@ struct Grader::Processor {
 
 namespace {
 
+// A user's settings for other programs, which would make one node's frames differ from another's.
+void ignore_environment() {
+  for (const char* name : {"OCIO_ACTIVE_DISPLAYS", "OCIO_ACTIVE_VIEWS", "OCIO_INACTIVE_COLORSPACES",
+                           "OCIO_OPTIMIZATION_FLAGS"})
+    ocio::UnsetEnvVariable(name);
+}
+
 ocio::ConstConfigRcPtr read_config(const GradeSettings& settings) {
+  ignore_environment();
   const std::string file = settings.config.string();
   if (file.empty()) throw InputError("no OpenColorIO configuration is named");
   try {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "pipeline/image/errors.h"
@@ -90,6 +91,17 @@ TEST(Grader, ACdlOffsetOfOneStopIsOneStop) {
                     graded = Grader(brighter).grade(greys());
   for (int i = 10; i < 15; ++i)
     EXPECT_NEAR(graded.row(0)[3 * i], plain.row(0)[3 * (i + 1)], 20) << i;
+}
+
+TEST(Grader, IsTheSameWhateverTheUserSetForOtherPrograms) {
+  const GradedFrame plain = Grader(shipped()).grade(greys());
+  setenv("OCIO_ACTIVE_DISPLAYS", "sRGB - Display", 1);
+  setenv("OCIO_ACTIVE_VIEWS", "Raw", 1);
+  setenv("OCIO_OPTIMIZATION_FLAGS", "0", 1);
+  const Grader grader(shipped());
+  EXPECT_EQ(grader.display(), "Dome G2.2 Rec.709");
+  EXPECT_EQ(grader.view(), "Dome");
+  EXPECT_EQ(grader.grade(greys()).pixels, plain.pixels);
 }
 
 TEST(Grader, ListsWhatItKnowsWhenAskedForAnother) {
