@@ -10,10 +10,10 @@ struct GivenVelocity {
   V3d celerity{0, 0, 0};  // gamma v against the rain tetrad, components (R, Theta, Phi)
 };
 
-// gamma v of an observer that moves with `speed` (in [0, 1), of light) along `direction` (unit,
-// components (R, Theta, Phi)) as seen from an observer with celerity `frame`, itself against the
-// rain tetrad; the direction is boosted with that frame ([Riazuelo] eq. Lambda_cov).
-V3d celerity_against(const V3d& frame, double speed, const V3d& direction);
+// gamma v against the rain tetrad of an observer that has the celerity `own` in the frame of an
+// observer of celerity `frame`, whose axes are the rain's, boosted ([Riazuelo] eq. Lambda_cov).  A
+// celerity, since a speed in double precision holds no Lorentz factor beyond 1e8.
+V3d celerity_against(const V3d& frame, const V3d& own);
 
 OrbitPoint point_at(const GivenVelocity& observer, double tau);
 

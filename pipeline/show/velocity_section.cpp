@@ -24,12 +24,6 @@ std::optional<double> read_gamma_v(const Section& s) {
   return v ? std::optional(*v / std::sqrt((1 - *v) * (1 + *v))) : std::nullopt;
 }
 
-// gamma v against the rain tetrad of what has `own` against `frame`.  [Riazuelo] eq. Lambda_cov.
-V3d boosted(const V3d& frame, const V3d& own) {
-  const double gamma = std::sqrt(1 + own.dot(own)), frame_gamma = std::sqrt(1 + frame.dot(frame));
-  return own + frame * (gamma + frame.dot(own) / (1 + frame_gamma));
-}
-
 std::optional<V3d> read_components(const Item& item) {
   const Section s(item, {"radial", "theta", "phi"});
   const Range range = kPureNumber.within(-1e9, 1e9);
@@ -74,7 +68,7 @@ std::optional<V3d> read_celerity(const Section& s, const Stage& stage, double r,
                 ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
   const auto direction = item ? read_direction(*item, stage, r, frame, lookup) : std::nullopt;
   if (!gamma_v || !direction) return std::nullopt;
-  return boosted(frame, *direction * *gamma_v);
+  return celerity_against(frame, *direction * *gamma_v);
 }
 
 }  // namespace domefall
