@@ -154,9 +154,9 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
     return std::nullopt;
   }
   std::vector<Item> items;
-  for (const auto& child : item.node) {
+  for (const auto& child : item.node) {  // an iterator's value: the node, and more for maps
     const auto mark = child.Mark();
-    items.push_back({child,
+    items.push_back({static_cast<const YAML::Node&>(child),
                      {mark.line, mark.column},
                      item.path + "[" + std::to_string(items.size()) + "]",
                      item.problems});
