@@ -37,12 +37,12 @@ BAND_S10 = 60  # where the panorama, blurred, has this much, it has half of that
 FAINTER_REDDENING = 0.25  # of B-V, in the band, where the fainter stars are the farther ones
 
 CLOUD = (271.0, -28.5)  # the Large Sagittarius Star Cloud
-CLOUD_S10 = 560  # with 20.9 mag/arcsec^2, the brightest part of the Milky Way
+CLOUD_S10 = 640  # with 20.8 mag/arcsec^2, the brightest part of the Milky Way
 # The rest was judged by eye.
-PANORAMA_GAMMA = 0.9  # its contrast is a print's
+PANORAMA_GAMMA = 0.8  # its contrast is a print's
 DUST_IN_GLOW = 0.9  # how far the panorama's dust, sharp, shows in the catalogue's light, blurred
-STAR_SATURATION, STAR_CONTRAST = 0.7, 1.4  # of the colours of starlight; in B-V, about 0.7
-HUE_DETAIL, HUE_LARGE = 0.8, 0.45  # what is kept of the panorama's hues below and above 8 degrees
+STAR_SATURATION, STAR_CONTRAST = 0.9, 1.5  # of the colours of starlight; in B-V, about 0.7
+HUE_DETAIL, HUE_LARGE = 1.0, 0.5  # what is kept of the panorama's hues below and above 8 degrees
 GREEN = 0.4  # what is kept of its green, which no starlight is
 
 # Not stars though small (degrees): left where stars are taken out. A globular cluster, here a few
