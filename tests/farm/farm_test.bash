@@ -79,7 +79,7 @@ YAML
 }
 
 # same_frames A B COUNT: B holds the first COUNT frames of A, byte by byte, linear and graded, and
-# nothing else.
+# no other file, hidden ones not counted.
 same_frames() {
   local kind frame name
   for kind in linear/exr graded/png; do
@@ -87,12 +87,16 @@ same_frames() {
       name=${kind%/*}/fall_$(printf %05d "$frame").${kind#*/}
       cmp "$1/$name" "$2/$name" || return 1
     done
-    [[ $(find "$2/${kind%/*}" -mindepth 1 | wc -l) == "$3" ]] || {
-      ls -lA "$2/${kind%/*}" >&2
+    [[ $(find "$2/${kind%/*}" -mindepth 1 ! -name '.*' | wc -l) == "$3" ]] || {
+      ls -l "$2/${kind%/*}" >&2
       return 1
     }
   done
 }
+
+# What a killed worker leaves is removed by the next one, if the dead one's number is free by then:
+# its parent, or process 1, has asked how it ended.
+no_temporaries() { [[ -z $(find "$1" -name '.*') ]]; }
 
 # A program like domefall, but no file that it writes may have more than 1 kB while FILE is not there:
 # the disk seems full, and domefall exits with 75.

@@ -29,12 +29,12 @@ says_not() { ! grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 says: $2"; }; }
 "$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log
 
 two_workers_make_the_bytes_of_a_single_run() {
-  expect 0 two.log "${launch[@]}" --out two --chunk 9
-  says two.log "[5/5]"
-  says two.log "all 40 frames are there"
-  same_frames single two 40 || fail "the frames differ"
+  expect 0 two.log "${launch[@]}" --out two --frames 0-19 --chunk 6
+  says two.log "[4/4]"
+  says two.log "all 20 frames are there"
+  same_frames single two 20 || fail "the frames differ"
   made two >two.made
-  expect 0 again.log "${launch[@]}" --out two
+  expect 0 again.log "${launch[@]}" --out two --frames 0-19 --chunk 20
   made two | cmp - two.made || fail "frames were made twice"
 }
 
@@ -42,7 +42,7 @@ a_range_may_be_split_and_joined() {
   expect 0 part.log "${launch[@]}" --out part --frames 5-8,2 --chunk 3
   [[ $(frames_in part) == 5 ]] || fail "not the 5 frames that were asked for"
   made part >part.made
-  expect 0 rest.log "${launch[@]}" --out part --frames 0-9
+  expect 0 rest.log "${launch[@]}" --out part --frames 0-9 --chunk 5
   still_made part.made part || fail "frames were made twice"
   same_frames single part 10 || fail "the frames differ"
 }
@@ -59,18 +59,21 @@ a_killed_worker_loses_nothing() {
   says killed.log "frames 0-19: killed by SIGKILL"
   says killed.log "frames 0-19: next try in 1 s"
   same_frames single killed 40 || fail "the frames differ"
+  no_temporaries killed || fail "temporary files are left"
   still_made killed.made killed || fail "frames were made twice"
 }
 
 a_stopped_run_and_a_killed_one_are_taken_up() {
   local code=0 launcher
-  "${launch[@]}" --out torn >stopped.log 2>&1 &
+  "${launch[@]}" --out torn --chunk 20 >stopped.log 2>&1 &
   until_ok 20 at_least torn 4 || fail "no frames"
   kill -TERM $!
   wait $! || code=$?
   [[ $code == 143 ]] || fail "stopped by SIGTERM: exit code $code, not 143"
+  # Both chunks had begun; without the signal they would have been made.
+  (($(frames_in torn) < 40)) || fail "the workers were not told to stop"
   [[ -z $(workers) ]] || fail "workers outlive their launcher"
-  [[ -z $(find torn -name '*.tmp') ]] || fail "temporary files are left"
+  no_temporaries torn || fail "temporary files are left"
   says stopped.log "missing: frames "
   made torn >stopped.made
 
@@ -83,7 +86,7 @@ a_stopped_run_and_a_killed_one_are_taken_up() {
   made torn >torn.made
   (($(frames_in torn) < 40)) || fail "too late: all frames are made"
 
-  expect 0 resumed.log "${launch[@]}" --out torn
+  expect 0 resumed.log "${launch[@]}" --out torn --chunk 20
   same_frames single torn 40 || fail "the frames differ"
   still_made stopped.made torn || fail "frames from before the stop were made twice"
   still_made torn.made torn || fail "frames from before the kill were made twice"

@@ -46,6 +46,14 @@ a_wrong_show_is_not_submitted() {
   [[ ! -e wrong ]] || fail "a wrong show left a folder"
 }
 
+more_tasks_than_slurm_allows_are_refused() {
+  local code=0
+  "${launch[@]}" --out many --chunk 1 >many.log 2>&1 || code=$?
+  [[ $code == 2 ]] || fail "40 tasks where 25 are allowed: exit code $code, not 2"
+  says many.log "--chunk 2 or more fits"
+  [[ -z $(squeue -h -t all) ]] || fail "it was submitted"
+}
+
 # In two parts, so that the other array runs while this one waits for its second try.
 begin_torn() {
   local worker
@@ -66,6 +74,7 @@ a_killed_worker_and_a_short_time_limit_lose_nothing() {
   says "torn/log/render_${torn}_0.log" "frames 0-19: killed by signal 9; back to the queue"
   says "torn/log/render_${torn}_1.log" "frames 20-39: the time limit is near; back to the queue"
   same_frames single torn 40 || fail "the frames differ"
+  no_temporaries torn || fail "temporary files are left"
   still_made torn.made torn || fail "frames were made twice"
   # Requeueing by RequeueExit would have cancelled it.
   until_ok 20 test -e after.done || fail "job $after, which waits with afterok, did not run"
@@ -82,6 +91,21 @@ a_full_disk_is_tried_again_but_not_for_ever() {
   says "$log" "frames 0-3: exit code 75; back to the queue (restart 1 of at most 1)"
   says "$log" "frames 0-3: exit code 75; given up after 1 restarts"
   [[ $(frames_in full.d) == 0 ]] || fail "frames on a full disk"
+}
+
+# A program that has another version on the nodes than where the show is submitted.
+a_node_with_another_version_makes_nothing() {
+  local job
+  cat >elsewhere <<SCRIPT
+#!/bin/bash
+[[ -n \$SLURM_JOB_ID && \$1 == --version ]] && exec echo domefall 0.0.1
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x elsewhere
+  job=$(DOMEFALL=./elsewhere "${launch[@]}" --out other --retries 0)
+  wait_for "$job" other
+  says "other/log/render_${job}_0.log" "this node has domefall 0.0.1, not $("$DOMEFALL" --version)"
+  [[ $(frames_in other) == 0 ]] || fail "frames of another version"
 }
 
 a_dead_task_and_a_cancelled_one_are_made_up_for() {
@@ -117,11 +141,13 @@ a_wrong_input_on_a_node_stops_the_array() {
 
 a_wrong_show_is_not_submitted
 pass a_wrong_show_is_not_submitted
+more_tasks_than_slurm_allows_are_refused
+pass more_tasks_than_slurm_allows_are_refused
 begin_torn
 begin_full
 for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
-  a_full_disk_is_tried_again_but_not_for_ever a_dead_task_and_a_cancelled_one_are_made_up_for \
-  a_wrong_input_on_a_node_stops_the_array; do
+  a_full_disk_is_tried_again_but_not_for_ever a_node_with_another_version_makes_nothing \
+  a_dead_task_and_a_cancelled_one_are_made_up_for a_wrong_input_on_a_node_stops_the_array; do
   $claim
   pass "$claim"
 done

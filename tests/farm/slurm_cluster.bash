@@ -33,7 +33,7 @@ start_daemon() {
 choose_address() {
   host=$(uname -n)
   host=${host%%.*}
-  address=$(getent ahostsv4 "$host" | awk 'NR == 1 { print $1 }')
+  address=$(getent ahostsv4 "$host" | awk 'NR == 1 { print $1 }') || address=''
   as_localhost=()
   if [[ $address != 127.* ]]; then
     if unshare --uts true 2>/dev/null; then
@@ -95,6 +95,7 @@ ReturnToService=2
 JobRequeue=1
 KillWait=10
 MinJobAge=300
+MaxArraySize=25
 DependencyParameters=kill_invalid_depend
 SchedulerParameters=sched_interval=1,batch_sched_delay=0,bf_interval=1
 CONF
