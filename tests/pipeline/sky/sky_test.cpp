@@ -81,9 +81,10 @@ TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
   EXPECT_LT(sagittarius_cloud, 6);
   EXPECT_GT(eta_carinae, 1);
   EXPECT_LT(coalsack, beside_coalsack);
-  EXPECT_GT(large_cloud, 1.8 * light(100, -80));
-  EXPECT_LT(galactic_pole, 0.1);
-  EXPECT_GT(galactic_pole, 0.03) << "dark, not dead";
+  EXPECT_GT(large_cloud, 1.5 * light(100, -80));
+  // 30 S10(V), as measured skies have it, are 0.25.
+  EXPECT_LT(galactic_pole, 0.3);
+  EXPECT_GT(galactic_pole, 0.15);
 }
 
 TEST(Grid, IsTheChequerboardOfThePaperWithItsPolarDiscs) {
