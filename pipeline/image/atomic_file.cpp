@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <random>
 #include <string>
@@ -98,8 +99,21 @@ std::optional<Owner> owner_of(const std::string& name) {
   return Owner{rest.substr(host + 1, process - host - 1), std::stoi(digits)};
 }
 
+// A zombie has a number and runs no more; where nothing reaps it, as in some containers, it stays one.
+bool is_zombie(pid_t process) {
+  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+  std::string text;
+  std::getline(stat, text);
+  const auto name_end = text.rfind(')');  // the name itself may hold anything
+  return name_end != std::string::npos && text.compare(name_end + 1, 2, " Z") == 0;
+}
+
+bool is_running(pid_t process) {
+  return (kill(process, 0) == 0 || errno != ESRCH) && !is_zombie(process);
+}
+
 bool is_abandoned(const fs::directory_entry& entry, const Owner& owner) {
-  if (owner.host == host_name()) return kill(owner.process, 0) != 0 && errno == ESRCH;
+  if (owner.host == host_name()) return !is_running(owner.process);
   std::error_code error;
   const auto written = entry.last_write_time(error);
   return !error && fs::file_time_type::clock::now() - written > kForeignAge;

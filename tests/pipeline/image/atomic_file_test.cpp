@@ -75,5 +75,20 @@ TEST_F(AtomicFile, SweepingTakesOnlyWhatTheDeadLeft) {
   EXPECT_EQ(sweep_temporaries(folder_ / "none"), 0);
 }
 
+TEST_F(AtomicFile, SweepingTakesWhatAZombieLeft) {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  std::string name(host);
+  for (char& c : name)
+    if (c == '.') c = '-';
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  siginfo_t info;
+  waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);  // ended, not reaped
+  put(folder_ / (".a.exr." + name + "." + std::to_string(child) + ".1-0.tmp"), "x");
+  EXPECT_EQ(sweep_temporaries(folder_), 1);
+  waitpid(child, nullptr, 0);
+}
+
 }  // namespace
 }  // namespace domefall
