@@ -11,6 +11,16 @@
 namespace domefall {
 namespace {
 
+// This host as temporaries bear it.
+std::string host_in_names() {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  std::string name(host);
+  for (char& c : name)
+    if (c == '.') c = '-';
+  return name;
+}
+
 using AtomicFile = TestFolder;
 
 TEST_F(AtomicFile, AppearsWholeAndLeavesNothingElse) {
@@ -53,11 +63,7 @@ TEST_F(AtomicFile, AWriteThatBreaksOffLeavesTheOldFileAndNoTemporary) {
 }
 
 TEST_F(AtomicFile, SweepingTakesOnlyWhatTheDeadLeft) {
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  std::string name(host);
-  for (char& c : name)
-    if (c == '.') c = '-';
+  const std::string name = host_in_names();
   const pid_t child = fork();
   if (child == 0) _exit(0);
   waitpid(child, nullptr, 0);  // a number that is in nobody's use now
@@ -76,11 +82,7 @@ TEST_F(AtomicFile, SweepingTakesOnlyWhatTheDeadLeft) {
 }
 
 TEST_F(AtomicFile, SweepingTakesWhatAZombieLeft) {
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  std::string name(host);
-  for (char& c : name)
-    if (c == '.') c = '-';
+  const std::string name = host_in_names();
   const pid_t child = fork();
   if (child == 0) _exit(0);
   siginfo_t info;

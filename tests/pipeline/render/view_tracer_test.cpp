@@ -68,5 +68,29 @@ TEST(ViewTracer, TheSilhouetteAtTheHorizonHas84Point2DegreesAcross) {
   }
 }
 
+// A sky seen from inside, north up: Betelgeuse to the upper left of Rigel.  A mirrored one would fool
+// nobody who has looked up.
+TEST(ViewTracer, OrionStandsUprightAndUnmirrored) {
+  Show show = show_of(StaticObserver{}, Stereographic{800, 600, 40 * kDegree});
+  const auto star = [](double ra, double dec) {
+    return V3d(std::cos(dec * kDegree) * std::cos(ra * kDegree),
+               std::cos(dec * kDegree) * std::sin(ra * kDegree), std::sin(dec * kDegree));
+  };
+  show.hole_at = {star(84, 0)};
+  show.heading = 90 * kDegree;
+  show.timeline[0].camera.attitude = LookAtSky{{star(84, 0)}};
+  const FrameState state = frame_state(show, 0);
+  const auto pixel = [&](const V3d& sky) {
+    const V3d tetrad = apply_transposed(state.observer.sky_from_tetrad, sky);
+    return pixel_of(show.projection, {apply_transposed(state.observer.tetrad_from_camera, tetrad)})
+        .value();
+  };
+  const PixelPosition betelgeuse = pixel(star(88.79, 7.41)), rigel = pixel(star(78.63, -8.20));
+  EXPECT_NEAR(betelgeuse.i, 306, 2);
+  EXPECT_NEAR(betelgeuse.j, 153, 2);
+  EXPECT_NEAR(rigel.i, 506, 2);
+  EXPECT_NEAR(rigel.j, 463, 2);
+}
+
 }  // namespace
 }  // namespace domefall
