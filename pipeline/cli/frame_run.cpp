@@ -54,8 +54,14 @@ class Run {
         *frame = rendered(state);
       if (writing.valid()) writing.get(), progress.made();
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good] {
-        if (!linear_good) write_frame(linear_path(state.frame), **frame, info(state, key));
+        // Packing pixels is most of the work, so the two files are made side by side.
+        std::future<void> linear;
+        if (!linear_good)
+          linear = std::async(std::launch::async, [&] {
+            write_frame(linear_path(state.frame), **frame, info(state, key));
+          });
         if (grades()) write_graded_frame(state, key, **frame);
+        if (linear.valid()) linear.get();
       });
     }
     if (writing.valid()) writing.get(), progress.made();
