@@ -104,6 +104,9 @@ CONF
   done >>"$SLURM_CONF"
   echo "PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP" >>"$SLURM_CONF"
   : >"$cluster/plugstack.conf"
+  # No cgroup is used, but slurmd looks which kind there is and ends where none is mounted, as in a bare
+  # chroot; told the kind, it does not look.
+  echo "CgroupPlugin=cgroup/v1" >"$cluster/cgroup.conf"
 }
 
 munge_answers() { munge -n -S "$cluster/munge.socket" | unmunge -S "$cluster/munge.socket"; }
