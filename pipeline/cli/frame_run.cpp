@@ -44,7 +44,8 @@ class Run {
       const std::string key = keys_.scene(state);
       auto frame = std::make_shared<std::optional<HalfFrame>>();
       const bool linear_good = is_linear_good(state, key);
-      if (linear_good && is_graded_good(state, key)) {
+      const bool graded_good = is_graded_good(state, key);
+      if (linear_good && graded_good) {
         progress.skipped();
         continue;
       }
@@ -53,14 +54,14 @@ class Run {
       else
         *frame = rendered(state);
       if (writing.valid()) writing.get(), progress.made();
-      writing = std::async(std::launch::async, [this, state, key, frame, linear_good] {
+      writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
         // Packing pixels is most of the work, so the two files are made side by side.
         std::future<void> linear;
         if (!linear_good)
           linear = std::async(std::launch::async, [&] {
             write_frame(linear_path(state.frame), **frame, info(state, key));
           });
-        if (grades()) write_graded_frame(state, key, **frame);
+        if (!graded_good) write_graded_frame(state, key, **frame);
         if (linear.valid()) linear.get();
       });
     }

@@ -41,6 +41,16 @@ exits 0 "$DOMEFALL" render fall.yaml --out broken
 says '5 frames made, 19 already there'
 same_frames whole broken
 
+# Of a frame's two files, only the one that is missing is made.
+rm broken/linear/fall_00005.exr broken/graded/fall_00006.png
+touch -d '2001-01-01' broken/graded/fall_00005.png broken/linear/fall_00006.exr
+exits 0 "$DOMEFALL" render fall.yaml --out broken
+says '2 frames made, 22 already there'
+for kept in graded/fall_00005.png linear/fall_00006.exr; do
+  [ -z "$(find broken/$kept -newermt 2002-01-01)" ] || fail "$kept was made again"
+done
+same_frames whole broken
+
 # A change of one segment makes its frames again, and not the other's.
 sed -i 's/to_r: 1}/to_r: 0.9}/' fall.yaml
 exits 0 "$DOMEFALL" render fall.yaml --out broken
