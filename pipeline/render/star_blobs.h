@@ -45,7 +45,7 @@ class BlobMaker {
   const HoleOptics& optics_;
   const SkyTable* table_;
   double scale_;      // pixel value per cd/m^2
-  double min_sigma_;  // radians, at least 0.8 pixel
+  double min_sigma_;  // radians, at least 0.9 pixel
   double max_sigma_;
 };
 

@@ -92,7 +92,7 @@ struct PanoramaShift {
 // A star is a truncated Gaussian in angle.  Its width grows with its (observed) brightness:
 // sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
 struct StarBlobs {
-  double min_sigma = 0;            // radians; the renderer never goes below 0.8 pixel
+  double min_sigma = 0;            // radians; the renderer never goes below 0.9 pixel
   double growth = 0.2;             // 0: every star the same size; 0.5: every star the same peak
   double reference_magnitude = 5;  // up to here min_sigma
   double max_sigma = 0;            // radians

@@ -63,7 +63,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
       if (!is_inside(show.projection, pixel)) {
         ++outside;
         EXPECT_EQ(light, 0);
-      } else if (look.sky == SeenSky::kNone && look.to_edge > 0.05) {
+      } else if (look.sky == SeenSky::kNone && look.to_edge > 0.06) {
         ++dark;
         EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
       } else if (look.sky == SeenSky::kOne) {
