@@ -155,6 +155,11 @@ double central_pixel_angle(const Projection& p) {
   return 2 * half_tangent_per_pixel(std::get<Stereographic>(p));
 }
 
+double pixel_angle(const Projection& p, PixelPosition pixel) {
+  if (std::holds_alternative<Domemaster>(p)) return central_pixel_angle(p);
+  return std::sqrt(pixel_solid_angle(p, pixel));  // conformal: the same in every direction
+}
+
 std::string_view projection_name(const Projection& p) {
   return std::holds_alternative<Domemaster>(p) ? "domemaster" : "stereographic";
 }

@@ -69,6 +69,9 @@ double pixel_solid_angle(const Projection& p, PixelPosition pixel);
 // Angle (radians) between neighbouring pixels in the middle of the image.
 double central_pixel_angle(const Projection& p);
 
+// The same at a pixel, along the direction to the middle.
+double pixel_angle(const Projection& p, PixelPosition pixel);
+
 std::string_view projection_name(const Projection& p);
 
 }  // namespace domefall

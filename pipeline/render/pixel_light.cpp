@@ -20,7 +20,7 @@ constexpr double kEdgePixels = 4;
 // So is one whose footprint on the sky is longer than this (radians) and that elongated: blurring it
 // to its length would lose what it still resolves across.  A grid has sharp lines, a panorama's
 // texels are softer.
-constexpr double kLongOnGrid = 0.002, kLongOnPanorama = 0.01, kElongation = 3;
+constexpr double kLongOnGrid = 0.0005, kLongOnPanorama = 0.01, kElongation = 3;
 
 bool is_grid(const Sky* sky) { return sky && std::holds_alternative<Grid>(sky->background); }
 
@@ -48,19 +48,22 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
       long_footprint_(is_grid(one) || is_grid(three) ? kLongOnGrid : kLongOnPanorama),
       scale_(exposure_scale(show.exposure)) {}
 
-WorkingRgb PixelLight::light(const LookBatch& batch, int k, double pixel_angle) const {
+// sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
+WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle, bool fine) const {
   const Sky* sky = batch.sky[k] == SeenSky::kOne     ? one_
                    : batch.sky[k] == SeenSky::kThree ? three_
                                                      : nullptr;
   if (sky == nullptr) return {0, 0, 0};
   const double g = batch.frequency_ratio[k], gain = scale_ * sky->background_gain;
-  const double footprint = pixel_angle * std::max(batch.radial_scale[k], batch.tangential_scale[k]);
+  const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky->background))
-    return (*map)->sample(batch.sky_direction(k), footprint) *
+    return (*map)->sample(batch.sky_direction(k), sample_angle * longer) *
            (panorama_intensity(show_.panorama_shift, g) * gain);
-  if (std::holds_alternative<Grid>(sky->background))
-    return grid_light({batch.sky_direction(k)}, footprint, g) * gain;
-  return {0, 0, 0};
+  if (!std::holds_alternative<Grid>(sky->background)) return {0, 0, 0};
+  // Many looks do the blurring themselves; a box as long as each would also smear the lines across
+  // it, which on an Einstein ring are stretched without bound.
+  const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
+  return grid_light({batch.sky_direction(k)}, sample_angle * (fine ? shorter : longer), g) * gain;
 }
 
 bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const {
@@ -70,31 +73,35 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
   return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
 }
 
-void PixelLight::shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const {
+void PixelLight::shade(const LookBatch& batch, int count, const double* sample_angle, bool fine,
+                       float* rgb) const {
   for (int k = 0; k < count; ++k, rgb += 3) {
-    const WorkingRgb c = light(batch, k, pixel_angle);
+    const WorkingRgb c = light(batch, k, sample_angle[k], fine);
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
 }
 
 // Each of these pixels becomes the mean of a square of looks.
-void PixelLight::supersample(int row, const std::vector<int>& pixels, double pixel_angle,
-                             float* rgb) const {
+void PixelLight::supersample(int row, const std::vector<int>& pixels, float* rgb) const {
   const Projection finer = refined(projection_, kFineSamples);
   constexpr int kAtOnce = LookBatch::kSize / kFinePerPixel;
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
+  std::array<double, LookBatch::kSize> angle;
   std::array<float, 3 * LookBatch::kSize> fine;
   for (std::size_t first = 0; first < pixels.size(); first += kAtOnce) {
     const std::size_t end = std::min(pixels.size(), first + kAtOnce);
     int count = 0;
-    for (std::size_t p = first; p < end; ++p)
+    for (std::size_t p = first; p < end; ++p) {
+      std::fill_n(angle.begin() + count, kFinePerPixel,
+                  pixel_angle(projection_, {pixels[p] + 1.0, row + 1.0}) / kFineSamples);
       for (int b = 0; b < kFineSamples; ++b, count += kFineSamples)
         inside_directions(finer, kFineSamples * row + b,
                           {kFineSamples * pixels[p], kFineSamples * (pixels[p] + 1) - 1},
                           n.data() + count);
+    }
     tracer_.look(n.data(), count, batch);
-    shade(batch, count, pixel_angle / kFineSamples, fine.data());
+    shade(batch, count, angle.data(), true, fine.data());
     const float* sample = fine.data();
     for (std::size_t p = first; p < end; ++p) {
       float sum[3] = {0, 0, 0};
@@ -106,22 +113,24 @@ void PixelLight::supersample(int row, const std::vector<int>& pixels, double pix
 }
 
 void PixelLight::fill_row(int row, float* rgb) const {
-  const double angle = central_pixel_angle(projection_);
   const ColumnRange inside = inside_columns(projection_, row);
   std::fill_n(rgb, 3 * columns(projection_), 0.0f);
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
+  std::array<double, LookBatch::kSize> angle;
   std::vector<int> fine;
   for (int first = inside.first; first <= inside.last; first += LookBatch::kSize) {
     const int last = std::min(inside.last, first + LookBatch::kSize - 1), count = last - first + 1;
     inside_directions(projection_, row, {first, last}, n.data());
-    tracer_.look(n.data(), count, batch);
-    shade(batch, count, angle, rgb + 3 * first);
     for (int k = 0; k < count; ++k)
-      if (batch.sky[k] != SeenSky::kNone || batch.to_edge[k] < HUGE_VAL)
-        if (needs_more_samples(batch, k, angle)) fine.push_back(first + k);
+      angle[static_cast<std::size_t>(k)] = pixel_angle(projection_, {first + k + 1.0, row + 1.0});
+    tracer_.look(n.data(), count, batch);
+    shade(batch, count, angle.data(), false, rgb + 3 * first);
+    for (int k = 0; k < count; ++k)
+      if (needs_more_samples(batch, k, angle[static_cast<std::size_t>(k)]))
+        fine.push_back(first + k);
   }
-  supersample(row, fine, angle, rgb);
+  supersample(row, fine, rgb);
 }
 
 }  // namespace domefall

@@ -16,10 +16,11 @@ class PixelLight {
   void fill_row(int row, float* rgb) const;
 
  private:
-  void shade(const LookBatch& batch, int count, double pixel_angle, float* rgb) const;
-  WorkingRgb light(const LookBatch& batch, int k, double pixel_angle) const;
+  void shade(const LookBatch& batch, int count, const double* sample_angle, bool fine,
+             float* rgb) const;
+  WorkingRgb light(const LookBatch& batch, int k, double sample_angle, bool fine) const;
   bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
-  void supersample(int row, const std::vector<int>& pixels, double pixel_angle, float* rgb) const;
+  void supersample(int row, const std::vector<int>& pixels, float* rgb) const;
 
   const Show& show_;
   Projection projection_;

@@ -40,6 +40,10 @@ M33d tilted(const M33d& axes, double tilt) {
   return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
 }
 
+// Of a frame: durations such as 0.1 s add up to a little more than the instant they mean, and the
+// frame at a cut belongs to what follows it.
+constexpr double kCutTolerance = 1e-6;
+
 // `part` of the segment's duration has passed.
 double proper_time_at(const Segment& s, double part) {
   if (s.pace == Pace::kSteady) return s.tau_begin + part * (s.tau_end - s.tau_begin);
@@ -104,11 +108,11 @@ FrameState frame_state(const Show& show, int frame) {
   double begin = 0;
   const int last = static_cast<int>(show.timeline.size()) - 1;
   while (state.segment < last &&
-         state.show_time_s >=
+         (frame + kCutTolerance) / show.frames_per_second >=
              begin + show.timeline[static_cast<std::size_t>(state.segment)].duration_s)
     begin += show.timeline[static_cast<std::size_t>(state.segment++)].duration_s;
   const Segment& segment = show.timeline[static_cast<std::size_t>(state.segment)];
-  const double part = std::min(1.0, (state.show_time_s - begin) / segment.duration_s);
+  const double part = std::clamp((state.show_time_s - begin) / segment.duration_s, 0.0, 1.0);
   const double tau = proper_time_at(segment, part);
   const OrbitPoint start = point_at(segment.trajectory, segment.tau_begin);
   const OrbitPoint point = point_at(segment.trajectory, tau);

@@ -17,7 +17,7 @@ inline constexpr double kPanoramaUnit = 1e-4;
 class SkyMap {
  public:
   // From an equirectangular image, linear Rec.709, equatorial J2000, seen from inside: the middle
-  // column is RA 0h, RA grows to the left, the top row is Dec +90.  Twice as wide as high.
+  // column is RA 0h, RA grows to the left, the top row is Dec +90.  Twice as wide as high, at least 4 x 2.
   explicit SkyMap(const FloatImage& equirectangular);
 
   // Light (cd/m^2, working space) in a direction, averaged over about `footprint` radians.
