@@ -25,11 +25,14 @@ constexpr const char* kSoftware = "Domefall " DOMEFALL_VERSION;
 
 class Run {
  public:
-  explicit Run(const FrameRun& run) : run_(run), keys_(run.show) {
-    if (grades()) grader_.emplace(run.show.grade);
+  explicit Run(const FrameRun& run)
+      : run_(run),
+        grader_(grader_of(run.show)),
+        keys_(run.show, grader_ ? grader_->transform_id() : std::string()) {
     name_ = run.show.file.stem().string();
     set_file_threads(run.threads > 0 ? run.threads
                                      : static_cast<int>(std::thread::hardware_concurrency()));
+    catch_interruptions();
     make_folder(run.folder / "linear");
     if (grades()) make_folder(run.folder / "graded");
   }
@@ -72,6 +75,11 @@ class Run {
   }
 
  private:
+  static std::optional<Grader> grader_of(const Show& show) {
+    if (show.graded_format == GradedFormat::kNone) return std::nullopt;
+    return Grader(show.grade);
+  }
+
   static void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -108,7 +116,13 @@ class Run {
       throw InputError(
           linear_path(state.frame).string() +
           ": the frame is missing, damaged or of another version of the show; render it first");
-    if (!renderer_) renderer_.emplace(run_.show, run_.threads);
+    if (!renderer_) {
+      renderer_.emplace(run_.show, run_.threads);
+      // All that the run will need: a damaged file is told before the first frame, not in the middle.
+      renderer_->load_skies(std::any_of(run_.frames.begin(), run_.frames.end(), [this](int frame) {
+        return plan_frame(run_.show, frame_state(run_.show, frame)).sees_three();
+      }));
+    }
     StageTimes times;
     try {
       HalfFrame frame = renderer_->render(state, &times);
@@ -129,8 +143,8 @@ class Run {
     info.key = key;
     info.frame = state.frame;
     info.region = region_name(state.observer.region);
-    info.r = state.observer.r;
-    info.proper_time = state.observer.proper_time;
+    info.r = steady(state.observer.r);
+    info.proper_time = steady(state.observer.proper_time);
     info.frames_per_second = run_.show.frames_per_second;
     info.projection = projection_name(state.projection);
     info.software = kSoftware;
@@ -150,8 +164,8 @@ class Run {
   }
 
   const FrameRun& run_;
-  FrameKeys keys_;
   std::optional<Grader> grader_;
+  FrameKeys keys_;
   std::optional<Renderer> renderer_;
   std::string name_;
 };
@@ -186,7 +200,8 @@ Projection resized(const Projection& projection, const std::string& size) {
   int pixels = whole_number(size);
   if (size.ends_with('k')) {
     const int thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
-    if (thousands >= 1 && thousands <= kLargest / 1024) pixels = thousands * 1024;
+    if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
+      pixels = thousands * 1024;
   }
   if (!in_range(pixels))
     throw InputError("--size " + size +

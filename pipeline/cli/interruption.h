@@ -7,6 +7,7 @@ struct Interrupted {
   int signal;
 };
 
+// From here on the two signals are remembered; without it they end the program at once.
 void catch_interruptions();
 
 // Throws Interrupted if a signal has come.

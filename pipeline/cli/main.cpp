@@ -3,8 +3,11 @@
 // Exit codes: 0 done; 2 the input is wrong and trying again is useless; 75 worth trying again, here
 // or elsewhere; 128 + n stopped by signal n; 1 anything else.
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <string>
 
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
@@ -17,6 +20,12 @@ constexpr int kBadInput = 2, kTryAgain = 75, kFailure = 1;
 int report(const char* message, int code) {
   std::fprintf(stderr, "%s\n", message);
   return code;
+}
+
+// What other programs read must have reached them.
+int flushed(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  throw domefall::TemporaryError(std::string("standard output: ") + std::strerror(errno));
 }
 
 int run(int argc, char** argv) {
@@ -42,8 +51,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    domefall::catch_interruptions();
-    return run(argc, argv);
+    return flushed(run(argc, argv));
   } catch (const domefall::Interrupted& stop) {
     return report("stopped; run the same command again to go on", 128 + stop.signal);
   } catch (const domefall::InputError& error) {

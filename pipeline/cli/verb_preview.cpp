@@ -8,6 +8,7 @@
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
+#include "pipeline/show/assets.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {
@@ -37,16 +38,19 @@ void flatten(Show& show, FrameState& state, const Projection& flat) {
 }
 
 void preview(const Options& o) {
+  check_graded_name(o.out);
   Show show = read_show(o.show);
   parse_frames(std::to_string(o.frame), frame_count(show));
   const Projection flat =
       resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
   FrameState state = frame_state(show, o.frame);
   flatten(show, state, flat);
-  if (show.grade.display.empty() && show.grade.view.empty()) show.grade.display = "sRGB - Display";
+  // A screen is not a dome; of a show's own configuration we know no displays.
+  if (show.grade.display.empty() && show.grade.config == shipped_asset(kDomeConfig))
+    show.grade.display = "sRGB - Display";
   const Grader grader(show.grade);
   const HalfFrame frame = Renderer(show, o.threads).render(state);
-  const FrameKeys keys(show);
+  const FrameKeys keys(show, grader.transform_id());
   GradedInfo info;
   info.key = keys.graded(keys.scene(state));
   info.title = show.title;

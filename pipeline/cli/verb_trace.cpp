@@ -7,6 +7,7 @@
 
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/optics/silhouette.h"
 #include "pipeline/optics/traced_ray.h"
 
 namespace domefall {
@@ -73,6 +74,15 @@ class RayTable {
   std::size_t width_ = 0;
 };
 
+// The edge and the offset make delta, which must be an angle from the hole.
+void check_offset(const RayTable& table, const RayRequest& q, const std::string& text) {
+  const double tangent =
+      *q.edge == Edge::kSilhouette ? tan_half_silhouette(q.at) : tan_half_region_three(q.at);
+  const double edge = 2 * std::atan(tangent), beyond = 2 * std::atan2(1.0, tangent);
+  if (!(q.offset >= -edge * (1 + 1e-12) && q.offset <= beyond * (1 + 1e-12)))
+    table.fail("offset must keep delta from 0 to pi, got " + text);
+}
+
 RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& cell) {
   RayRequest q;
   if (cell[RayTable::kObserver] == "static")
@@ -92,6 +102,7 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
     q.edge = edge == "silhouette" ? Edge::kSilhouette : Edge::kRegionThree;
     q.offset = static_cast<double>(table.number(cell[RayTable::kOffset], "offset"));
     if (edge == "region3" && !(r <= 2)) table.fail("edge region3 needs r of at most 2");
+    if (!is_static) check_offset(table, q, cell[RayTable::kOffset]);
     return q;
   }
   if (!edge.empty()) table.fail("edge must be silhouette, region3 or empty, got '" + edge + "'");

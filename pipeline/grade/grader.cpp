@@ -146,6 +146,7 @@ Grader::Grader(const GradeSettings& settings) {
   group->appendTransform(view);
   try {
     const auto processor = config->getProcessor(group);
+    transform_id_ = processor->getCacheID();
     const auto cpu = processor->getOptimizedCPUProcessor(
         ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
     processor_ = std::make_shared<const Processor>(Processor{cpu, graded_black(*cpu)});

@@ -26,6 +26,9 @@ class Grader {
   // The whole frame, on the calling thread.
   GradedFrame grade(const HalfFrame& in) const;
 
+  // A name for what it does to a pixel: of all transforms and of the contents of the files they read.
+  const std::string& transform_id() const { return transform_id_; }
+
   // As settled by the settings and the configuration's defaults.
   const std::string& display() const { return display_; }
   const std::string& view() const { return view_; }
@@ -33,7 +36,7 @@ class Grader {
  private:
   struct Processor;
   std::shared_ptr<const Processor> processor_;
-  std::string display_, view_;
+  std::string display_, view_, transform_id_;
 };
 
 }  // namespace domefall

@@ -55,11 +55,15 @@ OIIO::ImageSpec spec_of(const GradedFrame& frame, const GradedInfo& info) {
 
 }  // namespace
 
-void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
-                  const GradedInfo& info) {
+void check_graded_name(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension != ".png" && extension != ".tif" && extension != ".tiff")
     throw InputError(path.string() + ": graded frames are .png, .tif or .tiff");
+}
+
+void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
+                  const GradedInfo& info) {
+  check_graded_name(path);
   std::vector<unsigned char> contents;
   OIIO::Filesystem::IOVecOutput memory(contents);
   const auto out = OIIO::ImageOutput::create(path.string(), &memory);

@@ -21,6 +21,9 @@ struct GradedInfo {
   std::string software;
 };
 
+// Throws InputError for a name that is neither PNG nor TIFF by its extension.
+void check_graded_name(const std::filesystem::path& path);
+
 // Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for
 // another extension or a path that cannot be written, TemporaryError for a disk that is full or
 // fails.

@@ -1,5 +1,7 @@
 #include "pipeline/render/frame_key.h"
 
+#include <cmath>
+
 #include "pipeline/image/digest.h"
 
 namespace domefall {
@@ -14,9 +16,12 @@ void add_sky(Digest& digest, const RegionSky& sky) {
     digest.add_file(sky.stars->catalogue).add(sky.stars->max_magnitude).add(sky.star_gain);
 }
 
+// Of unit vectors, to 1e-12: what is 0 on one processor is 1e-17 on another.
+constexpr double kUnitSteps = 1e12;
+
 void add_matrix(Digest& digest, const M33d& m) {
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) digest.add(m[i][j]);
+    for (int j = 0; j < 3; ++j) digest.add(std::round(m[i][j] * kUnitSteps) + 0.0);
 }
 
 void add_projection(Digest& digest, const Projection& p) {
@@ -24,19 +29,15 @@ void add_projection(Digest& digest, const Projection& p) {
   if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(flat->fov);
 }
 
-std::string digest_of_grade(const Show& show) {
-  const GradeSettings& g = show.grade;
-  Digest digest;
-  digest.add_file(g.config).add(g.display).add(g.view).add(g.saturation);
-  for (const auto& triple : {g.slope, g.offset, g.power})
-    for (const double v : triple) digest.add(v);
-  digest.add(show.graded_format == GradedFormat::kTiff ? "tiff" : "png");
-  return digest.hex();
-}
-
 }  // namespace
 
-FrameKeys::FrameKeys(const Show& show) {
+double steady(double value) {
+  constexpr double kSplit = 4097;  // 2^12 + 1, Veltkamp's way to round to 41 bits
+  const double scaled = kSplit * value, high = scaled - (scaled - value);
+  return std::isfinite(high) ? high : value;
+}
+
+FrameKeys::FrameKeys(const Show& show, const std::string& grade) : grade_(grade) {
   Digest common;
   common.add(DOMEFALL_VERSION).add(show.title).add(show.frames_per_second);
   add_sky(common, show.sky_one);
@@ -47,14 +48,17 @@ FrameKeys::FrameKeys(const Show& show) {
   Digest three;
   add_sky(three, show.sky_three);
   sky_three_ = three.hex();
-  if (show.graded_format != GradedFormat::kNone) grade_ = digest_of_grade(show);
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
   const ObserverState& o = state.observer;
   Digest digest;
-  digest.add(common_).add(state.frame).add(region_name(o.region)).add(o.r).add(o.proper_time);
-  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(v);
+  digest.add(common_)
+      .add(state.frame)
+      .add(region_name(o.region))
+      .add(steady(o.r))
+      .add(steady(o.proper_time));
+  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
   add_matrix(digest, o.sky_from_tetrad);
   add_matrix(digest, o.tetrad_from_camera);
   add_projection(digest, state.projection);

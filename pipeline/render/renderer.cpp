@@ -103,6 +103,11 @@ Renderer::Renderer(const Show& show, int threads)
 
 Renderer::~Renderer() = default;
 
+void Renderer::load_skies(bool three) {
+  scene_.sky_one();
+  if (three) scene_.sky_three();
+}
+
 int Renderer::threads() const { return arena_->arena.max_concurrency(); }
 
 const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan& plan) {

@@ -19,6 +19,8 @@ struct FramePlan {
   bool table_one = false, table_three = false;
   bool background_one = false, background_three = false;  // anything to see but stars
   bool stars_one = false, stars_three = false;
+
+  bool sees_three() const { return background_three || stars_three; }
 };
 
 FramePlan plan_frame(const Show& show, const FrameState& state);
@@ -42,6 +44,9 @@ class Renderer {
   // cannot be read, std::runtime_error naming the pixel if a value is not finite.
   // Values beyond the largest half (65504) are recorded as that: the sensor saturates.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
+
+  // Reads the skies' files now instead of at the first frame that shows them.  Throws InputError.
+  void load_skies(bool three);
 
   int threads() const;
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
 #include "pipeline/sky/star_catalogue.h"
 
@@ -21,6 +22,15 @@ std::vector<SceneStar> scene_stars(const StarCatalogue& catalogue, double gain) 
     stars.push_back({s.direction, flux, t, radius});
   }
   return stars;
+}
+
+FloatImage read_panorama(const std::filesystem::path& file) {
+  FloatImage image = read_image(file);
+  if (image.width < 4 || image.height < 2 || image.width != 2 * image.height)
+    throw InputError(
+        file.string() + ": a panorama is twice as wide as high, at least 4 x 2 pixels; " +
+        "this one is " + std::to_string(image.width) + " x " + std::to_string(image.height));
+  return image;
 }
 
 bool same_background(const RegionSky& a, const RegionSky& b) {
@@ -42,7 +52,7 @@ Sky Scene::load(const RegionSky& region) {
   sky.background_gain = static_cast<float>(region.background_gain);
   if (std::holds_alternative<GridSky>(region.background)) sky.background = Grid{};
   if (const auto* panorama = std::get_if<PanoramaSky>(&region.background))
-    sky.background = std::make_shared<const SkyMap>(read_image(panorama->image));
+    sky.background = std::make_shared<const SkyMap>(read_panorama(panorama->image));
   std::vector<SceneStar> stars;
   if (region.stars && region.star_gain > 0)
     stars = scene_stars(read_star_catalogue(region.stars->catalogue, region.stars->max_magnitude),
