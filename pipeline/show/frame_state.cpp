@@ -9,10 +9,11 @@
 namespace domefall {
 namespace {
 
-// Scene "up" where a target leaves it free: the north of the orbit, -Theta; outward (R) for a
-// target within 0.06 degrees of that axis.
-V3d up_across(const V3d& target) {
-  const V3d north(0, -1, 0), outward(1, 0, 0);
+// Scene "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
+// is no hole to orbit; outward (R) for a target within 0.06 degrees of that axis.
+V3d up_across(const V3d& target, const ObserverState& o) {
+  const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
+  const V3d outward(1, 0, 0);
   const V3d up = target.cross(north).length() > 1e-3 ? north : outward;
   return (up - target * up.dot(target)).normalized();
 }
@@ -90,7 +91,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection,
     return dome ? tilted(axes, camera.dome_tilt) : axes;
   }
   const V3d& f = *target;
-  const V3d up = up_across(f), right = f.cross(up);
+  const V3d up = up_across(f, observer), right = f.cross(up);
   if (!dome) return rolled(right, -up, f, camera.roll);
   // Roll turns the scene about the target, so it comes before the target is set on the dome.
   const M33d screen = rolled(right, -up, f, camera.roll);

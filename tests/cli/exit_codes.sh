@@ -32,6 +32,10 @@ says '^full/(linear|graded)/fall_000.*: File too large'
 [ -z "$(find full -type f)" ] || fail "a full disk left files: $(find full -type f | head -3)"
 exits 0 "$DOMEFALL" render fall.yaml --frames 0-2 --out full
 
+# Data that did not reach its reader is no success.
+exits 75 bash -c "'$DOMEFALL' states fall.yaml >/dev/full"
+says '^standard output: '
+
 # Asked to stop, it ends in order, and may be sent again.
 "$DOMEFALL" render fall.yaml --size 512 --out stopped 2>stderr &
 sleep 0.6

@@ -56,6 +56,35 @@ sed -i 's/to_r: 1}/to_r: 0.9}/' fall.yaml
 exits 0 "$DOMEFALL" render fall.yaml --out broken
 says '11 frames made, 13 already there'
 
+# A look-up table that a configuration reads is part of the grade.
+cat >table.ocio <<'END'
+ocio_profile_version: 2.1
+search_path: .
+roles: {default: ACEScg, scene_linear: ACEScg, color_timing: ACEScg}
+displays:
+  Wall: [!<View> {name: Wall, colorspace: Wall}]
+colorspaces:
+  - !<ColorSpace> {name: ACEScg}
+  - !<ColorSpace> {name: Wall, from_scene_reference: !<FileTransform> {src: wall.cc}}
+END
+slope() { # slope S: the file that the configuration reads
+  printf '<ColorCorrection id="wall"><SOPNode><Slope>%s %s %s</Slope><Offset>0 0 0</Offset>%s' \
+    "$1" "$1" "$1" '<Power>1 1 1</Power></SOPNode></ColorCorrection>' >wall.cc
+}
+{
+  cat fall.yaml
+  echo 'grade: {config: table.ocio}'
+} >wall.yaml
+slope 0.1
+exits 0 "$DOMEFALL" render wall.yaml --frames 0 --out wall
+exits 0 "$DOMEFALL" render wall.yaml --frames 0 --out wall
+says '^0 frames made'
+slope 0.9
+touch -d '2001-01-01' wall/linear/*.exr
+exits 0 "$DOMEFALL" render wall.yaml --frames 0 --out wall
+says '^1 frames made'
+[ -z "$(find wall/linear -newermt 2002-01-01 -name '*.exr')" ] || fail "a new table rendered"
+
 # A regrade renders nothing; it refuses frames of another version of the show.
 sed -i '$a grade: {view: Star log}' fall.yaml
 touch -d '2001-01-01' broken/linear/*.exr

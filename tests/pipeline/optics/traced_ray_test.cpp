@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "tests/pipeline/optics/reference_rays.h"
 
@@ -69,6 +71,22 @@ TEST_P(ReferenceRows, TableAzimuthIsRightToOneInTenToTheEight) {
 
 INSTANTIATE_TEST_SUITE_P(OfThe, ReferenceRows, testing::Values("rain", "static"),
                          [](const auto& row) { return std::string(row.param); });
+
+// Where both sines vanish: at delta = pi, and at 0 for sky III.
+TEST(TracedRay, IsTheSameByBothMethodsAtTheFarEndOfASky) {
+  for (const auto& [r, delta] :
+       {std::pair(10.0, std::numbers::pi), std::pair(10.0, 3.1415926), std::pair(10.0, 3.14159),
+        std::pair(1.0, 0.0), std::pair(1.0, 1e-9)}) {
+    RayRequest q;
+    q.at = Radius(r);
+    q.delta = delta;
+    const TracedRay exact = trace_ray(q, TraceMethod::kExact),
+                    table = trace_ray(q, TraceMethod::kTable);
+    EXPECT_NEAR(exact.slope / table.slope, 1, 1e-7) << r << " " << delta;
+    EXPECT_NEAR(exact.amplification / table.amplification, 1, 1e-5) << r << " " << delta;
+    EXPECT_NEAR(exact.amplification * exact.slope * exact.slope, 1, 1e-5);
+  }
+}
 
 }  // namespace
 }  // namespace domefall

@@ -76,8 +76,6 @@ TEST(ViewTracer, OrionStandsUprightAndUnmirrored) {
     return V3d(std::cos(dec * kDegree) * std::cos(ra * kDegree),
                std::cos(dec * kDegree) * std::sin(ra * kDegree), std::sin(dec * kDegree));
   };
-  show.hole_at = {star(84, 0)};
-  show.heading = 90 * kDegree;
   show.timeline[0].camera.attitude = LookAtSky{{star(84, 0)}};
   const FrameState state = frame_state(show, 0);
   const auto pixel = [&](const V3d& sky) {

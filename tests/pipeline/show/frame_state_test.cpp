@@ -317,5 +317,18 @@ TEST_F(FrameStates, FlyingTowardsAStarKeepsItDeadAhead) {
   }
 }
 
+// 0.1 + 0.1 + 0.1 > 0.3 in doubles: the frame at the cut must not be late.
+TEST(Cuts, FallOnTheirFramesHoweverTheDurationsAddUp) {
+  Show show;
+  for (int k = 0; k < 10; ++k) {
+    Segment segment;
+    segment.duration_s = 0.1;
+    segment.trajectory = StaticObserver{10.0 + k};
+    show.timeline.push_back(segment);
+  }
+  ASSERT_EQ(frame_count(show), 30);
+  for (int frame = 0; frame < 30; ++frame) EXPECT_EQ(frame_state(show, frame).segment, frame / 3);
+}
+
 }  // namespace
 }  // namespace domefall
