@@ -41,13 +41,15 @@ void check(const std::string& file) {
     std::printf("graded for   %s, %s\n", grader.display().c_str(), grader.view().c_str());
   }
   const int count = frame_count(show);
+  // r only falls or stays along every trajectory, so a segment's ends tell.
   std::set<Region> regions;
   double closest = kFlatSpace;
-  for (int n = 0; n < count; ++n) {
-    const ObserverState o = frame_state(show, n).observer;
-    regions.insert(o.region);
-    closest = std::min(closest, o.r);
-  }
+  for (const Segment& s : show.timeline)
+    for (const double tau : {s.tau_begin, s.tau_end}) {
+      const OrbitPoint point = point_at(s.trajectory, tau);
+      regions.insert(point.region);
+      closest = std::min(closest, point.r);
+    }
   std::printf("title        %s\nframes       %d at %g a second, %s of %d x %d\n",
               show.title.c_str(), count, show.frames_per_second,
               std::string(projection_name(show.projection)).c_str(), columns(show.projection),
