@@ -140,6 +140,7 @@ class Run {
   FrameInfo info(const FrameState& state, const std::string& key) const {
     FrameInfo info;
     info.title = run_.show.title;
+    info.show = keys_.show();
     info.key = key;
     info.frame = state.frame;
     info.region = region_name(state.observer.region);

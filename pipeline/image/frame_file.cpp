@@ -25,10 +25,11 @@ namespace {
 // ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
 const Imf::Chromaticities kAcesCg({0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f},
                                   {0.32168f, 0.33767f});
-constexpr const char *kTitle = "showTitle", *kKey = "frameKey", *kFrame = "frameNumber",
-                     *kRegion = "observerRegion", *kRadius = "observerRadius",
-                     *kProperTime = "observerProperTime", *kRate = "showFramesPerSecond",
-                     *kProjection = "projection", *kPixelDigest = "pixelDigest";
+constexpr const char *kTitle = "showTitle", *kShow = "showDigest", *kKey = "frameKey",
+                     *kFrame = "frameNumber", *kRegion = "observerRegion",
+                     *kRadius = "observerRadius", *kProperTime = "observerProperTime",
+                     *kRate = "showFramesPerSecond", *kProjection = "projection",
+                     *kPixelDigest = "pixelDigest";
 
 // zlib's.  Measured on a 4k frame with stars: 0.8 s of CPU and 24.7 MB, against 2.2 s and 22.2 MB at the
 // usual 6.
@@ -66,6 +67,7 @@ Imf::Header header_of(const HalfFrame& frame, const FrameInfo& info) {
   };
   text("colorSpace", "ACEScg");
   text(kTitle, info.title);
+  text(kShow, info.show);
   text(kKey, info.key);
   header.insert(kFrame, Imf::IntAttribute(info.frame));
   text(kRegion, info.region);
@@ -88,6 +90,7 @@ void read_attribute(const Imf::Header& header, const char* name, Value& value) {
 FrameInfo info_of(const Imf::Header& header) {
   FrameInfo info;
   read_attribute<Imf::StringAttribute>(header, kTitle, info.title);
+  read_attribute<Imf::StringAttribute>(header, kShow, info.show);
   read_attribute<Imf::StringAttribute>(header, kKey, info.key);
   read_attribute<Imf::IntAttribute>(header, kFrame, info.frame);
   read_attribute<Imf::StringAttribute>(header, kRegion, info.region);

@@ -17,6 +17,7 @@ namespace domefall {
 
 struct FrameInfo {
   std::string title;       // of the show
+  std::string show;        // digest of what all frames of this version of the show share
   std::string key;         // digest of everything that decides this frame, hexadecimal
   int frame = 0;           // number in the show, from 0
   std::string region;      // of the observer: I, II, ...

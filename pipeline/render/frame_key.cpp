@@ -1,6 +1,7 @@
 #include "pipeline/render/frame_key.h"
 
 #include <cmath>
+#include <utility>
 
 #include "pipeline/image/digest.h"
 
@@ -37,9 +38,12 @@ double steady(double value) {
   return std::isfinite(high) ? high : value;
 }
 
-FrameKeys::FrameKeys(const Show& show, const std::string& grade) : grade_(grade) {
+// Raised with every change that alters a pixel, so that frames from before it are made again.
+constexpr int kPictures = 1;
+
+FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(grade)) {
   Digest common;
-  common.add(DOMEFALL_VERSION).add(show.title).add(show.frames_per_second);
+  common.add(DOMEFALL_VERSION).add(kPictures).add(show.title).add(show.frames_per_second);
   add_sky(common, show.sky_one);
   const StarBlobs& b = show.blobs;
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);

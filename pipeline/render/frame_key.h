@@ -16,8 +16,10 @@ class FrameKeys {
  public:
   // Reads the show's assets once.  Throws InputError if one is unreadable.  `grade`: what names the
   // grading of frames (Grader::transform_id); empty where frames are not graded.
-  explicit FrameKeys(const Show& show, const std::string& grade = {});
+  explicit FrameKeys(const Show& show, std::string grade = {});
 
+  // Of what all frames share: skies, stars, exposure, title; the timeline apart.
+  const std::string& show() const { return common_; }
   // Of the scene-linear frame.
   std::string scene(const FrameState& state) const;
   // Of the graded frame made from it.

@@ -27,6 +27,7 @@ HalfFrame sample_frame() {
 FrameInfo sample_info() {
   FrameInfo info;
   info.title = "Grüße, a \"title\"";
+  info.show = "00112233445566778899aabbccddeeff";
   info.key = "0123456789abcdef0123456789abcdef";
   info.frame = 42;
   info.region = "II";
@@ -45,6 +46,7 @@ TEST_F(FrameFile, ComesBackBitForBitWithItsInfo) {
   const auto [read, info] = read_frame(path);
   EXPECT_EQ(std::memcmp(read.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2), 0);
   EXPECT_EQ(info.title, sample_info().title);
+  EXPECT_EQ(info.show, sample_info().show);
   EXPECT_EQ(info.key, sample_info().key);
   EXPECT_EQ(info.frame, 42);
   EXPECT_EQ(info.r, 1.0 / 3);
