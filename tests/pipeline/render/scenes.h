@@ -17,22 +17,38 @@ namespace domefall {
 inline constexpr double kDegree = std::numbers::pi / 180;
 inline const std::string kTestAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
 
-// A panorama of a few clouds, small, so that a test spends its time on what it tests.
-inline std::filesystem::path small_panorama() {
-  static const std::filesystem::path file = [] {
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("domefall_panorama_" + std::to_string(getpid()) + ".tif");
-    OIIO::ImageSpec spec(128, 64, 3, OIIO::TypeDesc::FLOAT);
+// A panorama of a few clouds, small, so that a test spends its time on what it tests; gone with the
+// process.
+class SmallPanorama {
+ public:
+  SmallPanorama()
+      : path_(std::filesystem::temp_directory_path() /
+              ("domefall_panorama_" + std::to_string(getpid()) + ".tif")) {
+    const OIIO::ImageSpec spec(128, 64, 3, OIIO::TypeDesc::FLOAT);
     std::vector<float> pixels;
     for (int k = 0; k < 128 * 64 * 3; ++k)
       pixels.push_back(static_cast<float>(1 + std::sin(k * 0.05) * std::cos(k * 0.0007)) / 2 +
                        0.1f);
-    const auto out = OIIO::ImageOutput::create(path.string());
-    out->open(path.string(), spec);
+    const auto out = OIIO::ImageOutput::create(path_.string());
+    out->open(path_.string(), spec);
     out->write_image(OIIO::TypeDesc::FLOAT, pixels.data());
-    return path;
-  }();
-  return file;
+  }
+  ~SmallPanorama() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  SmallPanorama(const SmallPanorama&) = delete;
+  SmallPanorama& operator=(const SmallPanorama&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::filesystem::path small_panorama() {
+  static const SmallPanorama panorama;
+  return panorama.path();
 }
 
 inline Show show_of(const Trajectory& trajectory, const Projection& projection) {
