@@ -21,8 +21,6 @@
 namespace domefall {
 namespace {
 
-constexpr const char* kSoftware = "Domefall " DOMEFALL_VERSION;
-
 class Run {
  public:
   explicit Run(const FrameRun& run)

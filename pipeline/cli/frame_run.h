@@ -9,6 +9,9 @@
 
 namespace domefall {
 
+// What frames say they were made by.
+inline constexpr const char* kSoftware = "Domefall " DOMEFALL_VERSION;
+
 struct FrameRun {
   const Show& show;
   std::vector<int> frames;

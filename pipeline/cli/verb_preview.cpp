@@ -57,7 +57,7 @@ void preview(const Options& o) {
   info.frame = o.frame;
   info.display = grader.display();
   info.view = grader.view();
-  info.software = "Domefall " DOMEFALL_VERSION;
+  info.software = kSoftware;
   write_graded(o.out, grader.grade(frame), info);
 }
 

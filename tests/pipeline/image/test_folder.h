@@ -1,4 +1,5 @@
-// A folder of the test's own, gone with it.
+// A folder of the test's own, gone with it; the tests of one program may run at the same time, in
+// processes of their own.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,9 +1,6 @@
 // Writes show files into a folder of the test's own, with stand-ins for the shipped assets.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,17 +8,13 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/show/read_show.h"
+#include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
 
-class ShowFile : public testing::Test {
+class ShowFile : public TestFolder {
  protected:
   ShowFile() {
-    // The tests of one program may run at the same time, in processes of their own.
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("domefall_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-               std::to_string(getpid()));
     write("assets/milky_way.exr", "");
     write("assets/dome.ocio", "");
     write("assets/naked_eye_stars.csv",
@@ -31,10 +24,7 @@ class ShowFile : public testing::Test {
           "279.235,38.784,0.03,-0.001,Vega,alpha Lyr\n");
     setenv("DOMEFALL_ASSETS", (folder_ / "assets").c_str(), 1);
   }
-  ~ShowFile() override {
-    unsetenv("DOMEFALL_ASSETS");
-    std::filesystem::remove_all(folder_);
-  }
+  ~ShowFile() override { unsetenv("DOMEFALL_ASSETS"); }
   ShowFile(const ShowFile&) = delete;
   ShowFile& operator=(const ShowFile&) = delete;
 
@@ -62,8 +52,6 @@ class ShowFile : public testing::Test {
     }
     return "";
   }
-
-  std::filesystem::path folder_;
 };
 
 }  // namespace domefall
