@@ -10,7 +10,7 @@ V3d celerity_against(const V3d& frame, const V3d& own) {
 }
 
 OrbitPoint point_at(const GivenVelocity& observer, double /*tau*/) {
-  return {observer.r > 2 ? Region::kI : Region::kII, observer.r, 0, observer.celerity};
+  return {observer.region, observer.tetrad, observer.r, 0, observer.celerity};
 }
 
 }  // namespace domefall

@@ -6,12 +6,14 @@
 namespace domefall {
 
 struct GivenVelocity {
-  double r = kFlatSpace;  // > 0; region I outside the horizon, II at r <= 2
-  V3d celerity{0, 0, 0};  // gamma v against the rain tetrad, components (R, Theta, Phi)
+  Region region = Region::kI;
+  Tetrad tetrad = Tetrad::kRain;  // has_tetrad(region, tetrad)
+  double r = kFlatSpace;          // > 2 in I and III, at most 2 in II and IV
+  V3d celerity{0, 0, 0};          // gamma v against the tetrad, components (R, Theta, Phi)
 };
 
-// gamma v against the rain tetrad of an observer that has the celerity `own` in the frame of an
-// observer of celerity `frame`, whose axes are the rain's, boosted ([Riazuelo] eq. Lambda_cov).  A
+// gamma v against the tetrad of an observer that has the celerity `own` in the frame of an
+// observer of celerity `frame`, whose axes are the tetrad's, boosted ([Riazuelo] eq. Lambda_cov).  A
 // celerity, since a speed in double precision holds no Lorentz factor beyond 1e8.
 V3d celerity_against(const V3d& frame, const V3d& own);
 

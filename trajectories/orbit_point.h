@@ -7,9 +7,10 @@ namespace domefall {
 
 struct OrbitPoint {
   Region region = Region::kI;
+  Tetrad tetrad = Tetrad::kRain;
   double r = kFlatSpace;  // units of M
   double azimuth = 0;     // radians swept in the orbital plane since the start, in the sense of Phi
-  V3d celerity{0, 0, 0};  // gamma * velocity against the rain tetrad, components (R, Theta, Phi);
+  V3d celerity{0, 0, 0};  // gamma * velocity against the tetrad, components (R, Theta, Phi);
                           // Phi is the direction of the orbital motion, -Theta the orbit's north
 };
 

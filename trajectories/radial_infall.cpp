@@ -15,7 +15,7 @@ OrbitPoint point_at(const RadialInfall& fall, double tau) {
   const double root =
       std::cbrt(fall.from_r * std::sqrt(fall.from_r) - 3 / std::numbers::sqrt2 * tau);
   const double r = root * root;
-  return {r > 2 ? Region::kI : Region::kII, r, 0, V3d(0, 0, 0)};
+  return {r > 2 ? Region::kI : Region::kII, Tetrad::kRain, r, 0, V3d(0, 0, 0)};
 }
 
 }  // namespace domefall

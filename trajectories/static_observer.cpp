@@ -4,10 +4,13 @@
 
 namespace domefall {
 
-V3d static_celerity(double r) { return {std::sqrt(2 / (r - 2)), 0, 0}; }
+V3d resting_celerity(double r, Tetrad tetrad) {
+  const double celerity = r > 2 ? std::sqrt(2 / (r - 2)) : std::sqrt(r / (2 - r));
+  return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};
+}
 
 OrbitPoint point_at(const StaticObserver& observer, double /*tau*/) {
-  return {Region::kI, observer.r, 0, static_celerity(observer.r)};
+  return {Region::kI, Tetrad::kRain, observer.r, 0, resting_celerity(observer.r)};
 }
 
 }  // namespace domefall

@@ -117,9 +117,11 @@ class Run {
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
       // All that the run will need: a damaged file is told before the first frame, not in the middle.
-      renderer_->load_skies(std::any_of(run_.frames.begin(), run_.frames.end(), [this](int frame) {
-        return plan_frame(run_.show, frame_state(run_.show, frame)).sees_three();
-      }));
+      for (const SeenSky sky : kEverySky)
+        if (std::any_of(run_.frames.begin(), run_.frames.end(), [this, sky](int frame) {
+              return plan_frame(run_.show, frame_state(run_.show, frame))[sky].lit();
+            }))
+          renderer_->load_sky(sky);
     }
     StageTimes times;
     try {

@@ -35,7 +35,6 @@ void check(const std::string& file) {
   const Show show = read_show(file);
   // A file that is there may still be damaged: what the frames will read is read.
   Scene scene(show);
-  scene.sky_one();
   if (show.graded_format != GradedFormat::kNone) {
     const Grader grader(show.grade);
     std::printf("graded for   %s, %s\n", grader.display().c_str(), grader.view().c_str());
@@ -54,7 +53,10 @@ void check(const std::string& file) {
               show.title.c_str(), count, show.frames_per_second,
               std::string(projection_name(show.projection)).c_str(), columns(show.projection),
               rows(show.projection));
-  if (regions.contains(Region::kII)) scene.sky_three();
+  const bool inside = regions.contains(Region::kII);
+  if (inside || regions.contains(Region::kI)) scene.sky(SeenSky::kOne);
+  if (inside || regions.contains(Region::kIII)) scene.sky(SeenSky::kThree);
+  if (show.mass_solar) scene.sky(SeenSky::kFour);
   print_segments(show);
   if (!show.mass_solar) return;
   std::printf("regions     ");

@@ -32,22 +32,20 @@ void probe(const Options& o) {
   parse_frames(std::to_string(o.frame), frame_count(show));
   const FrameState state = frame_state(show, o.frame);
   const PixelPosition pixel = parse_pixel(o.pixel);
-  const HoleOptics optics = make_hole_optics(state.observer.region, state.observer.r, {});
+  const HoleOptics optics =
+      make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
   const Look look = ViewTracer(state, optics).look(direction_at(show.projection, pixel));
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
   if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
-  if (look.sky == SeenSky::kNone) {
-    std::puts("sees         the past singularity (region IV)");
-    return;
-  }
   const V3d& d = look.sky_direction;
   double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
   if (ra < 0) ra += 360;
-  std::printf("sees         sky %s, RA %.6f deg, Dec %.6f deg\n",
-              look.sky == SeenSky::kOne ? "I" : "III", ra,
+  const bool singularity = look.sky == SeenSky::kFour;
+  std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
+              singularity ? "the past singularity, region" : "sky", name_of(look.sky), ra,
               std::atan2(d.z, std::hypot(d.x, d.y)) * 180 / std::numbers::pi);
-  std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
+  if (!singularity) std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
   std::printf("compression  %.6g towards the hole, %.6g across\n", look.radial_scale,
               look.tangential_scale);
 }

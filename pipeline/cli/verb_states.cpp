@@ -14,11 +14,12 @@ void print_states(const std::string& file, const std::string& frames) {
   const Show show = read_show(file);
   std::puts(
       "# r and proper_time in M (proper_time in s without a hole); celerity (gamma v) against the "
-      "rain tetrad along R,"
+      "tetrad along R,"
       " Theta, Phi;\n# ra_deg and dec_deg: the observer's place as seen from the hole; camera axes "
       "in the boosted"
       " (R, Theta, Phi)\n"
-      "frame,show_time_s,segment,region,r,proper_time,celerity_r,celerity_theta,celerity_phi,ra_"
+      "frame,show_time_s,segment,region,tetrad,r,proper_time,celerity_r,celerity_theta,celerity_"
+      "phi,ra_"
       "deg,dec_deg,"
       "x_r,x_theta,x_phi,y_r,y_theta,y_phi,z_r,z_theta,z_phi");
   for (const int n : parse_frames(frames, frame_count(show))) {
@@ -28,9 +29,9 @@ void print_states(const std::string& file, const std::string& frames) {
     double ra = std::atan2(place.y, place.x) * 180 / std::numbers::pi;
     if (ra < 0) ra += 360;
     const double dec = std::atan2(place.z, std::hypot(place.x, place.y)) * 180 / std::numbers::pi;
-    std::printf("%d,%.9g,%d,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g", n, s.show_time_s,
-                s.segment, region_name(o.region), o.r, o.proper_time, o.celerity.x, o.celerity.y,
-                o.celerity.z, ra, dec);
+    std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g", n, s.show_time_s,
+                s.segment, region_name(o.region), tetrad_name(o.tetrad), o.r, o.proper_time,
+                o.celerity.x, o.celerity.y, o.celerity.z, ra, dec);
     for (int k = 0; k < 3; ++k) {
       const V3d axis = column(o.tetrad_from_camera, k);
       std::printf(",%.17g,%.17g,%.17g", axis.x, axis.y, axis.z);

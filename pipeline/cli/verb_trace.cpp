@@ -1,13 +1,16 @@
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/optics/silhouette.h"
 #include "pipeline/optics/traced_ray.h"
 
 namespace domefall {
@@ -74,78 +77,78 @@ class RayTable {
   std::size_t width_ = 0;
 };
 
-// The edge and the offset make delta, which must be an angle from the hole.
-void check_offset(const RayTable& table, const RayRequest& q, const std::string& text) {
-  const double tangent =
-      *q.edge == Edge::kSilhouette ? tan_half_silhouette(q.at) : tan_half_region_three(q.at);
-  const double edge = 2 * std::atan(tangent), beyond = 2 * std::atan2(1.0, tangent);
-  if (!(q.offset >= -edge * (1 + 1e-12) && q.offset <= beyond * (1 + 1e-12)))
-    table.fail("offset must keep delta from 0 to pi, got " + text);
+constexpr std::array<std::pair<const char*, TraceObserver>, 5> kObservers{
+    {{"rain", TraceObserver::kRain},
+     {"static", TraceObserver::kStatic},
+     {"outgoing", TraceObserver::kOutgoing},
+     {"T_II", TraceObserver::kTwo},
+     {"T_IV", TraceObserver::kFour}}};
+
+TraceObserver observer_of(const RayTable& table, const std::string& name) {
+  for (const auto& [known, observer] : kObservers)
+    if (name == known) return observer;
+  table.fail("observer must be rain, static, outgoing, T_II or T_IV, got '" + name + "'");
+}
+
+// Beyond 1e12 the silhouette is a point to double precision; below 1e-9, the two skies touch.
+Radius radius_of(const RayTable& table, TraceObserver observer, const std::string& text) {
+  const long double r = table.number(text, "r");
+  if (!(r >= 1e-9L && r <= 1e12L))
+    table.fail("r must be from 1e-9 to 1e12 (units of M), got " + text);
+  if (observer == TraceObserver::kStatic && !(r > 2))
+    table.fail("r must exceed 2 (units of M) for a static observer, got " + text);
+  const bool inside = observer == TraceObserver::kTwo || observer == TraceObserver::kFour;
+  if (inside && !(r < 2))
+    table.fail("r must be below 2 (units of M) for the observers T_II and T_IV, got " + text);
+  return Radius(r);
+}
+
+// The edge and the offset make delta, which must be an angle.
+void read_edge(const RayTable& table, const std::string& edge, const std::string& offset,
+               RayRequest& q) {
+  if (edge != "silhouette" && edge != "region3")
+    table.fail("edge must be silhouette, region3 or empty, got '" + edge + "'");
+  q.edge = edge == "silhouette" ? Edge::kSilhouette : Edge::kRegionThree;
+  if (!has_edge(q.observer, q.at, *q.edge))
+    table.fail("this observer sees no edge " + edge + " at this r");
+  q.offset = static_cast<double>(table.number(offset, "offset"));
+  const double place = edge_delta(q.observer, q.at, *q.edge);
+  if (!(q.offset >= -place * (1 + 1e-12) && q.offset <= (M_PI - place) * (1 + 1e-12)))
+    table.fail("offset must keep delta from 0 to pi, got " + offset);
 }
 
 RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& cell) {
   RayRequest q;
-  if (cell[RayTable::kObserver] == "static")
-    q.observer = TraceObserver::kStatic;
-  else if (cell[RayTable::kObserver] != "rain")
-    table.fail("observer must be rain or static, got '" + cell[RayTable::kObserver] + "'");
-  const long double r = table.number(cell[RayTable::kR], "r");
-  const bool is_static = q.observer == TraceObserver::kStatic;
-  // Beyond 1e12 the silhouette is a point to double precision; below 1e-9, the two skies touch.
-  if (!(r >= 1e-9L && r <= 1e12L))
-    table.fail("r must be from 1e-9 to 1e12 (units of M), got " + cell[RayTable::kR]);
-  if (is_static && !(r > 2))
-    table.fail("r must exceed 2 (units of M) for a static observer, got " + cell[RayTable::kR]);
-  q.at = Radius(r);
-  const std::string& edge = cell[RayTable::kEdge];
-  if (edge == "silhouette" || edge == "region3") {
-    q.edge = edge == "silhouette" ? Edge::kSilhouette : Edge::kRegionThree;
-    q.offset = static_cast<double>(table.number(cell[RayTable::kOffset], "offset"));
-    if (edge == "region3" && !(r <= 2)) table.fail("edge region3 needs r of at most 2");
-    if (!is_static) check_offset(table, q, cell[RayTable::kOffset]);
+  q.observer = observer_of(table, cell[RayTable::kObserver]);
+  q.at = radius_of(table, q.observer, cell[RayTable::kR]);
+  if (!cell[RayTable::kEdge].empty()) {
+    read_edge(table, cell[RayTable::kEdge], cell[RayTable::kOffset], q);
     return q;
   }
-  if (!edge.empty()) table.fail("edge must be silhouette, region3 or empty, got '" + edge + "'");
-  q.delta = static_cast<double>(table.number(cell[RayTable::kDelta], "delta"));
-  if (!(q.delta >= 0 && q.delta <= M_PI))
+  q.delta = table.number(cell[RayTable::kDelta], "delta");
+  // pi itself, rounded up in a decimal, is meant as pi.
+  constexpr long double kPi = std::numbers::pi_v<long double>;
+  if (!(q.delta >= 0 && q.delta <= kPi * (1 + 1e-12L)))
     table.fail("delta must be from 0 to pi, got " + cell[RayTable::kDelta]);
+  q.delta = std::min(q.delta, kPi);
   return q;
-}
-
-// Observers of the reference table whose light is not traced yet: they need region IV.
-bool is_beyond_us(const std::string& observer) {
-  return observer == "outgoing" || observer == "T_II" || observer == "T_IV";
 }
 
 const char* name_of(Origin origin) {
   return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
 }
 
-void trace(const std::string& file, const std::string& method) {
+void trace(const std::string& file, TraceMethod method) {
   RayTable table(file);
   std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");
-  int left_out = 0;
   for (std::array<std::string, 5> cell; table.next(cell);) {
-    if (is_beyond_us(cell[RayTable::kObserver])) {
-      for (const std::string& text : cell) std::printf("%s,", text.c_str());
-      std::puts(",,,,");
-      ++left_out;
-      continue;
-    }
-    const RayRequest request = request_of(table, cell);
-    const TracedRay ray =
-        trace_ray(request, method == "exact" ? TraceMethod::kExact : TraceMethod::kTable);
+    const TracedRay ray = trace_ray(request_of(table, cell), method);
     for (const std::string& text : cell) std::printf("%s,", text.c_str());
     std::printf("%s", name_of(ray.origin));
     for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification})
       std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
     std::puts("");
   }
-  if (left_out > 0)
-    std::fprintf(stderr,
-                 "%s: %d rows are of the observers outgoing, T_II or T_IV, which are not traced: "
-                 "their results are left empty\n",
-                 file.c_str(), left_out);
 }
 
 }  // namespace
@@ -160,7 +163,9 @@ void add_trace(CLI::App& app) {
   verb->add_option("--method", *method, "table (what renders frames) or exact")
       ->check(CLI::IsMember({"table", "exact"}))
       ->capture_default_str();
-  verb->callback([table, method] { trace(*table, *method); });
+  verb->callback([table, method] {
+    trace(*table, *method == "exact" ? TraceMethod::kExact : TraceMethod::kTable);
+  });
 }
 
 }  // namespace domefall

@@ -1,7 +1,10 @@
 #include "pipeline/optics/exact_azimuth.h"
 
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
+#include <limits>
 
 namespace domefall {
 namespace {
@@ -18,20 +21,38 @@ struct Cubic {
 };
 
 Cubic cubic_of(const Radius& at, const RayInvariants& k) {
-  const double l2 = k.angular_momentum * k.angular_momentum;
-  return {k.energy * k.energy / l2, k.below_critical * k.above_critical / l2, 1 / at.r,
-          -at.above_light_circle / (3 * at.r), k.radial * k.radial / l2};
+  const double l = k.angular_momentum;
+  const double inverse_b = k.energy / l, radial = k.radial / l;
+  return {inverse_b * inverse_b, (k.below_critical / l) * (k.above_critical / l), 1 / at.r,
+          -at.above_light_circle / (3 * at.r), radial * radial};
 }
 
 // ---- eps > 0: one real root, and a complex pair m +- i n in x ----
 
+struct OneRealRoot {
+  double m, n, root;  // all in x
+};
+
 // With z = 3 (x + 1/6), z^3 - 3z/4 + (1 + 54 eps)/4 = 0 and z = -cosh u, cosh 3u = 1 + 54 eps.
-double from_infinity_without_turning(const Cubic& c) {
-  const double u = 2.0 / 3 * std::asinh(std::sqrt(27 * c.eps));
+OneRealRoot one_real_root(double eps) {
+  const double u = 2.0 / 3 * std::asinh(std::sqrt(27 * eps));
   const double half = std::sinh(u / 2);
-  const double m = half * half / 3, n = std::sinh(u) / (2 * kSqrt3);
-  const double root = -std::cosh(u) / 3 - 1.0 / 6;  // the real one, in x
-  const double a = c.x - m, b = -1.0 / 3 - m;       // the ends, from the pair's real part
+  return {half * half / 3, std::sinh(u) / (2 * kSqrt3), -std::cosh(u) / 3 - 1.0 / 6};
+}
+
+// 4/sqrt(2) R_F(M^2, L_-^2, L_+^2), L_+-^2 = M^2 + 2 (m - root) +- 2 sqrt((m - root)^2 + n^2), the
+// lower one without cancellation.
+double carlson(double m2, const OneRealRoot& p) {
+  const double reach = p.m - p.root, far = std::hypot(reach, p.n);
+  const double lower = m2 - 2 * p.n * p.n / (reach + far), upper = m2 + 2 * (reach + far);
+  return 4 / std::sqrt(2.0) * ellint_rf(m2, lower, upper);
+}
+
+// From w = 0 to the observer.
+double from_infinity_without_turning(const Cubic& c) {
+  const OneRealRoot p = one_real_root(c.eps);
+  const double m = p.m, n = p.n, root = p.root;
+  const double a = c.x - m, b = -1.0 / 3 - m;  // the ends, from the pair's real part
   const double xi = std::hypot(a, n), eta = std::hypot(b, n);
   // n^2 + ab + xi eta, which cancels when the double root lies between the ends.
   const double ab = a * b;
@@ -39,10 +60,14 @@ double from_infinity_without_turning(const Cubic& c) {
       ab >= 0 ? n * n + ab + xi * eta : n * n * (1 + (a * a + b * b + n * n) / (xi * eta - ab));
   const double linear = std::sqrt(c.x - root) + std::sqrt(-1.0 / 3 - root);
   const double m2 = 2 * mixed * (linear / c.w) * (linear / c.w);
-  // L_+-^2 = M^2 + 2 (m - root) +- 2 sqrt((m - root)^2 + n^2), the lower one without cancellation.
-  const double reach = m - root, far = std::hypot(reach, n);
-  const double lower = m2 - 2 * n * n / (reach + far), upper = m2 + 2 * (reach + far);
-  return 4 / std::sqrt(2.0) * ellint_rf(m2, lower, upper);
+  return carlson(m2, p);
+}
+
+// From the observer to w = infinity, where M^2 = 2 (b + eta), b = x - m, eta = |b + i n|.
+double to_singularity_without_turning(const Cubic& c) {
+  const OneRealRoot p = one_real_root(c.eps);
+  const double b = c.x - p.m, eta = std::hypot(b, p.n);
+  return carlson(2 * (b >= 0 ? b + eta : p.n * p.n / (eta - b)), p);
 }
 
 // ---- eps < 0: three real roots, w3 < 0 < w2 < 1/3 < w1 ----
@@ -95,14 +120,98 @@ double from_infinity_outside_the_light_circle(const Cubic& c, bool turned) {
   return carlson(turning, infinity, w.w2) + carlson(turning, observer, observer.f2);
 }
 
+// w - w1, likewise, for an observer inside the light circle.
+double above_turning_point(const Cubic& c, const RealRoots& w) {
+  const double plain = c.x - w.x1;
+  if (plain > 0.25 * c.x) return plain;
+  return c.p_observer / (2 * (c.w - w.w3) * (c.x - w.x2));
+}
+
+double to_singularity_inside_the_light_circle(const Cubic& c, bool turned) {
+  const RealRoots w = real_roots(c);
+  const double direct =
+      std::sqrt(2.0) * ellint_rf(above_turning_point(c, w), c.x - w.x2, c.w - w.w3);
+  if (!turned) return direct;
+  return 2 * std::sqrt(2.0) * ellint_rf(0.0, w.separation, w.w1 - w.w3) - direct;
+}
+
+// ---- a ray as good as radial: L/|E| so small that its square would leave the double's range ----
+
+constexpr double kRadial = 1e-100;
+
+double nearly_radial(const RayInvariants& k, double r, bool from_sky) {
+  const double b = k.angular_momentum / std::abs(k.energy);
+  if (from_sky) return b / r;
+  // int b dr/sqrt(r^4 + 2 b^2 r) over all r.
+  const double c = boost::math::beta(1.0 / 6, 1.0 / 3) / (3 * std::cbrt(2.0));
+  return c * std::cbrt(b);
+}
+
+// phi continued oddly through the axis, which a turned ray may have passed.
+double continued_azimuth(NullRay ray) {
+  const auto shift = [&](double by) {
+    ray.gap_first += by * tan_half_critical(ray.at, Critical::kFirst);
+    ray.gap_second += by * tan_half_critical(ray.at, Critical::kSecond);
+  };
+  if (ray.cos_half < 0) {
+    shift(2 * ray.cos_half);
+    ray.cos_half = -ray.cos_half;
+    return -exact_azimuth(ray);
+  }
+  if (ray.sin_half < 0) {
+    ray.gap_first -= 2 * ray.sin_half;
+    ray.gap_second -= 2 * ray.sin_half;
+    ray.sin_half = -ray.sin_half;
+    return -exact_azimuth(ray);
+  }
+  return exact_azimuth(ray);
+}
+
+double edge_distance(const NullRay& ray, Critical edge) {
+  const double gap = edge == Critical::kFirst ? ray.gap_first : ray.gap_second;
+  return 2 * std::abs(gap) / std::hypot(1, tan_half_critical(ray.at, edge));
+}
+
+// The angle over which phi changes its shape: to the nearest place where it diverges or, as light
+// from the singularity does on the axis, has the branch point of a cube root.
+double smooth_over(const NullRay& ray) {
+  const bool outside = ray.at.above_horizon > 0;
+  const Critical own = ray.outgoing ? Critical::kSecond : Critical::kFirst;
+  switch (origin_of(ray)) {
+    case Origin::kSkyOne:
+      return edge_distance(ray, own);
+    case Origin::kSkyThree:
+      return edge_distance(ray, Critical::kSecond);
+    case Origin::kPastSingularity:
+      break;
+  }
+  if (outside)
+    return std::min(edge_distance(ray, own), 2 * (ray.outgoing ? ray.cos_half : ray.sin_half));
+  if (ray.outgoing) return 2 * std::min(ray.sin_half, ray.cos_half);
+  return std::min(edge_distance(ray, Critical::kFirst), edge_distance(ray, Critical::kSecond));
+}
+
 }  // namespace
 
 double exact_azimuth(const NullRay& ray) {
   const RayInvariants k = invariants(ray);
   if (k.angular_momentum == 0) return 0;
+  const bool from_sky = origin_of(ray) != Origin::kPastSingularity;
+  if (k.angular_momentum < kRadial * std::abs(k.energy))
+    return nearly_radial(k, ray.at.r, from_sky);
   const Cubic c = cubic_of(ray.at, k);
-  if (c.eps >= 0) return from_infinity_without_turning(c);
-  return from_infinity_outside_the_light_circle(c, k.radial > 0);
+  if (from_sky)
+    return c.eps >= 0 ? from_infinity_without_turning(c)
+                      : from_infinity_outside_the_light_circle(c, k.radial > 0);
+  if (circles_for_ever(ray)) return std::numeric_limits<double>::infinity();
+  return c.eps >= 0 ? to_singularity_without_turning(c)
+                    : to_singularity_inside_the_light_circle(c, k.radial < 0);
+}
+
+double exact_slope(const NullRay& ray) {
+  const double h = 1e-3 * smooth_over(ray);
+  const auto phi = [&](double steps) { return continued_azimuth(turned(ray, steps * h)); };
+  return (8 * (phi(1) - phi(-1)) - (phi(2) - phi(-2))) / (12 * h);
 }
 
 }  // namespace domefall

@@ -1,33 +1,43 @@
-// Everything light does between the skies and the rain frame at one radius.  Frames of equal r
-// share one; aberration, camera and projection stay outside.
+// Everything light does between where it starts and the frame of free fall at one radius.  Frames
+// of equal r share one; aberration, camera and projection stay outside.
+//
+// Skies are named from the observer's side: the home sky is that of the region the reference tetrad
+// belongs to (I, or III if is_mirrored), the far sky is the other one, seen inside the horizon.
 #pragma once
 
 #include <optional>
 
 #include "pipeline/optics/sky_table.h"
+#include "pipeline/optics/white_hole_table.h"
 #include "trajectories/observer_state.h"
 
 namespace domefall {
 
 // Which tables to make: what a black sky would show is not worth one.
 struct WantedSkies {
-  bool one = true, three = true;
+  bool home = true, far = true, white_hole = false;
 };
 
 struct HoleOptics {
-  double r = kFlatSpace;
-  Region region = Region::kI;
-  std::optional<SkyTable> sky_one, sky_three;
+  Radius at = kFlatSpace;
+  Tetrad tetrad = Tetrad::kRain;
+  // Where the skies end, whether they are wanted or not; beyond both is light of the white hole.
+  std::optional<SkyEdge> home_edge, far_edge;
+  std::optional<SkyTable> home_sky, far_sky;
+  std::optional<WhiteHoleTable> white_hole;
 };
 
-// r = kFlatSpace: no table at all.  Regions I and II, the second for r <= 2; sky III is there for
-// r < 2 only.
-HoleOptics make_hole_optics(Region region, double r, WantedSkies wanted);
+// r = kFlatSpace: no table at all.  The home sky is there for rain at any r and for the outgoing
+// tetrad outside; the far sky for rain at r < 2; the white hole always.  What is not there is not
+// made.
+HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted);
+// Makes the wanted tables that `optics` does not have yet.
+void add_tables(HoleOptics& optics, WantedSkies wanted);
 
-// One image of a point of the sky, in the rain frame.
+// One image of a point of a sky, in the frame of the reference tetrad.
 struct SkyImage {
   TetradDirection direction;
-  double frequency_ratio;  // observed by the rain observer / emitted: 1/(1+z)
+  double frequency_ratio;  // observed by the free-fall observer / emitted: 1/(1+z)
   double amplification;    // solid angle of the image / of the source; inf on the axis of a lens
 };
 
@@ -35,11 +45,21 @@ struct SkyImage {
 // odd k lie on the opposite side of the hole, swept azimuth phi* + k pi or (k+1) pi - phi*.
 // axis_blur (radians, > 0) is the angular radius of the source, which bounds the amplification where
 // the source, the hole and the observer are in line.  Flat space: k = 0 only.
-SkyImage image_of(const HoleOptics& optics, const SkyTable* table, const V3d& source, int order,
-                  double axis_blur);
+SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur);
 
-// The primary image, in the rain frame, of a direction on sky I without making a table: for aiming a
-// camera.  Exact to 1e-14.
-TetradDirection primary_image(double r, const V3d& source);
+// The images of a point of the past singularity of the same order, of which there may be two, one or
+// none.  frequency_ratio is 1: light from there has no redshift to speak of.  axis_blur bounds the
+// amplification on the caustic, where two images merge, as well.
+struct WhiteHoleImages {
+  int count = 0;
+  std::array<SkyImage, 2> image;
+};
+WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int order,
+                          double axis_blur);
+
+// The primary image, in the frame of the tetrad, of a direction on the home sky without making a
+// table: for aiming a camera.  Exact to 1e-14.  Not for the outgoing tetrad at r <= 2, region IV, from
+// where no sky is seen.
+TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source);
 
 }  // namespace domefall

@@ -1,11 +1,15 @@
 #include "pipeline/optics/null_ray.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/optics/silhouette.h"
 
 namespace domefall {
 namespace {
+
+const double kSqrt27 = std::sqrt(27.0);
 
 // The half-angle edge + offset/2 around an edge given by its half-angle tangent.
 struct HalfAngle {
@@ -13,48 +17,134 @@ struct HalfAngle {
   double gap;  // sine - tangent * cosine, from the offset alone
 };
 
-HalfAngle turned(double tangent, double half_offset) {
+HalfAngle turned_from(double tangent, double half_offset) {
   const double c = 1 / std::sqrt(1 + tangent * tangent), s = tangent * c;
   const double so = std::sin(half_offset), co = std::cos(half_offset);
   return {s * co + c * so, c * co - s * so, so / c};
 }
 
-// T_silhouette - T_region3 = 2 r / (sqrt 27 (1 + s)): the sum of the quadratic's roots.
-double edge_separation(double r) { return 2 * r / (std::sqrt(27.0) * (1 + std::sqrt(2 / r))); }
+// T_silhouette - |T_second|, from the quadratic of silhouette.h: the sum of its roots inside, their
+// difference outside.
+double edge_separation(const Radius& at) {
+  const double s = std::sqrt(2 / at.r);
+  if (at.above_horizon <= 0) return 2 * at.r / (kSqrt27 * (1 + s));
+  return -2 * at.above_light_circle * std::sqrt(1 + 6 / at.r) / (kSqrt27 * (1 + s));
+}
+
+template <class Real>
+Real kappa_of(const Radius& at, const RadialFrame& frame) {
+  if (!frame.at_rest) return 1;
+  const Real r = at.r, above = above_horizon_as<Real>(at);
+  return std::sqrt(std::abs(above) / r) / (1 + std::sqrt(2 / r));
+}
+
+// From half an angle in a frame to the ray, its gap to `edge` known there.
+NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, double cosine,
+                       double gap, Critical edge) {
+  const double k = kappa(at, frame), norm = std::hypot(k * sine, cosine);
+  NullRay ray{at, 0, 0, 0, 0, frame.outgoing};
+  // The far end of a sky (alpha = pi or 0) is an end: rounding may not step over it.
+  ray.sin_half = std::max(0.0, k * sine / norm);
+  ray.cos_half = std::max(0.0, cosine / norm);
+  const double own = k * gap / norm, apart = edge_separation(at) * ray.cos_half;
+  const bool first = edge == Critical::kFirst;
+  // The other gap by way of the exact distance between the two, or directly where that cancels less.
+  const Critical other = first ? Critical::kSecond : Critical::kFirst;
+  const double reach = tan_half_critical(at, other) * ray.cos_half;
+  const bool direct = std::max(ray.sin_half, reach) < std::max(std::abs(own), std::abs(apart));
+  const double its = direct ? ray.sin_half - reach : first ? own + apart : own - apart;
+  ray.gap_first = first ? own : its;
+  ray.gap_second = first ? its : own;
+  return ray;
+}
+
+// k^r in the rain frame: inner ch^2 - (1 + s) sh^2, inner = 1 - s.  Outside, that cancels at
+// tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point, which near the light circle lies
+// as near to the critical rays as these to each other: so its gap is made from theirs.
+double rain_radial(const NullRay& ray, double s, double inner) {
+  const double sh = ray.sin_half, ch = ray.cos_half;
+  if (ray.at.above_horizon <= 0) return inner * ch * ch - (1 + s) * sh * sh;
+  const double first = std::sqrt(tan_half_critical(ray.at, Critical::kFirst));
+  const double second = std::sqrt(tan_half_critical(ray.at, Critical::kSecond));
+  const double turning = -edge_separation(ray.at) * first / (first + second);  // kappa - T_first
+  return -(1 + s) * (ray.gap_first - turning * ch) * (sh + first * second * ch);
+}
 
 }  // namespace
 
-NullRay ray_at(const Radius& at, double delta) {
-  NullRay ray = ray_off_edge(at, Edge::kSilhouette, delta - silhouette_edge(at));
-  ray.sin_half = std::sin(delta / 2);
-  ray.cos_half = delta < 3 ? std::cos(delta / 2) : std::sin((M_PI - delta) / 2);
-  if (at.above_horizon <= 0) {
-    const double half = (delta - region_three_edge(at)) / 2;
-    ray.gap_three = std::sin(half) * std::hypot(1, tan_half_region_three(at));
-  }
-  return ray;
+double tan_half_critical(const Radius& at, Critical edge) {
+  return edge == Critical::kFirst ? tan_half_silhouette(at) : std::abs(tan_half_other_root(at));
 }
 
-NullRay ray_off_edge(const Radius& at, Edge edge, double offset) {
-  NullRay ray{at, 0, 0, 0, 0};
-  const bool silhouette = edge == Edge::kSilhouette;
-  const double tangent = silhouette ? tan_half_silhouette(at) : tan_half_region_three(at);
-  const HalfAngle half = turned(tangent, offset / 2);
-  // The far end of a sky (delta = pi or 0) is an end: rounding may not step over it.
-  ray.sin_half = std::max(0.0, half.sine);
-  ray.cos_half = std::max(0.0, half.cosine);
-  const double apart = edge_separation(at.r) * ray.cos_half;
-  ray.gap_silhouette = silhouette ? half.gap : half.gap - apart;
-  ray.gap_three = silhouette ? half.gap + apart : half.gap;
-  return ray;
+double kappa(const Radius& at, const RadialFrame& frame) { return kappa_of<double>(at, frame); }
+
+NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame) {
+  const auto kappa = kappa_of<long double>(at, frame);
+  const auto gap_from = [&](Critical edge) {
+    const long double root = edge == Critical::kFirst ? tan_half_silhouette_long(at)
+                                                      : std::abs(tan_half_other_root_long(at));
+    const long double tangent = root / kappa;
+    const long double half_offset = alpha / 2 - std::atan(tangent);
+    return std::sin(static_cast<double>(half_offset)) * std::hypot(1, static_cast<double>(tangent));
+  };
+  const double one = gap_from(Critical::kFirst), two = gap_from(Critical::kSecond);
+  const bool first = std::abs(one) <= std::abs(two);
+  const auto half = static_cast<double>(alpha / 2);
+  const auto half_left = static_cast<double>((std::numbers::pi_v<long double> - alpha) / 2);
+  const double cosine = alpha < 3 ? std::cos(half) : std::sin(half_left);
+  return ray_from_frame(at, frame, std::sin(half), cosine, first ? one : two,
+                        first ? Critical::kFirst : Critical::kSecond);
 }
 
-double delta_of(const NullRay& ray) { return 2 * std::atan2(ray.sin_half, ray.cos_half); }
+NullRay ray_off_edge(const Radius& at, Critical edge, double offset, const RadialFrame& frame) {
+  const HalfAngle half = turned_from(tan_half_critical(at, edge) / kappa(at, frame), offset / 2);
+  return ray_from_frame(at, frame, half.sine, half.cosine, half.gap, edge);
+}
+
+NullRay ray_of_tangent(const Radius& at, double tangent, bool outgoing) {
+  const double cosine = 1 / std::hypot(1, tangent);
+  const double sine = std::isinf(tangent) ? 1 : tangent * cosine;
+  const double one = sine - tan_half_critical(at, Critical::kFirst) * cosine;
+  const double two = sine - tan_half_critical(at, Critical::kSecond) * cosine;
+  const bool first = std::abs(one) <= std::abs(two);
+  return ray_from_frame(at, {outgoing, false}, sine, cosine, first ? one : two,
+                        first ? Critical::kFirst : Critical::kSecond);
+}
+
+NullRay ray_of_ratio(const Radius& at, Critical edge, double excess, bool outgoing) {
+  const double edge_tangent = tan_half_critical(at, edge), tangent = edge_tangent * (1 + excess);
+  const double cosine = 1 / std::hypot(1, tangent);
+  return ray_from_frame(at, {outgoing, false}, tangent * cosine, cosine,
+                        edge_tangent * excess * cosine, edge);
+}
+
+NullRay turned(const NullRay& ray, double angle) {
+  const double s = std::sin(angle / 2), c = std::cos(angle / 2);
+  NullRay out = ray;
+  out.sin_half = ray.sin_half * c + ray.cos_half * s;
+  out.cos_half = ray.cos_half * c - ray.sin_half * s;
+  const auto gap = [&](double before, Critical edge) {
+    return before * c + (ray.cos_half + tan_half_critical(ray.at, edge) * ray.sin_half) * s;
+  };
+  out.gap_first = gap(ray.gap_first, Critical::kFirst);
+  out.gap_second = gap(ray.gap_second, Critical::kSecond);
+  return out;
+}
+
+double alpha_of(const NullRay& ray) { return 2 * std::atan2(ray.sin_half, ray.cos_half); }
 
 Origin origin_of(const NullRay& ray) {
-  if (ray.gap_silhouette > 0) return Origin::kSkyOne;
-  if (ray.at.above_horizon < 0 && ray.gap_three < 0) return Origin::kSkyThree;
+  const bool outside = ray.at.above_horizon > 0;
+  if (ray.outgoing)
+    return outside && ray.gap_second < 0 ? Origin::kSkyOne : Origin::kPastSingularity;
+  if (ray.gap_first > 0) return Origin::kSkyOne;
+  if (ray.at.above_horizon < 0 && ray.gap_second < 0) return Origin::kSkyThree;
   return Origin::kPastSingularity;
+}
+
+bool circles_for_ever(const NullRay& ray) {
+  if (ray.outgoing) return ray.at.above_horizon > 0 && ray.gap_second == 0;
+  return ray.gap_first == 0 || (ray.at.above_horizon < 0 && ray.gap_second == 0);
 }
 
 RayInvariants invariants(const NullRay& ray) {
@@ -62,21 +152,20 @@ RayInvariants invariants(const NullRay& ray) {
   const double s = std::sqrt(2 / r);
   const bool outside = ray.at.above_horizon > 0;
   const double inner = ray.at.above_horizon / (r * (1 + s));  // 1 - s
-  const double silhouette = tan_half_silhouette(ray.at), other = tan_half_other_root(ray.at);
-  // sh -+ other ch.  Outside, the first by way of the exact difference of the roots; inside,
-  // other < 0 and the second is the gap to region III.
-  const double root_difference =
-      2 * ray.at.above_light_circle * std::sqrt(1 + 6 / r) / (std::sqrt(27.0) * (1 + s));
-  const double beyond_other = outside ? ray.gap_silhouette - root_difference * ch : sh - other * ch;
-  const double sum_other = outside ? sh + other * ch : ray.gap_three;
+  const double silhouette = tan_half_silhouette(ray.at);
+  const double second = tan_half_critical(ray.at, Critical::kSecond);
+  // The roots of E = L/sqrt 27 are T_silhouette and +-T_second (+ outside, where both edges are of
+  // this kind; - inside, where the second is that of E = -L/sqrt 27).
   RayInvariants k;
-  k.below_critical = (1 + s) * ray.gap_silhouette * beyond_other;
-  k.above_critical = (1 + s) * (sh + silhouette * ch) * sum_other;
+  k.below_critical = (1 + s) * ray.gap_first * (outside ? ray.gap_second : sh + second * ch);
+  k.above_critical =
+      (1 + s) * (sh + silhouette * ch) * (outside ? sh + second * ch : ray.gap_second);
   // Inside, where the direct form cancels, both factors have E's own sign.
   k.energy =
       outside ? (1 + s) * sh * sh + inner * ch * ch : (k.below_critical + k.above_critical) / 2;
   k.angular_momentum = 2 * r * sh * ch;
-  k.radial = inner * ch * ch - (1 + s) * sh * sh;
+  k.radial = rain_radial(ray, s, inner);
+  if (ray.outgoing) k.radial = -k.radial;
   return k;
 }
 

@@ -19,4 +19,16 @@ struct Radius {
         above_light_circle(static_cast<double>(value - 3)) {}
 };
 
+// r - 2 and r - 3 in a type that may be finer than double: near the place what the radius holds of
+// it, elsewhere the difference, which a fine type holds better.
+template <class Real>
+Real above_horizon_as(const Radius& at) {
+  return at.above_horizon * at.above_horizon < 0.01 ? at.above_horizon : Real{at.r} - 2;
+}
+template <class Real>
+Real above_light_circle_as(const Radius& at) {
+  return at.above_light_circle * at.above_light_circle < 0.01 ? at.above_light_circle
+                                                              : Real{at.r} - 3;
+}
+
 }  // namespace domefall

@@ -5,30 +5,49 @@
 namespace domefall {
 namespace {
 
-const double kSqrt27 = std::sqrt(27.0);
+// What both roots are made of, in double or, where an angle is to be measured from an edge, more.
+template <class Real>
+struct Parts {
+  Real r, above_horizon, root27, s;
+  Real signed_root;  // (r - 3) sqrt(1 + 6/r): of r^2 - 27 (1 - 2/r), with the sign of r - 3
 
-// (r - 3) sqrt(1 + 6/r), the square root of r^2 - 27 (1 - 2/r) with the sign of r - 3.
-double signed_root(const Radius& at) { return at.above_light_circle * std::sqrt(1 + 6 / at.r); }
+  explicit Parts(const Radius& at)
+      : r(at.r),
+        above_horizon(above_horizon_as<Real>(at)),
+        root27(std::sqrt(Real{27})),
+        s(std::sqrt(2 / r)),
+        signed_root(above_light_circle_as<Real>(at) * std::sqrt(1 + 6 / r)) {}
 
-// 1 - sqrt(2/r) from the altitude.
-double one_minus_s(const Radius& at) {
-  return at.above_horizon / (at.r * (1 + std::sqrt(2 / at.r)));
+  // A root as the quotient without cancellation: by the sum, or by the product over the other.
+  Real by_sum(Real root) const { return (r + root) / (root27 * (1 + s)); }
+  Real by_product(Real root) const { return root27 * (above_horizon / (r * (1 + s))) / (r + root); }
+};
+
+template <class Real>
+Real silhouette_root(const Radius& at) {
+  const Parts<Real> p(at);
+  return at.r > 3 ? p.by_product(p.signed_root) : p.by_sum(-p.signed_root);
+}
+
+template <class Real>
+Real other_root(const Radius& at) {
+  const Parts<Real> p(at);
+  return at.r < 3 ? p.by_product(-p.signed_root) : p.by_sum(p.signed_root);
 }
 
 }  // namespace
 
 double tan_half_silhouette(const Radius& at) {
-  if (std::isinf(at.r)) return 0;
-  if (at.r > 3) return kSqrt27 * one_minus_s(at) / (at.r + signed_root(at));
-  return (at.r - signed_root(at)) / (kSqrt27 * (1 + std::sqrt(2 / at.r)));
+  return std::isinf(at.r) ? 0 : silhouette_root<double>(at);
 }
+
+long double tan_half_silhouette_long(const Radius& at) { return silhouette_root<long double>(at); }
+
+long double tan_half_other_root_long(const Radius& at) { return other_root<long double>(at); }
 
 double tan_half_region_three(const Radius& at) { return -tan_half_other_root(at); }
 
-double tan_half_other_root(const Radius& at) {
-  if (at.r < 3) return kSqrt27 * one_minus_s(at) / (at.r - signed_root(at));
-  return (at.r + signed_root(at)) / (kSqrt27 * (1 + std::sqrt(2 / at.r)));
-}
+double tan_half_other_root(const Radius& at) { return other_root<double>(at); }
 
 double silhouette_edge(const Radius& at) { return 2 * std::atan(tan_half_silhouette(at)); }
 

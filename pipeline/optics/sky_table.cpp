@@ -1,179 +1,109 @@
 #include "pipeline/optics/sky_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/optics/exact_azimuth.h"
-#include "pipeline/optics/silhouette.h"
 
 namespace domefall {
 namespace {
 
-using std::numbers::pi;
+// Where the law takes over, in units of the smallest angle of the scene, and never below the second:
+// that matters only where the light circle is nearer to the observer than 1e-8.
+constexpr double kInnermost = 1e-7, kLeast = 1e-15;
 
-constexpr int kDegree = 15;          // of a Chebyshev panel
-constexpr double kPanelOctaves = 2;  // its width
-constexpr int kMaxOctaves = 63;      // 16 nodes each: at most 1,009 nodes
-// Where the logarithmic law takes over, in units of the smallest angle of the scene.
-constexpr double kInnermost = 1e-11;
-
-struct Derivatives {
-  double value, first, second;
-};
-
-// Chebyshev interpolation over [low, high], with derivatives.
-class Panel {
- public:
-  template <class F>
-  Panel(double low, double high, F f) : middle_((low + high) / 2), half_((high - low) / 2) {
-    std::array<double, kDegree + 1> sample;
-    for (int k = 0; k <= kDegree; ++k)
-      sample[k] = f(middle_ + half_ * std::cos(pi * (k + 0.5) / (kDegree + 1)));
-    for (int j = 0; j <= kDegree; ++j) {
-      double sum = 0;
-      for (int k = 0; k <= kDegree; ++k)
-        sum += sample[k] * std::cos(pi * j * (k + 0.5) / (kDegree + 1));
-      value_[j] = sum * (j == 0 ? 1 : 2) / (kDegree + 1);
-    }
-    first_ = differentiated(value_);
-    second_ = differentiated(first_);
-  }
-
-  double low() const { return middle_ - half_; }
-
-  Derivatives at(double y) const {
-    const double t = (y - middle_) / half_;
-    return {clenshaw(value_, t), clenshaw(first_, t) / half_,
-            clenshaw(second_, t) / (half_ * half_)};
-  }
-
- private:
-  using Series = std::array<double, kDegree + 1>;
-
-  static Series differentiated(const Series& c) {
-    Series d{};
-    for (int j = kDegree; j >= 1; --j) d[j - 1] = (j + 1 <= kDegree ? d[j + 1] : 0) + 2 * j * c[j];
-    d[0] /= 2;
-    return d;
-  }
-
-  static double clenshaw(const Series& c, double t) {
-    double b1 = 0, b2 = 0;
-    for (int j = kDegree; j >= 1; --j) {
-      const double b = c[j] + 2 * t * b1 - b2;
-      b2 = b1;
-      b1 = b;
-    }
-    return c[0] + t * b1 - b2;
-  }
-
-  double middle_, half_;
-  Series value_{}, first_{}, second_{};
-};
-
-// phi continued oddly through the end of the sky (delta = pi or 0), so that the last interval may
-// reach beyond it.
-double continued_azimuth(const Radius& at, Edge edge, double sign, double reach, double x) {
-  const double offset = 4 * std::atan(x / 2);
-  const double inside = offset <= reach ? offset : 2 * reach - offset;
-  const double phi = exact_azimuth(ray_off_edge(at, edge, sign * inside));
-  return offset <= reach ? phi : -phi;
-}
-
-// The quintic on [0, 1] with these values, slopes and curvatures at 0 and 1.
-std::array<double, 6> quintic(const Derivatives& a, const Derivatives& b) {
-  const double rise = b.value - a.value - a.first - a.second / 2;
-  const double bend = b.first - a.first - a.second;
-  const double curl = b.second - a.second;
-  return {a.value,
-          a.first,
-          a.second / 2,
-          10 * rise - 4 * bend + curl / 2,
-          -15 * rise + 7 * bend - curl,
-          6 * rise - 3 * bend + curl / 2};
+// The smallest angle: from the edge to the axis either way, between the two critical rays, or 1.  At
+// r = 3 those are one.
+double smallest_angle(const Radius& at, double tangent) {
+  const double to_axis = 2 * std::atan(std::min(tangent, 1 / tangent));
+  const double apart =
+      std::abs(tan_half_critical(at, Critical::kFirst) - tan_half_critical(at, Critical::kSecond));
+  const double least = kLeast / kInnermost;
+  return std::min({1.0, to_axis, apart > 0 ? std::max(apart, least) : 1.0});
 }
 
 }  // namespace
 
-SkyTable::SkyTable(const Radius& at, Edge edge) : sign_(edge == Edge::kSilhouette ? 1 : -1) {
-  const double tangent =
-      edge == Edge::kSilhouette ? tan_half_silhouette(at) : tan_half_region_three(at);
-  edge_angle_ = 2 * std::atan(tangent);
-  cos_edge_ = 1 / std::sqrt(1 + tangent * tangent);
-  sin_edge_ = tangent * cos_edge_;
-  // pi - edge is 2 acot(tangent): no difference of close numbers when the edge is near pi.
-  const double reach = edge == Edge::kSilhouette ? 2 * std::atan2(1.0, tangent) : edge_angle_;
-  x_max_ = 2 * std::tan(reach / 4);
-  const std::int64_t end_key = key(x_max_) + 1;
-  // Deep inside, the two edges close in on each other and the law sets in only between them.
-  const double apart = 2 * at.r / (std::sqrt(27.0) * (1 + std::sqrt(2 / at.r)));
-  const double innermost = kInnermost * std::min({1.0, edge_angle_, apart});
-  const int octaves =
-      std::min(kMaxOctaves, static_cast<int>(std::ceil(std::log2(x_max_ / innermost))));
-  first_key_ = end_key - (static_cast<std::int64_t>(octaves) << kPerOctaveBits);
-  x_min_ = key_start(first_key_);
+EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi) {
+  // g = phi + ln z = c + z (a + b ln z) at z = 1, 1/4, 1/16.
+  const double l = std::log(4.0);
+  const double g1 = phi(x_min), g2 = phi(x_min / 4) - l, g3 = phi(x_min / 16) - 2 * l;
+  EdgeLaw law{x_min, 0, 0, 0};
+  law.a = 8 * (g1 + g2 - 2 * g3) / 9;
+  law.b = 4 * (g1 - g2 - 0.75 * law.a) / l;
+  law.c = g1 - law.a;
+  return law;
+}
 
-  const double top = std::log(key_start(end_key)), width = kPanelOctaves * std::numbers::ln2;
-  const auto exact = [&](double y) {
-    return continued_azimuth(at, edge, sign_, reach, std::exp(y));
-  };
-  Panel panel(top - width, top, exact);
-  // Derivatives with respect to ln x, turned into those with respect to x.
-  const auto at_key = [&](std::int64_t k) {
-    const double x = key_start(k), y = std::log(x);
-    while (y < panel.low() - 1e-9) panel = Panel(panel.low() - width, panel.low(), exact);
-    const Derivatives d = panel.at(y);
-    return Derivatives{d.value, d.first / x, (d.second - d.first) / (x * x)};
-  };
-  intervals_.resize(static_cast<std::size_t>(end_key - first_key_));
-  Derivatives high = at_key(end_key);
-  for (std::int64_t k = end_key - 1; k >= first_key_; --k) {
-    const Derivatives low = at_key(k);
-    const double start = key_start(k), h = key_start(k + 1) - start;
-    intervals_[static_cast<std::size_t>(k - first_key_)] = {
-        start, 1 / h,
-        quintic({low.value, low.first * h, low.second * h * h},
-                {high.value, high.first * h, high.second * h * h})};
-    high = low;
-  }
-  first_value_ = high.value;
+double EdgeLaw::distance(double phi) const {
+  // z = exp(c - phi + z (a + b ln z)): the last term is below 1e-5, so a few rounds settle it.
+  double z = std::exp(c - phi);
+  for (int k = 0; k < 8 && z > 0; ++k) z = std::exp(c - phi + z * (a + b * std::log(z)));
+  return z * x_min;
+}
+
+SkyEdge::SkyEdge(const Radius& at, Critical edge) : sign(edge == Critical::kFirst ? 1 : -1) {
+  const double tangent = tan_half_critical(at, edge);
+  cosine = 1 / std::hypot(1, tangent);
+  sine = tangent * cosine;
+}
+
+SkyTable::SkyTable(const Radius& at, Critical edge, bool outgoing, int bits)
+    : SkyTable(at, edge, outgoing, tan_half_critical(at, edge), bits) {}
+
+SkyTable::SkyTable(const Radius& at, Critical edge, bool outgoing, double tangent, int bits)
+    : at_(at),
+      critical_(edge),
+      outgoing_(outgoing),
+      edge_(at, edge),
+      edge_angle_(2 * std::atan(tangent)),
+      // pi - edge is 2 acot(tangent): no difference of close numbers when the edge is near pi.
+      reach_(edge_.sign > 0 ? 2 * std::atan2(1.0, tangent) : edge_angle_),
+      x_max_(2 * std::tan(reach_ / 4)),
+      curve_(
+          std::min(kInnermost * smallest_angle(at, tangent), x_max_ / 4), x_max_,
+          [this](double x) { return continued_azimuth(x); }, bits),
+      law_(fit_edge_law(curve_.x_min(), [this](double x) { return continued_azimuth(x); })) {}
+
+NullRay SkyTable::ray_at_distance(double x) const {
+  return ray_off_edge(at_, critical_, edge_.sign * std::min(4 * std::atan(x / 2), reach_),
+                      {outgoing_, false});
+}
+
+// phi continued oddly through the end of the sky (alpha = pi or 0), so that the last interval may
+// reach beyond it.
+double SkyTable::continued_azimuth(double x) const {
+  const double offset = 4 * std::atan(x / 2);
+  const double inside = offset <= reach_ ? offset : 2 * reach_ - offset;
+  const double phi =
+      exact_azimuth(ray_off_edge(at_, critical_, edge_.sign * inside, {outgoing_, false}));
+  return offset <= reach_ ? phi : -phi;
 }
 
 double SkyTable::slope(double x) const {
-  const double stretch = (1 + x * x / 4) / 2;  // dx/ddelta
-  if (x < x_min_) return stretch / x;
-  const Interval& q = interval(x);
-  const double u = (x - q.start) * q.inverse_width;
-  const double d = q.c[1] + u * (2 * q.c[2] + u * (3 * q.c[3] + u * (4 * q.c[4] + u * 5 * q.c[5])));
-  return std::abs(d * q.inverse_width) * stretch;
+  const double by_x = x < curve_.x_min() ? law_.slope(x) : curve_.at(x).first;
+  return std::abs(by_x) * (1 + x * x / 4) / 2;
 }
 
 double SkyTable::distance(double phi) const {
   if (phi <= 0) return x_max_;
-  if (phi > first_value_) return x_min_ * std::exp(first_value_ - phi);
-  // phi falls with x: the last interval that starts at or above it.
-  const auto after = std::partition_point(intervals_.begin(), intervals_.end(),
-                                          [phi](const Interval& q) { return q.c[0] >= phi; });
-  const Interval& q = *(after - 1);
-  double low = 0, high = 1, u = 0.5;
-  for (int step = 0; step < 60; ++step) {
-    const double value =
-        q.c[0] + u * (q.c[1] + u * (q.c[2] + u * (q.c[3] + u * (q.c[4] + u * q.c[5])))) - phi;
-    const double d =
-        q.c[1] + u * (2 * q.c[2] + u * (3 * q.c[3] + u * (4 * q.c[4] + u * 5 * q.c[5])));
-    (value > 0 ? low : high) = u;
-    double next = u - value / d;
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
-    if (std::abs(next - u) < 1e-16) break;
-    u = next;
-  }
-  return std::min(q.start + u / q.inverse_width, x_max_);
+  if (phi > law_.azimuth(law_.x_min)) return law_.distance(phi);
+  return std::min(curve_.inverse(phi, x_max_), x_max_);
 }
 
-double SkyTable::delta_at(double x) const { return edge_angle_ + sign_ * 4 * std::atan(x / 2); }
+double SkyTable::alpha_at(double x) const {
+  return edge_angle_ + edge_.sign * 4 * std::atan(x / 2);
+}
 
-double SkyTable::distance_at(double delta) const {
-  return 2 * std::tan(sign_ * (delta - edge_angle_) / 4);
+double SkyTable::distance_at(double alpha) const {
+  return 2 * std::tan(edge_.sign * (alpha - edge_angle_) / 4);
+}
+
+double SkyTable::distance_of(const NullRay& ray) const {
+  const double gap = critical_ == Critical::kFirst ? ray.gap_first : ray.gap_second;
+  const double cosine = ray.cos_half * edge_.cosine + ray.sin_half * edge_.sine;
+  return 2 * edge_.sign * gap * edge_.cosine / (1 + cosine);
 }
 
 }  // namespace domefall

@@ -2,41 +2,64 @@
 // made from the exact integral, evaluated in a few nanoseconds, and invertible, so that pixels and
 // stars use the same one.
 //
-// The coordinate is x = 2 tan(|delta - edge|/4), half the distance to the edge for small angles and
-// smooth up to the far end.  Towards the edge phi = -ln x + const + O(x ln x), so the intervals
-// divide each octave of x into 16 and are found from the bits of x; in each, phi is a quintic that
-// matches value, slope and curvature at both ends.  Those come from Chebyshev interpolation of the
-// exact integral in ln x.
+// The coordinate is x = 2 tan(|alpha - edge|/4), half the distance to the edge for small angles and
+// smooth up to the far end.  Towards the edge phi = -ln x + c + x (a + b ln x) + O(x^2 ln x), a law
+// that takes over below the table.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "pipeline/optics/null_ray.h"
+#include "pipeline/optics/octave_curve.h"
 
 namespace domefall {
 
+// phi next to an edge, fitted at x_min, x_min/4 and x_min/16.
+struct EdgeLaw {
+  double x_min = 0;
+  double c = 0, a = 0, b = 0;  // of x/x_min
+
+  double azimuth(double x) const {
+    const double z = x / x_min, l = std::log(z);
+    return c - l + z * (a + b * l);
+  }
+  double slope(double x) const {  // d phi/d x
+    const double z = x / x_min, l = std::log(z);
+    return (a + b + b * l - 1 / z) / x_min;
+  }
+  double distance(double phi) const;  // its inverse; phi >= azimuth(x_min)
+};
+EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi);
+
+// The edge of a sky: how far a direction is from it, from sin and cos of alpha/2, as the renderer has
+// them.
+struct SkyEdge {
+  double sine = 0, cosine = 1;  // of half the edge
+  double sign = 1;              // +1: the sky lies at larger alpha than its edge; -1: at smaller
+
+  SkyEdge() = default;
+  SkyEdge(const Radius& at, Critical edge);
+  // 2 tan(|alpha - edge|/4), negative on the other side of the edge.
+  double distance(double sin_half, double cos_half) const {
+    const double s = sign * (sin_half * cosine - cos_half * sine);
+    return 2 * s / (1 + cos_half * cosine + sin_half * sine);
+  }
+};
+
 class SkyTable {
  public:
-  // Edge::kSilhouette: sky I, from the silhouette to delta = pi; any finite r > 0.
-  // Edge::kRegionThree: sky III, from its edge to delta = 0; 0 < r < 2.
-  // About 400 exact integrals.
-  SkyTable(const Radius& at, Edge edge);
+  // Rain, Critical::kFirst: the home sky, from the silhouette to alpha = pi; any finite r > 0.
+  // Rain, Critical::kSecond: the far sky, from its edge to alpha = 0; 0 < r < 2.
+  // Outgoing, Critical::kSecond: the home sky, from the silhouette to alpha = 0; r > 2.
+  // bits: see OctaveCurve.  About 300 exact integrals.
+  SkyTable(const Radius& at, Critical edge, bool outgoing = false,
+           int bits = OctaveCurve::kPerOctaveBits);
 
-  // Azimuth phi (radians) at x in (0, x_max()].  Below the table's range the logarithmic law
-  // continues it.  Measured over 1e-6 <= r <= 1e8: |error| < 1e-9 for all x > 1e-12 x_max.
-  double azimuth(double x) const {
-    if (x < x_min_) return first_value_ + std::log(x_min_ / x);
-    const Interval& q = interval(x);
-    const double u = (x - q.start) * q.inverse_width;
-    return q.c[0] + u * (q.c[1] + u * (q.c[2] + u * (q.c[3] + u * (q.c[4] + u * q.c[5]))));
-  }
+  // Azimuth phi (radians) at x in (0, x_max()].
+  // Measured over 1e-6 <= r <= 1e8: |error| < 1e-9 for every distance to the edge above 1e-12.
+  double azimuth(double x) const { return x < curve_.x_min() ? law_.azimuth(x) : curve_.value(x); }
 
-  // d phi / d delta in absolute value.  Measured: relative error < 1e-7.
+  // d phi/d alpha in absolute value.  Measured: relative error < 1e-7.
   double slope(double x) const;
 
   // The x with azimuth(x) = phi, for any phi >= 0: the inverse of the same polynomials.
@@ -44,91 +67,57 @@ class SkyTable {
 
   double edge_angle() const { return edge_angle_; }
   double x_max() const { return x_max_; }
-  // delta and back.
-  double delta_at(double x) const;
-  double distance_at(double delta) const;
-  // x from sin and cos of delta/2, as the renderer has them; negative on the other side of the edge.
-  double distance_from_half_angle(double sin_half, double cos_half) const {
-    const double sine = sign_ * (sin_half * cos_edge_ - cos_half * sin_edge_);
-    const double cosine = cos_half * cos_edge_ + sin_half * sin_edge_;
-    return 2 * sine / (1 + cosine);
-  }
+  const SkyEdge& edge() const { return edge_; }
+  // alpha and back.
+  double alpha_at(double x) const;
+  double distance_at(double alpha) const;
+  // The exact ray of the table's frame there.
+  NullRay ray_at_distance(double x) const;
+  // x from a ray's exact gap.
+  double distance_of(const NullRay& ray) const;
 
-  std::size_t node_count() const { return intervals_.size() + 1; }
+  std::size_t node_count() const { return curve_.node_count(); }
 
   struct Sweep {
     double azimuth, slope;
   };
-  // azimuth() and slope() of any number of x without a branch, for loops that are to become SIMD
-  // code: a copy of what a look-up needs, which no store of the loop can be taken to alter.  Good
-  // while the table lives.  x below x_min is looked up there: the logarithmic law is the caller's.
+  // azimuth() and slope() without a branch; x below x_min is looked up there: the law is the
+  // caller's.
   class Lookup;
   Lookup lookup() const;
 
  private:
-  static constexpr int kPerOctaveBits = 4;
-  struct Interval {
-    double start, inverse_width;
-    std::array<double, 6> c;
-  };
+  SkyTable(const Radius& at, Critical edge, bool outgoing, double tangent, int bits);
+  double continued_azimuth(double x) const;
 
-  static std::int64_t key(double x) {
-    return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) >> (52 - kPerOctaveBits));
-  }
-  static double key_start(std::int64_t k) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(k) << (52 - kPerOctaveBits));
-  }
-  const Interval& interval(double x) const {
-    const auto last = static_cast<std::int64_t>(intervals_.size()) - 1;
-    return intervals_[static_cast<std::size_t>(std::min(key(x) - first_key_, last))];
-  }
-
-  double sign_;                 // +1: the sky lies beyond its edge; -1: within it
-  double edge_angle_;           // radians
-  double sin_edge_, cos_edge_;  // of half the edge
-  double x_min_, x_max_;
-  double first_value_;  // phi at x_min
-  std::int64_t first_key_;
-  std::vector<Interval> intervals_;
+  Radius at_;
+  Critical critical_;
+  bool outgoing_;
+  SkyEdge edge_;
+  double edge_angle_;  // radians
+  double reach_;       // radians from the edge to the far end
+  double x_max_;
+  OctaveCurve curve_;
+  EdgeLaw law_;
 };
 
 class SkyTable::Lookup {
  public:
-  double x_min() const { return x_min_; }
-  // As distance_from_half_angle().
-  double distance(double sin_half, double cos_half) const {
-    const double sine = sign_ * (sin_half * cos_edge_ - cos_half * sin_edge_);
-    const double cosine = cos_half * cos_edge_ + sin_half * sin_edge_;
-    return 2 * sine / (1 + cosine);
-  }
+  Lookup() = default;
+  double x_min() const { return curve_.x_min(); }
   Sweep operator()(double x) const {
-    const double at = x > x_min_ ? x : x_min_;
-    const std::int64_t k = key(at) - first_key_;
-    const Interval& q = intervals_[k < last_ ? k : last_];
-    const double u = (at - q.start) * q.inverse_width;
-    const double phi =
-        q.c[0] + u * (q.c[1] + u * (q.c[2] + u * (q.c[3] + u * (q.c[4] + u * q.c[5]))));
-    const double d =
-        q.c[1] + u * (2 * q.c[2] + u * (3 * q.c[3] + u * (4 * q.c[4] + u * 5 * q.c[5])));
-    return {phi, std::abs(d * q.inverse_width) * ((1 + at * at / 4) / 2)};
+    const auto at = curve_(x);
+    return {at.value, std::abs(at.slope) * ((1 + x * x / 4) / 2)};
   }
 
  private:
   friend class SkyTable;
-  const Interval* intervals_ = nullptr;
-  std::int64_t first_key_ = 0, last_ = 0;
-  double x_min_ = 0, sign_ = 1, sin_edge_ = 0, cos_edge_ = 1;
+  OctaveCurve::Lookup curve_;
 };
 
 inline SkyTable::Lookup SkyTable::lookup() const {
   Lookup l;
-  l.intervals_ = intervals_.data();
-  l.first_key_ = first_key_;
-  l.last_ = static_cast<std::int64_t>(intervals_.size()) - 1;
-  l.x_min_ = x_min_;
-  l.sign_ = sign_;
-  l.sin_edge_ = sin_edge_;
-  l.cos_edge_ = cos_edge_;
+  l.curve_ = curve_.lookup();
   return l;
 }
 

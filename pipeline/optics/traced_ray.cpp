@@ -5,93 +5,130 @@
 #include <numbers>
 
 #include "pipeline/optics/exact_azimuth.h"
-#include "pipeline/optics/silhouette.h"
-#include "pipeline/optics/sky_table.h"
+#include "pipeline/optics/hole_optics.h"
 
 namespace domefall {
 namespace {
 
-// A ray in the rain frame, and omega_observer/omega_rain, which is also d delta_rain/d delta.
-struct RainView {
-  NullRay ray;
-  double delta;  // in the observer's own frame
-  double doppler;
+using std::numbers::pi;
+
+// How delta in the observer's frame becomes alpha.
+struct View {
+  RadialFrame frame;
+  bool from_behind;  // alpha = pi - delta
 };
 
-RainView rain_view(const RayRequest& q) {
-  const NullRay ray = q.edge ? ray_off_edge(q.at, *q.edge, q.offset) : ray_at(q.at, q.delta);
-  return {ray, q.edge ? delta_of(ray) : q.delta, 1};
+View view_of(TraceObserver observer) {
+  switch (observer) {
+    case TraceObserver::kStatic:
+    case TraceObserver::kTwo:
+      return {{false, true}, false};
+    case TraceObserver::kFour:
+      return {{true, true}, false};
+    case TraceObserver::kOutgoing:
+      return {{true, false}, true};
+    case TraceObserver::kRain:
+      break;
+  }
+  return {{false, false}, false};
 }
 
-// The rain moves inward at s = sqrt(2/r): tan(delta_rain/2) = kappa tan(delta_static/2),
-// kappa = sqrt((1-s)/(1+s)), and a gap to the edge scales the same way.
-RainView static_view(const RayRequest& q) {
-  const double s = std::sqrt(2 / q.at.r);
-  const double kappa = std::sqrt(q.at.above_horizon / q.at.r) / (1 + s);
-  const double edge_tangent = tan_half_silhouette(q.at) / kappa;
-  const double edge = 2 * std::atan(edge_tangent);
-  const double half_offset = (q.edge ? q.offset : q.delta - edge) / 2;
-  const double delta = q.edge ? edge + q.offset : q.delta;
-  const double sine = std::sin(delta / 2), cosine = std::sin((std::numbers::pi - delta) / 2);
-  const double gap = std::sin(half_offset) * std::hypot(1, edge_tangent);
-  const double norm = std::hypot(kappa * sine, cosine);
-  return {{q.at, kappa * sine / norm, cosine / norm, kappa * gap / norm, 0},
-          delta,
-          kappa / (norm * norm)};
+Critical critical_of(const View& view, Edge edge) {
+  return edge == Edge::kRegionThree || view.from_behind ? Critical::kSecond : Critical::kFirst;
 }
 
-double distance(const NullRay& ray, Edge edge) {
-  const bool outer = edge == Edge::kSilhouette;
-  const double tangent = outer ? tan_half_silhouette(ray.at) : tan_half_region_three(ray.at);
-  const double cos_edge = 1 / std::sqrt(1 + tangent * tangent);
-  const double sine = std::abs(outer ? ray.gap_silhouette : ray.gap_three) * cos_edge;
-  const double cosine = (ray.cos_half + ray.sin_half * tangent) * cos_edge;
-  return 2 * sine / (1 + cosine);
+NullRay ray_of(const RayRequest& q, const View& view) {
+  if (q.edge) {
+    const double offset = view.from_behind ? -q.offset : q.offset;
+    return ray_off_edge(q.at, critical_of(view, *q.edge), offset, view.frame);
+  }
+  const long double alpha = view.from_behind ? std::numbers::pi_v<long double> - q.delta : q.delta;
+  return ray_at(q.at, alpha, view.frame);
 }
 
-// d phi/d delta of the exact integral by a four-point central difference in the distance to the
-// edge.  phi is odd about the far end of a sky (delta = pi or 0), where the difference steps across.
-// Measured against the reference: relative error below 1e-9.
-double exact_slope(const Radius& at, Edge edge, double x) {
-  const bool outer = edge == Edge::kSilhouette;
-  const double sign = outer ? 1 : -1, h = 1e-3 * x;
-  const double reach = outer ? 2 * std::atan2(1.0, tan_half_silhouette(at))
-                             : 2 * std::atan(tan_half_region_three(at));
-  const auto phi = [&](double k) {
-    const double offset = 4 * std::atan((x + k * h) / 2);
-    const double inside = offset <= reach ? offset : 2 * reach - offset;
-    const double swept = exact_azimuth(ray_off_edge(at, edge, sign * inside));
-    return offset <= reach ? swept : -swept;
-  };
-  const double by_x = (8 * (phi(1) - phi(-1)) - (phi(2) - phi(-2))) / (12 * h);
-  return std::abs(by_x) * (1 + x * x / 4) / 2;
+// The observer's half angle from the frame of the ray.
+struct Seen {
+  double delta;
+  double doppler;  // omega_observer/omega_frame, which is also d alpha/d alpha_observer
+};
+
+Seen seen(const NullRay& ray, const View& view) {
+  const double k = kappa(ray.at, view.frame), sine = ray.sin_half / k;
+  const double alpha = 2 * std::atan2(sine, ray.cos_half);
+  const double behind = 2 * std::atan2(ray.cos_half, sine);
+  return {view.from_behind ? behind : alpha, k * (sine * sine + ray.cos_half * ray.cos_half)};
+}
+
+struct Sweep {
+  double phi, slope;  // d phi/d alpha, signed
+};
+
+// The optics of one radius, with only the tables that were asked for.
+const HoleOptics& optics_at(const Radius& at, bool outgoing, Origin origin) {
+  thread_local HoleOptics kept;
+  const Tetrad tetrad = outgoing ? Tetrad::kOutgoing : Tetrad::kRain;
+  const bool same = kept.at.r == at.r && kept.at.above_horizon == at.above_horizon &&
+                    kept.at.above_light_circle == at.above_light_circle && kept.tetrad == tetrad;
+  if (!same) kept = make_hole_optics(at, tetrad, {false, false, false});
+  const WantedSkies wanted{origin == Origin::kSkyOne, origin == Origin::kSkyThree,
+                           origin == Origin::kPastSingularity};
+  add_tables(kept, wanted);
+  return kept;
+}
+
+Sweep by_table(const NullRay& ray, Origin origin) {
+  const HoleOptics& optics = optics_at(ray.at, ray.outgoing, origin);
+  if (origin == Origin::kPastSingularity) {
+    const WhiteHoleTable::Place place = optics.white_hole->place_of(ray);
+    return {optics.white_hole->azimuth(place), optics.white_hole->slope(place)};
+  }
+  const SkyTable& table = origin == Origin::kSkyOne ? *optics.home_sky : *optics.far_sky;
+  const double x = table.distance_of(ray);
+  return {table.azimuth(x), -table.slope(x) * table.edge().sign};
 }
 
 }  // namespace
 
+bool has_edge(TraceObserver observer, const Radius& at, Edge edge) {
+  const bool inside = at.above_horizon <= 0;
+  if (edge == Edge::kRegionThree)
+    return inside && (observer == TraceObserver::kRain || observer == TraceObserver::kTwo);
+  return observer != TraceObserver::kFour && !(observer == TraceObserver::kOutgoing && inside);
+}
+
+double edge_delta(TraceObserver observer, const Radius& at, Edge edge) {
+  const View view = view_of(observer);
+  const double tangent = tan_half_critical(at, critical_of(view, edge)) / kappa(at, view.frame);
+  return 2 * (view.from_behind ? std::atan2(1.0, tangent) : std::atan(tangent));
+}
+
 TracedRay trace_ray(const RayRequest& q, TraceMethod method) {
-  const RainView view = q.observer == TraceObserver::kRain ? rain_view(q) : static_view(q);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  TracedRay traced{view.delta, origin_of(view.ray), kNone, kNone, kNone, kNone};
-  if (traced.origin == Origin::kPastSingularity) return traced;
-  const Edge edge = traced.origin == Origin::kSkyOne ? Edge::kSilhouette : Edge::kRegionThree;
-  const double x = distance(view.ray, edge);
-  double slope = 0;
-  if (method == TraceMethod::kTable) {
-    const SkyTable table(q.at, edge);
-    traced.phi = table.azimuth(x);
-    slope = table.slope(x);
-  } else {
-    traced.phi = exact_azimuth(view.ray);
-    slope = exact_slope(q.at, edge, x);
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const View view = view_of(q.observer);
+  const NullRay ray = ray_of(q, view);
+  const Seen at_observer = seen(ray, view);
+  const double delta = q.edge ? at_observer.delta : static_cast<double>(q.delta);
+  TracedRay traced{delta, origin_of(ray), 0, kNone, 0, 0};
+  const bool from_sky = traced.origin != Origin::kPastSingularity;
+  if (from_sky) traced.one_plus_z = one_plus_z(ray) / at_observer.doppler;
+  const double sign = view.from_behind ? -1 : 1;
+  const bool radial = ray.sin_half == 0 || ray.cos_half == 0;
+  if (circles_for_ever(ray) || (radial && !from_sky)) {
+    // phi diverges, or starts from the axis like the cube root of the angle.
+    traced.phi = radial ? 0 : kInfinite;
+    traced.slope = kInfinite;
+    return traced;
   }
-  slope *= view.doppler;
-  traced.slope = edge == Edge::kSilhouette ? -slope : slope;
-  traced.one_plus_z = one_plus_z(view.ray) / view.doppler;
-  // At the far end both sines vanish, and their ratio is 1/slope.
-  const bool far_end = traced.phi < 1e-6;
+  const Sweep sweep = method == TraceMethod::kTable ? by_table(ray, traced.origin)
+                                                    : Sweep{exact_azimuth(ray), exact_slope(ray)};
+  traced.phi = sweep.phi;
+  traced.slope = sign * sweep.slope * at_observer.doppler;
+  const double slope = std::abs(traced.slope);
+  // At the far end of a sky both sines vanish, and their ratio is 1/slope.
+  const bool far_end = from_sky && traced.phi < 1e-6;
   traced.amplification =
-      far_end ? 1 / (slope * slope) : std::sin(view.delta) / std::abs(std::sin(traced.phi) * slope);
+      far_end ? 1 / (slope * slope) : std::sin(delta) / (std::abs(std::sin(traced.phi)) * slope);
   return traced;
 }
 

@@ -1,5 +1,5 @@
-// One ray by numbers, for an observer in the rain or the static frame: what `domefall trace` prints
-// and what the reference rays are compared with.
+// One ray by numbers, for an observer at rest in one of the named frames: what `domefall trace`
+// prints and what the reference rays are compared with.
 #pragma once
 
 #include <optional>
@@ -8,29 +8,49 @@
 
 namespace domefall {
 
-enum class TraceObserver { kRain, kStatic };
-enum class TraceMethod { kTable, kExact };
+enum class TraceObserver {
+  kRain,      // free fall from rest at infinity, in I and II
+  kStatic,    // r > 2
+  kOutgoing,  // free fall to rest at infinity: r > 2 in I, r <= 2 in IV
+  kTwo,       // T_II: at rest in t inside the future horizon, r < 2
+  kFour,      // T_IV: at rest in t inside the past horizon, r < 2
+};
 
-// delta (radians) from the direction of the hole in the observer's own frame; or, where an edge of
-// that frame is given, delta = edge + offset to full accuracy.
+enum class TraceMethod {
+  kTable,  // what renders frames
+  kExact,
+};
+
+// An edge in delta, as the observer sees it.
+enum class Edge {
+  kSilhouette,   // of region I's sky; none in region IV
+  kRegionThree,  // r <= 2, rain and T_II
+};
+bool has_edge(TraceObserver observer, const Radius& at, Edge edge);
+
+// delta (radians) from -R, which is the direction of the hole outside; or, where an edge is given,
+// delta = edge + offset to full accuracy.
 struct RayRequest {
   TraceObserver observer = TraceObserver::kRain;
-  Radius at = 0.0;  // r > 0; > 2 for the static observer
-  double delta = 0;
+  Radius at = 0.0;
+  long double delta = 0;
   std::optional<Edge> edge;
   double offset = 0;
 };
 
-// For rays from the past singularity only `delta` and `origin` are set; the rest is NaN.
+// Where that ray stands in delta, without following it: for checking that it is one.
+double edge_delta(TraceObserver observer, const Radius& at, Edge edge);
+
 struct TracedRay {
   double delta;
   Origin origin;
-  double phi;            // swept azimuth, radians
-  double one_plus_z;     // emitted / observed frequency
+  double phi;            // swept azimuth, radians; infinite for a ray that circles for ever
+  double one_plus_z;     // emitted / observed frequency; NaN for rays from the past singularity
   double slope;          // d phi / d delta, signed, in the observer's frame
   double amplification;  // sin(delta)/|sin(phi) slope|
 };
 
+// The tables are kept from one call to the next while the radius stays the same (in each thread).
 TracedRay trace_ray(const RayRequest& q, TraceMethod method);
 
 }  // namespace domefall

@@ -39,7 +39,7 @@ double steady(double value) {
 }
 
 // Raised with every change that alters a pixel, so that frames from before it are made again.
-constexpr int kPictures = 1;
+constexpr int kPictures = 2;
 
 FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(grade)) {
   Digest common;
@@ -52,6 +52,10 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
   Digest three;
   add_sky(three, show.sky_three);
   sky_three_ = three.hex();
+  if (std::holds_alternative<BlackSky>(show.sky_four.background)) return;
+  Digest four;
+  add_sky(four, show.sky_four);
+  sky_four_ = four.hex();
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
@@ -60,13 +64,15 @@ std::string FrameKeys::scene(const FrameState& state) const {
   digest.add(common_)
       .add(state.frame)
       .add(region_name(o.region))
+      .add(tetrad_name(o.tetrad))
       .add(steady(o.r))
       .add(steady(o.proper_time));
   for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
   add_matrix(digest, o.sky_from_tetrad);
   add_matrix(digest, o.tetrad_from_camera);
   add_projection(digest, state.projection);
-  if (o.region == Region::kII) digest.add(sky_three_);
+  if (o.region == Region::kII || o.region == Region::kIII) digest.add(sky_three_);
+  if (!is_flat(o)) digest.add(sky_four_);
   return digest.hex();
 }
 

@@ -26,8 +26,8 @@ class FrameKeys {
   std::string graded(const std::string& scene_key) const;
 
  private:
-  std::string common_;     // digest of the settings that all frames share
-  std::string sky_three_;  // only frames that see region III depend on it
+  std::string common_;                // digest of the settings that all frames share
+  std::string sky_three_, sky_four_;  // only frames that can see them depend on them
   std::string grade_;
 };
 

@@ -39,20 +39,18 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
 }  // namespace
 
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
-                       const Sky* one, const Sky* three)
+                       const Skies& skies)
     : show_(show),
       projection_(state.projection),
       tracer_(state, optics),
-      one_(one),
-      three_(three),
-      long_footprint_(is_grid(one) || is_grid(three) ? kLongOnGrid : kLongOnPanorama),
+      skies_(skies),
+      long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
+                                                                       : kLongOnPanorama),
       scale_(exposure_scale(show.exposure)) {}
 
 // sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
 WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle, bool fine) const {
-  const Sky* sky = batch.sky[k] == SeenSky::kOne     ? one_
-                   : batch.sky[k] == SeenSky::kThree ? three_
-                                                     : nullptr;
+  const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
   if (sky == nullptr) return {0, 0, 0};
   const double g = batch.frequency_ratio[k], gain = scale_ * sky->background_gain;
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);

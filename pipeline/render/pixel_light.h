@@ -8,9 +8,10 @@ namespace domefall {
 
 class PixelLight {
  public:
-  // The skies may be null: dark.  Everything must outlive it.
-  PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics, const Sky* one,
-             const Sky* three);
+  // By SeenSky; null for a dark one.  Everything must outlive it.
+  using Skies = std::array<const Sky*, kSkies>;
+  PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
+             const Skies& skies);
 
   // Scene-linear working-space pixel values of row `row` (from 0) into rgb[3 * columns].
   void fill_row(int row, float* rgb) const;
@@ -25,7 +26,7 @@ class PixelLight {
   const Show& show_;
   Projection projection_;
   ViewTracer tracer_;
-  const Sky *one_, *three_;
+  Skies skies_;
   double long_footprint_;
   double scale_;  // pixel value per cd/m^2
 };

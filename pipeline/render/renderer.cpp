@@ -61,6 +61,19 @@ std::vector<std::vector<std::uint32_t>> blobs_by_band(const std::vector<StarBlob
   return by_band;
 }
 
+// Of a sky with stars; null in flat space.
+const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
+  const bool home = (which == SeenSky::kThree) == is_mirrored(optics.tetrad);
+  const auto& table = home ? optics.home_sky : optics.far_sky;
+  return table ? &*table : nullptr;
+}
+
+std::size_t node_count(const HoleOptics& optics) {
+  return (optics.home_sky ? optics.home_sky->node_count() : 0) +
+         (optics.far_sky ? optics.far_sky->node_count() : 0) +
+         (optics.white_hole ? optics.white_hole->node_count() : 0);
+}
+
 void store_row(const float* rgb, int row, HalfFrame& frame) {
   constexpr float kLargest = 65504;
   Imath::half* out = frame.row(row);
@@ -78,17 +91,29 @@ void store_row(const float* rgb, int row, HalfFrame& frame) {
 
 }  // namespace
 
+namespace {
+
+FramePlan::Sky plan_sky(const RegionSky& sky) { return {shows_anything(sky), has_stars(sky)}; }
+
+}  // namespace
+
+bool FramePlan::background() const {
+  return std::any_of(sky.begin(), sky.end(), [](const Sky& s) { return s.background; });
+}
+
 FramePlan plan_frame(const Show& show, const FrameState& state) {
   const ObserverState& o = state.observer;
-  const bool three = o.region == Region::kII && o.r < 2;
+  const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o);
-  plan.background_one = shows_anything(show.sky_one);
-  plan.background_three = three && shows_anything(show.sky_three);
-  plan.stars_one = has_stars(show.sky_one);
-  plan.stars_three = three && has_stars(show.sky_three);
-  plan.table_one = plan.gravity && (plan.background_one || plan.stars_one);
-  plan.table_three = plan.gravity && (plan.background_three || plan.stars_three);
+  const auto set = [&plan](SeenSky which, const RegionSky& sky) {
+    plan.sky[static_cast<std::size_t>(which)] = plan_sky(sky);
+  };
+  const bool mirrored = is_mirrored(o.tetrad);
+  const bool home = o.region != Region::kIV;
+  if (mirrored ? inside : home) set(SeenSky::kOne, show.sky_one);
+  if (mirrored ? home : inside) set(SeenSky::kThree, show.sky_three);
+  if (plan.gravity) set(SeenSky::kFour, show.sky_four);
   return plan;
 }
 
@@ -103,19 +128,20 @@ Renderer::Renderer(const Show& show, int threads)
 
 Renderer::~Renderer() = default;
 
-void Renderer::load_skies(bool three) {
-  scene_.sky_one();
-  if (three) scene_.sky_three();
-}
+void Renderer::load_sky(SeenSky which) { scene_.sky(which); }
 
 int Renderer::threads() const { return arena_->arena.max_concurrency(); }
 
 const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan& plan) {
   const ObserverState& o = state.observer;
-  const bool kept = optics_ && optics_->r == o.r && optics_->region == o.region &&
-                    optics_->sky_one.has_value() == plan.table_one &&
-                    optics_->sky_three.has_value() == plan.table_three;
-  if (!kept) optics_ = make_hole_optics(o.region, o.r, {plan.table_one, plan.table_three});
+  const bool mirrored = is_mirrored(o.tetrad);
+  const bool one = plan[SeenSky::kOne].lit(), three = plan[SeenSky::kThree].lit();
+  const WantedSkies wanted{mirrored ? three : one, mirrored ? one : three,
+                           plan[SeenSky::kFour].lit()};
+  if (!optics_ || optics_->at.r != o.r || optics_->tetrad != o.tetrad)
+    optics_ = make_hole_optics(o.r, o.tetrad, wanted);
+  else
+    add_tables(*optics_, wanted);
   return *optics_;
 }
 
@@ -129,30 +155,29 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
     start = Clock::now();
     return s;
   };
-  const Sky* one = plan.background_one || plan.stars_one ? &scene_.sky_one() : nullptr;
-  const Sky* three = plan.background_three || plan.stars_three ? &scene_.sky_three() : nullptr;
+  std::array<const Sky*, kSkies> skies{};
+  for (const SeenSky which : kEverySky)
+    if (plan[which].lit()) skies[static_cast<std::size_t>(which)] = &scene_.sky(which);
   t.load_s = lap();
   const HoleOptics& optics = optics_for(state, plan);
-  const SkyTable* table_one = optics.sky_one ? &*optics.sky_one : nullptr;
-  const SkyTable* table_three = optics.sky_three ? &*optics.sky_three : nullptr;
-  t.table_nodes =
-      (table_one ? table_one->node_count() : 0) + (table_three ? table_three->node_count() : 0);
+  t.table_nodes = node_count(optics);
   t.tables_s = lap();
 
   HalfFrame frame(columns(state.projection), rows(state.projection));
   arena_->arena.execute([&] {
     std::vector<StarBlob> blobs;
-    if (plan.stars_one)
-      append_blobs(BlobMaker(show_, state, optics, table_one), *one->stars, blobs);
-    if (plan.stars_three)
-      append_blobs(BlobMaker(show_, state, optics, table_three), *three->stars, blobs);
+    for (const SeenSky which : kEverySky)
+      if (plan[which].stars)
+        append_blobs(BlobMaker(show_, state, table_of(optics, which)),
+                     *skies[static_cast<std::size_t>(which)]->stars, blobs);
     t.images = blobs.size();
     const int bands = (frame.height + kBandRows - 1) / kBandRows;
     const auto by_band = blobs_by_band(blobs, bands);
     t.stars_s = lap();
-    const PixelLight light(show_, state, optics, plan.background_one ? one : nullptr,
-                           plan.background_three ? three : nullptr);
-    const bool background = plan.background_one || plan.background_three;
+    for (const SeenSky which : kEverySky)
+      if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
+    const PixelLight light(show_, state, optics, skies);
+    const bool background = plan.background();
     tbb::parallel_for(0, bands, [&](int band) {
       std::vector<float> rgb(static_cast<std::size_t>(frame.width) * 3);
       const int end = std::min(frame.height, (band + 1) * kBandRows);
@@ -173,22 +198,21 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
 }
 
 std::string describe(const FramePlan& plan, const StageTimes& t) {
-  const auto sky = [](bool background, bool stars) {
-    return std::string(background ? "background" : "no background") +
-           (stars ? ", stars" : ", no stars");
-  };
   char line[256];
-  std::string text;
-  std::snprintf(line, sizeof line, "load    %8.3f s  sky I: %s; sky III: %s\n", t.load_s,
-                sky(plan.background_one, plan.stars_one).c_str(),
-                sky(plan.background_three, plan.stars_three).c_str());
+  std::string text, skies, tables;
+  for (const SeenSky which : kEverySky) {
+    const FramePlan::Sky& sky = plan[which];
+    const std::string name = std::string("sky ") + name_of(which);
+    skies += (skies.empty() ? "" : "; ") + name + ": " +
+             (sky.background ? "background" : "no background") +
+             (sky.stars ? ", stars" : ", no stars");
+    if (sky.lit()) tables += (tables.empty() ? "" : " and ") + name;
+  }
+  if (tables.empty()) tables = "all skies black: none";
+  if (!plan.gravity) tables = "flat space: none";
+  std::snprintf(line, sizeof line, "load    %8.3f s  %s\n", t.load_s, skies.c_str());
   text += line;
-  std::snprintf(line, sizeof line, "tables  %8.5f s  %s, %zu nodes\n", t.tables_s,
-                !plan.gravity                        ? "flat space: none"
-                : plan.table_one && plan.table_three ? "sky I and sky III"
-                : plan.table_one                     ? "sky I"
-                : plan.table_three                   ? "sky III"
-                                                     : "all skies black: none",
+  std::snprintf(line, sizeof line, "tables  %8.5f s  %s, %zu nodes\n", t.tables_s, tables.c_str(),
                 t.table_nodes);
   text += line;
   std::snprintf(line, sizeof line, "stars   %8.4f s  %zu images\n", t.stars_s, t.images);

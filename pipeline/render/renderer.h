@@ -1,6 +1,7 @@
 // Frames of a show, in memory.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,11 +17,16 @@ namespace domefall {
 // What one frame needs, decided before anything is made.
 struct FramePlan {
   bool gravity = false;  // else no table
-  bool table_one = false, table_three = false;
-  bool background_one = false, background_three = false;  // anything to see but stars
-  bool stars_one = false, stars_three = false;
+  struct Sky {
+    bool background = false;  // anything to see but stars
+    bool stars = false;
 
-  bool sees_three() const { return background_three || stars_three; }
+    bool lit() const { return background || stars; }
+  };
+  std::array<Sky, kSkies> sky;  // by SeenSky: what can be seen from the observer's region
+
+  const Sky& operator[](SeenSky which) const { return sky[static_cast<std::size_t>(which)]; }
+  bool background() const;
 };
 
 FramePlan plan_frame(const Show& show, const FrameState& state);
@@ -45,8 +51,8 @@ class Renderer {
   // Values beyond the largest half (65504) are recorded as that: the sensor saturates.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
 
-  // Reads the skies' files now instead of at the first frame that shows them.  Throws InputError.
-  void load_skies(bool three);
+  // Reads a sky's files now instead of at the first frame that shows it.  Throws InputError.
+  void load_sky(SeenSky which);
 
   int threads() const;
 

@@ -47,39 +47,40 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
 
 }  // namespace
 
-Sky Scene::load(const RegionSky& region) {
+const RegionSky& Scene::region(SeenSky which) const {
+  if (which == SeenSky::kOne) return show_.sky_one;
+  return which == SeenSky::kThree ? show_.sky_three : show_.sky_four;
+}
+
+// What another sky has loaded already is shared with it.
+Sky Scene::load(SeenSky which) const {
+  const RegionSky& own = region(which);
   Sky sky;
-  sky.background_gain = static_cast<float>(region.background_gain);
-  if (std::holds_alternative<GridSky>(region.background)) sky.background = Grid{};
-  if (const auto* panorama = std::get_if<PanoramaSky>(&region.background))
+  sky.background_gain = static_cast<float>(own.background_gain);
+  if (std::holds_alternative<GridSky>(own.background)) sky.background = Grid{};
+  for (const SeenSky other : kEverySky) {
+    const auto& loaded = skies_[static_cast<std::size_t>(other)];
+    if (!loaded) continue;
+    if (same_background(own, region(other))) sky.background = loaded->background;
+    if (same_stars(own, region(other))) sky.stars = loaded->stars;
+  }
+  const auto* panorama = std::get_if<PanoramaSky>(&own.background);
+  if (panorama && std::holds_alternative<Black>(sky.background))
     sky.background = std::make_shared<const SkyMap>(read_panorama(panorama->image));
+  if (sky.stars) return sky;
   std::vector<SceneStar> stars;
-  if (region.stars && region.star_gain > 0)
-    stars = scene_stars(read_star_catalogue(region.stars->catalogue, region.stars->max_magnitude),
-                        region.star_gain);
+  if (own.stars && own.star_gain > 0)
+    stars = scene_stars(read_star_catalogue(own.stars->catalogue, own.stars->max_magnitude),
+                        own.star_gain);
   sky.stars = std::make_shared<const std::vector<SceneStar>>(std::move(stars));
   return sky;
 }
 
-const Sky& Scene::sky_one() {
+const Sky& Scene::sky(SeenSky which) {
   const std::scoped_lock lock(loading_);
-  if (!one_) one_ = std::make_unique<Sky>(load(show_.sky_one));
-  return *one_;
-}
-
-const Sky& Scene::sky_three() {
-  const Sky& one = sky_one();
-  const std::scoped_lock lock(loading_);
-  if (three_) return *three_;
-  RegionSky rest = show_.sky_three;
-  const bool shared_background = same_background(show_.sky_one, rest),
-             shared_stars = same_stars(show_.sky_one, rest);
-  if (shared_background) rest.background = BlackSky{};
-  if (shared_stars) rest.stars.reset();
-  three_ = std::make_unique<Sky>(load(rest));
-  if (shared_background) three_->background = one.background;
-  if (shared_stars) three_->stars = one.stars;
-  return *three_;
+  auto& kept = skies_[static_cast<std::size_t>(which)];
+  if (!kept) kept = std::make_unique<Sky>(load(which));
+  return *kept;
 }
 
 }  // namespace domefall

@@ -1,11 +1,13 @@
 // What a show needs loaded, and nothing else: skies and stars by region, made at their first use.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <variant>
 #include <vector>
 
+#include "pipeline/render/seen_sky.h"
 #include "pipeline/show/show.h"
 #include "pipeline/sky/sky_map.h"
 
@@ -33,16 +35,16 @@ class Scene {
  public:
   explicit Scene(const Show& show) : show_(show) {}
 
-  // Loaded at the first call; files that both regions name are loaded once.  Throws InputError.
-  const Sky& sky_one();
-  const Sky& sky_three();
+  // Loaded at the first call; files that several regions name are loaded once.  Throws InputError.
+  const Sky& sky(SeenSky which);
 
  private:
-  Sky load(const RegionSky& region);
+  Sky load(SeenSky which) const;
+  const RegionSky& region(SeenSky which) const;
 
   const Show& show_;
   std::mutex loading_;
-  std::unique_ptr<Sky> one_, three_;
+  std::array<std::unique_ptr<Sky>, kSkies> skies_;
 };
 
 }  // namespace domefall

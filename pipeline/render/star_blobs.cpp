@@ -63,14 +63,12 @@ double densest(const Projection& p, double theta, double reach) {
 
 }  // namespace
 
-BlobMaker::BlobMaker(const Show& show, const FrameState& state, const HoleOptics& optics,
-                     const SkyTable* table)
+BlobMaker::BlobMaker(const Show& show, const FrameState& state, const SkyTable* table)
     : law_(show.blobs),
       projection_(state.projection),
       sky_from_tetrad_(state.observer.sky_from_tetrad),
       tetrad_from_camera_(state.observer.tetrad_from_camera),
       from_tetrad_(-state.observer.celerity),
-      optics_(optics),
       table_(table),
       scale_(exposure_scale(show.exposure)),
       min_sigma_(std::max(show.blobs.min_sigma * width_factor(projection_),
@@ -93,7 +91,7 @@ void BlobMaker::append(const SceneStar& star, std::vector<StarBlob>& blobs) cons
 // [Riazuelo] sec. sec_stars_eff: m_obs = m + 10 log10(1+z) - 2.5 log10(f), T_obs = T/(1+z).
 bool BlobMaker::append_image(const SceneStar& star, const V3d& source, int order,
                              std::vector<StarBlob>& blobs) const {
-  const SkyImage image = image_of(optics_, table_, source, order, star.angular_radius);
+  const SkyImage image = image_of(table_, source, order, star.angular_radius);
   const AberratedLight seen = from_tetrad_.to_rest(image.direction.v);
   const double doppler = seen.frequency_ratio;
   const double g = image.frequency_ratio * doppler;

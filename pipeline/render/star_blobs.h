@@ -29,8 +29,7 @@ inline constexpr double kFaintestPeak = 2e-4;
 // Appends to `blobs` those that fall into the picture.  `table` is null in flat space.
 class BlobMaker {
  public:
-  BlobMaker(const Show& show, const FrameState& state, const HoleOptics& optics,
-            const SkyTable* table);
+  BlobMaker(const Show& show, const FrameState& state, const SkyTable* table);
   void append(const SceneStar& star, std::vector<StarBlob>& blobs) const;
 
  private:
@@ -42,7 +41,6 @@ class BlobMaker {
   Projection projection_;
   M33d sky_from_tetrad_, tetrad_from_camera_;
   Aberration from_tetrad_;
-  const HoleOptics& optics_;
   const SkyTable* table_;
   double scale_;      // pixel value per cd/m^2
   double min_sigma_;  // radians, at least 0.9 pixel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pipeline/render/vector_math.h"
 
@@ -23,6 +24,7 @@ struct Frame {
   M33d tetrad_from_camera, sky_from_tetrad;
   Aberration aberration;
   double s, one_minus_s;
+  double inward;  // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
 };
 
 // Directions in the rain frame and what leads to the tables.
@@ -37,7 +39,7 @@ DOMEFALL_SIMD void to_rain(const Frame& frame, const CameraDirection* n, int cou
     const AberratedLight in = f.aberration.to_rest(apply(f.tetrad_from_camera, n[k].v));
     const V3d d = in.direction;
     const double sine = std::sqrt(d.y * d.y + d.z * d.z);
-    const HalfAngle half = half_angle(-d.x, sine);
+    const HalfAngle half = half_angle(-f.inward * d.x, sine);
     const double energy =
         std::abs((1 + f.s) * half.sine * half.sine + f.one_minus_s * half.cosine * half.cosine);
     rain.x[k] = d.x, rain.y[k] = d.y, rain.z[k] = d.z;
@@ -58,14 +60,14 @@ DOMEFALL_SIMD void flat_sky(const Frame& frame, const Rain& rain, int count, Loo
   }
 }
 
-DOMEFALL_SIMD void distances(const SkyTable::Lookup& lookup, const Rain& rain, int count,
-                             LookBatch& batch) {
-  const SkyTable::Lookup table = lookup;
+// Distances from an edge: the coordinate of its table, and the angle of view.
+DOMEFALL_SIMD void distances(const SkyEdge& sky_edge, const Rain& rain, int count, double* distance,
+                             double* away) {
+  const SkyEdge edge = sky_edge;
   for (int k = 0; k < count; ++k) {
-    const double x = table.distance(rain.sin_half[k], rain.cos_half[k]);
-    const double to_edge = 2 * std::abs(x) / rain.inverse_doppler[k];
-    batch.distance[k] = x;
-    batch.to_edge[k] = to_edge < batch.to_edge[k] ? to_edge : batch.to_edge[k];
+    const double x = edge.distance(rain.sin_half[k], rain.cos_half[k]);
+    distance[k] = x;
+    away[k] = 2 * std::abs(x) / rain.inverse_doppler[k];
   }
 }
 
@@ -77,6 +79,19 @@ DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* distance
     const SkyTable::Sweep sweep = table(distance[k]);
     azimuth[k] = sweep.azimuth;
     slope[k] = sweep.slope;
+  }
+}
+
+DOMEFALL_SIMD void sweeps(const WhiteHoleTable::Lookup& lookup, const Rain& rain, int count,
+                          double* place, double* azimuth, double* slope) {
+  const WhiteHoleTable::Lookup table = lookup;
+  for (int k = 0; k < count; ++k) {
+    double rate = 0;
+    place[k] = table.place(rain.sin_half[k], rain.cos_half[k], rate);
+    const double within = place[k] < table.high ? place[k] : table.high;
+    const auto at = table.curve(within);
+    azimuth[k] = at.value;
+    slope[k] = std::abs(at.slope * rate);
   }
 }
 
@@ -95,21 +110,47 @@ DOMEFALL_SIMD void onto_sky(const Frame& frame, const Rain& rain, const double* 
   }
 }
 
-// Looks up the directions that `table` shows and that no table before it did.
-void add_sky(const SkyTable& table, SeenSky name, const Rain& rain, int count, LookBatch& batch,
-             double* azimuth, double* slope) {
+using Doubles = LookBatch::Column<double>;
+
+// Looks up the directions that lie on the sky `name`.
+void add_sky(const SkyTable& table, SeenSky name, const Doubles& x, int count,
+             const LookBatch& batch, Doubles& azimuth, Doubles& slope) {
   const SkyTable::Lookup lookup = table.lookup();
-  distances(lookup, rain, count, batch);
-  const double* x = batch.distance.data();
-  LookBatch::Column<double> phi, d;
-  sweeps(lookup, x, count, phi.data(), d.data());
+  Doubles phi, d;
+  sweeps(lookup, x.data(), count, phi.data(), d.data());
   for (int k = 0; k < count; ++k) {
-    if (!(x[k] > 0) || batch.sky[k] != SeenSky::kNone) continue;
-    batch.sky[k] = name;
+    if (batch.sky[k] != name) continue;
     const bool beyond = x[k] < lookup.x_min();
     azimuth[k] = beyond ? table.azimuth(x[k]) : phi[k];
     slope[k] = beyond ? table.slope(x[k]) : d[k];
   }
+}
+
+// On the axis the azimuth of the singularity's light changes like the cube root of the angle: faster
+// than any picture can show.
+constexpr double kSteepest = 1e9;
+
+void add_white_hole(const WhiteHoleTable& table, const Rain& rain, int count, LookBatch& batch,
+                    Doubles& azimuth, Doubles& slope) {
+  const WhiteHoleTable::Lookup lookup = table.lookup();
+  Doubles place, phi, d;
+  sweeps(lookup, rain, count, place.data(), phi.data(), d.data());
+  for (int k = 0; k < count; ++k) {
+    if (batch.sky[k] != SeenSky::kFour) continue;
+    batch.frequency_ratio[k] = 1;
+    azimuth[k] = phi[k];
+    slope[k] = d[k];
+    if (!(place[k] >= lookup.low && place[k] <= lookup.high)) {
+      const WhiteHoleTable::Place at = table.place_of(rain.sin_half[k], rain.cos_half[k]);
+      azimuth[k] = table.azimuth(at);
+      slope[k] = std::abs(table.slope(at));
+    }
+    slope[k] = std::min(slope[k], kSteepest);
+  }
+}
+
+bool any(const LookBatch& batch, int count, SeenSky name) {
+  return std::find(batch.sky.begin(), batch.sky.begin() + count, name) != batch.sky.begin() + count;
 }
 
 }  // namespace
@@ -120,6 +161,9 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics)
       celerity_(state.observer.celerity),
       optics_(optics),
       flat_(is_flat(state.observer)),
+      outgoing_(is_outgoing(state.observer.tetrad)),
+      home_(is_mirrored(state.observer.tetrad) ? SeenSky::kThree : SeenSky::kOne),
+      far_(is_mirrored(state.observer.tetrad) ? SeenSky::kOne : SeenSky::kThree),
       s_(std::sqrt(2 / state.observer.r)),
       one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {}
 
@@ -128,39 +172,54 @@ Look ViewTracer::look(const CameraDirection& n) const {
   Look look;
   if (flat_) {
     look.sky = SeenSky::kOne;
+    look.known = true;
     look.sky_direction = apply(sky_from_tetrad_, in.direction);
     look.frequency_ratio = look.radial_scale = look.tangential_scale = 1 / in.frequency_ratio;
     return look;
   }
   const V3d& d = in.direction;
-  const double sin_delta = std::hypot(d.y, d.z);
-  const HalfAngle half = half_angle(-d.x, sin_delta);
+  const double sin_alpha = std::hypot(d.y, d.z);
+  const HalfAngle half = half_angle(outgoing_ ? d.x : -d.x, sin_alpha);
   const SkyTable* table = nullptr;
   double x = -1;
-  if (optics_.sky_one) {
-    x = optics_.sky_one->distance_from_half_angle(half.sine, half.cosine);
-    look.to_edge = 2 * std::abs(x) * in.frequency_ratio;
-    if (x > 0) table = &*optics_.sky_one, look.sky = SeenSky::kOne;
+  const auto try_sky = [&](const std::optional<SkyEdge>& edge, const std::optional<SkyTable>& its,
+                           SeenSky name) {
+    if (!edge) return;
+    const double away = edge->distance(half.sine, half.cosine);
+    if (its || optics_.white_hole)
+      look.to_edge = std::min(look.to_edge, 2 * std::abs(away) * in.frequency_ratio);
+    if (!(away > 0) || look.sky != SeenSky::kFour) return;
+    look.sky = name;
+    x = away;
+    table = its ? &*its : nullptr;
+  };
+  try_sky(optics_.home_edge, optics_.home_sky, home_);
+  try_sky(optics_.far_edge, optics_.far_sky, far_);
+  double phi = 0, slope = 0;
+  if (look.sky == SeenSky::kFour) {
+    if (!optics_.white_hole) return look;
+    const WhiteHoleTable::Place place = optics_.white_hole->place_of(half.sine, half.cosine);
+    phi = optics_.white_hole->azimuth(place);
+    slope = std::min(std::abs(optics_.white_hole->slope(place)), kSteepest);
+  } else {
+    if (!table) return look;
+    phi = table->azimuth(x);
+    slope = table->slope(x);
+    const double energy =
+        std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
+    look.frequency_ratio = 1 / (energy * in.frequency_ratio);
   }
-  if (optics_.sky_three) {
-    const double x3 = optics_.sky_three->distance_from_half_angle(half.sine, half.cosine);
-    look.to_edge = std::min(look.to_edge, 2 * std::abs(x3) * in.frequency_ratio);
-    if (!table && x3 > 0) x = x3, table = &*optics_.sky_three, look.sky = SeenSky::kThree;
-  }
-  if (!table) return look;
-  const double phi = table->azimuth(x);
-  const double across = sin_delta > 0 ? std::sin(phi) / sin_delta : 0;
+  look.known = true;
+  const double across = sin_alpha > 0 ? std::sin(phi) / sin_alpha : 0;
   look.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), d.y * across, d.z * across));
-  const double energy =
-      std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
-  look.frequency_ratio = 1 / (energy * in.frequency_ratio);
-  look.radial_scale = table->slope(x) / in.frequency_ratio;
+  look.radial_scale = slope / in.frequency_ratio;
   look.tangential_scale = std::abs(across) / in.frequency_ratio;
   return look;
 }
 
 void ViewTracer::look(const CameraDirection* n, int count, LookBatch& batch) const {
-  const Frame frame{tetrad_from_camera_, sky_from_tetrad_, Aberration(celerity_), s_, one_minus_s_};
+  const Frame frame{tetrad_from_camera_, sky_from_tetrad_,      Aberration(celerity_), s_,
+                    one_minus_s_,        outgoing_ ? -1.0 : 1.0};
   Rain rain;
   to_rain(frame, n, count, rain, batch);
   if (flat_) {
@@ -168,14 +227,24 @@ void ViewTracer::look(const CameraDirection* n, int count, LookBatch& batch) con
     flat_sky(frame, rain, count, batch);
     return;
   }
-  std::fill_n(batch.sky.begin(), count, SeenSky::kNone);
-  LookBatch::Column<double> azimuth, slope;
+  std::fill_n(batch.sky.begin(), count, SeenSky::kFour);
+  Doubles azimuth, slope, x, away;
   std::fill_n(azimuth.begin(), count, 0.0);
   std::fill_n(slope.begin(), count, 0.0);
-  if (optics_.sky_one)
-    add_sky(*optics_.sky_one, SeenSky::kOne, rain, count, batch, azimuth.data(), slope.data());
-  if (optics_.sky_three)
-    add_sky(*optics_.sky_three, SeenSky::kThree, rain, count, batch, azimuth.data(), slope.data());
+  const auto add = [&](const std::optional<SkyEdge>& edge, const std::optional<SkyTable>& table,
+                       SeenSky name) {
+    if (!edge) return;
+    distances(*edge, rain, count, x.data(), away.data());
+    if (table || optics_.white_hole)  // an edge between the dark and the dark is none
+      for (int k = 0; k < count; ++k) batch.to_edge[k] = std::min(batch.to_edge[k], away[k]);
+    for (int k = 0; k < count; ++k)
+      if (x[k] > 0 && batch.sky[k] == SeenSky::kFour) batch.sky[k] = name;
+    if (table && any(batch, count, name)) add_sky(*table, name, x, count, batch, azimuth, slope);
+  };
+  add(optics_.home_edge, optics_.home_sky, home_);
+  add(optics_.far_edge, optics_.far_sky, far_);
+  if (optics_.white_hole && any(batch, count, SeenSky::kFour))
+    add_white_hole(*optics_.white_hole, rain, count, batch, azimuth, slope);
   onto_sky(frame, rain, azimuth.data(), slope.data(), count, batch);
 }
 

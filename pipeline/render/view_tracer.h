@@ -4,22 +4,21 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/seen_sky.h"
 #include "pipeline/show/frame_state.h"
 #include "projections/projection.h"
 
 namespace domefall {
 
-// Which sky a look ends on.
-enum class SeenSky : char { kNone, kOne, kThree };
-
 // Everything known of one direction of view.
 struct Look {
-  SeenSky sky = SeenSky::kNone;
-  V3d sky_direction;           // equatorial J2000; meaningless for kNone
-  double frequency_ratio = 1;  // observed / emitted
+  SeenSky sky = SeenSky::kFour;
+  bool known = false;          // whether there is a table of that sky: if not, nothing below is set
+  V3d sky_direction;           // equatorial J2000
+  double frequency_ratio = 1;  // observed / emitted; 1 for the singularity, which has no redshift
   // Angles on the sky per angle of view, along and across the direction of the hole.
   double radial_scale = 0, tangential_scale = 0;
-  // Angle of view to the nearest edge between skies and the dark, radians; infinite without one.
+  // Angle of view to the nearest edge of a sky, radians; infinite without one.
   double to_edge = HUGE_VAL;
 };
 
@@ -30,7 +29,6 @@ struct LookBatch {
   using Column = std::array<T, kSize>;
   alignas(64) Column<double> sky_x, sky_y, sky_z;
   alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
-  alignas(64) Column<double> distance;  // table coordinate, <= 0 off the sky
   Column<SeenSky> sky;
 
   V3d sky_direction(int k) const { return {sky_x[k], sky_y[k], sky_z[k]}; }
@@ -38,13 +36,13 @@ struct LookBatch {
 
 class ViewTracer {
  public:
-  // The optics must outlive it; a sky without a table is dark.
+  // The optics must outlive it.
   ViewTracer(const FrameState& state, const HoleOptics& optics);
 
-  // One direction, step by step.  The oracle of the batch.
+  // One direction, step by step; also where no table is.  The oracle of the batch.
   Look look(const CameraDirection& n) const;
 
-  // count <= LookBatch::kSize directions as SIMD code.  Measured: within 1e-15 radians on the sky
+  // count <= LookBatch::kSize directions as SIMD code; columns are set where the sky has a table.  Measured: within 1e-15 radians on the sky
   // and a relative 1e-14 of look() (the functions of vector_math.h against the C library's).
   void look(const CameraDirection* n, int count, LookBatch& batch) const;
 
@@ -52,7 +50,8 @@ class ViewTracer {
   M33d tetrad_from_camera_, sky_from_tetrad_;
   V3d celerity_;
   const HoleOptics& optics_;
-  bool flat_;
+  bool flat_, outgoing_;
+  SeenSky home_, far_;
   double s_, one_minus_s_;  // sqrt(2/r), and 1 minus it from the altitude
 };
 

@@ -65,8 +65,9 @@ double azimuth_before(const Show& show, int segment) {
 }  // namespace
 
 V3d motion_direction(const ObserverState& o) {
-  // d/dt = T + sqrt(2/r) R in the rain tetrad, here seen from the observer's frame.
-  const V3d killing(std::sqrt(2 / o.r), 0, 0);
+  // d/dt = T +- sqrt(2/r) R in rain or the outgoing tetrad, here seen from the observer's frame.
+  const double s = std::sqrt(2 / o.r);
+  const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
   return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
 }
@@ -77,7 +78,7 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
   if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_direction(o).normalized();
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
     const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
-    return to_observer(o.celerity, primary_image(o.r, source).v).direction;
+    return to_observer(o.celerity, primary_image(o.r, o.tetrad, source).v).direction;
   }
   return std::nullopt;
 }
@@ -120,6 +121,7 @@ FrameState frame_state(const Show& show, int frame) {
 
   ObserverState& o = state.observer;
   o.region = point.region;
+  o.tetrad = point.tetrad;
   o.r = point.r;
   o.proper_time = tau;
   o.celerity = point.celerity;

@@ -119,6 +119,8 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   RegionSky sky_one, sky_three;  // skies of regions I and III
+  // The past singularity, as a sphere seen by azimuth alone, without stars or redshift.
+  RegionSky sky_four{BlackSky{}, 1, std::nullopt, 1};
   PanoramaShift panorama_shift;
   StarBlobs blobs;
   Exposure exposure;

@@ -75,6 +75,15 @@ void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
   if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
 }
 
+// The past singularity: only a background, in full or as a word.
+void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
+  if (item.node.IsMap()) {
+    read_region(Section(item, {"background", "gain"}), lookup, sky);
+    return;
+  }
+  if (const auto found = read_background(item, lookup)) sky.background = *found;
+}
+
 }  // namespace
 
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
@@ -90,7 +99,7 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   read_region(one, lookup, show.sky_one);
   show.sky_three = show.sky_one;
   read_region(three, lookup, show.sky_three);
-  sky.choice("region_IV", {"black"});
+  if (const Item* four = sky.find("region_IV")) read_region_four(*four, lookup, show.sky_four);
   show.panorama_shift.blueshift_power =
       sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);
 }

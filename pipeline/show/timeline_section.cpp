@@ -10,12 +10,21 @@ bool is_at_rest(const Trajectory& trajectory) {
   if (std::holds_alternative<StaticObserver>(trajectory)) return true;
   const auto* given = std::get_if<GivenVelocity>(&trajectory);
   if (!given || given->r <= kStaticInnermost) return false;
-  const V3d rest = given->r == kFlatSpace ? V3d(0, 0, 0) : static_celerity(given->r);
+  const V3d rest =
+      given->r == kFlatSpace ? V3d(0, 0, 0) : resting_celerity(given->r, given->tetrad);
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
 double swept_azimuth(const Segment& s) {
   return point_at(s.trajectory, s.tau_end).azimuth - point_at(s.trajectory, s.tau_begin).azimuth;
+}
+
+void check_target(const Item& segment, const Segment& read) {
+  const bool sees_no_sky = point_at(read.trajectory, read.tau_begin).region == Region::kIV;
+  if (sees_no_sky && std::holds_alternative<LookAtSky>(read.camera.attitude))
+    segment.fail(
+        "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
+        "the segment another camera.look_at");
 }
 
 void check_motion(const Item& segment, const Segment& read) {
@@ -50,6 +59,7 @@ Segment read_segment(const Item& item, const Show& show, double azimuth, const S
     segment.tau_begin = motion->tau_begin;
     segment.tau_end = motion->tau_end;
     segment.pace = motion->pace;
+    check_target(item, segment);
     check_motion(item, segment);
   }
   return segment;

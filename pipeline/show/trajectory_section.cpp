@@ -125,23 +125,18 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
-  const Section s(item, {"type", "r", "speed", "lorentz_factor", "against", "direction"});
-  const bool static_frame = s.choice("against", {"static", "free_fall"}).value_or(0) == 0;
+  const Section s(item, {"type", "r", "region", "speed", "lorentz_factor", "against", "direction"});
   GivenVelocity observer;
-  if (!stage.mass_solar) {
-    if (const Item* r = s.find("r")) r->fail("needs a black hole; in flat space leave it out");
+  if (stage.mass_solar) {
+    const auto frame = read_frame(s);
+    if (!frame) return std::nullopt;
+    observer = *frame;
   } else {
-    const Range range =
-        static_frame ? kUnitsOfM.above(kStaticInnermost,
-                                       "inside the horizon nothing is static; a velocity there "
-                                       "needs 'against: free_fall'")
-                     : kUnitsOfM.at_least(kNearest);
-    const auto r = s.required_number("r", range.at_most(kFarthest));
-    if (!r) return std::nullopt;
-    observer.r = *r;
+    for (const char* key : {"r", "region"})
+      if (const Item* given = s.find(key))
+        given->fail("needs a black hole; in flat space leave it out");
   }
-  const V3d frame = static_frame && stage.mass_solar ? static_celerity(observer.r) : V3d(0, 0, 0);
-  const auto celerity = read_celerity(s, stage, observer.r, frame, lookup);
+  const auto celerity = read_celerity(s, stage, observer, lookup);
   if (!celerity) return std::nullopt;
   observer.celerity = *celerity;
   return TimedTrajectory{observer, 0, proper_time_in(stage, stage.duration_s)};
@@ -159,8 +154,9 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
                                                           "velocity"};
   const auto type = peek(item, "type");
   if (!type) {
-    const Section any(item, {"type", "r", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse",
-                             "orbits", "speed", "lorentz_factor", "against", "direction"});
+    const Section any(
+        item, {"type", "r", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "orbits",
+               "speed", "lorentz_factor", "against", "direction", "region"});
     any.require("type", ": static, circular, infall or velocity");
     return std::nullopt;
   }

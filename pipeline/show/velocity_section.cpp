@@ -11,6 +11,7 @@
 namespace domefall {
 namespace {
 
+constexpr double kNearest = 1e-6, kFarthest = 1e9;  // units of M
 constexpr double kMostLorentzFactor = 1e9;
 
 // gamma v: a speed in double precision would not hold a Lorentz factor of 1e9.
@@ -38,13 +39,14 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-// Where an observer of celerity `frame` at radius r sees a place on the sky.
-V3d seen_towards(const SkyDirection& place, const Stage& stage, double r, const V3d& frame) {
+// Where an observer sees a place on its home sky.
+V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
   const M33d tetrad = place_tetrad(stage.hole_at, stage.heading, stage.azimuth);
-  return to_observer(frame, primary_image(r, apply_transposed(tetrad, place.v)).v).direction;
+  const V3d source = apply_transposed(tetrad, place.v);
+  return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
 }
 
-std::optional<V3d> read_direction(const Item& item, const Stage& stage, double r, const V3d& frame,
+std::optional<V3d> read_direction(const Item& item, const Stage& stage, const GivenVelocity& frame,
                                   Lookup& lookup) {
   static constexpr std::array<std::string_view, 6> kWords{"inward",   "outward", "forward",
                                                           "backward", "north",   "south"};
@@ -54,21 +56,96 @@ std::optional<V3d> read_direction(const Item& item, const Stage& stage, double r
     if (item.node.IsScalar() && item.node.Scalar() == kWords[k]) return kDirections[k];
   if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
   const auto place = read_sky_place(item, lookup, kWords);
-  return place ? std::optional(seen_towards(*place, stage, r, frame)) : std::nullopt;
+  if (!place) return std::nullopt;
+  if (frame.region == Region::kIV) {
+    item.fail("names a place on the sky, but from region IV no sky is seen");
+    return std::nullopt;
+  }
+  return seen_towards(*place, stage, frame);
+}
+
+enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
+
+// Where each of these is found.
+bool is_found_in(Against against, Region region) {
+  switch (against) {
+    case Against::kStatic:
+      return region == Region::kI || region == Region::kIII;
+    case Against::kFreeFall:
+      return region != Region::kIV;
+    case Against::kOutgoing:
+      return region != Region::kII;
+    case Against::kConstantT:
+      break;
+  }
+  return region == Region::kII || region == Region::kIV;
+}
+
+// The radii at which an observer of that kind, in that region if one is named, can be.
+Range radii(Against against, std::optional<Region> region) {
+  if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(2);
+  if (against == Against::kStatic)
+    return kUnitsOfM
+        .above(kStaticInnermost,
+               "inside the horizon nothing is static; a velocity there needs 'against: free_fall'")
+        .at_most(kFarthest);
+  if (!region) return kUnitsOfM.at_least(kNearest).at_most(kFarthest);
+  if (*region == Region::kI || *region == Region::kIII)
+    return kUnitsOfM.above(2, "that is where the region ends").at_most(kFarthest);
+  return kUnitsOfM.at_least(kNearest).at_most(2);
+}
+
+// The region that the show names, or the one of free fall from region I or out to it.
+Region region_of(const std::optional<Region>& named, Against against, double r) {
+  if (named) return *named;
+  if (r > 2) return Region::kI;
+  return against == Against::kOutgoing ? Region::kIV : Region::kII;
+}
+
+Tetrad tetrad_of(Region region, Against against) {
+  if (region == Region::kIV) return Tetrad::kOutgoing;
+  if (region == Region::kII) return Tetrad::kRain;
+  const bool out = against == Against::kOutgoing;
+  if (region == Region::kI) return out ? Tetrad::kOutgoing : Tetrad::kRain;
+  return out ? Tetrad::kOutgoingToThree : Tetrad::kRainOfThree;
 }
 
 }  // namespace
 
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, double r, const V3d& frame,
+std::optional<GivenVelocity> read_frame(const Section& s) {
+  const auto against = static_cast<Against>(
+      s.choice("against", {"static", "free_fall", "outgoing", "constant_t"}).value_or(0));
+  std::optional<Region> region;
+  if (const auto named = s.choice("region", {"I", "II", "III", "IV"}))
+    region = static_cast<Region>(*named);
+  if (region && !is_found_in(against, *region)) {
+    s.find("region")->fail(std::string("of ") + region_name(*region) +
+                           " has no observer of the kind that 'against' names: static is found in "
+                           "I and III, free_fall in I, II and III, outgoing in I, III and IV, "
+                           "constant_t in II and IV");
+    return std::nullopt;
+  }
+  const auto r = s.required_number("r", radii(against, region));
+  if (!r) return std::nullopt;
+  GivenVelocity frame;
+  frame.r = *r;
+  frame.region = region_of(region, against, *r);
+  frame.tetrad = tetrad_of(frame.region, against);
+  if (against == Against::kStatic || against == Against::kConstantT)
+    frame.celerity = resting_celerity(*r, frame.tetrad);
+  return frame;
+}
+
+std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
                                  Lookup& lookup) {
   const auto gamma_v = read_gamma_v(s);
-  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return frame;
+  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return frame.celerity;
   const Item* item =
       s.require("direction",
                 ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
-  const auto direction = item ? read_direction(*item, stage, r, frame, lookup) : std::nullopt;
+  const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;
   if (!gamma_v || !direction) return std::nullopt;
-  return celerity_against(frame, *direction * *gamma_v);
+  return celerity_against(frame.celerity, *direction * *gamma_v);
 }
 
 }  // namespace domefall

@@ -5,10 +5,13 @@
 
 namespace domefall {
 
-// gamma v against the rain tetrad at radius r, from speed or lorentz_factor and direction, as seen
-// from the frame of the given celerity.  A place on the sky is a direction too: the one in which an
-// observer of that frame sees it (its primary image), so that it lies dead ahead.
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, double r, const V3d& frame,
+// The observer near a hole against whom a velocity is given, by r, region and against.
+std::optional<GivenVelocity> read_frame(const Section& s);
+
+// gamma v against frame.tetrad, from speed or lorentz_factor and direction, as seen by the observer
+// `frame`.  A place on the sky is a direction too: the one in which that observer sees it (its
+// primary image), so that it lies dead ahead.
+std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
                                  Lookup& lookup);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The rows of tests/reference/rays.csv that this suite understands.
+// The rows of tests/reference/rays.csv.
 #pragma once
 
 #include <fstream>
@@ -11,9 +11,11 @@ namespace domefall {
 
 struct ReferenceRay {
   std::string observer, origin, edge;
-  long double r_decimal;
+  long double r_decimal, delta_decimal;
   double r, delta, offset, phi, one_plus_z, slope, amplification;
 };
+
+inline constexpr const char* kReferenceObservers[] = {"rain", "static", "outgoing", "T_II", "T_IV"};
 
 inline double number_or_zero(const std::string& text) { return text.empty() ? 0 : std::stod(text); }
 
@@ -27,9 +29,10 @@ inline std::vector<ReferenceRay> reference_rays(const std::string& observer) {
     std::istringstream cells(line);
     for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
     cell.resize(10);
-    rays.push_back({cell[0], cell[5], cell[3], std::stold(cell[1]), number_or_zero(cell[1]),
-                    number_or_zero(cell[2]), number_or_zero(cell[4]), number_or_zero(cell[6]),
-                    number_or_zero(cell[7]), number_or_zero(cell[8]), number_or_zero(cell[9])});
+    rays.push_back({cell[0], cell[5], cell[3], std::stold(cell[1]), std::stold(cell[2]),
+                    number_or_zero(cell[1]), number_or_zero(cell[2]), number_or_zero(cell[4]),
+                    number_or_zero(cell[6]), number_or_zero(cell[7]), number_or_zero(cell[8]),
+                    number_or_zero(cell[9])});
   }
   return rays;
 }

@@ -33,7 +33,6 @@ TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
   const Show flat = starry(show_of(StaticObserver{}, Domemaster{32}));
   const FramePlan plan = plan_frame(flat, frame_state(flat, 0));
   EXPECT_FALSE(plan.gravity);
-  EXPECT_FALSE(plan.table_one);
   StageTimes times;
   Renderer(flat, 1).render(frame_state(flat, 0), &times);
   EXPECT_EQ(times.table_nodes, 0u);
@@ -44,7 +43,7 @@ TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
   EXPECT_EQ(times.images, 0u);
 
   const Show outside = starry(show_of(StaticObserver{10}, Domemaster{32}));
-  EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0)).table_three)
+  EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0))[SeenSky::kThree].lit())
       << "region III is not seen from outside";
 }
 
@@ -52,7 +51,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
   const Show show = starry(show_of(StaticObserver{4}, Domemaster{256}));
   const FrameState state = frame_state(show, 0);
   const HalfFrame frame = Renderer(show, 2).render(state);
-  const HoleOptics optics = make_hole_optics(Region::kI, 4, {});
+  const HoleOptics optics = make_hole_optics(4, Tetrad::kRain, {});
   const ViewTracer tracer(state, optics);
   int dark = 0, outside = 0;
   for (int y = 0; y < 256; ++y)
@@ -63,7 +62,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
       if (!is_inside(show.projection, pixel)) {
         ++outside;
         EXPECT_EQ(light, 0);
-      } else if (look.sky == SeenSky::kNone && look.to_edge > 0.06) {
+      } else if (look.sky == SeenSky::kFour && look.to_edge > 0.06) {
         ++dark;
         EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
       } else if (look.sky == SeenSky::kOne) {
@@ -80,12 +79,18 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
        {Trajectory(StaticObserver{2.0000001}), Trajectory(StaticObserver{1e8}),
         Trajectory(CircularOrbit{3.0000001}), Trajectory(RadialInfall{1e-6}),
         Trajectory(RadialInfall{2.0}), Trajectory(RadialInfall{1.9999999}),
-        Trajectory(GivenVelocity{30, V3d(-1e9, 0, 0)}),
-        Trajectory(GivenVelocity{0.3, V3d(0, 1e6, 0)}),
-        Trajectory(GivenVelocity{kFlatSpace, V3d(0, 1e9, 0)})}) {
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(-1e9, 0, 0)}),
+        Trajectory(GivenVelocity{Region::kII, Tetrad::kRain, 0.3, V3d(0, 1e6, 0)}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1e-6, V3d(0, 0, 0)}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.998, V3d(0, 1e6, 0)}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 2, V3d(0, 0, 0)}),
+        Trajectory(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 2.001, V3d(0, 0, 0)}),
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.0000001, V3d(-1e6, 0, 0)}),
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1e9, 0)})}) {
     for (const bool grid : {false, true}) {
       Show show = starry(show_of(trajectory, Domemaster{48}));
-      if (grid) show.sky_one.background = show.sky_three.background = GridSky{};
+      if (grid)
+        show.sky_one.background = show.sky_three.background = show.sky_four.background = GridSky{};
       EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
     }
   }

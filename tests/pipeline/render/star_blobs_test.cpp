@@ -29,13 +29,12 @@ double drawn_flux(const StarBlob& blob, const Projection& p, bool whole_disc_onl
 // One star of magnitude `m` in flat space, seen in a camera direction.
 std::vector<StarBlob> blobs_of(const Show& show, const V3d& camera_direction, double m) {
   const FrameState state = frame_state(show, 0);
-  const HoleOptics optics = make_hole_optics(Region::kI, kFlatSpace, {});
   const V3d sky = apply(state.observer.sky_from_tetrad,
                         apply(state.observer.tetrad_from_camera, camera_direction));
   const double t = 6500;
   const SceneStar star{{sky}, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
   std::vector<StarBlob> blobs;
-  BlobMaker(show, state, optics, nullptr).append(star, blobs);
+  BlobMaker(show, state, nullptr).append(star, blobs);
   return blobs;
 }
 
@@ -128,11 +127,11 @@ TEST(StarBlobs, OfMagnitudeZeroBringTheIlluminanceOfTheMagnitudeScale) {
 // their separations from the hole obey the lens equation far away: theta1 * theta2 = theta_E^2.
 TEST(StarBlobs, FarFromTheHoleTheTwoImagesObeyTheLensEquation) {
   const double r = 1e6;
-  const HoleOptics optics = make_hole_optics(Region::kI, r, {});
+  const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {});
   const double beta = 1e-3;
   const V3d source(-std::cos(beta), std::sin(beta), 0);
-  const V3d one = image_of(optics, &*optics.sky_one, source, 0, 1e-9).direction.v,
-            two = image_of(optics, &*optics.sky_one, source, 1, 1e-9).direction.v;
+  const V3d one = image_of(&*optics.home_sky, source, 0, 1e-9).direction.v,
+            two = image_of(&*optics.home_sky, source, 1, 1e-9).direction.v;
   const double theta1 = std::atan2(one.y, -one.x), theta2 = -std::atan2(two.y, -two.x);
   const double einstein2 = 4 / r;
   EXPECT_NEAR(theta1 * theta2 / einstein2, 1, 0.01);

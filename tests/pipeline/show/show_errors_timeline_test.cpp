@@ -127,7 +127,8 @@ TEST_F(ShowErrorsInTimelines, VelocitiesThatDoNotExist) {
        "nothing is static; a velocity there needs 'against: free_fall'"},
       {"UnknownFrame",
        moving("{type: velocity, r: 9, speed: 0.5, direction: inward, against: rain}"),
-       "3:96: timeline[0].trajectory.against must be static or free_fall, got 'rain'"},
+       "3:96: timeline[0].trajectory.against must be static, free_fall, outgoing or constant_t, "
+       "got 'rain'"},
   });
 }
 

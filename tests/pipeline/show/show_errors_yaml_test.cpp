@@ -56,9 +56,11 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
                "  - &s {duration_s: 1, trajectory: *s}\n",
        "3:5: timeline[0].trajectory.type is missing: static, circular, infall or velocity\n"
        "3:9: timeline[0].trajectory.duration_s is an unknown key; known here: type, r, from_r, "
-       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against or direction\n"
+       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against, direction or "
+       "region\n"
        "3:24: timeline[0].trajectory.trajectory is an unknown key; known here: type, r, from_r, "
-       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against or direction"},
+       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against, direction or "
+       "region"},
       {"MergeKey", kShow + "camera: {<<: {look_at: hole}}\n",
        "3:10: camera.<< is an unknown key; known here: projection, fov_deg, look_at, euler_deg, "
        "roll_deg, elevation_deg or dome_tilt_deg"},

@@ -1,0 +1,197 @@
+#include "pipeline/optics/white_hole_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "pipeline/optics/exact_azimuth.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+struct Case {
+  Radius at;
+  bool outgoing;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const long double r :
+       {1e-6L,     1e-3L,      0.05L,      0.5L,       1.0L,       1.7L,      1.999L,
+        2 - 1e-9L, 2 - 1e-15L, 2.0L,       2 + 1e-15L, 2 + 1e-12L, 2 + 1e-6L, 2.5L,
+        2.9L,      3 - 1e-6L,  3 - 1e-10L, 3.0L,       3 + 1e-6L,  3.1L,      6.0L,
+        10.0L,     30.0L,      1e3L,       1e5L,       1e8L})
+    for (const bool outgoing : {false, true}) all.push_back({Radius(r), outgoing});
+  return all;
+}
+
+std::string name(const Case& c) {
+  return "r - 2 = " + std::to_string(c.at.above_horizon) + (c.outgoing ? " outgoing" : " rain");
+}
+
+// Rays from the singularity: any tangent of half the angle in the frame of the table, logarithmically
+// near the axis, the edges and E = 0 too.
+class Rays {
+ public:
+  Rays(const Case& c, std::uint64_t seed) : c_(c), random_(seed) {}
+
+  NullRay next() {
+    for (;;) {
+      const NullRay ray = any();
+      if (ray.sin_half == 0 || ray.cos_half == 0 || circles_for_ever(ray)) continue;
+      // At r = 2 itself the table puts E = 0 at 1e-10 from the axis instead of on it.
+      if (c_.at.above_horizon == 0 && ray.sin_half < 1e-6) continue;
+      if (origin_of(ray) == Origin::kPastSingularity) return ray;
+    }
+  }
+
+ private:
+  NullRay any() {
+    const double small = std::pow(10, -12 * uniform_(random_));
+    const double side = uniform_(random_) < 0.5 ? -1 : 1;
+    const double which = uniform_(random_);
+    if (which < 0.3)
+      return ray_off_edge(c_.at, Critical::kFirst, side * small, {c_.outgoing, false});
+    if (which < 0.6)
+      return ray_off_edge(c_.at, Critical::kSecond, side * small, {c_.outgoing, false});
+    if (which < 0.8) return ray_at(c_.at, pi * uniform_(random_), {c_.outgoing, false});
+    return ray_at(c_.at, side > 0 ? small : pi - small, {c_.outgoing, false});
+  }
+
+  Case c_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> uniform_{0, 1};
+};
+
+TEST(WhiteHoleTable, AgreesWithTheExactIntegral) {
+  for (const Case& c : cases()) {
+    const WhiteHoleTable table(c.at, c.outgoing);
+    EXPECT_LE(table.node_count(), 1024u) << name(c);
+    Rays rays(c, 5);
+    double worst = 0, displaced = 0;
+    NullRay where = ray_at(c.at, 1);
+    for (int k = 0; k < 3000; ++k) {
+      const NullRay ray = rays.next();
+      const auto place = table.place_of(ray);
+      ASSERT_GE(place.s, 0) << name(c) << " alpha " << alpha_of(ray);
+      const double error = std::abs(table.azimuth(place) - exact_azimuth(ray));
+      if (error > worst) worst = error, where = ray;
+      displaced = std::max(displaced, error / std::max(1.0, std::abs(table.slope(place))));
+    }
+    EXPECT_LT(worst, 1e-8) << name(c) << " alpha " << alpha_of(where) << " gaps " << where.gap_first
+                           << " " << where.gap_second;
+    EXPECT_LT(displaced, 1e-10) << name(c) << table.node_count() << " " << c.at.above_horizon;
+  }
+}
+
+TEST(WhiteHoleTable, SlopeIsThatOfTheExactIntegral) {
+  for (const Case& c : cases()) {
+    const WhiteHoleTable table(c.at, c.outgoing);
+    Rays rays(c, 6);
+    for (int k = 0; k < 300; ++k) {
+      const NullRay ray = rays.next();
+      if (ray.sin_half < 1e-13 || ray.cos_half < 1e-13) continue;  // as good as radial
+      const double expected = exact_slope(ray), seen = table.slope(table.place_of(ray));
+      // Where phi turns, at E = 0, the slope has no relative accuracy of its own.
+      const double scale = std::abs(expected) + 1e-3 / (ray.sin_half * ray.cos_half);
+      EXPECT_NEAR(seen, expected, 1e-6 * scale)
+          << name(c) << " alpha " << alpha_of(ray) << " phi " << exact_azimuth(ray);
+    }
+  }
+}
+
+TEST(WhiteHoleTable, EveryRayIsAmongThoseOfItsAzimuth) {
+  for (const Case& c : cases()) {
+    const WhiteHoleTable table(c.at, c.outgoing);
+    Rays rays(c, 7);
+    for (int k = 0; k < 300; ++k) {
+      const NullRay ray = rays.next();
+      const double phi = table.azimuth(table.place_of(ray));
+      const auto found = table.rays_of(phi);
+      ASSERT_EQ(found.count, c.at.above_horizon > 0 ? 1 : 2) << name(c) << " " << phi;
+      double nearest = 1;
+      for (int b = 0; b < found.count; ++b) {
+        const NullRay& back = found.ray[static_cast<std::size_t>(b)];
+        EXPECT_NEAR(table.azimuth(table.place_of(back)), phi, 1e-11 * (1 + phi)) << name(c);
+        nearest = std::min(nearest, std::abs(std::sin((alpha_of(back) - alpha_of(ray)) / 2)));
+      }
+      // At the extremum an azimuth fixes its ray to the square root of its own rounding.
+      const double slope = std::abs(table.slope(table.place_of(ray)));
+      const double curvature = table.turn() ? std::abs(table.turn()->curvature) : 1;
+      EXPECT_LT(nearest, 1e-10 + 1e-14 * (1 + phi) / slope + std::sqrt(1e-14 / curvature))
+          << name(c) << " alpha " << alpha_of(ray);
+    }
+  }
+}
+
+TEST(WhiteHoleTable, ShowsNothingBeyondTheExtremum) {
+  const WhiteHoleTable inside(1.2, false), white(1.2, true);
+  const double half_turn = std::asin(0.2) + pi / 2;
+  EXPECT_NEAR(inside.turn()->azimuth, 2 * pi - half_turn, 1e-9);
+  EXPECT_NEAR(white.turn()->azimuth, half_turn, 1e-9);
+  EXPECT_EQ(inside.rays_of(2 * pi - half_turn - 1e-6).count, 0);
+  EXPECT_EQ(inside.rays_of(2 * pi - half_turn + 1e-6).count, 2);
+  EXPECT_EQ(white.rays_of(half_turn - 1e-6).count, 2);
+  EXPECT_EQ(white.rays_of(half_turn + 1e-6).count, 0);
+}
+
+// Every alpha that is seen, in order, closely at both ends.
+std::vector<NullRay> fan(const Case& c) {
+  std::vector<NullRay> rays;
+  const bool inside = c.at.above_horizon <= 0 && !c.outgoing;
+  const double low = tan_half_critical(c.at, Critical::kSecond),
+               high = tan_half_critical(c.at, Critical::kFirst);
+  if (!inside) {
+    for (double u = -60; u < 60; u += 0.004)  // ln tan(alpha/2)
+      rays.push_back(ray_of_tangent(c.at, std::exp(u), c.outgoing));
+    return rays;
+  }
+  const double middle = std::sqrt(high / low) - 1;
+  for (double u = -30; u < std::log(middle); u += 0.004)
+    rays.push_back(ray_of_ratio(c.at, Critical::kSecond, std::exp(u), false));
+  for (double u = std::log(middle); u > -30; u -= 0.004)
+    rays.push_back(ray_of_ratio(c.at, Critical::kFirst, -std::exp(u) / (1 + std::exp(u)), false));
+  return rays;
+}
+
+TEST(WhiteHoleTable, BranchesAreMonotone) {
+  for (const Case& c : cases()) {
+    if (c.at.above_horizon == 0) continue;  // E = 0 is on the axis
+    const WhiteHoleTable table(c.at, c.outgoing);
+    // Along alpha: one direction outside, one change of it at E = 0 otherwise.
+    int changes = 0, before = 0;
+    for (const NullRay& ray : fan(c)) {
+      if (origin_of(ray) != Origin::kPastSingularity || circles_for_ever(ray)) continue;
+      const double slope = table.slope(table.place_of(ray));
+      ASSERT_TRUE(std::isfinite(slope)) << name(c) << " alpha " << alpha_of(ray);
+      const int sign = slope > 0 ? 1 : -1;
+      changes += before != 0 && sign != before;
+      before = sign;
+    }
+    EXPECT_EQ(changes, table.turn() ? 1 : 0) << name(c);
+  }
+}
+
+TEST(WhiteHoleTable, GoesOnByItsLawsBelowItsRange) {
+  for (const Case& c : cases()) {
+    if (std::abs(c.at.above_horizon) < 1e-12) continue;  // the edges themselves are below 1e-12
+    const WhiteHoleTable table(c.at, c.outgoing);
+    const auto check = [&](const NullRay& ray) {
+      if (origin_of(ray) != Origin::kPastSingularity) return;
+      EXPECT_NEAR(table.azimuth(table.place_of(ray)), exact_azimuth(ray), 1e-8) << name(c);
+    };
+    for (const double tiny : {1e-13, 1e-16, 1e-20})
+      for (const double side : {-1, 1})
+        for (const Critical edge : {Critical::kFirst, Critical::kSecond})
+          check(ray_off_edge(c.at, edge, side * tiny, {c.outgoing, false}));
+    for (const double tiny : {1e-15, 1e-40, 1e-100})
+      for (const double t : {tiny, 1 / tiny}) check(ray_of_tangent(c.at, t, c.outgoing));
+  }
+}
+
+}  // namespace
+}  // namespace domefall
