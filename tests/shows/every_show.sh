@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Every show in shows/ is checked and rendered small, first frame, last frame and some between.
+# Every show in shows/ and shows/paper/ is checked and rendered small, first frame, last frame and some between.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/../cli/common.bash"
 cd "$DOMEFALL_SOURCE"
 count=0
-for show in shows/*.yaml; do
+for show in shows/*.yaml shows/paper/*.yaml; do
   exits 0 "$DOMEFALL" check "$show"
   frames=$(sed -nE 's/^frames +([0-9]+).*/\1/p' "$folder/stdout")
   name=$(basename "$show" .yaml)
@@ -16,4 +16,4 @@ for show in shows/*.yaml; do
   done
   count=$((count + 1))
 done
-[ "$count" -ge 4 ] || fail "only $count shows"
+[ "$count" -ge 5 ] || fail "only $count shows"
