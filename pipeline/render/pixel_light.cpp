@@ -11,10 +11,7 @@
 namespace domefall {
 namespace {
 
-// Along each axis, where one look per pixel is not enough.
-constexpr int kFineSamples = 4;
-constexpr int kFinePerPixel = kFineSamples * kFineSamples;
-static_assert(LookBatch::kSize % kFinePerPixel == 0);
+static_assert(kMostSamples <= LookBatch::kSize);  // a batch holds at least one line of looks
 // A pixel this near (in pixels) to the edge of a sky is sampled finely.
 constexpr double kEdgePixels = 4;
 // So is one whose footprint on the sky is longer than this (radians) and that elongated: blurring it
@@ -39,11 +36,12 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
 }  // namespace
 
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
-                       const Skies& skies)
+                       const Skies& skies, AntiAliasing anti_aliasing)
     : show_(show),
       projection_(state.projection),
       tracer_(state, optics),
       skies_(skies),
+      anti_aliasing_(anti_aliasing),
       long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
                                                                        : kLongOnPanorama),
       scale_(exposure_scale(show.exposure)) {}
@@ -65,7 +63,8 @@ WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle,
 }
 
 bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const {
-  if (batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
+  if (anti_aliasing_.samples == 1) return false;
+  if (anti_aliasing_.everywhere || batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
   return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
@@ -79,33 +78,37 @@ void PixelLight::shade(const LookBatch& batch, int count, const double* sample_a
   }
 }
 
-// Each of these pixels becomes the mean of a square of looks.
+// Each of these pixels becomes the mean of a square of looks.  The squares' lines follow one another
+// through the batches, as many at once as one holds, so that a square may be larger than a batch.
 void PixelLight::supersample(int row, const std::vector<int>& pixels, float* rgb) const {
-  const Projection finer = refined(projection_, kFineSamples);
-  constexpr int kAtOnce = LookBatch::kSize / kFinePerPixel;
+  const int samples = anti_aliasing_.samples, at_once = LookBatch::kSize / samples;
+  const Projection finer = refined(projection_, samples);
+  const int lines = static_cast<int>(pixels.size()) * samples;
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
   std::array<double, LookBatch::kSize> angle;
   std::array<float, 3 * LookBatch::kSize> fine;
-  for (std::size_t first = 0; first < pixels.size(); first += kAtOnce) {
-    const std::size_t end = std::min(pixels.size(), first + kAtOnce);
+  float sum[3] = {0, 0, 0};
+  for (int first = 0; first < lines; first += at_once) {
+    const int end = std::min(lines, first + at_once);
     int count = 0;
-    for (std::size_t p = first; p < end; ++p) {
-      std::fill_n(angle.begin() + count, kFinePerPixel,
-                  pixel_angle(projection_, {pixels[p] + 1.0, row + 1.0}) / kFineSamples);
-      for (int b = 0; b < kFineSamples; ++b, count += kFineSamples)
-        inside_directions(finer, kFineSamples * row + b,
-                          {kFineSamples * pixels[p], kFineSamples * (pixels[p] + 1) - 1},
-                          n.data() + count);
+    for (int line = first; line < end; ++line, count += samples) {
+      const int pixel = pixels[line / samples];
+      std::fill_n(angle.begin() + count, samples,
+                  pixel_angle(projection_, {pixel + 1.0, row + 1.0}) / samples);
+      inside_directions(finer, samples * row + line % samples,
+                        {samples * pixel, samples * (pixel + 1) - 1}, n.data() + count);
     }
     tracer_.look(n.data(), count, batch);
     shade(batch, count, angle.data(), true, fine.data());
     const float* sample = fine.data();
-    for (std::size_t p = first; p < end; ++p) {
-      float sum[3] = {0, 0, 0};
-      for (int k = 0; k < kFinePerPixel; ++k, sample += 3)
+    for (int line = first; line < end; ++line) {
+      for (int k = 0; k < samples; ++k, sample += 3)
         for (int c = 0; c < 3; ++c) sum[c] += sample[c];
-      for (int c = 0; c < 3; ++c) rgb[3 * pixels[p] + c] = sum[c] / kFinePerPixel;
+      if (line % samples != samples - 1) continue;
+      float* out = rgb + 3 * pixels[line / samples];
+      for (int c = 0; c < 3; ++c)
+        out[c] = sum[c] / static_cast<float>(samples * samples), sum[c] = 0;
     }
   }
 }

@@ -1,6 +1,7 @@
 // The light of the skies in a row of pixels.
 #pragma once
 
+#include "pipeline/render/anti_aliasing.h"
 #include "pipeline/render/scene.h"
 #include "pipeline/render/view_tracer.h"
 
@@ -11,7 +12,7 @@ class PixelLight {
   // By SeenSky; null for a dark one.  Everything must outlive it.
   using Skies = std::array<const Sky*, kSkies>;
   PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
-             const Skies& skies);
+             const Skies& skies, AntiAliasing anti_aliasing = {});
 
   // Scene-linear working-space pixel values of row `row` (from 0) into rgb[3 * columns].
   void fill_row(int row, float* rgb) const;
@@ -27,6 +28,7 @@ class PixelLight {
   Projection projection_;
   ViewTracer tracer_;
   Skies skies_;
+  AntiAliasing anti_aliasing_;
   double long_footprint_;
   double scale_;  // pixel value per cd/m^2
 };

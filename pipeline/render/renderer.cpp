@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "pipeline/image/errors.h"
 #include "pipeline/render/pixel_light.h"
 #include "pipeline/render/star_blobs.h"
 
@@ -121,8 +122,15 @@ struct Renderer::Arena {
   tbb::task_arena arena;
 };
 
-Renderer::Renderer(const Show& show, int threads)
-    : show_(show), scene_(show), arena_(new Arena{tbb::task_arena(threads_of(threads))}) {
+Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
+    : show_(show),
+      scene_(show),
+      anti_aliasing_(anti_aliasing),
+      arena_(new Arena{tbb::task_arena(threads_of(threads))}) {
+  if (anti_aliasing.samples < 1 || anti_aliasing.samples > kMostSamples)
+    throw InputError("anti-aliasing takes 1 to " + std::to_string(kMostSamples) +
+                     " samples along each axis of a pixel, got " +
+                     std::to_string(anti_aliasing.samples));
   arena_->arena.initialize();
 }
 
@@ -176,7 +184,7 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
     t.stars_s = lap();
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
-    const PixelLight light(show_, state, optics, skies);
+    const PixelLight light(show_, state, optics, skies, anti_aliasing_);
     const bool background = plan.background();
     tbb::parallel_for(0, bands, [&](int band) {
       std::vector<float> rgb(static_cast<std::size_t>(frame.width) * 3);

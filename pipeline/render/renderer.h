@@ -9,6 +9,7 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/anti_aliasing.h"
 #include "pipeline/render/scene.h"
 #include "pipeline/show/frame_state.h"
 
@@ -39,7 +40,8 @@ struct StageTimes {
 class Renderer {
  public:
   // threads: 0 for one per processor.  The show must outlive the renderer.
-  Renderer(const Show& show, int threads);
+  // Throws InputError unless 1 <= anti_aliasing.samples <= kMostSamples.
+  Renderer(const Show& show, int threads, AntiAliasing anti_aliasing = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer(Renderer&&) = delete;
@@ -62,6 +64,7 @@ class Renderer {
   struct Arena;
   const Show& show_;
   Scene scene_;
+  AntiAliasing anti_aliasing_;
   std::unique_ptr<Arena> arena_;
   std::optional<HoleOptics> optics_;  // kept while r stays the same
 };
