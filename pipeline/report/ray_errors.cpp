@@ -1,0 +1,103 @@
+#include "pipeline/report/ray_errors.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace domefall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+struct Pass {
+  std::vector<TracedRay> traced;
+  double ns;
+};
+
+Pass trace_group(const RayGroup& group, const RayMethod& method, double setting) {
+  Pass pass;
+  pass.traced.reserve(group.size());
+  const Clock::time_point start = Clock::now();
+  for (const SampleRay& ray : group) pass.traced.push_back(trace_by(method, setting, ray.request));
+  pass.ns = nanoseconds_since(start);
+  return pass;
+}
+
+double worst(const std::vector<double>& sorted) { return sorted.empty() ? 0 : sorted.back(); }
+
+double percentile_99(const std::vector<double>& sorted) {
+  if (sorted.empty()) return 0;
+  const auto count = static_cast<double>(sorted.size());
+  return sorted[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1];
+}
+
+struct Errors {
+  std::vector<double> phi, sky;
+  int undecided = 0;
+
+  void add(const TracedRay& traced, const SampleRay& truth) {
+    if (traced.origin != truth.origin || !std::isfinite(traced.phi)) {
+      ++undecided;
+      return;
+    }
+    const double off = std::abs(traced.phi - truth.phi);
+    phi.push_back(off / std::max(1.0, truth.phi));
+    sky.push_back(off / std::abs(truth.slope));
+  }
+  void sort() {
+    std::sort(phi.begin(), phi.end());
+    std::sort(sky.begin(), sky.end());
+  }
+};
+
+}  // namespace
+
+RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& groups,
+                          const RayMethod& method, double setting, int repeats) {
+  Errors errors;
+  double trace_ns = 0, build_ns = 0;
+  std::size_t rays = 0;
+  for (const RayGroup& group : groups) {
+    const Pass first = trace_group(group, method, setting);
+    for (std::size_t k = 0; k < group.size(); ++k) errors.add(first.traced[k], group[k]);
+    double best = repeats > 0 ? std::numeric_limits<double>::infinity() : first.ns;
+    for (int k = 0; k < repeats; ++k) best = std::min(best, trace_group(group, method, setting).ns);
+    trace_ns += best;
+    build_ns += method.keeps_tables ? first.ns - best : 0;
+    rays += group.size();
+  }
+  errors.sort();
+  constexpr double kPerMicrosecond = 1e-3;
+  return {of.region,
+          of.name,
+          method.name,
+          setting,
+          setting == method.default_setting,
+          static_cast<int>(rays),
+          errors.undecided,
+          worst(errors.phi),
+          percentile_99(errors.phi),
+          worst(errors.sky),
+          percentile_99(errors.sky),
+          trace_ns / static_cast<double>(rays),
+          build_ns * kPerMicrosecond / static_cast<double>(groups.size())};
+}
+
+std::vector<RayErrorRow> measure_rays(bool quick) {
+  const int radii = quick ? 6 : 24, per_radius = quick ? 8 : 40, repeats = quick ? 1 : 3;
+  std::vector<RayErrorRow> rows;
+  for (const RayClass& of : ray_classes()) {
+    const std::vector<RayGroup> groups = sample_rays(of, radii, per_radius);
+    for (const RayMethod& method : ray_methods(quick))
+      for (const double setting : method.settings)
+        rows.push_back(measure_class(of, groups, method, setting, repeats));
+  }
+  return rows;
+}
+
+}  // namespace domefall

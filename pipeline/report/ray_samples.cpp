@@ -1,0 +1,130 @@
+#include "pipeline/report/ray_samples.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string_view>
+
+#include "pipeline/report/reference_ray.h"
+
+namespace domefall {
+namespace {
+
+// The observers of trace_ray and what stands for each in the reference.
+struct Observer {
+  const char* region;
+  TraceObserver traced;
+  ReferenceObserver reference;
+};
+constexpr std::array kObservers{
+    Observer{"I", TraceObserver::kRain, ReferenceObserver::kRain},
+    Observer{"I", TraceObserver::kStatic, ReferenceObserver::kStatic},
+    Observer{"II", TraceObserver::kRain, ReferenceObserver::kRain},
+};
+
+constexpr std::array kClasses{
+    RayClass{"I", Difficulty::kOrdinary, "ordinary", 2.05, 100},
+    RayClass{"I", Difficulty::kEdge, "edge", 2.05, 100},
+    RayClass{"I", Difficulty::kFar, "far", 1e3, 1e8},
+    RayClass{"II", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
+    RayClass{"II", Difficulty::kEdge, "edge", 0.1, 1.95},
+    RayClass{"II", Difficulty::kDeep, "deep", 1e-6, 0.1},
+    RayClass{"IV", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
+    RayClass{"IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
+};
+
+std::vector<Observer> observers_in(std::string_view region) {
+  std::vector<Observer> found;
+  for (const Observer& o : kObservers)
+    if (o.region == region) found.push_back(o);
+  return found;
+}
+
+// Even numbers from the bits themselves: the library's distributions differ between libraries.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : bits_(seed) {}
+  double even(double least, double most) {
+    constexpr double kStep = 0x1p-53;
+    return least + (most - least) * (static_cast<double>(bits_() >> 11) + 0.5) * kStep;
+  }
+  double even_log(double least, double most) {
+    return std::exp(even(std::log(least), std::log(most)));
+  }
+  bool heads() { return even(0, 1) < 0.5; }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+// The least offset is what a double still holds beside any angle; the most is below every edge's
+// distance from the axis.
+constexpr double kLeastOffset = 1e-12, kMostOffset = 1e-3;
+constexpr double kFarReach = 1000;  // radii of the silhouette
+
+RayRequest throw_ray(const Observer& of, Difficulty difficulty, double r, Dice& dice) {
+  RayRequest q;
+  q.observer = of.traced;
+  q.at = Radius(r);
+  const auto silhouette = [&] {
+    return static_cast<double>(reference_edge(of.reference, r, ReferenceEdge::kSilhouette));
+  };
+  if (difficulty == Difficulty::kEdge) {
+    const bool third = q.at.above_horizon < 0 && dice.heads();
+    q.edge = third ? Edge::kRegionThree : Edge::kSilhouette;
+    q.offset = dice.even_log(kLeastOffset, kMostOffset) * (dice.heads() ? 1 : -1);
+  } else if (difficulty == Difficulty::kFar && dice.heads()) {
+    q.delta = silhouette() * dice.even_log(1.0 / 2, kFarReach);
+  } else {
+    q.delta = static_cast<double>(dice.even(0, std::numbers::pi));
+  }
+  return q;
+}
+
+Origin origin_from(ReferenceOrigin origin) {
+  switch (origin) {
+    case ReferenceOrigin::kSkyOne:
+      return Origin::kSkyOne;
+    case ReferenceOrigin::kSkyThree:
+      return Origin::kSkyThree;
+    case ReferenceOrigin::kPastSingularity:
+      break;
+  }
+  return Origin::kPastSingularity;
+}
+
+SampleRay with_truth(const RayRequest& q, ReferenceObserver observer) {
+  ReferenceRequest exact{observer, q.at.r, Wide(q.delta), std::nullopt, q.offset};
+  if (q.edge)
+    exact.edge =
+        *q.edge == Edge::kSilhouette ? ReferenceEdge::kSilhouette : ReferenceEdge::kRegionThree;
+  const ReferenceRay ray = reference_ray(exact);
+  return {q, origin_from(ray.origin), static_cast<double>(ray.phi), static_cast<double>(ray.slope)};
+}
+
+}  // namespace
+
+std::vector<RayClass> ray_classes() {
+  std::vector<RayClass> found;
+  for (const RayClass& c : kClasses)
+    if (!observers_in(c.region).empty()) found.push_back(c);
+  return found;
+}
+
+std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
+  const std::vector<Observer> observers = observers_in(of.region);
+  constexpr std::uint64_t kSeed = 1511'06025;
+  Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
+  std::vector<RayGroup> groups(static_cast<std::size_t>(radii));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Observer& observer = observers[g % observers.size()];
+    const double r = dice.even_log(of.r_least, of.r_most);
+    for (int k = 0; k < per_radius; ++k)
+      groups[g].push_back(
+          with_truth(throw_ray(observer, of.difficulty, r, dice), observer.reference));
+  }
+  return groups;
+}
+
+}  // namespace domefall

@@ -1,0 +1,68 @@
+#include "pipeline/report/ray_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace domefall {
+namespace {
+
+TEST(RaySamples, AreTheSameEveryTime) {
+  const RayClass of = ray_classes().front();
+  const auto one = sample_rays(of, 2, 3), two = sample_rays(of, 2, 3);
+  for (std::size_t g = 0; g < one.size(); ++g)
+    for (std::size_t k = 0; k < one[g].size(); ++k) {
+      EXPECT_EQ(one[g][k].request.delta, two[g][k].request.delta);
+      EXPECT_EQ(one[g][k].phi, two[g][k].phi);
+    }
+}
+
+TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
+  for (const RayClass& of : ray_classes()) {
+    SCOPED_TRACE(std::string(of.region) + " " + of.name);
+    std::set<Origin> origins;
+    for (const RayGroup& group : sample_rays(of, 6, 8))
+      for (const SampleRay& ray : group) {
+        EXPECT_GE(ray.request.at.r, of.r_least);
+        EXPECT_LE(ray.request.at.r, of.r_most);
+        EXPECT_EQ(of.region == std::string("I"), ray.request.at.above_horizon > 0);
+        EXPECT_TRUE(std::isfinite(ray.phi) && ray.phi > 0);
+        EXPECT_TRUE(std::isfinite(ray.slope) && ray.slope != 0);
+        origins.insert(ray.origin);
+      }
+    // Nowhere is but one thing seen, except in region IV.
+    EXPECT_EQ(origins.size() > 1, of.region != std::string("IV"));
+  }
+}
+
+// The errors that the headers of pipeline/optics state.
+TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
+  for (const RayErrorRow& row : measure_rays(true)) {
+    SCOPED_TRACE(row.region + " " + row.difficulty + " " + row.method);
+    EXPECT_GE(row.rays, 48);
+    EXPECT_LE(row.phi_99, row.phi_worst);
+    EXPECT_LE(row.sky_99, row.sky_worst);
+    EXPECT_GT(row.ns_per_ray, 0);
+    if (!row.is_default || (row.method != "table" && row.method != "exact")) continue;
+    EXPECT_EQ(row.undecided, 0);
+    EXPECT_GT(row.phi_worst, 0);
+    EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : 1e-13);
+  }
+}
+
+// A measure that cannot tell a wrong ray from a right one would be none.
+TEST(RayErrors, SeeAShiftedTruthAndAWrongOrigin) {
+  const RayClass of = ray_classes().front();
+  const RayMethod exact = ray_methods(true).at(1);
+  ASSERT_EQ(exact.name, "exact");
+  std::vector<RayGroup> groups = sample_rays(of, 1, 8);
+  for (SampleRay& ray : groups[0]) ray.phi += 1e-3;
+  const RayErrorRow shifted = measure_class(of, groups, exact, exact.default_setting, 0);
+  EXPECT_GT(shifted.phi_worst, 1e-5);
+  for (SampleRay& ray : groups[0]) ray.origin = Origin::kSkyThree;
+  EXPECT_EQ(measure_class(of, groups, exact, exact.default_setting, 0).undecided, 8);
+}
+
+}  // namespace
+}  // namespace domefall
