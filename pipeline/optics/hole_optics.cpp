@@ -55,11 +55,11 @@ HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted)
 void add_tables(HoleOptics& optics, WantedSkies wanted) {
   const bool outgoing = is_outgoing(optics.tetrad);
   if (wanted.home && !optics.home_sky && optics.home_edge)
-    optics.home_sky.emplace(optics.at, home_critical(outgoing), outgoing);
+    optics.home_sky.emplace(optics.at, home_critical(outgoing), outgoing, optics.table_bits);
   if (wanted.far && !optics.far_sky && optics.far_edge)
-    optics.far_sky.emplace(optics.at, Critical::kSecond);
+    optics.far_sky.emplace(optics.at, Critical::kSecond, false, optics.table_bits);
   if (wanted.white_hole && !optics.white_hole && !std::isinf(optics.at.r))
-    optics.white_hole.emplace(optics.at, outgoing);
+    optics.white_hole.emplace(optics.at, outgoing, optics.table_bits);
 }
 
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur) {

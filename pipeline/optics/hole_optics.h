@@ -21,6 +21,7 @@ struct WantedSkies {
 struct HoleOptics {
   Radius at = kFlatSpace;
   Tetrad tetrad = Tetrad::kRain;
+  int table_bits = OctaveCurve::kPerOctaveBits;  // of tables to be made; see OctaveCurve
   // Where the skies end, whether they are wanted or not; beyond both is light of the white hole.
   std::optional<SkyEdge> home_edge, far_edge;
   std::optional<SkyTable> home_sky, far_sky;

@@ -10,8 +10,6 @@
 namespace domefall {
 namespace {
 
-using std::numbers::pi;
-
 // How delta in the observer's frame becomes alpha.
 struct View {
   RadialFrame frame;
@@ -64,20 +62,22 @@ struct Sweep {
 };
 
 // The optics of one radius, with only the tables that were asked for.
-const HoleOptics& optics_at(const Radius& at, bool outgoing, Origin origin) {
+const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, Origin origin) {
   thread_local HoleOptics kept;
   const Tetrad tetrad = outgoing ? Tetrad::kOutgoing : Tetrad::kRain;
   const bool same = kept.at.r == at.r && kept.at.above_horizon == at.above_horizon &&
-                    kept.at.above_light_circle == at.above_light_circle && kept.tetrad == tetrad;
+                    kept.at.above_light_circle == at.above_light_circle && kept.tetrad == tetrad &&
+                    kept.table_bits == bits;
   if (!same) kept = make_hole_optics(at, tetrad, {false, false, false});
+  kept.table_bits = bits;
   const WantedSkies wanted{origin == Origin::kSkyOne, origin == Origin::kSkyThree,
                            origin == Origin::kPastSingularity};
   add_tables(kept, wanted);
   return kept;
 }
 
-Sweep by_table(const NullRay& ray, Origin origin) {
-  const HoleOptics& optics = optics_at(ray.at, ray.outgoing, origin);
+Sweep by_table(const NullRay& ray, Origin origin, int bits) {
+  const HoleOptics& optics = optics_at(ray.at, ray.outgoing, bits, origin);
   if (origin == Origin::kPastSingularity) {
     const WhiteHoleTable::Place place = optics.white_hole->place_of(ray);
     return {optics.white_hole->azimuth(place), optics.white_hole->slope(place)};
@@ -102,7 +102,7 @@ double edge_delta(TraceObserver observer, const Radius& at, Edge edge) {
   return 2 * (view.from_behind ? std::atan2(1.0, tangent) : std::atan(tangent));
 }
 
-TracedRay trace_ray(const RayRequest& q, TraceMethod method) {
+TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const View view = view_of(q.observer);
@@ -120,8 +120,9 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method) {
     traced.slope = kInfinite;
     return traced;
   }
-  const Sweep sweep = method == TraceMethod::kTable ? by_table(ray, traced.origin)
-                                                    : Sweep{exact_azimuth(ray), exact_slope(ray)};
+  const Sweep sweep = method == TraceMethod::kTable
+                          ? by_table(ray, traced.origin, options.table_bits)
+                          : Sweep{exact_azimuth(ray), exact_slope(ray)};
   traced.phi = sweep.phi;
   traced.slope = sign * sweep.slope * at_observer.doppler;
   const double slope = std::abs(traced.slope);

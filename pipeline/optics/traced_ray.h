@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pipeline/optics/null_ray.h"
+#include "pipeline/optics/octave_curve.h"
 
 namespace domefall {
 
@@ -50,7 +51,11 @@ struct TracedRay {
   double amplification;  // sin(delta)/|sin(phi) slope|
 };
 
+struct TraceOptions {
+  int table_bits = OctaveCurve::kPerOctaveBits;  // of kTable; see OctaveCurve
+};
+
 // The tables are kept from one call to the next while the radius stays the same (in each thread).
-TracedRay trace_ray(const RayRequest& q, TraceMethod method);
+TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options = {});
 
 }  // namespace domefall
