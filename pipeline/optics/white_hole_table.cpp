@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/optics/exact_azimuth.h"
 
@@ -182,13 +183,20 @@ WhiteHoleTable::Lookup WhiteHoleTable::lookup() const {
   return {place_, curve_.lookup(), curve_.x_min(), is_outside() ? range_.high : HUGE_VAL};
 }
 
-double WhiteHoleTable::azimuth(const Place& p) const {
+// On an edge itself phi is infinite; the nearest place to it that a number can hold stands for it.
+WhiteHoleTable::Place WhiteHoleTable::off_edge(const Place& p) const {
+  return {has_edge() ? std::max(p.s, std::numeric_limits<double>::min()) : p.s, p.rate};
+}
+
+double WhiteHoleTable::azimuth(const Place& place) const {
+  const Place p = off_edge(place);
   if (p.s < curve_.x_min()) return has_edge() ? edge_law_.azimuth(p.s) : axis_law_.azimuth(p.s);
   if (is_outside() && p.s > range_.high) return axis_law_.azimuth(1 / (1 + p.s));
   return curve_.value(p.s);
 }
 
-double WhiteHoleTable::slope(const Place& p) const {
+double WhiteHoleTable::slope(const Place& place) const {
+  const Place p = off_edge(place);
   if (p.s < curve_.x_min())
     return p.rate * (has_edge() ? edge_law_.slope(p.s) : axis_law_.slope(p.s));
   if (is_outside() && p.s > range_.high) {

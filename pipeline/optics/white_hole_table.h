@@ -111,6 +111,7 @@ class WhiteHoleTable {
   bool has_axis() const { return kind_ != Kind::kInside; }
   bool is_outside() const { return kind_ == Kind::kOutside || kind_ == Kind::kOutsideOutgoing; }
   WhiteHolePlace ratios() const;
+  Place off_edge(const Place& p) const;
   // The half of smaller alpha; outside the only one.
   NullRay ray_at_place(double s) const;
   double place_of_azimuth(double phi) const;
