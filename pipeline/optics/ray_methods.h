@@ -1,0 +1,28 @@
+// The methods behind integrate_ray.  Each takes a photon whose largest component is 1 and whose
+// angular momentum is 0 or large enough to be squared.
+#pragma once
+
+#include <limits>
+
+#include "pipeline/optics/integrated_ray.h"
+
+namespace domefall {
+
+// Schwarzschild and Kruskal second-order sets: by the paper's Runge-Kutta of fourth order, and by
+// Dormand-Prince 5(4) and Fehlberg 7(8) of Boost.Odeint.
+IntegratedRay paper_ray(const PhotonAtObserver& photon, double tolerance);
+IntegratedRay full_ray_dopri5(const PhotonAtObserver& photon, double tolerance);
+IntegratedRay full_ray_rkf78(const PhotonAtObserver& photon, double tolerance);
+
+// The orbit's own equation, azimuth as variable.
+IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance);
+IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance);
+
+inline IntegratedRay undecided_ray() {
+  return {RayEnd::kUndecided, std::numeric_limits<double>::quiet_NaN(), 0, 0};
+}
+
+// The sky that an outgoing ray (backward in time) ends in.
+inline RayEnd sky_of(double energy) { return energy > 0 ? RayEnd::kSkyOne : RayEnd::kSkyThree; }
+
+}  // namespace domefall
