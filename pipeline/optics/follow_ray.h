@@ -1,0 +1,54 @@
+// Follows a ray through its charts with any stepper for the second-order sets.
+#pragma once
+
+#include <algorithm>
+
+#include "pipeline/optics/charted_ray.h"
+#include "pipeline/optics/ray_methods.h"
+
+namespace domefall {
+
+// Stepper: constructed from the tolerance, with
+//   void restart(const GeodesicEquations&)      in another chart, or after a step was undone
+//   bool try_step(const GeodesicEquations&, RayState& y, double& h)   one attempt; sets the next h
+//   double largest_step(const GeodesicEquations&, const RayState& y)
+template <class Stepper>
+IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance) {
+  constexpr double kFirstStep = 0.01;  // of r, for a photon whose largest component is 1
+  constexpr double kRetreat = 0.25;
+
+  IntegratedRay result = undecided_ray();
+  ChartedRay ray = charted_ray(photon);
+  const RayGoals goals = goals_of(photon);
+  const auto equations_of = [&result](const ChartedRay& at) {
+    return GeodesicEquations{at.chart, at.y[1] > 2, &result.evaluations};
+  };
+  GeodesicEquations equations = equations_of(ray);
+  Stepper stepper(tolerance);
+  stepper.restart(equations);
+  double h = kFirstStep * photon.r;
+  for (; result.steps < kRayStepBudget; ++result.steps) {
+    if (change_chart(ray)) {
+      equations = equations_of(ray);
+      stepper.restart(equations);
+    }
+    const RayEnd end = end_of(ray, goals);
+    if (end != RayEnd::kUndecided) {
+      result.end = end;
+      result.phi = ray.y[kAzimuth] + azimuth_beyond(ray, end);
+      return result;
+    }
+    h = std::min(h, stepper.largest_step(equations, ray.y));
+    const RayState before = ray.y;
+    const double tried = h;
+    if (stepper.try_step(equations, ray.y, h) && !equations.holds(ray.y)) {
+      // The last stage was in the chart and the sum of them is not.
+      ray.y = before;
+      h = kRetreat * tried;
+      stepper.restart(equations);
+    }
+  }
+  return result;
+}
+
+}  // namespace domefall

@@ -1,0 +1,52 @@
+// The second-order sets by Boost.Odeint's controlled steppers.
+
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <limits>
+#include <optional>
+
+#include "pipeline/optics/follow_ray.h"
+#include "pipeline/optics/scaled_step_control.h"
+
+namespace domefall {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+template <class ErrorStepper>
+class OdeintStepper {
+ public:
+  explicit OdeintStepper(double tolerance) : tolerance_(tolerance) {}
+
+  void restart(const GeodesicEquations& equations) {
+    stepper_.emplace(ScaledErrorChecker(equations, tolerance_),
+                     typename Stepper::step_adjuster_type(), blank_stepper<ErrorStepper>());
+  }
+
+  bool try_step(const GeodesicEquations& equations, RayState& y, double& h) {
+    double parameter = 0;  // the equations do not depend on it
+    return stepper_->try_step(equations, y, parameter, h) == odeint::success;
+  }
+
+  // A radian, so that no step grows without bound on the light circle.
+  static double largest_step(const GeodesicEquations& /*equations*/, const RayState& y) {
+    return 1 / (y[kAzimuthRate] + std::numeric_limits<double>::min());
+  }
+
+ private:
+  using Stepper = ScaledStepper<ErrorStepper, GeodesicEquations>;
+  double tolerance_;
+  std::optional<Stepper> stepper_;
+};
+
+}  // namespace
+
+IntegratedRay full_ray_dopri5(const PhotonAtObserver& photon, double tolerance) {
+  return follow_ray<OdeintStepper<odeint::runge_kutta_dopri5<RayState>>>(photon, tolerance);
+}
+
+IntegratedRay full_ray_rkf78(const PhotonAtObserver& photon, double tolerance) {
+  return follow_ray<OdeintStepper<odeint::runge_kutta_fehlberg78<RayState>>>(photon, tolerance);
+}
+
+}  // namespace domefall
