@@ -119,6 +119,14 @@ bool change_chart(ChartedRay& ray) {
   return true;
 }
 
+void restore_null_condition(ChartedRay& ray) {
+  const double r = ray.y[1];
+  if (ray.chart != Chart::kSchwarzschild || r > 2) return;
+  const double a = 1 - 2 / r, energy = a * ray.y[3], tangential = r * ray.y[kAzimuthRate];
+  const double speed = std::sqrt(energy * energy - a * tangential * tangential);
+  ray.y[4] = std::copysign(speed, ray.y[4]);
+}
+
 RayEnd end_of(const ChartedRay& ray, const RayGoals& goals) {
   if (ray.chart == Chart::kKruskal) return RayEnd::kUndecided;
   const double r = ray.y[1], rate = ray.y[4];

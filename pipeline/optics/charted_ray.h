@@ -33,6 +33,11 @@ RayGoals goals_of(const PhotonAtObserver& photon);
 // Changes the chart if another is due; says whether it did.
 bool change_chart(ChartedRay& ray);
 
+// Inside the horizon in Schwarzschild's coordinates, r' made anew from E and L by the null condition.
+// The second-order set alone lets a violation N of it grow as 2N/r, which turns a nearly radial ray
+// back before it reaches the singularity.  Elsewhere nothing is changed: r' may vanish there.
+void restore_null_condition(ChartedRay& ray);
+
 // kUndecided while the ray is on its way.
 RayEnd end_of(const ChartedRay& ray, const RayGoals& goals);
 

@@ -41,12 +41,15 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance) {
     h = std::min(h, stepper.largest_step(equations, ray.y));
     const RayState before = ray.y;
     const double tried = h;
-    if (stepper.try_step(equations, ray.y, h) && !equations.holds(ray.y)) {
-      // The last stage was in the chart and the sum of them is not.
-      ray.y = before;
-      h = kRetreat * tried;
-      stepper.restart(equations);
+    if (!stepper.try_step(equations, ray.y, h)) continue;
+    if (equations.holds(ray.y)) {
+      restore_null_condition(ray);
+      continue;
     }
+    // The last stage was in the chart and the sum of them is not.
+    ray.y = before;
+    h = kRetreat * tried;
+    stepper.restart(equations);
   }
   return result;
 }

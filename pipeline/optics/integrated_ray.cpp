@@ -1,0 +1,55 @@
+#include "pipeline/optics/integrated_ray.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/optics/ray_methods.h"
+
+namespace domefall {
+namespace {
+
+// Below this share of r max(|E|, |k^r|) an angular momentum sweeps less than 1e-20 radians even by
+// the singularity (phi ~ b^(1/3) there), so the ray is radial.
+constexpr double kRadialShare = 1e-60;
+
+// The same photon with its largest component 1, so that no product of them overflows.
+PhotonAtObserver normalised(PhotonAtObserver photon) {
+  const double radial_size = std::max(std::abs(photon.energy), std::abs(photon.radial));
+  const double tangential = photon.angular_momentum / photon.r;
+  const double size = std::max(radial_size, tangential);
+  photon.energy /= size;
+  photon.radial /= size;
+  photon.angular_momentum =
+      tangential < kRadialShare * radial_size ? 0 : photon.angular_momentum / size;
+  if (photon.region == Region::kI) photon.energy = std::abs(photon.energy);
+  if (photon.region == Region::kIII) photon.energy = -std::abs(photon.energy);
+  return photon;
+}
+
+// Light along the horizon itself, r = 2 for ever: it has neither energy nor radial motion.
+bool stays_on_the_horizon(const PhotonAtObserver& photon) {
+  return photon.r == 2 && photon.energy == 0 && photon.radial == 0;
+}
+
+}  // namespace
+
+IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
+                            double tolerance) {
+  if (stays_on_the_horizon(photon)) return undecided_ray();
+  const PhotonAtObserver start = normalised(photon);
+  switch (integrator) {
+    case Integrator::kPaperRk4:
+      return paper_ray(start, tolerance);
+    case Integrator::kFullDopri5:
+      return full_ray_dopri5(start, tolerance);
+    case Integrator::kFullRkf78:
+      return full_ray_rkf78(start, tolerance);
+    case Integrator::kBinetDopri5:
+      return binet_ray_dopri5(start, tolerance);
+    case Integrator::kBinetRkf78:
+      return binet_ray_rkf78(start, tolerance);
+  }
+  return undecided_ray();
+}
+
+}  // namespace domefall
