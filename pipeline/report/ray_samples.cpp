@@ -1,5 +1,6 @@
 #include "pipeline/report/ray_samples.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,11 @@ struct Observer {
 constexpr std::array kObservers{
     Observer{"I", TraceObserver::kRain, ReferenceObserver::kRain},
     Observer{"I", TraceObserver::kStatic, ReferenceObserver::kStatic},
+    Observer{"I", TraceObserver::kOutgoing, ReferenceObserver::kOutgoing},
     Observer{"II", TraceObserver::kRain, ReferenceObserver::kRain},
+    Observer{"II", TraceObserver::kTwo, ReferenceObserver::kTwo},
+    Observer{"IV", TraceObserver::kOutgoing, ReferenceObserver::kOutgoing},
+    Observer{"IV", TraceObserver::kFour, ReferenceObserver::kFour},
 };
 
 constexpr std::array kClasses{
@@ -75,7 +80,7 @@ RayRequest throw_ray(const Observer& of, Difficulty difficulty, double r, Dice& 
     q.edge = third ? Edge::kRegionThree : Edge::kSilhouette;
     q.offset = dice.even_log(kLeastOffset, kMostOffset) * (dice.heads() ? 1 : -1);
   } else if (difficulty == Difficulty::kFar && dice.heads()) {
-    q.delta = silhouette() * dice.even_log(1.0 / 2, kFarReach);
+    q.delta = std::min(silhouette() * dice.even_log(1.0 / 2, kFarReach), std::numbers::pi);
   } else {
     q.delta = static_cast<double>(dice.even(0, std::numbers::pi));
   }
@@ -105,12 +110,7 @@ SampleRay with_truth(const RayRequest& q, ReferenceObserver observer) {
 
 }  // namespace
 
-std::vector<RayClass> ray_classes() {
-  std::vector<RayClass> found;
-  for (const RayClass& c : kClasses)
-    if (!observers_in(c.region).empty()) found.push_back(c);
-  return found;
-}
+std::span<const RayClass> ray_classes() { return kClasses; }
 
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
   const std::vector<Observer> observers = observers_in(of.region);

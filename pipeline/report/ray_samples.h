@@ -22,8 +22,7 @@ struct RayClass {
   const char* name;  // of the difficulty
   double r_least, r_most;
 };
-// Those that some observer of trace_ray can stand in.
-std::vector<RayClass> ray_classes();
+std::span<const RayClass> ray_classes();
 
 struct SampleRay {
   RayRequest request;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace domefall {
@@ -26,6 +27,10 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
       for (const SampleRay& ray : group) {
         EXPECT_GE(ray.request.at.r, of.r_least);
         EXPECT_LE(ray.request.at.r, of.r_most);
+        if (!ray.request.edge) {
+          EXPECT_GE(ray.request.delta, 0);
+          EXPECT_LE(ray.request.delta, std::numbers::pi);
+        }
         EXPECT_EQ(of.region == std::string("I"), ray.request.at.above_horizon > 0);
         EXPECT_TRUE(std::isfinite(ray.phi) && ray.phi > 0);
         EXPECT_TRUE(std::isfinite(ray.slope) && ray.slope != 0);
@@ -47,7 +52,11 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
     if (!row.is_default || (row.method != "table" && row.method != "exact")) continue;
     EXPECT_EQ(row.undecided, 0);
     EXPECT_GT(row.phi_worst, 0);
-    EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : 1e-13);
+    // Far from the hole an angle of 1e-7 that is given as its supplement has lost digits, which no
+    // sky shows.
+    const double exact = row.difficulty == "far" ? 1e-10 : 1e-13;
+    EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : exact);
+    EXPECT_LT(row.sky_worst, row.method == "table" ? 1e-9 : 1e-12);
   }
 }
 
