@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
@@ -134,17 +135,38 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
   return q;
 }
 
+constexpr std::array<std::pair<const char*, TraceMethod>, 7> kMethods{
+    {{"table", TraceMethod::kTable},
+     {"exact", TraceMethod::kExact},
+     {"rk4", TraceMethod::kPaperRk4},
+     {"dopri5", TraceMethod::kFullDopri5},
+     {"rkf78", TraceMethod::kFullRkf78},
+     {"binet-dopri5", TraceMethod::kBinetDopri5},
+     {"binet-rkf78", TraceMethod::kBinetRkf78}}};
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, method] : kMethods) names.emplace_back(name);
+  return names;
+}
+
+TraceMethod method_named(const std::string& name) {
+  for (const auto& [known, method] : kMethods)
+    if (name == known) return method;
+  return TraceMethod::kTable;
+}
+
 const char* name_of(Origin origin) {
   return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
 }
 
-void trace(const std::string& file, TraceMethod method) {
+void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
   std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");
   for (std::array<std::string, 5> cell; table.next(cell);) {
-    const TracedRay ray = trace_ray(request_of(table, cell), method);
+    const TracedRay ray = trace_ray(request_of(table, cell), method, options);
     for (const std::string& text : cell) std::printf("%s,", text.c_str());
-    std::printf("%s", name_of(ray.origin));
+    std::printf("%s", ray.decided ? name_of(ray.origin) : "");
     for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification})
       std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
     std::puts("");
@@ -158,14 +180,18 @@ void add_trace(CLI::App& app) {
       app.add_subcommand("trace", "Rays by number: where they come from, how far they were bent");
   auto table = std::make_shared<std::string>();
   auto method = std::make_shared<std::string>("table");
+  auto options = std::make_shared<TraceOptions>();
   verb->add_option("--table", *table, "CSV with the columns observer, r, delta, edge, offset")
       ->required();
-  verb->add_option("--method", *method, "table (what renders frames) or exact")
-      ->check(CLI::IsMember({"table", "exact"}))
+  verb->add_option("--method", *method,
+                   "table (what renders frames), exact, or an integrator: rk4 (the paper's own), "
+                   "dopri5, rkf78 (the full geodesic equations), binet-dopri5, binet-rkf78")
+      ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  verb->callback([table, method] {
-    trace(*table, *method == "exact" ? TraceMethod::kExact : TraceMethod::kTable);
-  });
+  verb->add_option("--tolerance", options->tolerance, "of the integrators, relative, each step")
+      ->check(CLI::Range(1e-13, 1e-3))
+      ->capture_default_str();
+  verb->callback([table, method, options] { trace(*table, method_named(*method), *options); });
 }
 
 }  // namespace domefall

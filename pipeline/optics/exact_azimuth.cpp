@@ -172,25 +172,6 @@ double edge_distance(const NullRay& ray, Critical edge) {
   return 2 * std::abs(gap) / std::hypot(1, tan_half_critical(ray.at, edge));
 }
 
-// The angle over which phi changes its shape: to the nearest place where it diverges or, as light
-// from the singularity does on the axis, has the branch point of a cube root.
-double smooth_over(const NullRay& ray) {
-  const bool outside = ray.at.above_horizon > 0;
-  const Critical own = ray.outgoing ? Critical::kSecond : Critical::kFirst;
-  switch (origin_of(ray)) {
-    case Origin::kSkyOne:
-      return edge_distance(ray, own);
-    case Origin::kSkyThree:
-      return edge_distance(ray, Critical::kSecond);
-    case Origin::kPastSingularity:
-      break;
-  }
-  if (outside)
-    return std::min(edge_distance(ray, own), 2 * (ray.outgoing ? ray.cos_half : ray.sin_half));
-  if (ray.outgoing) return 2 * std::min(ray.sin_half, ray.cos_half);
-  return std::min(edge_distance(ray, Critical::kFirst), edge_distance(ray, Critical::kSecond));
-}
-
 }  // namespace
 
 double exact_azimuth(const NullRay& ray) {
@@ -206,6 +187,23 @@ double exact_azimuth(const NullRay& ray) {
   if (circles_for_ever(ray)) return std::numeric_limits<double>::infinity();
   return c.eps >= 0 ? to_singularity_without_turning(c)
                     : to_singularity_inside_the_light_circle(c, k.radial < 0);
+}
+
+double smooth_over(const NullRay& ray) {
+  const bool outside = ray.at.above_horizon > 0;
+  const Critical own = ray.outgoing ? Critical::kSecond : Critical::kFirst;
+  switch (origin_of(ray)) {
+    case Origin::kSkyOne:
+      return edge_distance(ray, own);
+    case Origin::kSkyThree:
+      return edge_distance(ray, Critical::kSecond);
+    case Origin::kPastSingularity:
+      break;
+  }
+  if (outside)
+    return std::min(edge_distance(ray, own), 2 * (ray.outgoing ? ray.cos_half : ray.sin_half));
+  if (ray.outgoing) return 2 * std::min(ray.sin_half, ray.cos_half);
+  return std::min(edge_distance(ray, Critical::kFirst), edge_distance(ray, Critical::kSecond));
 }
 
 double exact_slope(const NullRay& ray) {

@@ -21,6 +21,10 @@ namespace domefall {
 // below 1e-13 max(1, phi).
 double exact_azimuth(const NullRay& ray);
 
+// The angle over which phi changes its shape: to the nearest place where it diverges or, as light from
+// the singularity does on the axis, has the branch point of a cube root.
+double smooth_over(const NullRay& ray);
+
 // d phi/d alpha, signed, by a four-point difference over turned rays.  Measured: relative error
 // below 1e-9.  The ray must not be exactly radial or critical.
 double exact_slope(const NullRay& ray);

@@ -6,6 +6,7 @@
 
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/optics/integrated_ray.h"
 
 namespace domefall {
 namespace {
@@ -57,6 +58,16 @@ Seen seen(const NullRay& ray, const View& view) {
   return {view.from_behind ? behind : alpha, k * (sine * sine + ray.cos_half * ray.cos_half)};
 }
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void set_amplification(TracedRay& ray) {
+  const double slope = std::abs(ray.slope);
+  // At the far end of a sky both sines vanish, and their ratio is 1/slope.
+  const bool far_end = ray.origin != Origin::kPastSingularity && ray.phi < 1e-6;
+  ray.amplification =
+      far_end ? 1 / (slope * slope) : std::sin(ray.delta) / (std::abs(std::sin(ray.phi)) * slope);
+}
+
 struct Sweep {
   double phi, slope;  // d phi/d alpha, signed
 };
@@ -87,6 +98,86 @@ Sweep by_table(const NullRay& ray, Origin origin, int bits) {
   return {table.azimuth(x), -table.slope(x) * table.edge().sign};
 }
 
+// ---- by integrators ----
+
+Integrator integrator_of(TraceMethod method) {
+  switch (method) {
+    case TraceMethod::kFullDopri5:
+      return Integrator::kFullDopri5;
+    case TraceMethod::kFullRkf78:
+      return Integrator::kFullRkf78;
+    case TraceMethod::kBinetDopri5:
+      return Integrator::kBinetDopri5;
+    case TraceMethod::kBinetRkf78:
+      return Integrator::kBinetRkf78;
+    default:
+      return Integrator::kPaperRk4;
+  }
+}
+
+// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses beside an edge is the methods' own.
+PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delta) {
+  const double s = std::sqrt(2 / at.r), c = std::cos(delta);
+  const double rest = std::sqrt(std::abs(at.above_horizon) / at.r);
+  PhotonAtObserver k{at.above_horizon > 0 ? Region::kI : Region::kII, at.r, 0,
+                     at.r * std::sin(delta), 0};
+  switch (observer) {
+    case TraceObserver::kRain:
+      k.energy = 1 - s * c, k.radial = c - s;
+      break;
+    case TraceObserver::kStatic:
+      k.energy = rest, k.radial = rest * c;
+      break;
+    case TraceObserver::kOutgoing:
+      if (k.region == Region::kII) k.region = Region::kIV;
+      k.energy = 1 + s * c, k.radial = c + s;
+      break;
+    case TraceObserver::kTwo:
+      k.energy = -rest * c, k.radial = -rest;
+      break;
+    case TraceObserver::kFour:
+      k.region = Region::kIV;
+      k.energy = -rest * c, k.radial = rest;
+      break;
+  }
+  return k;
+}
+
+// phi over delta by a four-point difference, continued oddly through the axis.
+double integrated_slope(const RayRequest& q, const NullRay& ray, double delta, double doppler,
+                        Integrator integrator, double tolerance) {
+  const double h = 1e-2 * smooth_over(ray) / doppler;
+  const auto phi = [&](double steps) {
+    const double at = delta + steps * h;
+    const double folded = at < 0 ? -at : at > std::numbers::pi ? 2 * std::numbers::pi - at : at;
+    const double swept =
+        integrate_ray(photon_at(q.observer, q.at, folded), integrator, tolerance).phi;
+    return folded == at ? swept : -swept;
+  };
+  return (8 * (phi(1) - phi(-1)) - (phi(2) - phi(-2))) / (12 * h);
+}
+
+TracedRay integrate_request(const RayRequest& q, Integrator integrator,
+                            const TraceOptions& options) {
+  const View view = view_of(q.observer);
+  const NullRay ray = ray_of(q, view);
+  const Seen at_observer = seen(ray, view);
+  const double delta = q.edge ? at_observer.delta : static_cast<double>(q.delta);
+  const PhotonAtObserver photon = photon_at(q.observer, q.at, delta);
+  const IntegratedRay end = integrate_ray(photon, integrator, options.tolerance);
+  TracedRay traced{
+      delta, Origin::kPastSingularity, end.end != RayEnd::kUndecided, end.phi, kNone, kNone, kNone};
+  if (!traced.decided) return traced;
+  if (end.end == RayEnd::kSkyOne) traced.origin = Origin::kSkyOne;
+  if (end.end == RayEnd::kSkyThree) traced.origin = Origin::kSkyThree;
+  if (traced.origin != Origin::kPastSingularity) traced.one_plus_z = std::abs(photon.energy);
+  if (!options.slope) return traced;
+  traced.slope =
+      integrated_slope(q, ray, delta, at_observer.doppler, integrator, options.tolerance);
+  set_amplification(traced);
+  return traced;
+}
+
 }  // namespace
 
 bool has_edge(TraceObserver observer, const Radius& at, Edge edge) {
@@ -103,13 +194,14 @@ double edge_delta(TraceObserver observer, const Radius& at, Edge edge) {
 }
 
 TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (method != TraceMethod::kTable && method != TraceMethod::kExact)
+    return integrate_request(q, integrator_of(method), options);
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const View view = view_of(q.observer);
   const NullRay ray = ray_of(q, view);
   const Seen at_observer = seen(ray, view);
   const double delta = q.edge ? at_observer.delta : static_cast<double>(q.delta);
-  TracedRay traced{delta, origin_of(ray), 0, kNone, 0, 0};
+  TracedRay traced{delta, origin_of(ray), true, 0, kNone, 0, 0};
   const bool from_sky = traced.origin != Origin::kPastSingularity;
   if (from_sky) traced.one_plus_z = one_plus_z(ray) / at_observer.doppler;
   const double sign = view.from_behind ? -1 : 1;
@@ -125,11 +217,7 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
                           : Sweep{exact_azimuth(ray), exact_slope(ray)};
   traced.phi = sweep.phi;
   traced.slope = sign * sweep.slope * at_observer.doppler;
-  const double slope = std::abs(traced.slope);
-  // At the far end of a sky both sines vanish, and their ratio is 1/slope.
-  const bool far_end = from_sky && traced.phi < 1e-6;
-  traced.amplification =
-      far_end ? 1 / (slope * slope) : std::sin(delta) / (std::abs(std::sin(traced.phi)) * slope);
+  set_amplification(traced);
   return traced;
 }
 

@@ -20,6 +20,12 @@ enum class TraceObserver {
 enum class TraceMethod {
   kTable,  // what renders frames
   kExact,
+  // Integrators (integrated_ray.h), which share no formula with the two above.
+  kPaperRk4,     // [Riazuelo] sec. sec_cel1: adaptive RK4, Schwarzschild and Kruskal coordinates
+  kFullDopri5,   // the same equations
+  kFullRkf78,    // of order 8
+  kBinetDopri5,  // d2w/dphi2 = 3 w^2 - w
+  kBinetRkf78,
 };
 
 // An edge in delta, as the observer sees it.
@@ -45,6 +51,7 @@ double edge_delta(TraceObserver observer, const Radius& at, Edge edge);
 struct TracedRay {
   double delta;
   Origin origin;
+  bool decided;          // false: an integrator's steps ran out; origin and the rest mean nothing
   double phi;            // swept azimuth, radians; infinite for a ray that circles for ever
   double one_plus_z;     // emitted / observed frequency; NaN for rays from the past singularity
   double slope;          // d phi / d delta, signed, in the observer's frame
@@ -53,6 +60,9 @@ struct TracedRay {
 
 struct TraceOptions {
   int table_bits = OctaveCurve::kPerOctaveBits;  // of kTable; see OctaveCurve
+  double tolerance = 1e-10;                      // of the integrators, relative, each step
+  // Integrators find the slope by four further rays; without it, slope and amplification are NaN.
+  bool slope = true;
 };
 
 // The tables are kept from one call to the next while the radius stays the same (in each thread).
