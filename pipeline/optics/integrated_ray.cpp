@@ -1,6 +1,7 @@
 #include "pipeline/optics/integrated_ray.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "pipeline/optics/ray_methods.h"
@@ -26,15 +27,23 @@ PhotonAtObserver normalised(PhotonAtObserver photon) {
   return photon;
 }
 
-// Light along the horizon itself, r = 2 for ever: it has neither energy nor radial motion.
+// Light along the horizon itself: only there has light neither energy nor radial motion.
 bool stays_on_the_horizon(const PhotonAtObserver& photon) {
-  return photon.r == 2 && photon.energy == 0 && photon.radial == 0;
+  return photon.energy == 0 && photon.radial == 0;
+}
+
+[[maybe_unused]] bool is_light_of_its_region(const PhotonAtObserver& photon) {
+  if (!(photon.r > 0) || !(photon.angular_momentum >= 0)) return false;
+  if (photon.region == Region::kII) return photon.r <= 2 && photon.radial <= 0;
+  if (photon.region == Region::kIV) return photon.r <= 2 && photon.radial >= 0;
+  return photon.r >= 2;
 }
 
 }  // namespace
 
 IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
                             double tolerance) {
+  assert(is_light_of_its_region(photon));
   if (stays_on_the_horizon(photon)) return undecided_ray();
   const PhotonAtObserver start = normalised(photon);
   switch (integrator) {
