@@ -63,7 +63,9 @@ SkyTable::SkyTable(const Radius& at, Critical edge, bool outgoing, double tangen
       x_max_(2 * std::tan(reach_ / 4)),
       curve_(
           std::min(kInnermost * smallest_angle(at, tangent), x_max_ / 4), x_max_,
-          [this](double x) { return continued_azimuth(x); }, bits),
+          [this](double x) { return continued_azimuth(x); },
+          // In the outgoing frame E = 0, a branch point of phi, comes close in the complex plane.
+          outgoing ? bits + 1 : bits),
       law_(fit_edge_law(curve_.x_min(), [this](double x) { return continued_azimuth(x); })) {}
 
 NullRay SkyTable::ray_at_distance(double x) const {
