@@ -36,6 +36,12 @@ double percentile_99(const std::vector<double>& sorted) {
   return sorted[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1];
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 struct Errors {
   std::vector<double> phi, sky;
   int undecided = 0;
@@ -60,7 +66,8 @@ struct Errors {
 RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& groups,
                           const RayMethod& method, double setting, int repeats) {
   Errors errors;
-  double trace_ns = 0, build_ns = 0;
+  double trace_ns = 0;
+  std::vector<double> build_ns;
   std::size_t rays = 0;
   for (const RayGroup& group : groups) {
     const Pass first = trace_group(group, method, setting);
@@ -68,7 +75,7 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
     double best = repeats > 0 ? std::numeric_limits<double>::infinity() : first.ns;
     for (int k = 0; k < repeats; ++k) best = std::min(best, trace_group(group, method, setting).ns);
     trace_ns += best;
-    build_ns += method.keeps_tables ? first.ns - best : 0;
+    build_ns.push_back(method.keeps_tables ? first.ns - best : 0);
     rays += group.size();
   }
   errors.sort();
@@ -85,7 +92,7 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
           worst(errors.sky),
           percentile_99(errors.sky),
           trace_ns / static_cast<double>(rays),
-          build_ns * kPerMicrosecond / static_cast<double>(groups.size())};
+          median(build_ns) * kPerMicrosecond};
 }
 
 std::vector<RayErrorRow> measure_rays(bool quick) {

@@ -21,7 +21,7 @@ struct RayErrorRow {
   // The same error as a displacement on the observer's sky, |error of phi|/|d phi/d delta|, radians.
   double sky_worst, sky_99;
   double ns_per_ray;  // azimuth and slope, tables at hand
-  double build_us;    // the tables of one radius; 0 for methods without
+  double build_us;    // all tables of one radius, the median; 0 without
 };
 
 // One method at one setting over groups of rays.  Timed by the wall clock in batches of a group, the

@@ -12,7 +12,7 @@ namespace domefall {
 struct RayMethod {
   std::string name;
   TraceMethod method;
-  std::string setting_name;      // tolerance, or empty where there is none
+  std::string setting_name;      // bits of a table, tolerance; empty where there is none
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
   bool keeps_tables;             // the first ray at a radius pays for those that follow

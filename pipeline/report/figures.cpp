@@ -1,0 +1,180 @@
+#include "pipeline/report/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "pipeline/optics/traced_ray.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Where a part of the view ends: at an edge, beyond which the azimuth diverges, or on the axis.
+struct End {
+  double delta;
+  std::optional<Edge> edge;
+};
+
+// Distances from an end that show both a logarithm and a cube root as smooth curves.
+std::vector<double> distances(double reach) {
+  constexpr int kLog = 160, kEven = 120;
+  constexpr double kLeast = 1e-9;
+  std::vector<double> d;
+  for (int k = 0; k < kLog; ++k) d.push_back(kLeast * std::pow(reach / kLeast, k / (kLog - 1.0)));
+  for (int k = 1; k < kEven; ++k) d.push_back(reach * k / kEven);
+  std::sort(d.begin(), d.end());
+  return d;
+}
+
+// Swept azimuth against delta of everything between two ends of the view.
+std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, const End& high) {
+  const auto azimuth = [&](const End& end, double offset) {
+    RayRequest q{observer, r, end.delta + offset, end.edge, offset};
+    return PlotPoint{end.delta + offset, trace_ray(q, TraceMethod::kTable).phi};
+  };
+  const std::vector<double> d = distances((high.delta - low.delta) / 2);
+  std::vector<PlotPoint> points;
+  for (const double from_low : d) points.push_back(azimuth(low, from_low));
+  for (auto k = d.rbegin(); k != d.rend(); ++k) points.push_back(azimuth(high, -*k));
+  return points;
+}
+
+// sign -1: the deviation function, +1: the azimuth with the sign of L.
+std::vector<PlotPoint> signed_curve(const std::vector<PlotPoint>& swept, double sign) {
+  std::vector<PlotPoint> points = swept;
+  for (PlotPoint& p : points) p.y *= sign;
+  return points;
+}
+
+std::vector<PlotPoint> continued(const std::vector<PlotPoint>& points) {
+  std::vector<PlotPoint> other;
+  for (auto p = points.rbegin(); p != points.rend(); ++p) other.push_back({2 * kPi - p->x, -p->y});
+  return other;
+}
+
+// One curve from 0 to pi and its continuation to 2 pi, under one name.
+void add_deviation(Plot& plot, const std::string& name, int colour,
+                   const std::vector<PlotPoint>& points) {
+  plot.curves.push_back({name, points, colour, Curve::Style::kLine});
+  plot.curves.push_back({"", continued(points), colour, Curve::Style::kLine});
+}
+
+Plot deviation_plot(const std::string& title, double turns) {
+  Plot plot;
+  plot.title = title;
+  plot.x = {"angle of the look from the hole, δ", Axis::Scale::kOfPi, 0, 2 * kPi, 1.0 / 4};
+  plot.y = {"origin of the light, φ_∞", Axis::Scale::kOfPi, -turns * kPi, turns * kPi, 1};
+  plot.legend = "top left";
+  return plot;
+}
+
+constexpr int kColourOne = 0, kColourThree = 1, kColourFour = 2, kColourFlat = 6;
+constexpr double kShown = 5.25;  // |phi| in units of pi: slightly more than 5
+
+End edge_of(double r, Edge edge) { return {edge_delta(TraceObserver::kRain, r, edge), edge}; }
+constexpr End kFront{0, std::nullopt}, kBack{kPi, std::nullopt};
+
+struct Regions {
+  bool one = true, three = false, four = false;
+};
+
+Plot rain_plot(const std::string& title, double r, const Regions& seen) {
+  Plot plot = deviation_plot(title, kShown);
+  const auto add = [&](const char* name, int colour, const End& low, const End& high) {
+    add_deviation(plot, name, colour, signed_curve(sweep(TraceObserver::kRain, r, low, high), -1));
+  };
+  const End silhouette = edge_of(r, Edge::kSilhouette);
+  if (seen.one) add("region I", kColourOne, silhouette, kBack);
+  if (seen.three) add("region III", kColourThree, kFront, edge_of(r, Edge::kRegionThree));
+  if (seen.four)
+    add("region IV", kColourFour, seen.three ? edge_of(r, Edge::kRegionThree) : kFront, silhouette);
+  return plot;
+}
+
+Plot far_away() {
+  Plot plot = rain_plot("Deviation function, free fall at r = 30 M", 30, {});
+  plot.curves.front().name = "φ_∞(δ)";
+  plot.curves.push_back({"δ − π: neither bent nor aberrated",
+                         {{0, -kPi}, {2 * kPi, kPi}},
+                         kColourFlat,
+                         Curve::Style::kDashed});
+  return plot;
+}
+
+Plot white_hole_from_within() {
+  Plot plot = deviation_plot("Region IV seen from region IV, at rest in t", 1.1);
+  plot.x.label = "angle of the look from −∂_t, δ";
+  plot.y.label = "origin of the light, Δφ";
+  plot.y.mark_every = 1.0 / 4;
+  plot.legend = "top right";
+  int colour = 0;
+  for (const double r : {0.001, 0.2, 1.7, 1.998}) {
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "r = %g M", r);
+    add_deviation(plot, name.data(), colour++,
+                  signed_curve(sweep(TraceObserver::kFour, r, kFront, kBack), 1));
+  }
+  return plot;
+}
+
+// Angle of an edge in degrees against r.
+std::vector<PlotPoint> edge_curve(Edge edge, double r_end) {
+  constexpr int kPoints = 400;
+  constexpr double kDegrees = 180 / kPi, kRight = 90;
+  std::vector<PlotPoint> points{{0, kRight}};  // the limit at the singularity, of both
+  for (int k = 1; k <= kPoints; ++k) {
+    const double part = static_cast<double>(k) / kPoints, r = r_end * part * part;
+    points.push_back({r, edge_delta(TraceObserver::kRain, r, edge) * kDegrees});
+  }
+  return points;
+}
+
+std::vector<PlotPoint> closed(std::vector<PlotPoint> points,
+                              const std::vector<PlotPoint>& corners) {
+  points.insert(points.end(), corners.begin(), corners.end());
+  return points;
+}
+
+Plot what_is_seen() {
+  constexpr double kFar = 10, kHorizon = 2, kAll = 180;
+  const std::vector<PlotPoint> silhouette = edge_curve(Edge::kSilhouette, kFar);
+  const std::vector<PlotPoint> third = edge_curve(Edge::kRegionThree, kHorizon);
+  std::vector<PlotPoint> dark = silhouette;
+  dark.push_back({kFar, 0});
+  dark.insert(dark.end(), third.rbegin(), third.rend());
+  Plot plot;
+  plot.title = "What the free faller sees, from rest at infinity";
+  plot.x = {"r/M", Axis::Scale::kLinear, 0, kFar, 1};
+  plot.y = {"angle from the front, degrees", Axis::Scale::kLinear, 0, kAll, 30};
+  plot.legend = "";
+  plot.curves = {
+      {"", closed(silhouette, {{kFar, kAll}, {0, kAll}}), kColourOne, Curve::Style::kArea},
+      {"", dark, kColourFlat, Curve::Style::kArea},
+      {"", closed(third, {{0, 0}}), kColourThree, Curve::Style::kArea},
+      {"", silhouette, kColourOne, Curve::Style::kLine},
+      {"", third, kColourThree, Curve::Style::kLine},
+      {"", {{kHorizon, 0}, {kHorizon, kAll}}, kColourFlat, Curve::Style::kDotted}};
+  plot.labels = {{6, 120, "region I"},
+                 {4.1, 14, "silhouette (past singularity)"},
+                 {0.7, 25, "region III"},
+                 {2.6, 170, "horizon"}};
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Figure> figures_of_the_paper() {
+  return {
+      {"fig_dev", far_away()},
+      {"dev_III", rain_plot("Free fall at r = M: regions I and III", 1, {true, true, false})},
+      {"dev_wh_0", rain_plot("Free fall at r = 20 M: regions I and IV", 20, {true, false, true})},
+      {"dev_wh", rain_plot("Free fall at r = M: regions I, III and IV", 1, {true, true, true})},
+      {"fig_IV_dev", white_hole_from_within()},
+      {"fig_delta_ee", what_is_seen()}};
+}
+
+}  // namespace domefall

@@ -1,0 +1,135 @@
+#include "pipeline/report/plot.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <numbers>
+
+#include "pipeline/report/gnuplot.h"
+
+namespace domefall {
+namespace {
+
+// Okabe and Ito's colours, which differ for every eye.
+constexpr std::array kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                              "#e69f00", "#56b4e9", "#000000"};
+
+const char* colour(int index) {
+  return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
+}
+
+constexpr const char* kStyle = R"(set encoding utf8
+set terminal svg size 960,640 dynamic enhanced font "sans-serif,17" linewidth 1.4 background "#ffffff"
+set border 3 linewidth 0.8 linecolor rgb "#444444"
+set tics nomirror out textcolor rgb "#222222"
+set grid linewidth 0.5 linecolor rgb "#dddddd"
+set clip one
+)";
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.10g", value);
+  return text.data();
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+// 3 pi/2 for 1.5.
+std::string parts_of_pi(double part) {
+  if (part == 0) return "0";
+  constexpr double kFinest = 4;  // quarters
+  int above = static_cast<int>(std::lround(std::abs(part) * kFinest)), below = 4;
+  while (below > 1 && above % 2 == 0) above /= 2, below /= 2;
+  std::string text = part < 0 ? "−" : "";
+  if (above != 1) text += std::to_string(above);
+  text += "π";
+  return below > 1 ? text + "/" + std::to_string(below) : text;
+}
+
+std::string marks_of_pi(const Axis& axis) {
+  constexpr double kPi = std::numbers::pi, kSlack = 1e-9;
+  std::string marks;
+  const int first = static_cast<int>(std::ceil(axis.least / kPi / axis.mark_every - kSlack));
+  const int last = static_cast<int>(std::floor(axis.most / kPi / axis.mark_every + kSlack));
+  for (int k = first; k <= last; ++k)
+    marks += (marks.empty() ? "" : ", ") + quoted(parts_of_pi(k * axis.mark_every)) + " " +
+             number(k * axis.mark_every * kPi);
+  return marks;
+}
+
+std::string axis_script(const char* name, const Axis& axis) {
+  const std::string n = name;
+  std::string script = "set " + n + "label " + quoted(axis.label) + "\n";
+  if (axis.most > axis.least)
+    script += "set " + n + "range [" + number(axis.least) + ":" + number(axis.most) + "]\n";
+  if (axis.scale == Axis::Scale::kLog)
+    script += "set logscale " + n + "\nset format " + n + " \"10^{%L}\"\n";
+  if (axis.scale == Axis::Scale::kOfPi)
+    script += "set " + n + "tics (" + marks_of_pi(axis) + ")\n";
+  else if (axis.mark_every > 0)
+    script += "set " + n + "tics " + number(axis.mark_every) + "\n";
+  return script;
+}
+
+bool can_be_drawn(const Axis& axis, double value) {
+  return std::isfinite(value) && (axis.scale != Axis::Scale::kLog || value > 0);
+}
+
+std::string data_block(const Plot& plot, const Curve& curve, const std::string& name) {
+  std::string block = name + " << EOD\n";
+  for (const PlotPoint& p : curve.points)
+    if (can_be_drawn(plot.x, p.x) && can_be_drawn(plot.y, p.y))
+      block += number(p.x) + " " + number(p.y) + "\n";
+  return block + "EOD\n";
+}
+
+std::string drawn_with(const Curve& curve) {
+  const std::string in = " linecolor rgb " + quoted(colour(curve.colour));
+  switch (curve.style) {
+    case Curve::Style::kDashed:
+      return "with lines linewidth 1.5 dashtype (9,6)" + in;
+    case Curve::Style::kDotted:
+      return "with lines linewidth 1 dashtype (2,4)" + in;
+    case Curve::Style::kPoints:
+      return "with linespoints linewidth 1.5 pointsize 0.7 pointtype " +
+             std::to_string(4 + curve.colour % 10) + in;
+    case Curve::Style::kArea:
+      return "with filledcurves closed fillstyle solid 0.15 noborder" + in;
+    case Curve::Style::kLine:
+      break;
+  }
+  return "with lines linewidth 2" + in;
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Plot& plot) {
+  std::string script = kStyle;
+  script += "set title " + quoted(plot.title) + "\n";
+  script += axis_script("x", plot.x) + axis_script("y", plot.y);
+  script += plot.legend.empty() ? "unset key\n" : "set key " + plot.legend + " opaque\n";
+  for (const PlotLabel& label : plot.labels)
+    script += "set label " + quoted(label.text) + " at " + number(label.x) + "," + number(label.y) +
+              " center front\n";
+  std::string curves;
+  int index = 0;
+  for (const Curve& curve : plot.curves) {
+    const std::string name = "$c" + std::to_string(index++);
+    script += data_block(plot, curve, name);
+    curves += (curves.empty() ? "" : ", ") + name + " using 1:2 " + drawn_with(curve) +
+              (curve.name.empty() ? " notitle" : " title " + quoted(curve.name));
+  }
+  return script + "plot " + curves + "\n";
+}
+
+std::string draw(const Plot& plot) { return run_gnuplot(gnuplot_script(plot)); }
+
+}  // namespace domefall

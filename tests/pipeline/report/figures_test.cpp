@@ -1,0 +1,98 @@
+#include "pipeline/report/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/report/gnuplot.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const Plot& plot_of(const std::vector<Figure>& figures, const std::string& name) {
+  return std::find_if(figures.begin(), figures.end(),
+                      [&](const Figure& f) { return f.name == name; })
+      ->plot;
+}
+
+const Curve& curve_of(const Plot& plot, const std::string& name) {
+  return *std::find_if(plot.curves.begin(), plot.curves.end(),
+                       [&](const Curve& c) { return c.name == name; });
+}
+
+double near(const Curve& curve, double x) {
+  return std::min_element(curve.points.begin(), curve.points.end(),
+                          [&](const PlotPoint& a, const PlotPoint& b) {
+                            return std::abs(a.x - x) < std::abs(b.x - x);
+                          })
+      ->y;
+}
+
+TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
+  const std::vector<Figure> figures = figures_of_the_paper();
+  std::vector<std::string> names;
+  for (const Figure& figure : figures) {
+    names.push_back(figure.name);
+    for (const Curve& curve : figure.plot.curves)
+      for (const PlotPoint& p : curve.points)
+        EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << figure.name << " " << curve.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"fig_dev", "dev_III", "dev_wh_0", "dev_wh",
+                                             "fig_IV_dev", "fig_delta_ee"}));
+}
+
+TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
+  const auto figures = figures_of_the_paper();
+  const Curve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
+  EXPECT_NEAR(near(curve, kPi), 0, 1e-8);
+  EXPECT_LT(curve.points.front().y, -5.25 * kPi);
+  // Far from the hole little is missing to delta - pi but aberration.
+  EXPECT_NEAR(near(curve, 3),
+              (3 - kPi) * std::sqrt((1 - std::sqrt(2 / 30.)) / (1 + std::sqrt(2 / 30.))), 0.02);
+}
+
+TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
+  const auto figures = figures_of_the_paper();
+  const Curve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
+  double most = -1e300;
+  for (const PlotPoint& p : curve.points) most = std::max(most, p.y);
+  EXPECT_NEAR(most, -(2 * kPi - kPi / 2), 1e-4);  // arcsin(0) + pi/2 short of the turn
+}
+
+TEST(Figures, RegionFourFromWithinReachesTheArcsine) {
+  const auto figures = figures_of_the_paper();
+  const Plot& plot = plot_of(figures, "fig_IV_dev");
+  EXPECT_NEAR(near(curve_of(plot, "r = 0.2 M"), kPi / 2), std::asin(-0.8) + kPi / 2, 1e-6);
+  EXPECT_NEAR(near(curve_of(plot, "r = 1.998 M"), kPi / 2), std::asin(0.998) + kPi / 2, 1e-6);
+}
+
+TEST(Plots, AreDrawnAsSvg) {
+  for (const Figure& figure : figures_of_the_paper()) {
+    const std::string svg = draw(figure.plot);
+    EXPECT_EQ(svg.rfind("<?xml", 0), 0U) << figure.name;
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_GT(svg.size(), 5000U);
+  }
+}
+
+TEST(Plots, LeaveOutWhatALogarithmCannotShow) {
+  Plot plot;
+  plot.y.scale = Axis::Scale::kLog;
+  plot.curves = {{"a \"quoted\" name", {{1, 0}, {2, 1e-5}, {3, -1}, {4, NAN}}, 0}};
+  const std::string script = gnuplot_script(plot);
+  EXPECT_NE(script.find("$c0 << EOD\n2 1e-05\nEOD"), std::string::npos) << script;
+  EXPECT_NE(script.find("\"a \\\"quoted\\\" name\""), std::string::npos);
+}
+
+TEST(Plots, AFaultyScriptIsToldInTheWordsOfGnuplot) {
+  EXPECT_THROW(run_gnuplot("plot nonsense_variable\n"), std::runtime_error);
+  EXPECT_EQ(gnuplot_version().rfind("gnuplot ", 0), 0U);
+}
+
+}  // namespace
+}  // namespace domefall
