@@ -15,15 +15,15 @@ double nanoseconds_since(Clock::time_point start) {
 }
 
 struct Pass {
-  std::vector<TracedRay> traced;
+  std::vector<FollowedRay> rays;
   double ns;
 };
 
 Pass trace_group(const RayGroup& group, const RayMethod& method, double setting) {
   Pass pass;
-  pass.traced.reserve(group.size());
+  pass.rays.reserve(group.size());
   const Clock::time_point start = Clock::now();
-  for (const SampleRay& ray : group) pass.traced.push_back(trace_by(method, setting, ray.request));
+  for (const SampleRay& ray : group) pass.rays.push_back(method.follow(ray.request, setting));
   pass.ns = nanoseconds_since(start);
   return pass;
 }
@@ -46,12 +46,12 @@ struct Errors {
   std::vector<double> phi, sky;
   int undecided = 0;
 
-  void add(const TracedRay& traced, const SampleRay& truth) {
-    if (traced.origin != truth.origin || !std::isfinite(traced.phi)) {
+  void add(const FollowedRay& followed, const SampleRay& truth) {
+    if (followed.origin != truth.origin || !std::isfinite(followed.phi)) {
       ++undecided;
       return;
     }
-    const double off = std::abs(traced.phi - truth.phi);
+    const double off = std::abs(followed.phi - truth.phi);
     phi.push_back(off / std::max(1.0, truth.phi));
     sky.push_back(off / std::abs(truth.slope));
   }
@@ -71,7 +71,7 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
   std::size_t rays = 0;
   for (const RayGroup& group : groups) {
     const Pass first = trace_group(group, method, setting);
-    for (std::size_t k = 0; k < group.size(); ++k) errors.add(first.traced[k], group[k]);
+    for (std::size_t k = 0; k < group.size(); ++k) errors.add(first.rays[k], group[k]);
     double best = repeats > 0 ? std::numeric_limits<double>::infinity() : first.ns;
     for (int k = 0; k < repeats; ++k) best = std::min(best, trace_group(group, method, setting).ns);
     trace_ns += best;

@@ -2,6 +2,8 @@
 // new method is added to.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,18 +11,22 @@
 
 namespace domefall {
 
+struct FollowedRay {
+  std::optional<Origin> origin;  // none: undecided
+  double phi;
+};
+
 struct RayMethod {
   std::string name;
-  TraceMethod method;
-  std::string setting_name;      // bits of a table, tolerance; empty where there is none
+  std::string setting_name;      // bits of a table, tolerance of a step; empty where there is none
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
   bool keeps_tables;             // the first ray at a radius pays for those that follow
+  bool is_integrated;            // step by step, from E, L and k^r in double precision
+  std::function<FollowedRay(const RayRequest&, double setting)> follow;
 };
 
 // quick: few settings of each.
 std::vector<RayMethod> ray_methods(bool quick);
-
-TracedRay trace_by(const RayMethod& method, double setting, const RayRequest& request);
 
 }  // namespace domefall

@@ -7,25 +7,20 @@
 #include <random>
 #include <string_view>
 
-#include "pipeline/report/reference_ray.h"
+#include "pipeline/report/traced_reference.h"
 
 namespace domefall {
 namespace {
 
-// The observers of trace_ray and what stands for each in the reference.
 struct Observer {
   const char* region;
-  TraceObserver traced;
-  ReferenceObserver reference;
+  TraceObserver observer;
 };
 constexpr std::array kObservers{
-    Observer{"I", TraceObserver::kRain, ReferenceObserver::kRain},
-    Observer{"I", TraceObserver::kStatic, ReferenceObserver::kStatic},
-    Observer{"I", TraceObserver::kOutgoing, ReferenceObserver::kOutgoing},
-    Observer{"II", TraceObserver::kRain, ReferenceObserver::kRain},
-    Observer{"II", TraceObserver::kTwo, ReferenceObserver::kTwo},
-    Observer{"IV", TraceObserver::kOutgoing, ReferenceObserver::kOutgoing},
-    Observer{"IV", TraceObserver::kFour, ReferenceObserver::kFour},
+    Observer{"I", TraceObserver::kRain},     Observer{"I", TraceObserver::kStatic},
+    Observer{"I", TraceObserver::kOutgoing}, Observer{"II", TraceObserver::kRain},
+    Observer{"II", TraceObserver::kTwo},     Observer{"IV", TraceObserver::kOutgoing},
+    Observer{"IV", TraceObserver::kFour},
 };
 
 constexpr std::array kClasses{
@@ -39,10 +34,10 @@ constexpr std::array kClasses{
     RayClass{"IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
 };
 
-std::vector<Observer> observers_in(std::string_view region) {
-  std::vector<Observer> found;
+std::vector<TraceObserver> observers_in(std::string_view region) {
+  std::vector<TraceObserver> found;
   for (const Observer& o : kObservers)
-    if (o.region == region) found.push_back(o);
+    if (o.region == region) found.push_back(o.observer);
   return found;
 }
 
@@ -68,43 +63,26 @@ class Dice {
 constexpr double kLeastOffset = 1e-12, kMostOffset = 1e-3;
 constexpr double kFarReach = 1000;  // radii of the silhouette
 
-RayRequest throw_ray(const Observer& of, Difficulty difficulty, double r, Dice& dice) {
+RayRequest throw_ray(TraceObserver observer, Difficulty difficulty, double r, Dice& dice) {
   RayRequest q;
-  q.observer = of.traced;
+  q.observer = observer;
   q.at = Radius(r);
-  const auto silhouette = [&] {
-    return static_cast<double>(reference_edge(of.reference, r, ReferenceEdge::kSilhouette));
-  };
   if (difficulty == Difficulty::kEdge) {
     const bool third = q.at.above_horizon < 0 && dice.heads();
     q.edge = third ? Edge::kRegionThree : Edge::kSilhouette;
     q.offset = dice.even_log(kLeastOffset, kMostOffset) * (dice.heads() ? 1 : -1);
   } else if (difficulty == Difficulty::kFar && dice.heads()) {
-    q.delta = std::min(silhouette() * dice.even_log(1.0 / 2, kFarReach), std::numbers::pi);
+    q.delta =
+        std::min(edge_delta(observer, q.at, Edge::kSilhouette) * dice.even_log(1.0 / 2, kFarReach),
+                 std::numbers::pi);
   } else {
     q.delta = static_cast<double>(dice.even(0, std::numbers::pi));
   }
   return q;
 }
 
-Origin origin_from(ReferenceOrigin origin) {
-  switch (origin) {
-    case ReferenceOrigin::kSkyOne:
-      return Origin::kSkyOne;
-    case ReferenceOrigin::kSkyThree:
-      return Origin::kSkyThree;
-    case ReferenceOrigin::kPastSingularity:
-      break;
-  }
-  return Origin::kPastSingularity;
-}
-
-SampleRay with_truth(const RayRequest& q, ReferenceObserver observer) {
-  ReferenceRequest exact{observer, q.at.r, Wide(q.delta), std::nullopt, q.offset};
-  if (q.edge)
-    exact.edge =
-        *q.edge == Edge::kSilhouette ? ReferenceEdge::kSilhouette : ReferenceEdge::kRegionThree;
-  const ReferenceRay ray = reference_ray(exact);
+SampleRay with_truth(const RayRequest& q) {
+  const ReferenceRay ray = reference_ray(reference_request(q));
   return {q, origin_from(ray.origin), static_cast<double>(ray.phi), static_cast<double>(ray.slope)};
 }
 
@@ -113,16 +91,15 @@ SampleRay with_truth(const RayRequest& q, ReferenceObserver observer) {
 std::span<const RayClass> ray_classes() { return kClasses; }
 
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
-  const std::vector<Observer> observers = observers_in(of.region);
+  const std::vector<TraceObserver> observers = observers_in(of.region);
   constexpr std::uint64_t kSeed = 1511'06025;
   Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
   std::vector<RayGroup> groups(static_cast<std::size_t>(radii));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Observer& observer = observers[g % observers.size()];
+    const TraceObserver observer = observers[g % observers.size()];
     const double r = dice.even_log(of.r_least, of.r_most);
     for (int k = 0; k < per_radius; ++k)
-      groups[g].push_back(
-          with_truth(throw_ray(observer, of.difficulty, r, dice), observer.reference));
+      groups[g].push_back(with_truth(throw_ray(observer, of.difficulty, r, dice)));
   }
   return groups;
 }
