@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   domefall::add_states(app);
   domefall::add_probe(app);
   domefall::add_trace(app);
+  domefall::add_report(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

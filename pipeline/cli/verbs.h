@@ -13,5 +13,6 @@ void add_preview(CLI::App& app);
 void add_states(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);
+void add_report(CLI::App& app);
 
 }  // namespace domefall

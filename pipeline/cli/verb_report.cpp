@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "pipeline/cli/verbs.h"
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/report/gnuplot.h"
+#include "pipeline/report/report.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw_file_error(folder, error.value());
+}
+
+void write_drawings(const std::vector<Figure>& figures, const fs::path& folder) {
+  make_folder(folder);
+  for (const Figure& figure : figures)
+    write_atomically(folder / (figure.name + ".svg"), draw(figure.plot));
+}
+
+void report(const fs::path& out, bool quick, bool with_figures) {
+  gnuplot_version();  // before minutes of work, not after
+  make_folder(out);
+  std::vector<Figure> figures;
+  if (with_figures) {
+    figures = figures_of_the_paper();
+    write_drawings(figures, out / "figures");
+  }
+  const Report measured = measure_report(
+      quick, [](const std::string& what) { std::fprintf(stderr, "measuring %s\n", what.c_str()); });
+  write_atomically(out / "rays.csv", csv_of(measured.rays));
+  write_atomically(out / "frames.csv", csv_of(measured.frames));
+  write_atomically(out / "orbits.csv", csv_of(measured.orbits));
+  const std::vector<Figure> plots = error_plots(measured);
+  write_drawings(plots, out / "plots");
+  write_atomically(out / "accuracy.md", accuracy_page(measured, plots, figures));
+  std::fprintf(stderr, "%s\n", (out / "accuracy.md").c_str());
+}
+
+}  // namespace
+
+void add_report(CLI::App& app) {
+  auto* verb =
+      app.add_subcommand("report", "Error against run time, as tables, plots and a page about it");
+  struct Options {
+    std::string out;
+    bool quick = false, figures = false;
+  };
+  auto options = std::make_shared<Options>();
+  verb->add_option("--out", options->out, "the folder for accuracy.md, CSV files and plots/")
+      ->required();
+  verb->add_flag("--quick", options->quick, "few rays and frames: seconds instead of minutes");
+  verb->add_flag("--figures", options->figures,
+                 "the curves of the paper's figures as well, in figures/");
+  verb->callback([options] { report(options->out, options->quick, options->figures); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/report/report.h"
+#include "pipeline/report/text.h"
+
+namespace domefall {
+namespace {
+
+// What has no error at all is drawn here: a logarithm has no zero.
+constexpr double kFloor = 1e-18;
+double drawn(double error) { return std::max(error, kFloor); }
+
+constexpr double kMicro = 1e-3;  // ns to us
+
+// Adds the point to the curve of that name, made at its first point.
+void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
+  auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
+                            [&](const Curve& c) { return c.name == name; });
+  if (curve == plot.curves.end()) {
+    const int colour = static_cast<int>(plot.curves.size());
+    curve = plot.curves.insert(curve, {name, {}, colour, Curve::Style::kPoints});
+  }
+  curve->points.push_back(point);
+}
+
+Plot log_plot(const std::string& title, const std::string& x, const std::string& y) {
+  Plot plot;
+  plot.title = title;
+  plot.x = {x, Axis::Scale::kLog};
+  plot.y = {y, Axis::Scale::kLog};
+  plot.legend = "outside right";
+  return plot;
+}
+
+using RayValue = double RayErrorRow::*;
+
+Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const char* what,
+              RayValue error) {
+  Plot plot = log_plot(std::string("Rays seen from region ") + of.region + ", " + of.name,
+                       "time for one ray, µs", what);
+  for (const RayErrorRow& row : rows)
+    if (row.region == of.region && row.difficulty == of.name)
+      add_point(plot, row.method, {row.ns_per_ray * kMicro, drawn(row.*error)});
+  return plot;
+}
+
+Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
+                double FrameErrorRow::*error) {
+  Plot plot =
+      log_plot("Frames by the renderer's anti-aliasing", "CPU time, in copies of the frame", what);
+  plot.legend = "outside bottom";
+  for (const FrameErrorRow& row : rows) add_point(plot, row.scene, {row.copies, row.*error});
+  // Along a curve the time rises, whatever the order of the settings.
+  for (Curve& curve : plot.curves)
+    std::sort(curve.points.begin(), curve.points.end(),
+              [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+  return plot;
+}
+
+void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<Figure>& plots) {
+  constexpr double kStates = 1000, kMicroseconds = 1e6;
+  std::vector<std::string> orbits;
+  for (const OrbitErrorRow& row : rows)
+    if (row.tolerance > 0 && std::find(orbits.begin(), orbits.end(), row.orbit) == orbits.end())
+      orbits.push_back(row.orbit);
+  for (const std::string& orbit : orbits) {
+    Plot plot = log_plot("Orbit: " + orbit, "time for one state, µs",
+                         "error of the place (relative in r, or radians)");
+    for (const OrbitErrorRow& row : rows)
+      if (row.orbit == orbit)
+        add_point(
+            plot, row.method,
+            {row.seconds / kStates * kMicroseconds, drawn(std::max(row.r_error, row.phi_error))});
+    plots.push_back({"orbit_" + slug(orbit), plot});
+  }
+}
+
+}  // namespace
+
+std::vector<Figure> error_plots(const Report& report) {
+  std::vector<Figure> plots;
+  for (const RayClass& of : ray_classes()) {
+    const std::string name = std::string("rays_") + of.region + "_" + of.name;
+    plots.push_back({name, ray_plot(report.rays, of, "error of φ, 99 of 100 rays below",
+                                    &RayErrorRow::phi_99)});
+    plots.push_back(
+        {name + "_sky", ray_plot(report.rays, of, "error on the sky, radians, 99 of 100 rays below",
+                                 &RayErrorRow::sky_99)});
+  }
+  plots.push_back({"frames_rms", frame_plot(report.frames, "root mean square error, white = 1",
+                                            &FrameErrorRow::rms)});
+  plots.push_back({"frames_worst", frame_plot(report.frames, "worst error of a pixel, white = 1",
+                                              &FrameErrorRow::worst)});
+  add_orbit_plots(report.orbits, plots);
+  return plots;
+}
+
+}  // namespace domefall

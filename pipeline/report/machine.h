@@ -1,0 +1,18 @@
+// What the report was measured on.
+#pragma once
+
+#include <string>
+
+namespace domefall {
+
+struct Machine {
+  std::string processor;  // model, as the system calls it
+  unsigned cores;         // that the system shows
+  std::string compiler;
+  std::string version;  // of Domefall
+  std::string date;     // UTC, of today
+};
+
+Machine this_machine();
+
+}  // namespace domefall

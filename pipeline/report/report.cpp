@@ -1,0 +1,67 @@
+#include "pipeline/report/report.h"
+
+#include "pipeline/report/extreme_cases.h"
+#include "pipeline/report/text.h"
+
+namespace domefall {
+namespace {
+
+constexpr const char* kExact = "%.6g";  // a measured number
+
+std::string joined(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_cell(cell);
+  return line + "\n";
+}
+
+std::string n(double value) { return formatted(kExact, value); }
+
+}  // namespace
+
+Report measure_report(bool quick, const std::function<void(const std::string&)>& told) {
+  Report report;
+  report.quick = quick;
+  told("orbits");
+  report.orbits = measure_orbits(quick);
+  told("rays");
+  report.rays = measure_rays(quick);
+  told("frames");
+  report.frames = measure_frames(quick);
+  if (!quick) {
+    told("extreme cases");
+    report.extremes = extreme_table();
+  }
+  return report;
+}
+
+std::string csv_of(const std::vector<RayErrorRow>& rows) {
+  std::string csv =
+      "region,difficulty,method,setting,is_default,rays,undecided,phi_worst,phi_99,sky_worst,"
+      "sky_99,ns_per_ray,build_us\n";
+  for (const RayErrorRow& r : rows)
+    csv += joined({r.region, r.difficulty, r.method, n(r.setting), r.is_default ? "1" : "0",
+                   std::to_string(r.rays), std::to_string(r.undecided), n(r.phi_worst), n(r.phi_99),
+                   n(r.sky_worst), n(r.sky_99), n(r.ns_per_ray), n(r.build_us)});
+  return csv;
+}
+
+std::string csv_of(const std::vector<FrameErrorRow>& rows) {
+  std::string csv = "scene,setting,size,rms,worst,seconds,copies\n";
+  for (const FrameErrorRow& r : rows)
+    csv += joined({r.scene, r.setting, std::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
+                   n(r.copies)});
+  return csv;
+}
+
+std::string csv_of(const std::vector<OrbitErrorRow>& rows) {
+  std::string csv =
+      "orbit,method,tolerance,energy_drift,angular_momentum_drift,norm_drift,r_error,phi_error,"
+      "seconds\n";
+  for (const OrbitErrorRow& r : rows)
+    csv +=
+        joined({r.orbit, r.method, n(r.tolerance), n(r.energy_drift), n(r.angular_momentum_drift),
+                n(r.norm_drift), n(r.r_error), n(r.phi_error), n(r.seconds)});
+  return csv;
+}
+
+}  // namespace domefall
