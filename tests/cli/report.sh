@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# domefall report: every CSV has plausible rows within the stated errors, every plot is an SVG document, the page
+# links only to what is there; and without gnuplot it says so before it works.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+
+exits 0 "$DOMEFALL" report --out report --quick --figures
+python3 - report <<'END'
+import csv, math, pathlib, re, sys
+import xml.etree.ElementTree as xml
+folder = pathlib.Path(sys.argv[1])
+
+def rows(name, numbers):
+    with open(folder / name) as file:
+        found = list(csv.DictReader(file))
+    for row in found:
+        for column in numbers:
+            assert math.isfinite(float(row[column])) and float(row[column]) >= 0, (name, row)
+    return found
+
+rays = rows('rays.csv', ['rays', 'undecided', 'phi_worst', 'phi_99', 'sky_worst', 'sky_99', 'ns_per_ray', 'build_us'])
+classes = {(row['region'], row['difficulty']) for row in rays}
+assert classes == {('I', 'ordinary'), ('I', 'edge'), ('I', 'far'), ('II', 'ordinary'), ('II', 'edge'),
+                   ('II', 'deep'), ('IV', 'ordinary'), ('IV', 'deep')}, classes
+methods = {row['method'] for row in rays}
+assert len(methods) == 7, methods
+# The default of each method, once for every class. Stated in the headers of pipeline/optics: 1e-9 for the table,
+# 1e-13 for the integral (far away phi of a small angle is less certain than the look); the integrators
+# err by some times the tolerance, 1e-9, on the sky but for rays near the extremum of phi, which region IV sees.
+limit = {'table': 1e-9, 'exact': 1e-12}
+for method in methods:
+    default = [row for row in rays if row['method'] == method and row['is_default'] == '1']
+    assert len(default) == len(classes), (method, len(default))
+    for row in default:
+        assert float(row['sky_99']) <= float(row['sky_worst']) < limit.get(method, 1e-5), row
+        assert float(row['ns_per_ray']) > 1, row
+        if method in limit:
+            assert row['undecided'] == '0' and float(row['phi_worst']) < 1e-9, row
+        elif row['difficulty'] != 'edge':
+            assert row['undecided'] == '0' and float(row['phi_99']) < 1e-5, row
+# More digits are asked for, more are had.
+for method in methods - {'exact'}:
+    settings = sorted({float(row['setting']) for row in rays if row['method'] == method})
+    total = [sum(float(row['sky_99']) for row in rays
+                 if row['method'] == method and float(row['setting']) == setting) for setting in settings]
+    coarse, fine = (total[0], total[-1]) if method == 'table' else (total[-1], total[0])
+    assert fine < coarse / 100, (method, settings, total)
+
+frames = rows('frames.csv', ['rms', 'worst', 'seconds', 'copies'])
+by_setting = {row['setting']: float(row['rms']) for row in frames}
+assert len(frames) == len(by_setting) >= 4, by_setting
+usual = next(rms for setting, rms in by_setting.items() if 'default' in setting)
+assert 0 < usual < by_setting['1 look'] < 0.1, by_setting
+
+orbits = rows('orbits.csv', ['energy_drift', 'angular_momentum_drift', 'norm_drift', 'r_error', 'phi_error', 'seconds'])
+closed = [row for row in orbits if row['method'] == 'closed form']
+assert len(closed) >= 4 and len(orbits) > 2 * len(closed)
+# A fall that began 77 M of proper time ago, told in doubles, is 1e-9 of r from where it should be at 0.001 M.
+for row in closed:
+    assert float(row['r_error']) < (1e-9 if 'fall' in row['orbit'] else 1e-12) and float(row['norm_drift']) < 1e-9, row
+
+drawn = sorted(folder.glob('*/*.svg'))
+assert len(drawn) >= 16 + 2 + 3 + 6, len(drawn)
+for file in drawn:
+    root = xml.parse(file).getroot()
+    assert root.tag.endswith('svg') and len(list(root.iter('{http://www.w3.org/2000/svg}path'))) > 10, file
+page = (folder / 'accuracy.md').read_text()
+links = re.findall(r'\]\(([^)]+)\)', page)
+assert len(links) >= len(drawn)
+for link in links:
+    assert (folder / link).is_file(), link
+assert not re.search(r'\b(nan|inf)\b', page), 'a number in the page is none'
+print(f'{len(rays)} rows of rays, {len(frames)} of frames, {len(orbits)} of orbits, {len(drawn)} drawings')
+END
+[ -z "$(find report -name '*.tmp')" ] || fail "temporaries were left"
+
+# Without gnuplot nothing is begun.
+mkdir empty
+exits 2 env PATH="$folder/empty" "$DOMEFALL" report --out none --quick
+says 'gnuplot-nox'
+[ ! -e none ] || fail "a report was begun that could not be drawn"
+
+# A folder that cannot be made.
+touch occupied
+exits 2 "$DOMEFALL" report --out occupied/report --quick
+says '^occupied/report: '
+exits 2 "$DOMEFALL" report --quick
