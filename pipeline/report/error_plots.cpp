@@ -45,16 +45,23 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
   return plot;
 }
 
+// Looking often everywhere is another way than looking often where it matters: a curve of its own in
+// the scene's colour.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
-  Plot plot =
-      log_plot("Frames by the renderer's anti-aliasing", "CPU time, in copies of the frame", what);
-  plot.legend = "outside bottom";
-  for (const FrameErrorRow& row : rows) add_point(plot, row.scene, {row.copies, row.*error});
-  // Along a curve the time rises, whatever the order of the settings.
-  for (Curve& curve : plot.curves)
-    std::sort(curve.points.begin(), curve.points.end(),
-              [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+  Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: everywhere)",
+                       "CPU time, in copies of the frame", what);
+  plot.legend = "below maxcols 3";
+  Plot everywhere;
+  for (const FrameErrorRow& row : rows) {
+    const bool all = row.setting.find("everywhere") != std::string::npos;
+    add_point(all ? everywhere : plot, row.scene, {row.copies, row.*error});
+  }
+  for (Curve& curve : everywhere.curves) {
+    curve.style = Curve::Style::kDashed;
+    curve.name.clear();
+    plot.curves.push_back(curve);
+  }
   return plot;
 }
 
