@@ -54,7 +54,10 @@ constexpr const char* kRaysMeasured =
     "The times of *table* and *exact* are for azimuth and slope, those of the integrators for the\n"
     "azimuth alone. The time of *table* is of one ray by itself, with all that leads to the "
     "look-up; a table, once built, serves\nall rays of its radius, and frames look up 128 "
-    "directions at a time.\n\n";
+    "directions at a time.\n\n"
+    "*rk4* is the paper's own way, adaptive in Schwarzschild and Kruskal coordinates; *dopri5* and "
+    "*rkf78* take\nthe same equations by Dormand-Prince 5(4) and Fehlberg 7(8), *binet-...* the "
+    "orbit's equation by the same two.\n\n";
 
 double worst_of(const std::vector<RayErrorRow>& rows, const std::string& method,
                 double RayErrorRow::*value) {
@@ -138,9 +141,10 @@ std::string rays(const Report& report) {
   std::string page = kRaysMeasured + default_of_rays(report.rays) + quickest_table(report.rays);
   for (const RayClass& of : ray_classes()) {
     const std::string plot = std::string("plots/rays_") + of.region + "_" + of.name;
-    page += std::string("### Seen from region ") + of.region + ", " + of.name + "\n\n" +
-            class_table(report.rays, of) + "![error of the azimuth against time](" + plot +
-            ".svg)\n![error on the sky against time](" + plot + "_sky.svg)\n\n";
+    page += std::string("### Seen from region ") + of.region + ", " + of.name + "\n\n";
+    page += class_table(report.rays, of);
+    page += "![error of the azimuth against time](" + plot + ".svg)\n";
+    page += "![error on the sky against time](" + plot + "_sky.svg)\n\n";
   }
   return page;
 }

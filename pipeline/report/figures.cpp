@@ -24,6 +24,7 @@ std::vector<double> distances(double reach) {
   constexpr int kLog = 160, kEven = 120;
   constexpr double kLeast = 1e-9;
   std::vector<double> d;
+  d.reserve(kLog + kEven);
   for (int k = 0; k < kLog; ++k) d.push_back(kLeast * std::pow(reach / kLeast, k / (kLog - 1.0)));
   for (int k = 1; k < kEven; ++k) d.push_back(reach * k / kEven);
   std::sort(d.begin(), d.end());
@@ -36,10 +37,12 @@ std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, c
     RayRequest q{observer, r, end.delta + offset, end.edge, offset};
     return PlotPoint{end.delta + offset, trace_ray(q, TraceMethod::kTable).phi};
   };
-  const std::vector<double> d = distances((high.delta - low.delta) / 2);
+  std::vector<double> d = distances((high.delta - low.delta) / 2);
   std::vector<PlotPoint> points;
+  points.reserve(2 * d.size());
   for (const double from_low : d) points.push_back(azimuth(low, from_low));
-  for (auto k = d.rbegin(); k != d.rend(); ++k) points.push_back(azimuth(high, -*k));
+  std::reverse(d.begin(), d.end());
+  for (const double from_high : d) points.push_back(azimuth(high, -from_high));
   return points;
 }
 
@@ -52,7 +55,9 @@ std::vector<PlotPoint> signed_curve(const std::vector<PlotPoint>& swept, double 
 
 std::vector<PlotPoint> continued(const std::vector<PlotPoint>& points) {
   std::vector<PlotPoint> other;
-  for (auto p = points.rbegin(); p != points.rend(); ++p) other.push_back({2 * kPi - p->x, -p->y});
+  other.reserve(points.size());
+  for (const PlotPoint& p : points) other.push_back({2 * kPi - p.x, -p.y});
+  std::reverse(other.begin(), other.end());
   return other;
 }
 

@@ -17,7 +17,7 @@ struct FollowedRay {
 };
 
 struct RayMethod {
-  std::string name;
+  std::string name;              // as in `domefall trace --method`
   std::string setting_name;      // bits of a table, tolerance of a step; empty where there is none
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
