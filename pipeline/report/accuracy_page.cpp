@@ -137,8 +137,19 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   return table + "\n";
 }
 
+std::string looks(const std::vector<LookSpeedRow>& rows) {
+  std::string page =
+      "In a frame, where 128 looks go together, one look costs, from the pixel's direction to the "
+      "place on the\nsky, aberration, redshift and footprint included, on one thread:\n\n"
+      "| observer | ns per look |\n|---|---|\n";
+  for (const LookSpeedRow& row : rows)
+    page += "| " + row.from + " | " + formatted("%.1f", row.ns) + " |\n";
+  return page + "\n";
+}
+
 std::string rays(const Report& report) {
-  std::string page = kRaysMeasured + default_of_rays(report.rays) + quickest_table(report.rays);
+  std::string page = kRaysMeasured + default_of_rays(report.rays) + looks(report.looks) +
+                     quickest_table(report.rays);
   for (const RayClass& of : ray_classes()) {
     const std::string plot = std::string("plots/rays_") + of.region + "_" + of.name;
     page += std::string("### Seen from region ") + of.region + ", " + of.name + "\n\n";

@@ -7,6 +7,7 @@
 
 #include "pipeline/report/figures.h"
 #include "pipeline/report/frame_errors.h"
+#include "pipeline/report/look_speed.h"
 #include "pipeline/report/orbit_errors.h"
 #include "pipeline/report/ray_errors.h"
 
@@ -15,6 +16,7 @@ namespace domefall {
 struct Report {
   bool quick = false;
   std::vector<RayErrorRow> rays;
+  std::vector<LookSpeedRow> looks;
   std::vector<FrameErrorRow> frames;
   std::vector<OrbitErrorRow> orbits;
   std::string extremes;  // extreme_table(); empty if quick

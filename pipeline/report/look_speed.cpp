@@ -1,0 +1,65 @@
+#include "pipeline/report/look_speed.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+
+#include "pipeline/render/view_tracer.h"
+
+namespace domefall {
+namespace {
+
+struct Observer {
+  const char* name;
+  Region region;
+  Tetrad tetrad;
+  double r;
+};
+constexpr std::array kObservers{
+    Observer{"region I, free fall at 10 M", Region::kI, Tetrad::kRain, 10},
+    Observer{"region II, free fall at 0.5 M", Region::kII, Tetrad::kRain, 0.5},
+    Observer{"region IV, outward at 1 M", Region::kIV, Tetrad::kOutgoing, 1}};
+
+constexpr int kSize = 256, kPasses = 7;
+
+double nanoseconds(const Observer& observer) {
+  FrameState state;
+  state.projection = Domemaster{kSize};
+  state.observer.region = observer.region;
+  state.observer.tetrad = observer.tetrad;
+  state.observer.r = observer.r;
+  const HoleOptics optics = make_hole_optics(observer.r, observer.tetrad, {true, true, true});
+  const ViewTracer tracer(state, optics);
+  std::vector<CameraDirection> looks;
+  for (int row = 0; row < kSize; ++row) {
+    const ColumnRange inside = inside_columns(state.projection, row);
+    const std::size_t before = looks.size();
+    looks.resize(before + static_cast<std::size_t>(std::max(0, inside.last - inside.first + 1)));
+    inside_directions(state.projection, row, inside, looks.data() + before);
+  }
+  LookBatch batch;
+  double best = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t k = 0; k < looks.size(); k += LookBatch::kSize) {
+      const auto count =
+          static_cast<int>(std::min<std::size_t>(LookBatch::kSize, looks.size() - k));
+      tracer.look(looks.data() + k, count, batch);
+    }
+    const auto passed = std::chrono::steady_clock::now() - start;
+    best = std::min(best, std::chrono::duration<double, std::nano>(passed).count());
+  }
+  return best / static_cast<double>(looks.size());
+}
+
+}  // namespace
+
+std::vector<LookSpeedRow> measure_look_speed() {
+  std::vector<LookSpeedRow> rows;
+  for (const Observer& observer : kObservers)
+    rows.push_back({observer.name, nanoseconds(observer)});
+  return rows;
+}
+
+}  // namespace domefall

@@ -1,0 +1,18 @@
+// What a look costs in a frame: 128 directions at a time from camera to sky, aberration, table, redshift
+// and footprint included, as against a ray by itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace domefall {
+
+struct LookSpeedRow {
+  std::string from;  // the observer
+  double ns;         // wall clock for one direction, one thread, the best of several passes
+};
+
+// Every sky lit.  About 0.2 s.
+std::vector<LookSpeedRow> measure_look_speed();
+
+}  // namespace domefall
