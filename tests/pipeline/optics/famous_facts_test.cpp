@@ -44,6 +44,28 @@ TEST(RegionThree, FillsHalfTheSkyAtTheSingularity) {
   EXPECT_NEAR(2 * region_three_edge(1e-12), pi, 1e-5);
 }
 
+// [Riazuelo] sec. on region III: the strongest blueshift, at the edge of either sky, is
+// 1 + z = r sin(delta)/(3 sqrt 3), which tends to r/(3 sqrt 3) at the singularity.
+TEST(Redshift, IsLeastAtTheEdgesAndTendsToROverThreeRootThree) {
+  for (const double r : {1e-6, 1e-4, 1e-2}) {
+    double least = 1e9;
+    for (const Edge edge : {Edge::kSilhouette, Edge::kRegionThree}) {
+      double before = 0;
+      for (double offset = 1e-13; offset < 1.4; offset *= 2) {
+        RayRequest q;
+        q.at = Radius(r);
+        q.edge = edge;
+        q.offset = edge == Edge::kSilhouette ? offset : -offset;
+        const double now = trace_ray(q, TraceMethod::kExact).one_plus_z;
+        EXPECT_GT(now, before) << "1 + z grows away from the edge";
+        before = now;
+        least = std::min(least, now);
+      }
+    }
+    EXPECT_NEAR(least / (r / (3 * std::sqrt(3.0))), 1, 3 * std::sqrt(r)) << r;
+  }
+}
+
 // One-plus-z of sky I seen by an observer with this celerity along m (boosted tetrad).
 double one_plus_z_along(double r, const V3d& celerity, const V3d& m) {
   const AberratedLight seen = to_tetrad(celerity, m);
