@@ -146,6 +146,7 @@ constexpr std::array<std::pair<const char*, TraceMethod>, 7> kMethods{
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const auto& [name, method] : kMethods) names.emplace_back(name);
   return names;
 }
