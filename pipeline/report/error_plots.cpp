@@ -51,7 +51,7 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
   Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: everywhere)",
                        "CPU time, in copies of the frame", what);
-  plot.legend = "below maxcols 3";
+  plot.legend = "below";
   Plot everywhere;
   for (const FrameErrorRow& row : rows) {
     const bool all = row.setting.find("everywhere") != std::string::npos;

@@ -109,13 +109,21 @@ std::string drawn_with(const Curve& curve) {
   return "with lines linewidth 2" + in;
 }
 
+std::string key_script(const std::string& place) {
+  if (place.empty()) return "unset key\n";
+  // gnuplot's own "below" runs into the axis's name.
+  if (place == "below")
+    return "set bmargin 8\nset key at screen 0.98,0.03 right bottom maxrows 3\n";
+  return "set key " + place + " opaque\n";
+}
+
 }  // namespace
 
 std::string gnuplot_script(const Plot& plot) {
   std::string script = kStyle;
   script += "set title " + quoted(plot.title) + "\n";
   script += axis_script("x", plot.x) + axis_script("y", plot.y);
-  script += plot.legend.empty() ? "unset key\n" : "set key " + plot.legend + " opaque\n";
+  script += key_script(plot.legend);
   for (const PlotLabel& label : plot.labels)
     script += "set label " + quoted(label.text) + " at " + number(label.x) + "," + number(label.y) +
               " center front\n";

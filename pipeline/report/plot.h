@@ -37,7 +37,7 @@ struct Plot {
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<PlotLabel> labels;
-  std::string legend = "top right";  // a place as gnuplot calls it; empty: none
+  std::string legend = "top right";  // a place as gnuplot calls it, or below; empty: none
 };
 
 // What gnuplot needs to write the plot to its standard output as SVG.  Points that are not finite, or

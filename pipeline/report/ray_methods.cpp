@@ -35,7 +35,7 @@ const double kDefaultTolerance = TraceOptions{}.tolerance;
 
 std::vector<double> tolerances(bool quick) {
   if (quick) return {1e-5, kDefaultTolerance};
-  return {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, kDefaultTolerance, 1e-10, 1e-11, 1e-12, 1e-13};
+  return {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 }
 
 struct NamedIntegrator {

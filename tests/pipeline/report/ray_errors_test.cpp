@@ -60,6 +60,15 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
   }
 }
 
+TEST(RayMethods, HaveTheirDefaultOnceAmongTheirSettings) {
+  for (const bool quick : {false, true})
+    for (const RayMethod& method : ray_methods(quick)) {
+      const std::set<double> different(method.settings.begin(), method.settings.end());
+      EXPECT_EQ(different.size(), method.settings.size()) << method.name;
+      EXPECT_EQ(different.count(method.default_setting), 1U) << method.name;
+    }
+}
+
 // A measure that cannot tell a wrong ray from a right one would be none.
 TEST(RayErrors, SeeAShiftedTruthAndAWrongOrigin) {
   const RayClass of = ray_classes().front();
