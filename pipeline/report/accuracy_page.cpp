@@ -84,7 +84,8 @@ std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
   const double sky = worst_of(rows, "table", &RayErrorRow::sky_worst);
   const double ns = mean_of(rows, "table", &RayErrorRow::ns_per_ray);
   const double exact_ns = mean_of(rows, "exact", &RayErrorRow::ns_per_ray);
-  return "**Default: the table, 8 intervals to the octave.** Its worst displacement on the sky "
+  return "**Default: the table, " + std::to_string(1 << OctaveCurve::kPerOctaveBits) +
+         " intervals to the octave.** Its worst displacement on the sky "
          "over "
          "all these rays\nis " +
          error(sky) + " radians, " + error(sky / kPixel8k) +

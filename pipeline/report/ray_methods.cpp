@@ -52,11 +52,11 @@ constexpr std::array kIntegrators{NamedIntegrator{"rk4", TraceMethod::kPaperRk4}
 
 std::vector<RayMethod> ray_methods(bool quick) {
   std::vector<RayMethod> methods{
-      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, false, by_table},
-      {"exact", "", {0}, 0, false, false, by_integral}};
+      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
+      {"exact", "", {0}, 0, false, by_integral}};
   for (const auto& integrator : kIntegrators)
     methods.push_back({integrator.name, "tolerance", tolerances(quick), kDefaultTolerance, false,
-                       true, [method = integrator.method](const RayRequest& q, double tolerance) {
+                       [method = integrator.method](const RayRequest& q, double tolerance) {
                          return by_steps(q, method, tolerance);
                        }});
   return methods;

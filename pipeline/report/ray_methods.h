@@ -22,7 +22,6 @@ struct RayMethod {
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
   bool keeps_tables;             // the first ray at a radius pays for those that follow
-  bool is_integrated;            // step by step, from E, L and k^r in double precision
   std::function<FollowedRay(const RayRequest&, double setting)> follow;
 };
 
