@@ -34,7 +34,7 @@ double edge_separation(const Radius& at) {
 template <class Real>
 Real kappa_of(const Radius& at, const RadialFrame& frame) {
   if (!frame.at_rest) return 1;
-  const Real r = at.r, above = above_horizon_as<Real>(at);
+  const Real r = r_as<Real>(at), above = above_horizon_as<Real>(at);
   return std::sqrt(std::abs(above) / r) / (1 + std::sqrt(2 / r));
 }
 
@@ -60,14 +60,19 @@ NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, 
 
 // k^r in the rain frame: inner ch^2 - (1 + s) sh^2, inner = 1 - s.  Outside, that cancels at
 // tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point, which near the light circle lies
-// as near to the critical rays as these to each other: so its gap is made from theirs.
+// as near to the critical rays as these to each other: there its gap is made from theirs.
 double rain_radial(const NullRay& ray, double s, double inner) {
   const double sh = ray.sin_half, ch = ray.cos_half;
-  if (ray.at.above_horizon <= 0) return inner * ch * ch - (1 + s) * sh * sh;
+  const double out = inner * ch * ch, in = (1 + s) * sh * sh;
+  if (ray.at.above_horizon <= 0) return out - in;
   const double first = std::sqrt(tan_half_critical(ray.at, Critical::kFirst));
   const double second = std::sqrt(tan_half_critical(ray.at, Critical::kSecond));
   const double turning = -edge_separation(ray.at) * first / (first + second);  // kappa - T_first
-  return -(1 + s) * (ray.gap_first - turning * ch) * (sh + first * second * ch);
+  const double sum = (1 + s) * (sh + first * second * ch);
+  // What is rounded in either form: the smaller wins.
+  const double by_gap = std::max(std::abs(ray.gap_first), std::abs(turning * ch)) * sum;
+  if (std::max(out, in) < by_gap) return out - in;
+  return -(ray.gap_first - turning * ch) * sum;
 }
 
 }  // namespace
@@ -78,22 +83,35 @@ double tan_half_critical(const Radius& at, Critical edge) {
 
 double kappa(const Radius& at, const RadialFrame& frame) { return kappa_of<double>(at, frame); }
 
-NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame) {
+NullRay ray_at(const Radius& at, const LookAngle& alpha, const RadialFrame& frame) {
   const auto kappa = kappa_of<long double>(at, frame);
   const auto gap_from = [&](Critical edge) {
     const long double root = edge == Critical::kFirst ? tan_half_silhouette_long(at)
                                                       : std::abs(tan_half_other_root_long(at));
     const long double tangent = root / kappa;
-    const long double half_offset = alpha / 2 - std::atan(tangent);
+    // From whichever end of the half turn is nearer.
+    const long double half_offset = alpha.angle < alpha.rest
+                                        ? alpha.angle / 2 - std::atan(tangent)
+                                        : std::atan(1 / tangent) - alpha.rest / 2;
     return std::sin(static_cast<double>(half_offset)) * std::hypot(1, static_cast<double>(tangent));
   };
   const double one = gap_from(Critical::kFirst), two = gap_from(Critical::kSecond);
   const bool first = std::abs(one) <= std::abs(two);
-  const auto half = static_cast<double>(alpha / 2);
-  const auto half_left = static_cast<double>((std::numbers::pi_v<long double> - alpha) / 2);
-  const double cosine = alpha < 3 ? std::cos(half) : std::sin(half_left);
-  return ray_from_frame(at, frame, std::sin(half), cosine, first ? one : two,
+  const double sine = std::sin(static_cast<double>(alpha.angle / 2));
+  const double cosine = alpha.angle < alpha.rest ? std::cos(static_cast<double>(alpha.angle / 2))
+                                                 : std::sin(static_cast<double>(alpha.rest / 2));
+  return ray_from_frame(at, frame, sine, cosine, first ? one : two,
                         first ? Critical::kFirst : Critical::kSecond);
+}
+
+NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame) {
+  return ray_at(at, look_angle(alpha), frame);
+}
+
+LookAngle look_angle(long double angle) {
+  // pi, and what a long double leaves of it.
+  constexpr long double kPi = std::numbers::pi_v<long double>, kRest = -5.01655761266833202e-20L;
+  return {angle, (kPi - angle) + kRest};
 }
 
 NullRay ray_off_edge(const Radius& at, Critical edge, double offset, const RadialFrame& frame) {

@@ -47,7 +47,16 @@ struct RadialFrame {
 // sqrt(|1 - s|/(1 + s)) if at rest, else 1.
 double kappa(const Radius& at, const RadialFrame& frame);
 
-// alpha in [0, pi], in that frame; a long double, so that pi - alpha keeps its digits too.
+// An angle in [0, pi] and what is left to pi, each to full relative accuracy.
+struct LookAngle {
+  long double angle, rest;
+
+  LookAngle reversed() const { return {rest, angle}; }
+};
+LookAngle look_angle(long double angle);
+
+// alpha in [0, pi], in that frame.
+NullRay ray_at(const Radius& at, const LookAngle& alpha, const RadialFrame& frame = {});
 NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame = {});
 // alpha = edge + offset in that frame, the offset given to full relative accuracy.
 NullRay ray_off_edge(const Radius& at, Critical edge, double offset, const RadialFrame& frame = {});

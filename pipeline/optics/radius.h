@@ -19,16 +19,22 @@ struct Radius {
         above_light_circle(static_cast<double>(value - 3)) {}
 };
 
-// r - 2 and r - 3 in a type that may be finer than double: near the place what the radius holds of
-// it, elsewhere the difference, which a fine type holds better.
+// r, r - 2 and r - 3 in a type that may be finer than double: near the horizon or the light circle from
+// what the radius holds of them, elsewhere from r.
+inline bool is_near(double distance) { return distance * distance < 0.01; }
+
+template <class Real>
+Real r_as(const Radius& at) {
+  if (is_near(at.above_horizon)) return 2 + Real{at.above_horizon};
+  return is_near(at.above_light_circle) ? 3 + Real{at.above_light_circle} : Real{at.r};
+}
 template <class Real>
 Real above_horizon_as(const Radius& at) {
-  return at.above_horizon * at.above_horizon < 0.01 ? at.above_horizon : Real{at.r} - 2;
+  return is_near(at.above_horizon) ? Real{at.above_horizon} : r_as<Real>(at) - 2;
 }
 template <class Real>
 Real above_light_circle_as(const Radius& at) {
-  return at.above_light_circle * at.above_light_circle < 0.01 ? at.above_light_circle
-                                                              : Real{at.r} - 3;
+  return is_near(at.above_light_circle) ? Real{at.above_light_circle} : r_as<Real>(at) - 3;
 }
 
 }  // namespace domefall

@@ -12,7 +12,7 @@ struct Parts {
   Real signed_root;  // (r - 3) sqrt(1 + 6/r): of r^2 - 27 (1 - 2/r), with the sign of r - 3
 
   explicit Parts(const Radius& at)
-      : r(at.r),
+      : r(r_as<Real>(at)),
         above_horizon(above_horizon_as<Real>(at)),
         root27(std::sqrt(Real{27})),
         s(std::sqrt(2 / r)),

@@ -41,8 +41,8 @@ NullRay ray_of(const RayRequest& q, const View& view) {
     const double offset = view.from_behind ? -q.offset : q.offset;
     return ray_off_edge(q.at, critical_of(view, *q.edge), offset, view.frame);
   }
-  const long double alpha = view.from_behind ? std::numbers::pi_v<long double> - q.delta : q.delta;
-  return ray_at(q.at, alpha, view.frame);
+  const LookAngle delta = look_angle(q.delta);
+  return ray_at(q.at, view.from_behind ? delta.reversed() : delta, view.frame);
 }
 
 // The observer's half angle from the frame of the ray.
