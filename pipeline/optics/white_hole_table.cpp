@@ -88,7 +88,8 @@ WhiteHoleTable::WhiteHoleTable(const Radius& at, Kind kind, int bits)
       range_(range()),
       curve_(
           range_.low, range_.high, [this](double s) { return exact_azimuth(ray_at_place(s)); },
-          bits) {
+          // Next to E = 0 phi hardly changes with the angle: its error is more of one on the sky.
+          kind == Kind::kInside || kind == Kind::kWhiteHole ? bits + 1 : bits) {
   const auto phi = [this](double s) { return exact_azimuth(ray_at_place(s)); };
   if (has_edge()) edge_law_ = fit_edge_law(curve_.x_min(), phi);
   if (is_outside())
