@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "pipeline/render/photometry.h"
@@ -35,12 +36,23 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
 
 }  // namespace
 
+WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
+                            double footprint, double g, double scale) {
+  const double gain = scale * sky.background_gain;
+  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background))
+    return (*map)->sample(sky_direction, footprint) * (panorama_intensity(shift, g) * gain);
+  if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
+  return grid_light({sky_direction}, footprint, g) * gain;
+}
+
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
-                       const Skies& skies, AntiAliasing anti_aliasing)
+                       const Skies& skies, AntiAliasing anti_aliasing,
+                       std::vector<DarkenedSpot> darkened)
     : show_(show),
       projection_(state.projection),
       tracer_(state, optics),
       skies_(skies),
+      darkened_(std::move(darkened)),
       anti_aliasing_(anti_aliasing),
       long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
                                                                        : kLongOnPanorama),
@@ -50,16 +62,20 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
 WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle, bool fine) const {
   const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
   if (sky == nullptr) return {0, 0, 0};
-  const double g = batch.frequency_ratio[k], gain = scale_ * sky->background_gain;
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
-  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky->background))
-    return (*map)->sample(batch.sky_direction(k), sample_angle * longer) *
-           (panorama_intensity(show_.panorama_shift, g) * gain);
-  if (!std::holds_alternative<Grid>(sky->background)) return {0, 0, 0};
-  // Many looks do the blurring themselves; a box as long as each would also smear the lines across
-  // it, which on an Einstein ring are stretched without bound.
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-  return grid_light({batch.sky_direction(k)}, sample_angle * (fine ? shorter : longer), g) * gain;
+  // Many looks do the blurring themselves; a box as long as each would also smear the lines of a grid
+  // across it, which on an Einstein ring are stretched without bound.
+  const bool short_box = fine && std::holds_alternative<Grid>(sky->background);
+  return background_light(*sky, show_.panorama_shift, batch.sky_direction(k),
+                          sample_angle * (short_box ? shorter : longer), batch.frequency_ratio[k],
+                          scale_);
+}
+
+bool PixelLight::is_darkened(SeenSky sky, const CameraDirection& n) const {
+  return std::any_of(darkened_.begin(), darkened_.end(), [&](const DarkenedSpot& spot) {
+    return spot.sky == sky && (n.v - spot.centre.v).length2() <= spot.chord2;
+  });
 }
 
 bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const {
@@ -70,10 +86,12 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
   return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
 }
 
-void PixelLight::shade(const LookBatch& batch, int count, const double* sample_angle, bool fine,
-                       float* rgb) const {
+void PixelLight::shade(const LookBatch& batch, const CameraDirection* n, int count,
+                       const double* sample_angle, bool fine, float* rgb) const {
   for (int k = 0; k < count; ++k, rgb += 3) {
-    const WorkingRgb c = light(batch, k, sample_angle[k], fine);
+    WorkingRgb c{0, 0, 0};
+    if (darkened_.empty() || !is_darkened(batch.sky[k], n[k]))
+      c = light(batch, k, sample_angle[k], fine);
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
 }
@@ -100,7 +118,7 @@ void PixelLight::supersample(int row, const std::vector<int>& pixels, float* rgb
                         {samples * pixel, samples * (pixel + 1) - 1}, n.data() + count);
     }
     tracer_.look(n.data(), count, batch);
-    shade(batch, count, angle.data(), true, fine.data());
+    shade(batch, n.data(), count, angle.data(), true, fine.data());
     const float* sample = fine.data();
     for (int line = first; line < end; ++line) {
       for (int k = 0; k < samples; ++k, sample += 3)
@@ -126,7 +144,7 @@ void PixelLight::fill_row(int row, float* rgb) const {
     for (int k = 0; k < count; ++k)
       angle[static_cast<std::size_t>(k)] = pixel_angle(projection_, {first + k + 1.0, row + 1.0});
     tracer_.look(n.data(), count, batch);
-    shade(batch, count, angle.data(), false, rgb + 3 * first);
+    shade(batch, n.data(), count, angle.data(), false, rgb + 3 * first);
     for (int k = 0; k < count; ++k)
       if (needs_more_samples(batch, k, angle[static_cast<std::size_t>(k)]))
         fine.push_back(first + k);

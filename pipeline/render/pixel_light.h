@@ -7,19 +7,33 @@
 
 namespace domefall {
 
+// Light of a sky's background (cd/m^2, times `scale` and the sky's own gain) at frequency ratio
+// g = 1/(1+z), filtered over `footprint` radians on the sky.  [Riazuelo] sec. ssec_rgb for panoramas.
+WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
+                            double footprint, double g, double scale);
+
+// Where one sky is drawn by other means: looks on it within the cap are dark.
+struct DarkenedSpot {
+  SeenSky sky;
+  CameraDirection centre;
+  double chord2;  // of the cap's radius, squared
+};
+
 class PixelLight {
  public:
   // By SeenSky; null for a dark one.  Everything must outlive it.
   using Skies = std::array<const Sky*, kSkies>;
   PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
-             const Skies& skies, AntiAliasing anti_aliasing = {});
+             const Skies& skies, AntiAliasing anti_aliasing = {},
+             std::vector<DarkenedSpot> darkened = {});
 
   // Scene-linear working-space pixel values of row `row` (from 0) into rgb[3 * columns].
   void fill_row(int row, float* rgb) const;
 
  private:
-  void shade(const LookBatch& batch, int count, const double* sample_angle, bool fine,
-             float* rgb) const;
+  void shade(const LookBatch& batch, const CameraDirection* n, int count,
+             const double* sample_angle, bool fine, float* rgb) const;
+  bool is_darkened(SeenSky sky, const CameraDirection& n) const;
   WorkingRgb light(const LookBatch& batch, int k, double sample_angle, bool fine) const;
   bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
   void supersample(int row, const std::vector<int>& pixels, float* rgb) const;
@@ -28,6 +42,7 @@ class PixelLight {
   Projection projection_;
   ViewTracer tracer_;
   Skies skies_;
+  std::vector<DarkenedSpot> darkened_;
   AntiAliasing anti_aliasing_;
   double long_footprint_;
   double scale_;  // pixel value per cd/m^2

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/render/pixel_light.h"
+#include "pipeline/render/sky_spots.h"
 #include "pipeline/render/star_blobs.h"
 
 namespace domefall {
@@ -179,12 +181,14 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
         append_blobs(BlobMaker(show_, state, table_of(optics, which)),
                      *skies[static_cast<std::size_t>(which)]->stars, blobs);
     t.images = blobs.size();
+    for (const SeenSky which : kEverySky)
+      if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
+    SkySpots spots = find_sky_spots(show_, state, optics, skies);
+    blobs.insert(blobs.end(), spots.blobs.begin(), spots.blobs.end());
     const int bands = (frame.height + kBandRows - 1) / kBandRows;
     const auto by_band = blobs_by_band(blobs, bands);
     t.stars_s = lap();
-    for (const SeenSky which : kEverySky)
-      if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
-    const PixelLight light(show_, state, optics, skies, anti_aliasing_);
+    const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
     const bool background = plan.background();
     tbb::parallel_for(0, bands, [&](int band) {
       std::vector<float> rgb(static_cast<std::size_t>(frame.width) * 3);

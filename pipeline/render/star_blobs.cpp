@@ -14,9 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-// The peak of a narrower blob would change by a third or more as it drifts across pixels: stars
-// would twinkle.
-constexpr double kLeastSigmaPixels = 0.9;
 // Images up to this order are always tried, since either side may be the bright one; beyond, the
 // flux falls by exp(-2 pi) with every second order and the first faint one ends the series.
 constexpr int kAlwaysTried = 4, kLastOrder = 24;
@@ -111,28 +108,25 @@ bool BlobMaker::append_image(const SceneStar& star, const V3d& source, int order
   blob.rgb[0] = static_cast<float>(per_flux.r * pixel_flux);
   blob.rgb[1] = static_cast<float>(per_flux.g * pixel_flux);
   blob.rgb[2] = static_cast<float>(per_flux.b * pixel_flux);
-  place(blob);
-  if (blob.first_row <= blob.last_row && blob.first_column <= blob.last_column)
-    blobs.push_back(blob);
+  if (place_blob(projection_, blob)) blobs.push_back(blob);
   return true;
 }
 
-// The pixels it covers.  Its weights' sum is that of a blob in the open: a star at the rim is cut, not
-// dimmed or brightened.
-void BlobMaker::place(StarBlob& blob) const {
+bool place_blob(const Projection& projection, StarBlob& blob) {
   blob.first_row = blob.first_column = 0;
   blob.last_row = blob.last_column = -1;
-  const auto at = pixel_of(projection_, blob.centre);
-  if (!at) return;
+  const auto at = pixel_of(projection, blob.centre);
+  if (!at) return false;
   const double reach = kBlobReach * blob.sigma;
   const double theta = std::acos(std::clamp(blob.centre.v.z, -1.0, 1.0));
-  const bool dome = std::holds_alternative<Domemaster>(projection_);
-  if (theta - reach > (dome ? pi / 2 : 0.999 * pi) || (!dome && theta + reach > 0.999 * pi)) return;
-  const double half = reach * densest(projection_, theta, reach) + 1;
-  const double width = columns(projection_), height = rows(projection_);
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  if (theta - reach > (dome ? pi / 2 : 0.999 * pi) || (!dome && theta + reach > 0.999 * pi))
+    return false;
+  const double half = reach * densest(projection, theta, reach) + 1;
+  const double width = columns(projection), height = rows(projection);
   if (at->i + half < 0.5 || at->j + half < 0.5 || at->i - half > width + 0.5 ||
       at->j - half > height + 0.5)
-    return;
+    return false;
   const int i0 = static_cast<int>(std::ceil(at->i - half)),
             i1 = static_cast<int>(std::floor(at->i + half));
   const int j0 = static_cast<int>(std::ceil(at->j - half)),
@@ -141,6 +135,7 @@ void BlobMaker::place(StarBlob& blob) const {
   blob.first_row = std::max(j0 - 1, 0), blob.last_row = std::min(j1, static_cast<int>(height)) - 1;
   blob.first_column = std::max(i0 - 1, 0),
   blob.last_column = std::min(i1, static_cast<int>(width)) - 1;
+  return blob.first_row <= blob.last_row && blob.first_column <= blob.last_column;
 }
 
 void draw_row(const StarBlob& blob, const Projection& projection, int row, float* rgb) {

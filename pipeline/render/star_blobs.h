@@ -22,6 +22,14 @@ struct StarBlob {
 
 inline constexpr double kBlobReach = 4.5;
 
+// The peak of a narrower blob would change by a third or more as it drifts across pixels: stars
+// would twinkle.
+inline constexpr double kLeastSigmaPixels = 0.9;
+
+// Fills norm and the pixels that a blob of given centre and sigma covers; false if none is in the
+// picture.  Its weights' sum is that of a blob in the open: a star at the rim is cut, not dimmed.
+bool place_blob(const Projection& projection, StarBlob& blob);
+
 // An image fainter than this peak pixel value, drawn at its smallest, is left out.
 inline constexpr double kFaintestPeak = 2e-4;
 
@@ -35,7 +43,6 @@ class BlobMaker {
  private:
   bool append_image(const SceneStar& star, const V3d& source, int order,
                     std::vector<StarBlob>& blobs) const;
-  void place(StarBlob& blob) const;
 
   const StarBlobs& law_;
   Projection projection_;

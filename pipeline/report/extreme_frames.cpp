@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -88,13 +90,14 @@ ExtremeResult lorentz_factor_of_a_million() {
           moving.celerity = V3d(x, y, z).normalized() * 1e6;
           frames.add(show_of(moving, Domemaster{kSize / 3}, LookAlongMotion{}));
         }
-  return frames.result("The sky is a point of light ahead; what is beyond a half float is white");
+  return frames.result(
+      "The sky gathers in a point ahead; of the grid's blackbodies the visible light fades there");
 }
 
 ExtremeResult static_frame() {
   Frames frames;
   for (const double altitude : {1e-12, 1e-6}) add_domes(frames, StaticObserver{2 + altitude});
-  return frames.result("Blueshifted by a million, the sky is a white point overhead");
+  return frames.result("The sky is a point overhead, its grid blueshifted beyond the visible");
 }
 
 ExtremeResult frames_at(std::initializer_list<double> radii, const char* outcome) {
@@ -135,6 +138,62 @@ ExtremeResult pixel_on_the_axis() {
   ExtremeResult result = frames.result("On the axis a look shows the point behind the observer");
   result.worst += unknown;
   return result;
+}
+
+// Three skies that shrink to a point, or gather in one, ever brighter: region III after the crossing, a
+// static observer's above the horizon, and what lies ahead at ever higher speed.  With an intensity that
+// grows like the square of the frequency, light gained by blueshift is lost by size, so each frame of a
+// series brings the same light; the change from any to the last is measured.
+ExtremeResult crowded_skies() {
+  constexpr int kSteps = 4;
+  struct Series {
+    const char* name;
+    std::function<GivenVelocity(double)> at;
+    Attitude attitude;
+  };
+  const std::vector<Series> all{
+      {"region III",
+       [](double depth) {
+         return GivenVelocity{Region::kII, Tetrad::kRain, 2 - depth, {}};
+       },
+       LookAtHole{}},
+      {"static",
+       [](double altitude) {
+         return GivenVelocity{Region::kI, Tetrad::kRain, 2 + altitude,
+                              resting_celerity(2 + altitude)};
+       },
+       EulerAngles{}},
+      {"ahead",
+       [](double slowness) {
+         return GivenVelocity{Region::kI, Tetrad::kRain, 10, V3d(0, 0.6, 0.8) / slowness};
+       },
+       LookAlongMotion{}}};
+  double worst = 0;
+  std::string outcome;
+  for (const Series& series : all) {
+    Show show = show_of(StaticObserver{10}, Domemaster{kSize + 1}, series.attitude);
+    show.sky_one = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
+    show.sky_three = show.sky_one;
+    if (series.name == all[0].name) show.sky_one.background = BlackSky{};
+    show.sky_four.background = BlackSky{};
+    show.frames_per_second = 1;
+    show.timeline.resize(kSteps, show.timeline[0]);
+    for (int k = 0; k < kSteps; ++k) {
+      Segment& segment = show.timeline[static_cast<std::size_t>(k)];
+      segment.trajectory = series.at(std::pow(10, -4 - 5.0 / 3 * k));
+      segment.camera.elevation = pi / 2;
+    }
+    Renderer renderer(show, 0);
+    std::array<double, kSteps> light{};
+    for (int k = 0; k < kSteps; ++k)
+      for (const Imath::half value : renderer.render(frame_state(show, k)).pixels)
+        light[static_cast<std::size_t>(k)] += static_cast<double>(value);
+    for (const double each : light)
+      worst = std::max(worst, light.back() > 0 ? std::abs(each / light.back() - 1) : 1e9);
+    outcome += (outcome.empty() ? "" : "; ") + std::string(series.name) +
+               text(": light %.4g to %.4g", light.front(), light.back());
+  }
+  return {worst, "From 1e-4 to 1e-9 " + outcome};
 }
 
 // Looks along both poles of the sky, where right ascension has no value.
@@ -193,13 +252,12 @@ ExtremeResult zoom_to_the_seventh_ghost() {
 std::vector<ExtremeCase> extreme_frames() {
   const std::string bad = "pixels that are not finite";
   return {
-      {"LorentzFactorOfAMillion", "gamma = 1e6 in 26 directions, in I, II and IV", bad, 0,
-       lorentz_factor_of_a_million},
+      {"LorentzFactorOfAMillion", "gamma = 1e6 in 26 directions, at four places in I, II and IV",
+       bad, 0, lorentz_factor_of_a_million},
       {"FramesOfAStaticObserver", "static at r = 2 + 1e-12 and 2 + 1e-6", bad, 0, static_frame},
       {"FramesAcrossTheHorizon", "r = 2(1 ± 1e-15), 2, 2 - 1e-9", bad, 0,
        [] {
-         return frames_at({2 + 2e-15, 2.0, 2 - 2e-15, 2 - 1e-9},
-                          "Region III lights up as a point far brighter than white");
+         return frames_at({2 + 2e-15, 2.0, 2 - 2e-15, 2 - 1e-9}, "Region III lights up as a point");
        }},
       {"FramesDeepInside", "r = 1e-3 and 1e-6", bad, 0,
        [] {
@@ -209,6 +267,8 @@ std::vector<ExtremeCase> extreme_frames() {
        [] { return frames_at({1e8}, "The hole is a ten-thousandth of a pixel"); }},
       {"FramesOfTheWhiteHole", "IV from r = 1e-6 to 2; T_IV and T_II next to r = 2", bad, 0,
        white_hole_frames},
+      {"CrowdedSkies", "skies smaller than a pixel: r = 2 ∓ 1e-4 to 1e-9, gamma = 1e4 to 1e9",
+       "change of the light in the frame", 0.05, crowded_skies},
       {"PixelOnTheAxis", "a pixel exactly on the axis of the hole", bad, 0, pixel_on_the_axis},
       {"PoleOfTheSky", "the poles of the sky in the middle of the picture, to 1 µrad across", bad,
        0, pole_of_the_sky},

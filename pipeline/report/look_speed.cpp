@@ -57,6 +57,7 @@ double nanoseconds(const Observer& observer) {
 
 std::vector<LookSpeedRow> measure_look_speed() {
   std::vector<LookSpeedRow> rows;
+  rows.reserve(kObservers.size());
   for (const Observer& observer : kObservers)
     rows.push_back({observer.name, nanoseconds(observer)});
   return rows;
