@@ -97,23 +97,27 @@ class WhiteHoleTable {
   };
   Lookup lookup() const;
 
- private:
-  enum class Kind { kOutside, kOutsideOutgoing, kInside, kWhiteHole };
-
-  // The ends of the curve in s; laws go on beyond them.
+  // For other functions of the same rays: where the curve runs in s, and the ray that stands at an s, of
+  // smaller alpha in II and IV (there E <= 0).
   struct Range {
     double low, high;
   };
+  Range curve_range() const { return {curve_.x_min(), range_.high}; }
+  NullRay ray_at_place(double s) const;
+  const Radius& at() const { return at_; }
+  bool is_outgoing() const { return kind_ == Kind::kOutsideOutgoing || kind_ == Kind::kWhiteHole; }
+  bool has_edge() const { return kind_ != Kind::kWhiteHole; }
+
+ private:
+  enum class Kind { kOutside, kOutsideOutgoing, kInside, kWhiteHole };
+
   WhiteHoleTable(const Radius& at, Kind kind, int bits);
   Range range() const;
   double axis_scale() const;
-  bool has_edge() const { return kind_ != Kind::kWhiteHole; }
   bool has_axis() const { return kind_ != Kind::kInside; }
   bool is_outside() const { return kind_ == Kind::kOutside || kind_ == Kind::kOutsideOutgoing; }
   WhiteHolePlace ratios() const;
   Place off_edge(const Place& p) const;
-  // The half of smaller alpha; outside the only one.
-  NullRay ray_at_place(double s) const;
   double place_of_azimuth(double phi) const;
   // The ray of the same phi on the other side of E = 0.
   NullRay other_half(double s) const;
