@@ -4,6 +4,15 @@
 #include <numbers>
 
 namespace domefall {
+namespace {
+
+// int dr/(s (1 + s)), s = sqrt(2/r) = 1/x: dv = -dr/(s (1 + s)) along the fall.
+double fallen_null_time(double r) {
+  const double x = std::sqrt(r / 2);
+  return 4 * (x * (1 + x * (x / 3 - 0.5)) - std::log1p(x));
+}
+
+}  // namespace
 
 double proper_time_to(const RadialInfall& fall, double r) {
   const double a = fall.from_r;
@@ -15,7 +24,12 @@ OrbitPoint point_at(const RadialInfall& fall, double tau) {
   const double root =
       std::cbrt(fall.from_r * std::sqrt(fall.from_r) - 3 / std::numbers::sqrt2 * tau);
   const double r = root * root;
-  return {r > 2 ? Region::kI : Region::kII, Tetrad::kRain, r, 0, V3d(0, 0, 0)};
+  return {r > 2 ? Region::kI : Region::kII,
+          Tetrad::kRain,
+          r,
+          0,
+          V3d(0, 0, 0),
+          fallen_null_time(fall.from_r) - fallen_null_time(r)};
 }
 
 }  // namespace domefall

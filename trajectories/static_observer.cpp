@@ -9,8 +9,13 @@ V3d resting_celerity(double r, Tetrad tetrad) {
   return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};
 }
 
-OrbitPoint point_at(const StaticObserver& observer, double /*tau*/) {
-  return {Region::kI, Tetrad::kRain, observer.r, 0, resting_celerity(observer.r)};
+OrbitPoint point_at(const StaticObserver& observer, double tau) {
+  return {Region::kI,
+          Tetrad::kRain,
+          observer.r,
+          0,
+          resting_celerity(observer.r),
+          tau / std::sqrt(1 - 2 / observer.r)};
 }
 
 }  // namespace domefall

@@ -60,6 +60,8 @@ void add_tables(HoleOptics& optics, WantedSkies wanted) {
     optics.far_sky.emplace(optics.at, Critical::kSecond, false, optics.table_bits);
   if (wanted.white_hole && !optics.white_hole && !std::isinf(optics.at.r))
     optics.white_hole.emplace(optics.at, outgoing, optics.table_bits);
+  if (wanted.emission_times && !optics.emission_times && optics.white_hole)
+    optics.emission_times.emplace(*optics.white_hole, optics.table_bits);
 }
 
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur) {

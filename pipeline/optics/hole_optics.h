@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "pipeline/optics/emission_time_table.h"
 #include "pipeline/optics/sky_table.h"
 #include "pipeline/optics/white_hole_table.h"
 #include "trajectories/observer_state.h"
@@ -16,6 +17,7 @@ namespace domefall {
 // Which tables to make: what a black sky would show is not worth one.
 struct WantedSkies {
   bool home = true, far = true, white_hole = false;
+  bool emission_times = false;  // of the white hole's light, with white_hole only
 };
 
 struct HoleOptics {
@@ -26,6 +28,7 @@ struct HoleOptics {
   std::optional<SkyEdge> home_edge, far_edge;
   std::optional<SkyTable> home_sky, far_sky;
   std::optional<WhiteHoleTable> white_hole;
+  std::optional<EmissionTimeTable> emission_times;
 };
 
 // r = kFlatSpace: no table at all.  The home sky is there for rain at any r and for the outgoing

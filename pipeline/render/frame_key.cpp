@@ -12,6 +12,7 @@ void add_sky(Digest& digest, const RegionSky& sky) {
   digest.add(static_cast<double>(sky.background.index())).add(sky.background_gain);
   if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
     digest.add_file(panorama->image);
+  if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
   digest.add(sky.stars ? "stars" : "no stars");
   if (sky.stars)
     digest.add_file(sky.stars->catalogue).add(sky.stars->max_magnitude).add(sky.star_gain);
@@ -52,6 +53,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
   Digest three;
   add_sky(three, show.sky_three);
   sky_three_ = three.hex();
+  rings_ = std::holds_alternative<RingsSky>(show.sky_four.background);
   if (std::holds_alternative<BlackSky>(show.sky_four.background)) return;
   Digest four;
   add_sky(four, show.sky_four);
@@ -73,6 +75,7 @@ std::string FrameKeys::scene(const FrameState& state) const {
   add_projection(digest, state.projection);
   if (o.region == Region::kII || o.region == Region::kIII) digest.add(sky_three_);
   if (!is_flat(o)) digest.add(sky_four_);
+  if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
   return digest.hex();
 }
 

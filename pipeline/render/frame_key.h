@@ -28,6 +28,7 @@ class FrameKeys {
  private:
   std::string common_;                // digest of the settings that all frames share
   std::string sky_three_, sky_four_;  // only frames that can see them depend on them
+  bool rings_ = false;                // region IV shows time
   std::string grade_;
 };
 

@@ -8,6 +8,7 @@
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
+#include "pipeline/sky/ring_glow.h"
 
 namespace domefall {
 namespace {
@@ -56,13 +57,18 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
       anti_aliasing_(anti_aliasing),
       long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
                                                                        : kLongOnPanorama),
-      scale_(exposure_scale(show.exposure)) {}
+      scale_(exposure_scale(show.exposure)),
+      null_time_(state.observer.null_time) {}
 
 // sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
 WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle, bool fine) const {
   const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
   if (sky == nullptr) return {0, 0, 0};
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
+  if (const auto* rings = std::get_if<Rings>(&sky->background))
+    return ring_glow((null_time_ + batch.emission_time[k]) / rings->period,
+                     batch.time_scale[k] * sample_angle / rings->period) *
+           (scale_ * sky->background_gain);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
   // Many looks do the blurring themselves; a box as long as each would also smear the lines of a grid
   // across it, which on an Einstein ring are stretched without bound.
@@ -81,6 +87,8 @@ bool PixelLight::is_darkened(SeenSky sky, const CameraDirection& n) const {
 bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const {
   if (anti_aliasing_.samples == 1) return false;
   if (anti_aliasing_.everywhere || batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
+  const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
+  if (sky && std::holds_alternative<Rings>(sky->background)) return false;  // blurred exactly
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
   return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;

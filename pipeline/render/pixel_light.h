@@ -46,6 +46,7 @@ class PixelLight {
   AntiAliasing anti_aliasing_;
   double long_footprint_;
   double scale_;  // pixel value per cd/m^2
+  double null_time_;
 };
 
 }  // namespace domefall

@@ -74,7 +74,8 @@ const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
 std::size_t node_count(const HoleOptics& optics) {
   return (optics.home_sky ? optics.home_sky->node_count() : 0) +
          (optics.far_sky ? optics.far_sky->node_count() : 0) +
-         (optics.white_hole ? optics.white_hole->node_count() : 0);
+         (optics.white_hole ? optics.white_hole->node_count() : 0) +
+         (optics.emission_times ? optics.emission_times->node_count() : 0);
 }
 
 void store_row(const float* rgb, int row, HalfFrame& frame) {
@@ -96,7 +97,9 @@ void store_row(const float* rgb, int row, HalfFrame& frame) {
 
 namespace {
 
-FramePlan::Sky plan_sky(const RegionSky& sky) { return {shows_anything(sky), has_stars(sky)}; }
+FramePlan::Sky plan_sky(const RegionSky& sky) {
+  return {shows_anything(sky), has_stars(sky), std::holds_alternative<RingsSky>(sky.background)};
+}
 
 }  // namespace
 
@@ -147,7 +150,8 @@ const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan&
   const bool mirrored = is_mirrored(o.tetrad);
   const bool one = plan[SeenSky::kOne].lit(), three = plan[SeenSky::kThree].lit();
   const WantedSkies wanted{mirrored ? three : one, mirrored ? one : three,
-                           plan[SeenSky::kFour].lit()};
+                           plan[SeenSky::kFour].lit(),
+                           plan[SeenSky::kFour].lit() && plan[SeenSky::kFour].rings};
   if (!optics_ || optics_->at.r != o.r || optics_->tetrad != o.tetrad)
     optics_ = make_hole_optics(o.r, o.tetrad, wanted);
   else

@@ -21,6 +21,7 @@ struct FramePlan {
   struct Sky {
     bool background = false;  // anything to see but stars
     bool stars = false;
+    bool rings = false;  // lit by the time at which its light started
 
     bool lit() const { return background || stars; }
   };

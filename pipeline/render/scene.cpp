@@ -58,6 +58,7 @@ Sky Scene::load(SeenSky which) const {
   Sky sky;
   sky.background_gain = static_cast<float>(own.background_gain);
   if (std::holds_alternative<GridSky>(own.background)) sky.background = Grid{};
+  if (const auto* rings = std::get_if<RingsSky>(&own.background)) sky.background = *rings;
   for (const SeenSky other : kEverySky) {
     const auto& loaded = skies_[static_cast<std::size_t>(other)];
     if (!loaded) continue;

@@ -23,10 +23,11 @@ struct SceneStar {
 
 struct Grid {};
 struct Black {};
+using Rings = RingsSky;
 
 // The sky of one region.
 struct Sky {
-  std::variant<Black, Grid, std::shared_ptr<const SkyMap>> background;
+  std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
   float background_gain = 1;
   std::shared_ptr<const std::vector<SceneStar>> stars;  // never null; empty if there are none
 };

@@ -149,6 +149,24 @@ void add_white_hole(const WhiteHoleTable& table, const Rain& rain, int count, Lo
   }
 }
 
+EmissionTimeTable::Value emission_of(const HoleOptics& optics, double sin_half, double cos_half,
+                                     double azimuth, double slope) {
+  const WhiteHoleTable::Place place = optics.white_hole->place_of(sin_half, cos_half);
+  const bool beyond = sin_half > optics.white_hole->lookup().place.zero * cos_half;
+  return optics.emission_times->at(place, beyond, azimuth, slope);
+}
+
+void add_emission_times(const HoleOptics& optics, const Rain& rain, const Doubles& azimuth,
+                        const Doubles& slope, int count, LookBatch& batch) {
+  for (int k = 0; k < count; ++k) {
+    if (batch.sky[k] != SeenSky::kFour) continue;
+    const auto value =
+        emission_of(optics, rain.sin_half[k], rain.cos_half[k], azimuth[k], slope[k]);
+    batch.emission_time[k] = value.time;
+    batch.time_scale[k] = value.slope * rain.inverse_doppler[k];
+  }
+}
+
 bool any(const LookBatch& batch, int count, SeenSky name) {
   return std::find(batch.sky.begin(), batch.sky.begin() + count, name) != batch.sky.begin() + count;
 }
@@ -201,6 +219,11 @@ Look ViewTracer::look(const CameraDirection& n) const {
     const WhiteHoleTable::Place place = optics_.white_hole->place_of(half.sine, half.cosine);
     phi = optics_.white_hole->azimuth(place);
     slope = std::min(std::abs(optics_.white_hole->slope(place)), kSteepest);
+    if (optics_.emission_times) {
+      const auto value = emission_of(optics_, half.sine, half.cosine, phi, slope);
+      look.emission_time = value.time;
+      look.time_scale = value.slope / in.frequency_ratio;
+    }
   } else {
     if (!table) return look;
     phi = table->azimuth(x);
@@ -245,6 +268,7 @@ void ViewTracer::look(const CameraDirection* n, int count, LookBatch& batch) con
   add(optics_.far_edge, optics_.far_sky, far_);
   if (optics_.white_hole && any(batch, count, SeenSky::kFour))
     add_white_hole(*optics_.white_hole, rain, count, batch, azimuth, slope);
+  if (optics_.emission_times) add_emission_times(optics_, rain, azimuth, slope, count, batch);
   onto_sky(frame, rain, azimuth.data(), slope.data(), count, batch);
 }
 

@@ -18,6 +18,9 @@ struct Look {
   double frequency_ratio = 1;  // observed / emitted; 1 for the singularity, which has no redshift
   // Angles on the sky per angle of view, along and across the direction of the hole.
   double radial_scale = 0, tangential_scale = 0;
+  // Of the singularity's light, if its times are tabulated: t at emission from the observer's v or u
+  // (EmissionTimeTable), M, and how fast it changes with the angle of view.
+  double emission_time = 0, time_scale = 0;
   // Angle of view to the nearest edge of a sky, radians; infinite without one.
   double to_edge = HUGE_VAL;
 };
@@ -29,6 +32,7 @@ struct LookBatch {
   using Column = std::array<T, kSize>;
   alignas(64) Column<double> sky_x, sky_y, sky_z;
   alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
+  alignas(64) Column<double> emission_time, time_scale;  // only where those times are tabulated
   Column<SeenSky> sky;
 
   V3d sky_direction(int k) const { return {sky_x[k], sky_y[k], sky_z[k]}; }

@@ -52,14 +52,24 @@ double proper_time_at(const Segment& s, double part) {
   return end - left * std::pow((end - s.tau_end) / left, part);
 }
 
-// Azimuth swept by the segments before this one.
-double azimuth_before(const Show& show, int segment) {
-  double sum = 0;
+// What adds up from segment to segment.
+struct Swept {
+  double azimuth = 0, null_time = 0;
+
+  void add(const OrbitPoint& from, const OrbitPoint& to) {
+    azimuth += to.azimuth - from.azimuth;
+    null_time += to.null_time - from.null_time;
+  }
+};
+
+// By the segments before this one.
+Swept swept_before(const Show& show, int segment) {
+  Swept swept;
   for (int k = 0; k < segment; ++k) {
     const Segment& s = show.timeline[static_cast<std::size_t>(k)];
-    sum += point_at(s.trajectory, s.tau_end).azimuth - point_at(s.trajectory, s.tau_begin).azimuth;
+    swept.add(point_at(s.trajectory, s.tau_begin), point_at(s.trajectory, s.tau_end));
   }
-  return sum;
+  return swept;
 }
 
 }  // namespace
@@ -125,8 +135,10 @@ FrameState frame_state(const Show& show, int frame) {
   o.r = point.r;
   o.proper_time = tau;
   o.celerity = point.celerity;
-  const double azimuth = azimuth_before(show, state.segment) + point.azimuth - start.azimuth;
-  o.sky_from_tetrad = place_tetrad(show.hole_at, show.heading, azimuth);
+  Swept swept = swept_before(show, state.segment);
+  swept.add(start, point);
+  o.null_time = swept.null_time;
+  o.sky_from_tetrad = place_tetrad(show.hole_at, show.heading, swept.azimuth);
   o.tetrad_from_camera = camera_axes(segment.camera, show.projection, o);
   return state;
 }

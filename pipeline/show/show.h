@@ -69,7 +69,12 @@ struct GridSky {};
 struct PanoramaSky {
   std::filesystem::path image;
 };
-using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky>;
+// Region IV only: light that left the past singularity at t glows with 1 + cos(2 pi t/period): "a series
+// of rings of variable t", [Riazuelo] sec. on region IV.
+struct RingsSky {
+  double period = 4;  // M, > 0
+};
+using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky, RingsSky>;
 
 struct StarField {
   std::filesystem::path catalogue;

@@ -16,13 +16,19 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   return std::nullopt;
 }
 
-std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup) {
-  static constexpr std::array<std::string_view, 3> kWords{"milky_way", "grid", "black"};
+constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
+
+// Of the words the last is only for the past singularity.
+std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup,
+                                             bool singularity = false) {
+  static constexpr std::array<std::string_view, 4> kAllWords{"milky_way", "grid", "black", "rings"};
+  const std::span kWords(kAllWords.data(), singularity ? 4 : 3);
   const auto text = read_text(item);
   if (!text) return std::nullopt;
   if (*text == kWords[0]) return milky_way(item, lookup);
   if (*text == kWords[1]) return GridSky{};
   if (*text == kWords[2]) return BlackSky{};
+  if (singularity && *text == kWords[3]) return RingsSky{};
   const bool looks_like_file = text->find_first_of("./") != std::string::npos;
   if (looks_like_file || lookup.find(*text)) {
     if (const auto file = lookup.file(item, *text)) return PanoramaSky{*file};
@@ -75,13 +81,25 @@ void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
   if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
 }
 
+void read_singularity(const Section& section, const Lookup& lookup, RegionSky& sky) {
+  sky.background_gain = section.number("gain", kGain, sky.background_gain);
+  const Item* background = section.find("background");
+  const auto found = background ? read_background(*background, lookup, true) : std::nullopt;
+  if (found) sky.background = *found;
+  const auto period = section.number("period_m", kPeriod);
+  if (auto* rings = std::get_if<RingsSky>(&sky.background))
+    rings->period = period.value_or(rings->period);
+  else if (period && (found || !background))
+    section.find("period_m")->fail("is the period of rings; the background must be rings");
+}
+
 // The past singularity: only a background, in full or as a word.
 void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (item.node.IsMap()) {
-    read_region(Section(item, {"background", "gain"}), lookup, sky);
+    read_singularity(Section(item, {"background", "gain", "period_m"}), lookup, sky);
     return;
   }
-  if (const auto found = read_background(item, lookup)) sky.background = *found;
+  if (const auto found = read_background(item, lookup, true)) sky.background = *found;
 }
 
 }  // namespace

@@ -95,5 +95,21 @@ TEST(GivenVelocity, MovingInwardAtFreeFallSpeedAgainstTheStaticFrameIsTheRain) {
   EXPECT_LT(u.length(), 1e-15);
 }
 
+// v = t + r*, by the rates dv/dtau of [Riazuelo]'s orbits: u^t/(1 - 2/r) + u^r/(1 - 2/r).
+TEST(Trajectory, TheNullTimeAdvancesAsTheOrbitsVelocitySays) {
+  const auto rate = [](const Trajectory& t, double tau) {
+    const double h = 1e-4;
+    return (point_at(t, tau + h).null_time - point_at(t, tau - h).null_time) / (2 * h);
+  };
+  EXPECT_NEAR(rate(StaticObserver{20}, 3), 1 / std::sqrt(0.9), 1e-9);
+  EXPECT_NEAR(rate(CircularOrbit{6}, 3), std::sqrt(2.0), 1e-9);
+  const RadialInfall fall{8};
+  for (const double r : {7.0, 3.0, 2.0, 1.0, 0.3}) {
+    const double s = std::sqrt(2 / r);
+    EXPECT_NEAR(rate(fall, proper_time_to(fall, r)), 1 / (1 + s), 1e-5) << r;
+  }
+  EXPECT_EQ(point_at(Trajectory(fall), 0).null_time, 0);
+}
+
 }  // namespace
 }  // namespace domefall

@@ -92,6 +92,8 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
       if (grid)
         show.sky_one.background = show.sky_three.background = show.sky_four.background = GridSky{};
       EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
+      show.sky_four.background = RingsSky{1e-3};
+      EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
     }
   }
 }
@@ -113,6 +115,66 @@ TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
       difference += std::abs(mean - small.row(y)[3 * x]), sum += mean;
     }
   EXPECT_LT(difference / sum, 0.05);
+}
+
+// From rest at 20 M: every ring is a circle about the hole's centre, brightness falls and rises, and the
+// rings of a period less than what the pixels show leave their mean.
+TEST(Renderer, DrawsTheSingularitysTimeAsRingsAboutTheAxis) {
+  Show show = show_of(StaticObserver{20}, Stereographic{257, 257, 40 * kDegree});
+  show.sky_four.background = RingsSky{4};
+  const auto green = [&show](int frame) {
+    const HalfFrame picture = Renderer(show, 2).render(frame_state(show, frame));
+    return [picture](int x, int y) { return static_cast<float>(picture.row(y)[3 * x + 1]); };
+  };
+  const auto still = green(0);
+  // 40 degrees on 257 pixels: the silhouette's radius is 14 degrees, 87 pixels.
+  float least = HUGE_VALF, most = 0;
+  for (int k = 0; k < 80; ++k) {
+    const float right = still(128 + k, 128);
+    EXPECT_NEAR(still(128 - k, 128), right, 2e-3 * right) << k;
+    EXPECT_NEAR(still(128, 128 + k), right, 2e-3 * right) << k;
+    EXPECT_NEAR(still(128, 128 - k), right, 2e-3 * right) << k;
+    least = std::min(least, right), most = std::max(most, right);
+  }
+  EXPECT_GT(most, 3.5f * least);
+  EXPECT_LT(most, 4.05f * least);
+  // A diagonal point at the distance of one on the axis: (48, 36) is at 60.
+  EXPECT_NEAR(still(128 + 48, 128 + 36), still(128 + 60, 128), 2e-2f * most);
+
+  // Half a period later, bright and dark have changed places at the centre.
+  show.frames_per_second = 1;
+  show.timeline[0].duration_s = 2;
+  show.timeline[0].tau_end = 2 * 2 * std::sqrt(0.9);
+  EXPECT_NEAR(green(1)(128, 128) + still(128, 128), most + least, 5e-3f * most);
+
+  show.sky_four.background = RingsSky{0.001};
+  EXPECT_NEAR(green(0)(128 + 60, 128), (most + least) / 2, 1e-2f * most);
+}
+
+TEST(Renderer, TabulatesEmissionTimesForRingsOnly) {
+  Show show = show_of(StaticObserver{20}, Domemaster{32});
+  StageTimes grid, rings;
+  show.sky_four.background = GridSky{};
+  Renderer(show, 1).render(frame_state(show, 0), &grid);
+  show.sky_four.background = RingsSky{};
+  Renderer(show, 1).render(frame_state(show, 0), &rings);
+  EXPECT_GT(rings.table_nodes, grid.table_nodes);
+  const HoleOptics optics = make_hole_optics(20, Tetrad::kRain, {true, false, true});
+  EXPECT_FALSE(optics.emission_times);
+}
+
+TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
+  Show show = show_of(StaticObserver{10}, Domemaster{64});
+  show.sky_four.background = RingsSky{4};
+  const std::string key = FrameKeys(show).scene(frame_state(show, 0));
+  FrameState later = frame_state(show, 0);
+  later.observer.null_time = 1;
+  EXPECT_NE(FrameKeys(show).scene(later), key);
+  Show other = show;
+  other.sky_four.background = RingsSky{5};
+  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
+  show.sky_four.background = GridSky{};
+  EXPECT_EQ(FrameKeys(show).scene(later), FrameKeys(show).scene(frame_state(show, 0)));
 }
 
 TEST(FrameKeys, AreOfAllThatAFrameDependsOnAndNothingElse) {

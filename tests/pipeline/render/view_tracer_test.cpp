@@ -35,7 +35,7 @@ TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
   for (const Show& show : observers()) {
     const FrameState state = frame_state(show, 0);
     const HoleOptics optics =
-        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
+        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});
     const ViewTracer tracer(state, optics);
     LookBatch batch;
     std::array<CameraDirection, LookBatch::kSize> n;
@@ -52,6 +52,11 @@ TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
         // Near the axis of a lens sin(phi)/sin(delta) amplifies the last bits of both.
         const double scale = 1 + look.radial_scale + look.tangential_scale;
         ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 2e-15 * scale);
+        if (look.sky == SeenSky::kFour) {
+          ASSERT_NEAR(batch.emission_time[k], look.emission_time,
+                      1e-9 * (1 + std::abs(look.emission_time)));
+          ASSERT_NEAR(batch.time_scale[k] / (1e-9 + look.time_scale), 1, 1e-6);
+        }
         ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-13);
         ASSERT_NEAR(batch.radial_scale[k] / look.radial_scale, 1, 1e-11);
         ASSERT_NEAR(batch.tangential_scale[k], look.tangential_scale, 1e-12 * scale);

@@ -113,6 +113,21 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "'naked_eyes'; did you mean naked_eye?"},
       {"NegativeGain", kShow + "sky: {region_I: {gain: -0.5}}\n",
        "3:24: sky.region_I.gain must be at least 0, got -0.5"},
+      {"RingsOutside", kShow + "sky: {region_I: {background: rings}}\n",
+       "3:30: sky.region_I.background must be milky_way, grid or black or an image file, got "
+       "'rings'"},
+      {"RingsMisspelt", kShow + "sky: {region_IV: ringz}\n",
+       "3:18: sky.region_IV must be milky_way, grid, black or rings or an image file, got 'ringz'; "
+       "did you mean rings?"},
+      {"NoPeriod", kShow + "sky: {region_IV: {background: rings, period_m: 0}}\n",
+       "3:49: sky.region_IV.period_m must be at least 0.001 M, got 0"},
+      {"PeriodOfAGrid", kShow + "sky: {region_IV: {background: grid, period_m: 2}}\n",
+       "3:48: sky.region_IV.period_m is the period of rings; the background must be rings"},
+      {"PeriodOfWhatIsWrong", kShow + "sky: {region_IV: {background: gird, period_m: 2}}\n",
+       "3:31: sky.region_IV.background must be milky_way, grid, black or rings or an image file, "
+       "got 'gird'; did you mean grid?"},
+      {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
+       "3:20: sky.region_III.period_m"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",
        "3:24: sky.blueshift_power must be at most 10, got 11"},
       {"MaxSigmaBelowMin", kShow + "stars: {min_sigma_deg: 0.5, max_sigma_deg: 0.2}\n",

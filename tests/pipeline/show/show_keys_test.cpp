@@ -306,6 +306,17 @@ TEST_F(ShowKeys, SkiesMayBeBlackAndStarless) {
   EXPECT_EQ(back.sky_three.stars->catalogue, asset("naked_eye_stars.csv"));
 }
 
+TEST_F(ShowKeys, TheSingularityMayGlowInRings) {
+  const auto rings = [this](const std::string& value) {
+    const Show show = with("sky: {region_IV: " + value + "}\n");
+    return std::pair(std::get<RingsSky>(show.sky_four.background).period,
+                     show.sky_four.background_gain);
+  };
+  EXPECT_EQ(rings("rings"), std::pair(4.0, 1.0));
+  EXPECT_EQ(rings("{background: rings}"), std::pair(4.0, 1.0));
+  EXPECT_EQ(rings("{background: rings, period_m: 2.5, gain: 3}"), std::pair(2.5, 3.0));
+}
+
 TEST_F(ShowKeys, AShowThatNamesItsOwnSkyNeedsNoShippedOne) {
   std::filesystem::remove_all(folder_ / "assets");
   EXPECT_NO_THROW(with("sky: {region_I: {background: grid, stars: none}}\n"));
