@@ -55,7 +55,7 @@ TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
         if (look.sky == SeenSky::kFour) {
           ASSERT_NEAR(batch.emission_time[k], look.emission_time,
                       1e-9 * (1 + std::abs(look.emission_time)));
-          ASSERT_NEAR(batch.time_scale[k] / (1e-9 + look.time_scale), 1, 1e-6);
+          ASSERT_NEAR(batch.time_scale[k], look.time_scale, 1e-9 + 1e-6 * look.time_scale);
         }
         ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-13);
         ASSERT_NEAR(batch.radial_scale[k] / look.radial_scale, 1, 1e-11);

@@ -120,14 +120,14 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:18: sky.region_IV must be milky_way, grid, black or rings or an image file, got 'ringz'; "
        "did you mean rings?"},
       {"NoPeriod", kShow + "sky: {region_IV: {background: rings, period_m: 0}}\n",
-       "3:49: sky.region_IV.period_m must be at least 0.001 M, got 0"},
+       "3:48: sky.region_IV.period_m must be at least 0.001 (M), got 0"},
       {"PeriodOfAGrid", kShow + "sky: {region_IV: {background: grid, period_m: 2}}\n",
-       "3:48: sky.region_IV.period_m is the period of rings; the background must be rings"},
+       "3:47: sky.region_IV.period_m is the period of rings; the background must be rings"},
       {"PeriodOfWhatIsWrong", kShow + "sky: {region_IV: {background: gird, period_m: 2}}\n",
        "3:31: sky.region_IV.background must be milky_way, grid, black or rings or an image file, "
        "got 'gird'; did you mean grid?"},
       {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
-       "3:20: sky.region_III.period_m"},
+       "3:20: sky.region_III.period_m is an unknown key; known here: background, gain or stars"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",
        "3:24: sky.blueshift_power must be at most 10, got 11"},
       {"MaxSigmaBelowMin", kShow + "stars: {min_sigma_deg: 0.5, max_sigma_deg: 0.2}\n",
