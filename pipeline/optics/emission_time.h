@@ -25,7 +25,8 @@ double tortoise(const Radius& at);
 // singularity.  Finite but for a ray that circles for ever: -infinity, as the rings crowd there (in
 // region II next to region III: +infinity).  On the horizon itself the ray with E = 0 lies in it and
 // would have t infinite; r - 2 = -1e-20 stands for that.
-// Measured over 1e-6 <= r <= 1e8 (emission_time_test.cpp): error below 1e-10 max(1, |t|).
+// Measured against rays followed step by step, 0.3 <= r <= 8, 0.1 <= b <= 1000: within 1e-9 max(1, |t|);
+// dt = b dphi between neighbouring rays holds over 1e-6 <= r <= 1e8.
 double exact_emission_time(const NullRay& ray);
 
 }  // namespace domefall
