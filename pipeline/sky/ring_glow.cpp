@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kTemperature = 4000;
+constexpr double kTemperature = 3000;
 constexpr double kLight = 4e-4, kDark = kLight / 4;  // cd/m^2
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace domefall {
 
 // Light (cd/m^2, working space) at `phase` = t/period: a raised cosine, brightest at whole numbers, with
-// the grid's lightest and darkest luminance, of a 4000 K blackbody.  Averaged over a footprint that is
+// the grid's lightest and darkest luminance, of a 3000 K blackbody.  Averaged over a footprint that is
 // `width` (>= 0) periods long by a factor exp(-(pi width)^2/6) on the wave, which agrees with a box's to
 // second order and has none of its ripples: rings finer than a pixel fade to their mean.
 WorkingRgb ring_glow(double phase, double width);
