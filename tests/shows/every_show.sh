@@ -9,7 +9,9 @@ for show in shows/*.yaml shows/paper/*.yaml; do
   frames=$(sed -nE 's/^frames +([0-9]+).*/\1/p' "$folder/stdout")
   name=$(basename "$show" .yaml)
   step=$(((frames + 4) / 5))
-  exits 0 "$DOMEFALL" render "$show" --frames "0-$((frames - 1))x$step,$((frames - 1))" --size 128 \
+  size=128
+  if grep -q 'projection: stereographic' "$show"; then size=128x128; fi
+  exits 0 "$DOMEFALL" render "$show" --frames "0-$((frames - 1))x$step,$((frames - 1))" --size $size \
     --out "$folder/$name"
   for kind in linear graded; do
     [ -n "$(find "$folder/$name/$kind" -type f)" ] || fail "$show left no $kind frames"
