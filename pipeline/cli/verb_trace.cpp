@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -48,7 +49,8 @@ class RayTable {
   long double number(const std::string& text, const char* name) const {
     char* end = nullptr;
     const long double value = std::strtold(text.c_str(), &end);
-    if (text.empty() || *end != 0 || !std::isfinite(value))
+    const bool decimal = text.find_first_not_of("+-.0123456789eE") == std::string::npos;
+    if (text.empty() || !decimal || *end != 0 || !std::isfinite(value))
       fail(std::string(name) + " must be a number, got '" + text + "'");
     return value;
   }
@@ -58,14 +60,19 @@ class RayTable {
  private:
   static constexpr std::array<const char*, 5> kNames{"observer", "r", "delta", "edge", "offset"};
 
+  static std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+
   bool next_row(std::vector<std::string>& row) {
     for (std::string line; std::getline(in_, line);) {
-      ++line_;
-      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+      line = trimmed(line);
       if (line.empty() || line[0] == '#') continue;
       row.clear();
       std::istringstream cells(line);
-      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(trimmed(cell));
       return true;
     }
     return false;
@@ -91,17 +98,22 @@ TraceObserver observer_of(const RayTable& table, const std::string& name) {
   table.fail("observer must be rain, static, outgoing, T_II or T_IV, got '" + name + "'");
 }
 
-// Beyond 1e12 the silhouette is a point to double precision; below 1e-9, the two skies touch.
+// Beyond 1e12 the silhouette is a point to double precision; below 1e-9, the two skies touch.  The
+// distances from the horizon and the light circle come from the decimals, of which a double of r near
+// there would have lost most.
 Radius radius_of(const RayTable& table, TraceObserver observer, const std::string& text) {
   const long double r = table.number(text, "r");
   if (!(r >= 1e-9L && r <= 1e12L))
     table.fail("r must be from 1e-9 to 1e12 (units of M), got " + text);
-  if (observer == TraceObserver::kStatic && !(r > 2))
+  using Decimal = boost::multiprecision::cpp_dec_float_50;
+  const Decimal exact(text);
+  if (observer == TraceObserver::kStatic && !(exact > 2))
     table.fail("r must exceed 2 (units of M) for a static observer, got " + text);
   const bool inside = observer == TraceObserver::kTwo || observer == TraceObserver::kFour;
-  if (inside && !(r < 2))
+  if (inside && !(exact < 2))
     table.fail("r must be below 2 (units of M) for the observers T_II and T_IV, got " + text);
-  return Radius(r);
+  return {static_cast<double>(exact), static_cast<double>(Decimal(exact - 2)),
+          static_cast<double>(Decimal(exact - 3))};
 }
 
 // The edge and the offset make delta, which must be an angle.
@@ -126,6 +138,7 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
     read_edge(table, cell[RayTable::kEdge], cell[RayTable::kOffset], q);
     return q;
   }
+  if (!cell[RayTable::kOffset].empty()) table.fail("offset is given without an edge");
   q.delta = table.number(cell[RayTable::kDelta], "delta");
   // pi itself, rounded up in a decimal, is meant as pi.
   constexpr long double kPi = std::numbers::pi_v<long double>;
@@ -189,7 +202,9 @@ void add_trace(CLI::App& app) {
                    "dopri5, rkf78 (the full geodesic equations), binet-dopri5, binet-rkf78")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  verb->add_option("--tolerance", options->tolerance, "of the integrators, relative, each step")
+  verb->add_option("--tolerance", options->tolerance,
+                   "of the integrators, relative, each step, 1e-13 to 1e-3; a ray nearer to an "
+                   "edge than that may lose its origin")
       ->check(CLI::Range(1e-13, 1e-3))
       ->capture_default_str();
   verb->callback([table, method, options] { trace(*table, method_named(*method), *options); });

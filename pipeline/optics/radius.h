@@ -12,6 +12,9 @@ struct Radius {
 
   Radius(double value)
       : r(value), above_horizon(value - 2), above_light_circle(value - 3) {}  // NOLINT
+  // From whoever knows all three.
+  Radius(double value, double horizon, double light_circle)
+      : r(value), above_horizon(horizon), above_light_circle(light_circle) {}
   // From more digits than a double has.
   explicit Radius(long double value)
       : r(static_cast<double>(value)),

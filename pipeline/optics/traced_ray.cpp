@@ -48,6 +48,7 @@ NullRay ray_of(const RayRequest& q, const View& view) {
 // The observer's half angle from the frame of the ray.
 struct Seen {
   double delta;
+  double sine;     // of delta, from the ray's own half angles: whole near 0 and pi too
   double doppler;  // omega_observer/omega_frame, which is also d alpha/d alpha_observer
 };
 
@@ -55,17 +56,17 @@ Seen seen(const NullRay& ray, const View& view) {
   const double k = kappa(ray.at, view.frame), sine = ray.sin_half / k;
   const double alpha = 2 * std::atan2(sine, ray.cos_half);
   const double behind = 2 * std::atan2(ray.cos_half, sine);
-  return {view.from_behind ? behind : alpha, k * (sine * sine + ray.cos_half * ray.cos_half)};
+  const double norm2 = sine * sine + ray.cos_half * ray.cos_half;
+  return {view.from_behind ? behind : alpha, 2 * sine * ray.cos_half / norm2, k * norm2};
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-void set_amplification(TracedRay& ray) {
+void set_amplification(TracedRay& ray, double sine) {
   const double slope = std::abs(ray.slope);
   // At the far end of a sky both sines vanish, and their ratio is 1/slope.
   const bool far_end = ray.origin != Origin::kPastSingularity && ray.phi < 1e-6;
-  ray.amplification =
-      far_end ? 1 / (slope * slope) : std::sin(ray.delta) / (std::abs(std::sin(ray.phi)) * slope);
+  ray.amplification = far_end ? 1 / (slope * slope) : sine / (std::abs(std::sin(ray.phi)) * slope);
 }
 
 struct Sweep {
@@ -174,7 +175,7 @@ TracedRay integrate_request(const RayRequest& q, Integrator integrator,
   if (!options.slope) return traced;
   traced.slope =
       integrated_slope(q, ray, delta, at_observer.doppler, integrator, options.tolerance);
-  set_amplification(traced);
+  set_amplification(traced, at_observer.sine);
   return traced;
 }
 
@@ -217,7 +218,7 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
                           : Sweep{exact_azimuth(ray), exact_slope(ray)};
   traced.phi = sweep.phi;
   traced.slope = sign * sweep.slope * at_observer.doppler;
-  set_amplification(traced);
+  set_amplification(traced, at_observer.sine);
   return traced;
 }
 

@@ -12,9 +12,12 @@ namespace {
 // Where the laws take over, in units of the smallest scale on their side; the first never below the
 // second, which matters only where the light circle is nearer to the observer than 1e-9.
 constexpr double kEdgeInnermost = 1e-6, kLeast = 1e-15, kAxisInnermost = 1.0 / 1024;
-// At r = 2 itself T_0 and the edge of region III are points; a depth whose square root is below
-// 1e-10 stands for none.
-constexpr double kHorizonDepth = -1e-20;
+// At r = 2 itself T_0 and the edge of region III are points; a depth whose square root is below 1e-15
+// stands for none.
+constexpr double kHorizonDepth = -1e-30;
+
+// What 1,024 nodes hold at 16 intervals an octave.
+constexpr double kFineOctaves = 62;
 
 Radius off_the_horizon(Radius at) {
   if (at.above_horizon == 0) at.above_horizon = kHorizonDepth;
@@ -89,7 +92,10 @@ WhiteHoleTable::WhiteHoleTable(const Radius& at, Kind kind, int bits)
       curve_(
           range_.low, range_.high, [this](double s) { return exact_azimuth(ray_at_place(s)); },
           // Next to E = 0 phi hardly changes with the angle: its error is more of one on the sky.
-          kind == Kind::kInside || kind == Kind::kWhiteHole ? bits + 1 : bits) {
+          (kind == Kind::kInside || kind == Kind::kWhiteHole) &&
+                  std::log2(range_.high / range_.low) < kFineOctaves
+              ? bits + 1
+              : bits) {
   const auto phi = [this](double s) { return exact_azimuth(ray_at_place(s)); };
   if (has_edge()) edge_law_ = fit_edge_law(curve_.x_min(), phi);
   if (is_outside())

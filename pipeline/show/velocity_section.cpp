@@ -84,7 +84,7 @@ bool is_found_in(Against against, Region region) {
 // The radii at which an observer of that kind, in that region if one is named, can be.
 Range radii(Against against, std::optional<Region> region) {
   if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(2);
-  if (against == Against::kStatic)
+  if (against == Against::kStatic && !region)
     return kUnitsOfM
         .above(kStaticInnermost,
                "inside the horizon nothing is static; a velocity there needs 'against: free_fall'")

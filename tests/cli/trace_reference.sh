@@ -51,3 +51,19 @@ grep -q ',IV,inf,,inf,0$' "$folder/stdout" || fail "a ray on the edge circles fo
 row 'outgoing,1,0,,'
 exits 0 "$DOMEFALL" trace --table "$folder/bad.csv"
 grep -q ',IV,0,,inf,0$' "$folder/stdout" || fail "a radial ray is not bent"
+
+# r is taken from its decimals: next to the horizon a double of it would be a tenth off.
+row 'static,2.000000000000001,,silhouette,1e-8'
+exits 0 "$DOMEFALL" trace --table "$folder/bad.csv" --method exact
+grep -q ',I,2.9084973755' "$folder/stdout" || fail "r = 2 + 1e-15 lost its distance from the horizon"
+
+# Spreadsheets write a byte order mark, blanks and CRLF; other columns are left alone.
+printf '\xEF\xBB\xBFnote, observer ,r,delta\r\n # a comment\r\nx, rain , 10 ,1\r\n' >"$folder/bad.csv"
+exits 0 "$DOMEFALL" trace --table "$folder/bad.csv"
+grep -q '^rain,10,1,,,I,' "$folder/stdout" || fail "a spreadsheet's table was not read"
+row 'rain,10,1,,1e-3'
+exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
+says "bad.csv:2: offset is given without an edge"
+row 'rain,0x10,1,,'
+exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
+says "bad.csv:2: r must be a number, got '0x10'"

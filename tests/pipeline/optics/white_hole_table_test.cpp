@@ -43,8 +43,9 @@ class Rays {
     for (;;) {
       const NullRay ray = any();
       if (ray.sin_half == 0 || ray.cos_half == 0 || circles_for_ever(ray)) continue;
-      // At r = 2 itself the table puts E = 0 at 1e-10 from the axis instead of on it.
-      if (c_.at.above_horizon == 0 && ray.sin_half < 1e-6) continue;
+      // At r = 2 itself the table puts E = 0 at 1e-15 from the axis instead of on it, and a double of phi
+      // next to pi holds no more of its slope than this.
+      if (c_.at.above_horizon == 0 && ray.sin_half < 1e-8) continue;
       if (origin_of(ray) == Origin::kPastSingularity) return ray;
     }
   }
