@@ -150,6 +150,24 @@ OctaveCurve::Jet OctaveCurve::at(double x) const {
   return {jet.value, jet.first * q.inverse_width, jet.second * square(q.inverse_width)};
 }
 
+bool OctaveCurve::is_monotone(double x_end) const {
+  constexpr int kSlopeDegree = kTerms - 2;
+  const bool rising = intervals_.front().c[0] < intervals_.back().c[0];
+  for (const Interval& q : intervals_) {
+    if (q.start + 1 / q.inverse_width >= x_end) return true;
+    // b_j = sum over k <= j of C(j, k)/C(n, k) times the k-th coefficient.
+    for (int j = 0; j <= kSlopeDegree; ++j) {
+      double sum = 0, weight = 1;
+      for (int k = 0; k <= j; ++k) {
+        sum += weight * (k + 1) * q.c[k + 1];
+        weight *= static_cast<double>(j - k) / (kSlopeDegree - k);
+      }
+      if (!(rising ? sum > 0 : sum < 0)) return false;
+    }
+  }
+  return true;
+}
+
 double OctaveCurve::inverse(double wanted, double x_end) const {
   const bool rising = intervals_.front().c[0] < value(x_end);
   const auto before = [&](const Interval& q) {

@@ -25,6 +25,7 @@ class OctaveCurve {
               int bits = kPerOctaveBits);
 
   double x_min() const { return x_min_; }
+  double x_max() const { return intervals_.back().start; }  // of the last interval, its start
   std::size_t node_count() const { return intervals_.size() + 1; }
 
   struct Jet {
@@ -39,6 +40,10 @@ class OctaveCurve {
   // The x in [x_min, x_end] with value(x) = wanted, of the same polynomials.  The function must be
   // monotone there and take the value.
   double inverse(double wanted, double x_end) const;
+
+  // Whether every interval that ends before x_end is monotone, all the same way: proven, by the signs of
+  // the slope's Bernstein coefficients.
+  bool is_monotone(double x_end) const;
 
   // value and slope of any number of x without a branch, for loops that are to become SIMD code: a
   // copy of what a look-up needs, which no store of the loop can be taken to alter.  Good while the

@@ -77,6 +77,7 @@ class SkyTable {
   double distance_of(const NullRay& ray) const;
 
   std::size_t node_count() const { return curve_.node_count(); }
+  const OctaveCurve& curve() const { return curve_; }
 
   struct Sweep {
     double azimuth, slope;

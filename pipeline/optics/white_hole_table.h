@@ -87,6 +87,7 @@ class WhiteHoleTable {
   const std::optional<Turn>& turn() const { return turn_; }
 
   std::size_t node_count() const { return curve_.node_count(); }
+  const OctaveCurve& curve() const { return curve_; }  // in s
 
   // For loops that are to become SIMD code: place() and, between low and high, curve().  Beyond those
   // the laws are the caller's, by way of azimuth() and slope().

@@ -88,6 +88,7 @@ TEST(SkyTable, InverseReturnsToTheSameRay) {
 TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
   for (const Case& c : cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
+    EXPECT_TRUE(table.curve().is_monotone(table.x_max())) << "r=" << c.r;
     double previous = 1e300;
     for (double y = std::log(table.x_max()) - 40; y < std::log(table.x_max()); y += 0.003) {
       const double phi = table.azimuth(std::exp(y));
