@@ -148,24 +148,15 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
   return q;
 }
 
-constexpr std::array<std::pair<const char*, TraceMethod>, 7> kMethods{
-    {{"table", TraceMethod::kTable},
-     {"exact", TraceMethod::kExact},
-     {"rk4", TraceMethod::kPaperRk4},
-     {"dopri5", TraceMethod::kFullDopri5},
-     {"rkf78", TraceMethod::kFullRkf78},
-     {"binet-dopri5", TraceMethod::kBinetDopri5},
-     {"binet-rkf78", TraceMethod::kBinetRkf78}}};
-
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  names.reserve(kMethods.size());
-  for (const auto& [name, method] : kMethods) names.emplace_back(name);
+  names.reserve(kTraceMethods.size());
+  for (const auto& [name, method] : kTraceMethods) names.emplace_back(name);
   return names;
 }
 
 TraceMethod method_named(const std::string& name) {
-  for (const auto& [known, method] : kMethods)
+  for (const auto& [known, method] : kTraceMethods)
     if (name == known) return method;
   return TraceMethod::kTable;
 }

@@ -94,14 +94,6 @@ double SkyTable::distance(double phi) const {
   return std::min(curve_.inverse(phi, x_max_), x_max_);
 }
 
-double SkyTable::alpha_at(double x) const {
-  return edge_angle_ + edge_.sign * 4 * std::atan(x / 2);
-}
-
-double SkyTable::distance_at(double alpha) const {
-  return 2 * std::tan(edge_.sign * (alpha - edge_angle_) / 4);
-}
-
 double SkyTable::distance_of(const NullRay& ray) const {
   const double gap = critical_ == Critical::kFirst ? ray.gap_first : ray.gap_second;
   const double cosine = ray.cos_half * edge_.cosine + ray.sin_half * edge_.sine;

@@ -68,9 +68,6 @@ class SkyTable {
   double edge_angle() const { return edge_angle_; }
   double x_max() const { return x_max_; }
   const SkyEdge& edge() const { return edge_; }
-  // alpha and back.
-  double alpha_at(double x) const;
-  double distance_at(double alpha) const;
   // The exact ray of the table's frame there.
   NullRay ray_at_distance(double x) const;
   // x from a ray's exact gap.

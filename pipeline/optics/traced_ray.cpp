@@ -116,7 +116,8 @@ Integrator integrator_of(TraceMethod method) {
   }
 }
 
-// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses beside an edge is the methods' own.
+// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses beside
+// an edge is the methods' own.
 PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delta) {
   const double s = std::sqrt(2 / at.r), c = std::cos(delta);
   const double rest = std::sqrt(std::abs(at.above_horizon) / at.r);
@@ -195,8 +196,7 @@ double edge_delta(TraceObserver observer, const Radius& at, Edge edge) {
 }
 
 TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
-  if (method != TraceMethod::kTable && method != TraceMethod::kExact)
-    return integrate_request(q, integrator_of(method), options);
+  if (is_integrator(method)) return integrate_request(q, integrator_of(method), options);
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const View view = view_of(q.observer);
   const NullRay ray = ray_of(q, view);

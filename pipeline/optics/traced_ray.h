@@ -2,6 +2,7 @@
 // prints and what the reference rays are compared with.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "pipeline/optics/null_ray.h"
@@ -27,6 +28,24 @@ enum class TraceMethod {
   kBinetDopri5,  // d2w/dphi2 = 3 w^2 - w
   kBinetRkf78,
 };
+
+struct NamedTraceMethod {
+  const char* name;
+  TraceMethod method;
+};
+// As the command line and the report call them.
+inline constexpr std::array kTraceMethods{
+    NamedTraceMethod{"table", TraceMethod::kTable},
+    NamedTraceMethod{"exact", TraceMethod::kExact},
+    NamedTraceMethod{"rk4", TraceMethod::kPaperRk4},
+    NamedTraceMethod{"dopri5", TraceMethod::kFullDopri5},
+    NamedTraceMethod{"rkf78", TraceMethod::kFullRkf78},
+    NamedTraceMethod{"binet-dopri5", TraceMethod::kBinetDopri5},
+    NamedTraceMethod{"binet-rkf78", TraceMethod::kBinetRkf78}};
+
+constexpr bool is_integrator(TraceMethod method) {
+  return method != TraceMethod::kTable && method != TraceMethod::kExact;
+}
 
 // An edge in delta, as the observer sees it.
 enum class Edge {

@@ -1,7 +1,5 @@
 #include "pipeline/report/ray_methods.h"
 
-#include <array>
-
 namespace domefall {
 namespace {
 
@@ -38,27 +36,18 @@ std::vector<double> tolerances(bool quick) {
   return {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
 }
 
-struct NamedIntegrator {
-  const char* name;
-  TraceMethod method;
-};
-constexpr std::array kIntegrators{NamedIntegrator{"rk4", TraceMethod::kPaperRk4},
-                                  NamedIntegrator{"dopri5", TraceMethod::kFullDopri5},
-                                  NamedIntegrator{"rkf78", TraceMethod::kFullRkf78},
-                                  NamedIntegrator{"binet-dopri5", TraceMethod::kBinetDopri5},
-                                  NamedIntegrator{"binet-rkf78", TraceMethod::kBinetRkf78}};
-
 }  // namespace
 
 std::vector<RayMethod> ray_methods(bool quick) {
   std::vector<RayMethod> methods{
       {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
       {"exact", "", {0}, 0, false, by_integral}};
-  for (const auto& integrator : kIntegrators)
-    methods.push_back({integrator.name, "tolerance", tolerances(quick), kDefaultTolerance, false,
-                       [method = integrator.method](const RayRequest& q, double tolerance) {
-                         return by_steps(q, method, tolerance);
-                       }});
+  for (const auto& [name, method] : kTraceMethods)
+    if (is_integrator(method))
+      methods.push_back({name, "tolerance", tolerances(quick), kDefaultTolerance, false,
+                         [method = method](const RayRequest& q, double tolerance) {
+                           return by_steps(q, method, tolerance);
+                         }});
   return methods;
 }
 
