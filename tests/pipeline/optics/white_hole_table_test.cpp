@@ -7,16 +7,12 @@
 #include <random>
 
 #include "pipeline/optics/exact_azimuth.h"
+#include "tests/pipeline/optics/singularity_rays.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
-
-struct Case {
-  Radius at;
-  bool outgoing;
-};
 
 std::vector<Case> cases() {
   std::vector<Case> all;
@@ -28,45 +24,6 @@ std::vector<Case> cases() {
     for (const bool outgoing : {false, true}) all.push_back({Radius(r), outgoing});
   return all;
 }
-
-std::string name(const Case& c) {
-  return "r - 2 = " + std::to_string(c.at.above_horizon) + (c.outgoing ? " outgoing" : " rain");
-}
-
-// Rays from the singularity: any tangent of half the angle in the frame of the table, logarithmically
-// near the axis, the edges and E = 0 too.
-class Rays {
- public:
-  Rays(const Case& c, std::uint64_t seed) : c_(c), random_(seed) {}
-
-  NullRay next() {
-    for (;;) {
-      const NullRay ray = any();
-      if (ray.sin_half == 0 || ray.cos_half == 0 || circles_for_ever(ray)) continue;
-      // At r = 2 itself the table puts E = 0 at 1e-15 from the axis instead of on it, and a double of phi
-      // next to pi holds no more of its slope than this.
-      if (c_.at.above_horizon == 0 && ray.sin_half < 1e-8) continue;
-      if (origin_of(ray) == Origin::kPastSingularity) return ray;
-    }
-  }
-
- private:
-  NullRay any() {
-    const double small = std::pow(10, -12 * uniform_(random_));
-    const double side = uniform_(random_) < 0.5 ? -1 : 1;
-    const double which = uniform_(random_);
-    if (which < 0.3)
-      return ray_off_edge(c_.at, Critical::kFirst, side * small, {c_.outgoing, false});
-    if (which < 0.6)
-      return ray_off_edge(c_.at, Critical::kSecond, side * small, {c_.outgoing, false});
-    if (which < 0.8) return ray_at(c_.at, pi * uniform_(random_), {c_.outgoing, false});
-    return ray_at(c_.at, side > 0 ? small : pi - small, {c_.outgoing, false});
-  }
-
-  Case c_;
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> uniform_{0, 1};
-};
 
 TEST(WhiteHoleTable, AgreesWithTheExactIntegral) {
   for (const Case& c : cases()) {
