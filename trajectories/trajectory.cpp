@@ -7,6 +7,7 @@ OrbitPoint point_at(const Trajectory& trajectory, double tau) {
 }
 
 double lifetime(const Trajectory& trajectory) {
+  if (const auto* geodesic = std::get_if<Geodesic>(&trajectory)) return geodesic->death();
   const auto* fall = std::get_if<RadialInfall>(&trajectory);
   return fall ? proper_time_to(*fall, 0) : std::numeric_limits<double>::infinity();
 }

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "trajectories/circular_orbit.h"
+#include "trajectories/geodesic.h"
 #include "trajectories/given_velocity.h"
 #include "trajectories/orbit_point.h"
 #include "trajectories/radial_infall.h"
@@ -12,7 +13,8 @@
 
 namespace domefall {
 
-using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity>;
+using Trajectory =
+    std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity, Geodesic>;
 
 // The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
 // tau must be in [0, lifetime).

@@ -1,0 +1,141 @@
+#include "trajectories/geodesic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "trajectories/orbit_table.h"
+#include "trajectories/static_observer.h"
+
+namespace domefall {
+namespace {
+
+using Kind = OrbitCurve::Kind;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kApexParameter = 1e-6;  // E = 0: 1 - r/2 = tanh^2 of it
+
+// Celerity along R of radial velocity `speed` (dr/dtau): w = (u^r + sE)/(1 - 2/r), or
+// ((1 - E)(1 + E) + l^2)/(sE - u^r), the one without cancellation.  The outgoing tetrad is rain's mirror
+// image under r -> -r.
+double radial_celerity(const OrbitCurve::Point& p, const OrbitConstants& c, bool outgoing) {
+  const double s = std::sqrt(2 / p.r), l = c.angular_momentum / p.r;
+  const double inward = outgoing ? p.radial_speed : -p.radial_speed;
+  const double w = inward >= 0 ? (l * l - c.excess_energy) / (s * c.energy + inward)
+                               : (s * c.energy - inward) / (1 - 2 / p.r);
+  return outgoing ? -w : w;
+}
+
+Region mirror_of(Region region) {
+  return region == Region::kI ? Region::kIII : region == Region::kIII ? Region::kI : region;
+}
+
+Tetrad mirror_of(Tetrad tetrad) {
+  return tetrad == Tetrad::kRain ? Tetrad::kRainOfThree : Tetrad::kOutgoingToThree;
+}
+
+}  // namespace
+
+struct Geodesic::Tables {
+  OrbitCurve curve;
+  double turn;
+  OrbitTable table;
+
+  bool is_born() const {
+    return curve.kind() == Kind::kReturning || curve.kind() == Kind::kEscaping;
+  }
+  bool dies() const { return curve.kind() == Kind::kReturning || curve.kind() == Kind::kPlunging; }
+  bool is_bound() const { return curve.kind() == Kind::kBound; }
+  double period() const { return table.end().tau - table.begin().tau; }
+  OrbitPoint state(double s) const;
+  OrbitPoint apex_state(double s) const;
+};
+
+// E = 0: at rest in t.
+OrbitPoint Geodesic::Tables::apex_state(double s) const {
+  if (std::abs(s) < kApexParameter) s = s < 0 ? -kApexParameter : kApexParameter;
+  const bool outgoing = s < 0;
+  const double r = curve.at(s).r, l = curve.constants().angular_momentum / r;
+  const Tetrad tetrad = outgoing ? Tetrad::kOutgoing : Tetrad::kRain;
+  const double still = resting_celerity(r, tetrad).x * std::sqrt(1 + l * l);
+  const double rstar = r + 4 * std::log(std::abs(std::tanh(s)));
+  return {outgoing ? Region::kIV : Region::kII,
+          tetrad,
+          r,
+          table.at(s).azimuth,
+          V3d(still, 0, l),
+          outgoing ? -rstar : rstar};
+}
+
+OrbitPoint Geodesic::Tables::state(double s) const {
+  if (curve.constants().energy == 0) return apex_state(s);
+  const OrbitCurve::Point p = curve.at(s);
+  const OrbitTable::Sums sums = table.at(s);
+  const bool outgoing = s < turn, inside = p.r <= 2;
+  const Region region = !inside ? Region::kI : outgoing ? Region::kIV : Region::kII;
+  return {region,
+          outgoing ? Tetrad::kOutgoing : Tetrad::kRain,
+          p.r,
+          sums.azimuth,
+          V3d(radial_celerity(p, curve.constants(), outgoing), 0,
+              curve.constants().angular_momentum / p.r),
+          sums.null_time};
+}
+
+Geodesic::Geodesic(const OrbitCurve& curve, double origin, double turn, double tolerance)
+    : tables_(std::make_shared<const Tables>(
+          Tables{curve, turn, OrbitTable(curve, origin, turn, tolerance)})) {}
+
+double Geodesic::energy() const { return tables_->curve.constants().energy; }
+double Geodesic::angular_momentum() const { return tables_->curve.constants().angular_momentum; }
+double Geodesic::birth() const {
+  return tables_->is_born() ? tables_->table.begin().tau : -kInfinity;
+}
+double Geodesic::death() const { return tables_->dies() ? tables_->table.end().tau : kInfinity; }
+double Geodesic::innermost() const { return tables_->curve.innermost(); }
+double Geodesic::outermost() const { return tables_->curve.outermost(); }
+
+double Geodesic::radial_period() const {
+  return tables_->is_bound() ? tables_->period() : kInfinity;
+}
+
+double Geodesic::azimuth_per_period() const {
+  const OrbitTable& table = tables_->table;
+  return tables_->is_bound() ? table.end().azimuth - table.begin().azimuth : kInfinity;
+}
+
+OrbitPoint Geodesic::at(double tau) const {
+  const OrbitTable& table = tables_->table;
+  double turns = 0;
+  if (tables_->is_bound()) {
+    turns = std::floor((tau - table.begin().tau) / tables_->period());
+    tau -= turns * tables_->period();
+  } else if (!(tau >= table.begin().tau && tau <= table.end().tau)) {
+    throw std::domain_error("proper time " + std::to_string(tau) +
+                            " (units of M) is beyond the orbit's ends");
+  }
+  OrbitPoint p = tables_->state(table.parameter(tau));
+  if (turns != 0) {
+    p.azimuth += turns * azimuth_per_period();
+    p.null_time += turns * (table.end().null_time - table.begin().null_time);
+  }
+  if (mirrored_) p.region = mirror_of(p.region), p.tetrad = mirror_of(p.tetrad);
+  return p;
+}
+
+std::optional<double> Geodesic::time_at(double r, Leg leg, double after) const {
+  const double s = tables_->curve.parameter(r, leg == Leg::kOutward);
+  if (std::isnan(s) || r > OrbitCurve::kFarthest || r < OrbitCurve::kDeepest) return std::nullopt;
+  double tau = tables_->table.at(s).tau;
+  if (tables_->is_bound() && after > tau)
+    tau += std::ceil((after - tau) / tables_->period()) * tables_->period();
+  if (tau < after) return std::nullopt;
+  return tau;
+}
+
+Geodesic mirrored(Geodesic geodesic) {
+  geodesic.mirrored_ = !geodesic.mirrored_;
+  return geodesic;
+}
+
+}  // namespace domefall

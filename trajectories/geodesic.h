@@ -1,0 +1,78 @@
+// Any timelike geodesic of the Schwarzschild black hole, through its whole Kruskal extension, by
+// proper time.  Energy E and angular momentum L say what it does; the factories say it in the terms
+// that shows use:
+//
+//   parabolic_orbit.h, hyperbolic_orbit.h    from infinity and back
+//   bound_orbit.h                            between two radii for ever
+//   infall.h                                 from outside into the hole, and whatever is thrown
+//   kruskal_crossing.h                       from the past singularity
+//
+// tau = 0 and azimuth 0 are at the periastron of orbits that have one, at the apoastron of those
+// between two singularities, and at the place given of what is thrown or falls from infinity.
+//
+// The tetrad of a state: rain throughout for what never was in region IV or is first met outside it;
+// for what comes from IV the outgoing one up to its largest r (IV, then I) and rain from there on
+// (I, then II), or outgoing throughout if it escapes.  What was thrown outwards is emitted in rain from
+// the instant of the throw, and in the outgoing tetrad before it.
+// E = 0 goes from IV to II through r = 2, where neither tetrad is regular: there the states within
+// |tau| < 4e-6 of it are that of 4e-6 before or after, where r = 2 - 2e-12 and the celerity 1e6.
+//
+// null_time counts t from the instant tau = 0 (at E = 0: t = 0 throughout); of u and v of one geodesic
+// v - u = 2 r* where the tetrad changes.
+//
+// Accuracy, measured against 40 digits: see tests/trajectories.
+// The azimuth and proper time are quadratures made once by the factory (well below 5 ms); a copy shares
+// them.  Beyond r = 1e30 M nothing is tabulated: at() throws std::domain_error there.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "trajectories/orbit_curve.h"
+#include "trajectories/orbit_point.h"
+
+namespace domefall {
+
+enum class Leg { kInward, kOutward };
+
+class Geodesic {
+ public:
+  // For the factories: proper time counted from the parameter `origin` of the curve.  Up to `turn`
+  // states are given in the outgoing tetrad, then in rain.
+  Geodesic(const OrbitCurve& curve, double origin, double turn,
+           double tolerance = kGeodesicTolerance);
+
+  double energy() const;  // per unit of mass, >= 0 (in the mirror's own time, if mirrored)
+  double angular_momentum() const;  // M, >= 0
+  // Proper times of the past and the future singularity, units of M; -infinity, infinity without.
+  double birth() const;
+  double death() const;
+  double innermost() const;  // r, units of M: 0 of what meets a singularity
+  double outermost() const;  // r, units of M, or infinity
+  // Proper time and azimuth from periastron to periastron; infinity if the orbit is not bound.
+  double radial_period() const;
+  double azimuth_per_period() const;
+
+  // tau in (birth, death).
+  OrbitPoint at(double tau) const;
+  // The first proper time >= after at which r is passed on that leg; nothing if never.
+  std::optional<double> time_at(double r, Leg leg,
+                                double after = -std::numeric_limits<double>::infinity()) const;
+
+  // t -> -t: regions I and III exchanged, and their tetrads.
+  friend Geodesic mirrored(Geodesic geodesic);
+
+ private:
+  static constexpr double kGeodesicTolerance = 1e-14;
+  struct Tables;
+
+  std::shared_ptr<const Tables> tables_;
+  bool mirrored_ = false;
+};
+
+Geodesic mirrored(Geodesic geodesic);
+
+inline OrbitPoint point_at(const Geodesic& geodesic, double tau) { return geodesic.at(tau); }
+
+}  // namespace domefall

@@ -1,0 +1,145 @@
+#include "trajectories/orbit_search.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace domefall {
+namespace {
+
+// The zero of f in (low, high], of a function that changes its sign there; high if it does not.
+template <class Function>
+double zero(const Function& f, double low, double high) {
+  const double at_low = f(low), at_high = f(high);
+  if (at_high == 0 || (at_low > 0) == (at_high > 0)) return high;
+  std::uintmax_t steps = 300;
+  const auto close = [](double a, double b) {
+    return std::abs(b - a) <= 2 * std::numeric_limits<double>::epsilon() * std::abs(a);
+  };
+  const auto found = boost::math::tools::toms748_solve(f, low, high, at_low, at_high, close, steps);
+  return (found.first + found.second) / 2;
+}
+
+// The state whose orbit is sought, w = 1/r.
+struct State {
+  OrbitConstants c;
+  double w, speed;
+
+  // (P(w + h) - P(w))/h.
+  double slope(double h) const {
+    const double l = c.angular_momentum, to = w + h;
+    return 2 + l * l * (2 * (to * to + to * w + w * w) - (to + w));
+  }
+
+  // How far the next turning point is on the side of `sign`, in w; it is at most `most` away.
+  double to_turn(double sign, double most) const {
+    if (speed != 0)
+      return zero([&](double h) { return speed * speed + sign * h * slope(sign * h); }, 0, most);
+    if (sign * slope(0) <= 0) return 0;
+    return zero([&](double h) { return sign * slope(sign * h); }, 0, most);
+  }
+};
+
+double outward_sign(double speed) { return speed > 0 ? 1 : -1; }
+
+OrbitStart unturned(const State& state, double w_b, double excess) {
+  const bool escaping = state.speed > 0;
+  OrbitStart start{OrbitCurve::unturned(state.c, escaping, w_b, std::max(excess, kLeastExcess)), 0};
+  start.parameter = start.curve.parameter(1 / state.w, escaping);
+  return start;
+}
+
+// Falls from an apoastron `risen` in w above the state; `excess` as OrbitCurve::returning wants it.
+OrbitStart returning(const State& state, double over_two, double risen, double excess) {
+  const bool apex = state.c.energy == 0;
+  const double w = apex ? 0.5 : state.w - risen;
+  // 1/2 - w = (1/2 - w_state) + risen.
+  const double above = apex ? 0 : (over_two * state.w / 2 + risen) / w * 2;
+  return {OrbitCurve::returning(state.c, apex ? 2 : 1 / w, above, std::max(excess, kLeastExcess)),
+          -outward_sign(state.speed) * std::asinh(std::sqrt(risen / w))};
+}
+
+// G of OrbitCurve::returning, no barrier or one that is overcome by `over`.
+double returning_excess(const State& state, double w, const Barrier* barrier, double over) {
+  const double l = state.c.angular_momentum;
+  if (w >= 1.0 / 6) return 2 - 2 * l * l * w * (1 - 3 * w);
+  const double least = 2 - l * l * (1 - 2 * w) * (1 + 6 * w) / 8;
+  constexpr double kCancels = 0.01;
+  if (barrier == nullptr || least > kCancels) return least;
+  const double off = l * (barrier->w - (1 - 2 * w) / 4);
+  return over / (barrier->w - w) - 2 * off * off;
+}
+
+OrbitStart falling(const State& state, double over_two, const Barrier* barrier, double over) {
+  const double risen = state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, state.w);
+  return returning(state, over_two, risen, returning_excess(state, state.w - risen, barrier, over));
+}
+
+OrbitStart turned_inside(const State& state, double over_two, const BarrierRoots& beside,
+                         const Barrier& barrier) {
+  const double l = state.c.angular_momentum, gap = beside.below + beside.above;
+  const double risen =
+      state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, std::max(state.w - barrier.w, 0.0));
+  // w3 - w1, of the third root w1 = w_b - spread + below - above.
+  const double to_third = barrier.spread - beside.below + 2 * beside.above;
+  return returning(state, over_two, risen, 2 * l * l * to_third * gap);
+}
+
+OrbitStart turned_outside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
+  const double l = state.c.angular_momentum, side = outward_sign(state.speed);
+  const double gap = std::max(beside.below + beside.above, kLeastExcess);
+  const double sunk = state.to_turn(1, std::max(barrier.w - state.w, 0.0));
+  const double w2 = state.w + sunk, near = 1 / w2;
+  if (state.c.excess_energy >= 0) {
+    const double w1 = -state.c.excess_energy / (2 * l * l * w2 * (barrier.w + beside.above));
+    return {OrbitCurve::scattered(state.c, near, w1, gap),
+            side * std::asinh(std::sqrt(sunk / state.w))};
+  }
+  const double risen = state.to_turn(-1, state.w), far = 1 / (state.w - risen);
+  return {OrbitCurve::bound(state.c, near, far, gap),
+          side * 2 * std::atan2(std::sqrt(sunk * near), std::sqrt(risen * far))};
+}
+
+}  // namespace
+
+Barrier barrier_of(double angular_momentum) {
+  const double l2 = angular_momentum * angular_momentum;
+  const double root = std::sqrt(std::max(0.0, 1 - 12 / l2));
+  return {(1 + root) / 6, root / 2};
+}
+
+BarrierRoots roots_beside(const Barrier& barrier, double angular_momentum, double depth) {
+  if (!(depth > 0)) return {0, 0};
+  const double level = depth / (2 * angular_momentum * angular_momentum), q = barrier.spread;
+  const double below = zero([&](double y) { return y * y * (q - y) - level; }, 0, 2 * q / 3);
+  const double above = zero([&](double z) { return z * z * (q + z) - level; }, 0, std::cbrt(level));
+  return {below, above};
+}
+
+OrbitCurve scattered_orbit(const OrbitConstants& constants, double depth) {
+  const double l = constants.angular_momentum;
+  const Barrier barrier = barrier_of(l);
+  const BarrierRoots beside = roots_beside(barrier, l, depth);
+  const double w2 = barrier.w - beside.below, w3 = barrier.w + beside.above;
+  return OrbitCurve::scattered(constants, 1 / w2, -constants.excess_energy / (2 * l * l * w2 * w3),
+                               std::max(beside.below + beside.above, kLeastExcess));
+}
+
+OrbitStart orbit_through(const OrbitConstants& constants, double r, double over_two, double speed) {
+  const State state{constants, 1 / r, speed};
+  const double l = constants.angular_momentum;
+  const bool unbound = constants.excess_energy >= 0;
+  if (l * l <= 12) return unbound ? unturned(state, 0.25, 0) : falling(state, over_two, nullptr, 0);
+  const Barrier barrier = barrier_of(l);
+  const double off = l * (state.w - barrier.w);
+  const double over = speed * speed - 2 * off * off * (state.w - barrier.w + barrier.spread);
+  if (over > 0)
+    return unbound ? unturned(state, barrier.w, over) : falling(state, over_two, &barrier, over);
+  const BarrierRoots beside = roots_beside(barrier, l, -over);
+  if (state.w >= barrier.w) return turned_inside(state, over_two, beside, barrier);
+  return turned_outside(state, beside, barrier);
+}
+
+}  // namespace domefall

@@ -1,0 +1,175 @@
+#include "trajectories/orbit_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+constexpr int kDepth = 60;  // halvings of a panel
+constexpr int kNewtonSteps = 80;
+
+// Chebyshev series by Clenshaw's recurrence.
+template <class Series>
+double sum(const Series& c, double x) {
+  double b1 = 0, b2 = 0;
+  for (std::size_t k = c.size() - 1; k > 0; --k) {
+    const double b0 = c[k] + 2 * x * b1 - b2;
+    b2 = b1, b1 = b0;
+  }
+  return c[0] + x * b1 - b2;
+}
+
+// cos(k acos(x_j)) at the N nodes x_j = cos(pi (j + 1/2)/N).
+template <int N>
+struct Nodes {
+  std::array<std::array<double, N>, N> t{};
+  Nodes() {
+    for (int k = 0; k < N; ++k)
+      for (int j = 0; j < N; ++j) t[k][j] = std::cos(std::numbers::pi * k * (j + 0.5) / N);
+  }
+  double x(int j) const { return t[1][j]; }
+};
+
+template <int N>
+const Nodes<N>& nodes() {
+  static const Nodes<N> made;
+  return made;
+}
+
+// The integral from x = -1 of the function with these values at the nodes, times `half`.  False if the
+// last terms say that the nodes are too few.
+template <int N>
+bool integrate(const std::array<double, N>& values, double half, double tolerance,
+               std::array<double, N + 1>& integral) {
+  const Nodes<N>& at = nodes<N>();
+  std::array<double, N + 2> c{};
+  double largest = 0;
+  for (int k = 0; k < N; ++k) {
+    double total = 0;
+    for (int j = 0; j < N; ++j) total += values[j] * at.t[k][j];
+    c[k] = total * 2 / N;
+  }
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  integral[0] = 0;
+  for (int k = 1; k <= N; ++k) {
+    integral[k] = half * (c[k - 1] - c[k + 1]) / (2 * k);
+    integral[0] += k % 2 == 1 ? integral[k] : -integral[k];
+  }
+  return std::abs(c[N - 1]) + std::abs(c[N - 2]) <= tolerance * largest;
+}
+
+}  // namespace
+
+double tortoise(double r, double over_two) { return r + 2 * std::log(std::abs(over_two) / 2); }
+
+OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance)
+    : curve_(curve), turn_(turn), tolerance_(tolerance) {
+  std::vector<double> cuts{curve.begin(), 0, origin, curve.end()};
+  if (std::isfinite(turn)) cuts.push_back(turn);
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) append(cuts[k], cuts[k + 1], 0);
+  sum_up(origin, turn);
+}
+
+// dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each the
+// form that is regular at r = 2 where the motion crosses it.
+OrbitTable::Sums OrbitTable::rates(double s, bool ingoing) const {
+  const OrbitCurve::Point p = curve_.at(s);
+  const double e = curve_.constants().energy, l = curve_.constants().angular_momentum / p.r;
+  const double inward = ingoing ? -p.radial_speed : p.radial_speed;
+  const double null_rate = e == 0        ? 0
+                           : inward >= 0 ? (1 + l * l) / (e + inward)
+                                         : (e - inward) / (1 - 2 / p.r);
+  return {p.rate, p.rate * l / p.r, p.rate * null_rate};
+}
+
+bool OrbitTable::fill(Panel& panel) const {
+  std::array<double, kTerms> tau{}, azimuth{}, null_time{};
+  const double middle = (panel.low + panel.high) / 2, half = (panel.high - panel.low) / 2;
+  for (int j = 0; j < kTerms; ++j) {
+    const Sums rate = rates(middle + half * nodes<kTerms>().x(j), middle > turn_);
+    tau[j] = rate.tau, azimuth[j] = rate.azimuth, null_time[j] = rate.null_time;
+  }
+  const bool a = integrate<kTerms>(tau, half, tolerance_, panel.tau);
+  const bool b = integrate<kTerms>(azimuth, half, tolerance_, panel.azimuth);
+  const bool c = integrate<kTerms>(null_time, half, tolerance_, panel.null_time);
+  return a && b && c;
+}
+
+void OrbitTable::append(double low, double high, int depth) {
+  Panel panel;
+  panel.low = low, panel.high = high;
+  const double middle = (low + high) / 2;
+  const bool splits = depth < kDepth && middle > low && middle < high;
+  if (fill(panel) || !splits) {
+    panels_.push_back(panel);
+    return;
+  }
+  append(low, middle, depth + 1);
+  append(middle, high, depth + 1);
+}
+
+OrbitTable::Sums OrbitTable::in_panel(const Panel& panel, double x) const {
+  return {panel.from.tau + sum(panel.tau, x), panel.from.azimuth + sum(panel.azimuth, x),
+          panel.from.null_time + sum(panel.null_time, x)};
+}
+
+// From the origin to both sides, so that what is near it is exact.
+void OrbitTable::sum_up(double origin, double turn) {
+  double jump = 0;
+  if (std::isfinite(turn) && curve_.constants().energy > 0) {
+    const double r = curve_.at(turn).r;
+    jump = 2 * tortoise(r, turn == 0 ? curve_.outermost_over_two() : r - 2);
+  }
+  const auto first = std::lower_bound(panels_.begin(), panels_.end(), origin,
+                                      [](const Panel& p, double s) { return p.low < s; });
+  Sums sums;
+  for (auto p = first; p != panels_.end(); ++p) {
+    if (p->low == turn && p->low > origin) sums.null_time += jump;
+    p->from = sums;
+    sums = in_panel(*p, 1);
+  }
+  end_ = sums, sums = {};
+  for (auto p = std::make_reverse_iterator(first); p != panels_.rend(); ++p) {
+    if (p->high == turn) sums.null_time -= jump;
+    sums.tau -= sum(p->tau, 1), sums.azimuth -= sum(p->azimuth, 1);
+    sums.null_time -= sum(p->null_time, 1);
+    p->from = sums;
+  }
+}
+
+OrbitTable::Sums OrbitTable::at(double s) const {
+  const auto after = std::upper_bound(panels_.begin(), panels_.end(), s,
+                                      [](double value, const Panel& p) { return value < p.low; });
+  const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
+  const double x = ((s - panel.low) - (panel.high - s)) / (panel.high - panel.low);
+  return in_panel(panel, std::clamp(x, -1.0, 1.0));
+}
+
+double OrbitTable::parameter(double tau) const {
+  const auto after =
+      std::upper_bound(panels_.begin(), panels_.end(), tau,
+                       [](double value, const Panel& p) { return value < p.from.tau; });
+  const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
+  const double half = (panel.high - panel.low) / 2, wanted = tau - panel.from.tau;
+  double low = -1, high = 1, x = 2 * wanted / sum(panel.tau, 1) - 1;
+  if (!(x > low)) return panel.low;
+  if (!(x < high)) return panel.high;
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    const double off = sum(panel.tau, x) - wanted;
+    (off > 0 ? high : low) = x;
+    const double slope = curve_.at(panel.low + half * (1 + x)).rate * half;
+    double next = x - off / slope;
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    const bool done = std::abs(next - x) <= std::numeric_limits<double>::epsilon();
+    x = next;
+    if (done) break;
+  }
+  return x < 0 ? panel.low + half * (1 + x) : panel.high - half * (1 - x);
+}
+
+}  // namespace domefall
