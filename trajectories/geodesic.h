@@ -17,8 +17,8 @@
 // E = 0 goes from IV to II through r = 2, where neither tetrad is regular: there the states within
 // |tau| < 4e-6 of it are that of 4e-6 before or after, where r = 2 - 2e-12 and the celerity 1e6.
 //
-// null_time counts t from the instant tau = 0 (at E = 0: t = 0 throughout); of u and v of one geodesic
-// v - u = 2 r* where the tetrad changes.
+// null_time is 0 at tau = 0 (at E = 0: t is 0 throughout).  Of u and v of one geodesic v - u = 2 r* where
+// the tetrad changes.
 //
 // Accuracy, measured against 40 digits: see tests/trajectories.
 // The azimuth and proper time are quadratures made once by the factory (well below 5 ms); a copy shares

@@ -3,63 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace domefall {
 namespace {
 
 constexpr int kDepth = 60;  // halvings of a panel
 constexpr int kNewtonSteps = 80;
-
-// Chebyshev series by Clenshaw's recurrence.
-template <class Series>
-double sum(const Series& c, double x) {
-  double b1 = 0, b2 = 0;
-  for (std::size_t k = c.size() - 1; k > 0; --k) {
-    const double b0 = c[k] + 2 * x * b1 - b2;
-    b2 = b1, b1 = b0;
-  }
-  return c[0] + x * b1 - b2;
-}
-
-// cos(k acos(x_j)) at the N nodes x_j = cos(pi (j + 1/2)/N).
-template <int N>
-struct Nodes {
-  std::array<std::array<double, N>, N> t{};
-  Nodes() {
-    for (int k = 0; k < N; ++k)
-      for (int j = 0; j < N; ++j) t[k][j] = std::cos(std::numbers::pi * k * (j + 0.5) / N);
-  }
-  double x(int j) const { return t[1][j]; }
-};
-
-template <int N>
-const Nodes<N>& nodes() {
-  static const Nodes<N> made;
-  return made;
-}
-
-// The integral from x = -1 of the function with these values at the nodes, times `half`.  False if the
-// last terms say that the nodes are too few.
-template <int N>
-bool integrate(const std::array<double, N>& values, double half, double tolerance,
-               std::array<double, N + 1>& integral) {
-  const Nodes<N>& at = nodes<N>();
-  std::array<double, N + 2> c{};
-  double largest = 0;
-  for (int k = 0; k < N; ++k) {
-    double total = 0;
-    for (int j = 0; j < N; ++j) total += values[j] * at.t[k][j];
-    c[k] = total * 2 / N;
-  }
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  integral[0] = 0;
-  for (int k = 1; k <= N; ++k) {
-    integral[k] = half * (c[k - 1] - c[k + 1]) / (2 * k);
-    integral[0] += k % 2 == 1 ? integral[k] : -integral[k];
-  }
-  return std::abs(c[N - 1]) + std::abs(c[N - 2]) <= tolerance * largest;
-}
 
 }  // namespace
 
@@ -88,15 +37,15 @@ OrbitTable::Sums OrbitTable::rates(double s, bool ingoing) const {
 }
 
 bool OrbitTable::fill(Panel& panel) const {
-  std::array<double, kTerms> tau{}, azimuth{}, null_time{};
+  PanelValues tau{}, azimuth{}, null_time{};
   const double middle = (panel.low + panel.high) / 2, half = (panel.high - panel.low) / 2;
-  for (int j = 0; j < kTerms; ++j) {
-    const Sums rate = rates(middle + half * nodes<kTerms>().x(j), middle > turn_);
+  for (std::size_t j = 0; j < kPanelTerms; ++j) {
+    const Sums rate = rates(middle + half * panel_node(j), middle > turn_);
     tau[j] = rate.tau, azimuth[j] = rate.azimuth, null_time[j] = rate.null_time;
   }
-  const bool a = integrate<kTerms>(tau, half, tolerance_, panel.tau);
-  const bool b = integrate<kTerms>(azimuth, half, tolerance_, panel.azimuth);
-  const bool c = integrate<kTerms>(null_time, half, tolerance_, panel.null_time);
+  const bool a = integrate_panel(tau, half, tolerance_, panel.tau);
+  const bool b = integrate_panel(azimuth, half, tolerance_, panel.azimuth);
+  const bool c = integrate_panel(null_time, half, tolerance_, panel.null_time);
   return a && b && c;
 }
 
@@ -114,8 +63,9 @@ void OrbitTable::append(double low, double high, int depth) {
 }
 
 OrbitTable::Sums OrbitTable::in_panel(const Panel& panel, double x) const {
-  return {panel.from.tau + sum(panel.tau, x), panel.from.azimuth + sum(panel.azimuth, x),
-          panel.from.null_time + sum(panel.null_time, x)};
+  return {panel.from.tau + panel_sum(panel.tau, x),
+          panel.from.azimuth + panel_sum(panel.azimuth, x),
+          panel.from.null_time + panel_sum(panel.null_time, x)};
 }
 
 // From the origin to both sides, so that what is near it is exact.
@@ -136,8 +86,8 @@ void OrbitTable::sum_up(double origin, double turn) {
   end_ = sums, sums = {};
   for (auto p = std::make_reverse_iterator(first); p != panels_.rend(); ++p) {
     if (p->high == turn) sums.null_time -= jump;
-    sums.tau -= sum(p->tau, 1), sums.azimuth -= sum(p->azimuth, 1);
-    sums.null_time -= sum(p->null_time, 1);
+    sums.tau -= panel_sum(p->tau, 1), sums.azimuth -= panel_sum(p->azimuth, 1);
+    sums.null_time -= panel_sum(p->null_time, 1);
     p->from = sums;
   }
 }
@@ -156,11 +106,11 @@ double OrbitTable::parameter(double tau) const {
                        [](double value, const Panel& p) { return value < p.from.tau; });
   const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
   const double half = (panel.high - panel.low) / 2, wanted = tau - panel.from.tau;
-  double low = -1, high = 1, x = 2 * wanted / sum(panel.tau, 1) - 1;
+  double low = -1, high = 1, x = 2 * wanted / panel_sum(panel.tau, 1) - 1;
   if (!(x > low)) return panel.low;
   if (!(x < high)) return panel.high;
   for (int k = 0; k < kNewtonSteps; ++k) {
-    const double off = sum(panel.tau, x) - wanted;
+    const double off = panel_sum(panel.tau, x) - wanted;
     (off > 0 ? high : low) = x;
     const double slope = curve_.at(panel.low + half * (1 + x)).rate * half;
     double next = x - off / slope;

@@ -3,10 +3,10 @@
 // inverse, the parameter of a proper time.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "trajectories/chebyshev_panel.h"
 #include "trajectories/orbit_curve.h"
 
 namespace domefall {
@@ -29,12 +29,10 @@ class OrbitTable {
   std::size_t panel_count() const { return panels_.size(); }
 
  private:
-  static constexpr int kTerms = 20;  // of the integrands
-  using Series = std::array<double, kTerms + 1>;
   struct Panel {
     double low = 0, high = 0;
-    Sums from;                       // at low
-    Series tau, azimuth, null_time;  // what is added since
+    Sums from;                              // at low
+    PanelIntegral tau, azimuth, null_time;  // what is added since
   };
 
   Sums rates(double s, bool ingoing) const;

@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "trajectories/accelerated_path.h"
 #include "trajectories/circular_orbit.h"
 #include "trajectories/geodesic.h"
 #include "trajectories/given_velocity.h"
@@ -13,8 +14,8 @@
 
 namespace domefall {
 
-using Trajectory =
-    std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity, Geodesic>;
+using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
+                                Geodesic, AcceleratedPath>;
 
 // The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
 // tau must be in [0, lifetime).

@@ -1,0 +1,284 @@
+#include "trajectories/accelerated_path.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "trajectories/chebyshev_panel.h"
+#include "trajectories/orbit_bounds.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kSamples = 512;  // of a piece, where it is examined
+constexpr double kTolerance = 1e-13;
+constexpr int kDepth = 40;  // halvings of a panel
+constexpr double kRounding =
+    1e-12;  // of the path's duration, by which a proper time may miss its ends
+
+// From key to key, of t = 0 to 1: c0 + t (c1 + t (c2 + t c3)).
+struct Cubic {
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
+
+  static Cubic hermite(double from, double to, double slope_from, double slope_to) {
+    const double rise = to - from;
+    return {from, slope_from, 3 * rise - 2 * slope_from - slope_to,
+            slope_from + slope_to - 2 * rise};
+  }
+  double at(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+  double slope(double t) const { return c1 + t * (2 * c2 + t * 3 * c3); }
+};
+
+struct Piece {
+  double begin, end;  // proper time
+  Cubic r, azimuth;
+};
+
+struct Rates {
+  double r, radial, tangential, energy2;  // dr/dtau, r dphi/dtau, E^2
+};
+
+Rates rates_of(const Piece& piece, double t) {
+  const double span = piece.end - piece.begin, r = piece.r.at(t);
+  const double u = piece.r.slope(t) / span, l = r * piece.azimuth.slope(t) / span;
+  return {r, u, l, u * u + (1 - 2 / r) * (1 + l * l)};
+}
+
+// As of geodesics, (1 - E^2) + l^2 being (2/r)(1 + l^2) - u^2.
+double radial_celerity(const Rates& p, bool outgoing) {
+  const double s = std::sqrt(2 / p.r), inward = outgoing ? p.radial : -p.radial;
+  const double energy = std::sqrt(p.energy2), squares = 1 + p.tangential * p.tangential;
+  const double w = inward >= 0 ? (2 / p.r * squares - inward * inward) / (s * energy + inward)
+                               : (s * energy - inward) / (1 - 2 / p.r);
+  return outgoing ? -w : w;
+}
+
+double null_rate(const Rates& p, bool outgoing) {
+  const double energy = std::sqrt(p.energy2), inward = outgoing ? p.radial : -p.radial;
+  return inward >= 0 ? (1 + p.tangential * p.tangential) / (energy + inward)
+                     : (energy - inward) / (1 - 2 / p.r);
+}
+
+// Of a key inside: 0 at an extreme, else the harmonic mean weighted towards the shorter side.
+double key_slope(double before, double left, double after, double right) {
+  if (left * right <= 0) return 0;
+  const double a = 2 * after + before, b = after + 2 * before;
+  return (a + b) / (a / left + b / right);
+}
+
+// Of the first or last key: the parabola's slope, within what keeps the cubic from turning.
+double end_slope(double span, double own, double next_span, double next) {
+  const double slope = ((2 * span + next_span) * own - span * next) / (span + next_span);
+  if (slope * own <= 0) return 0;
+  if (own * next <= 0 && std::abs(slope) > 3 * std::abs(own)) return 3 * own;
+  return slope;
+}
+
+std::vector<double> slopes(const std::vector<double>& taus, const std::vector<double>& values) {
+  const std::size_t n = taus.size();
+  std::vector<double> span(n - 1), rise(n - 1), slope(n);
+  for (std::size_t k = 0; k + 1 < n; ++k)
+    span[k] = taus[k + 1] - taus[k], rise[k] = (values[k + 1] - values[k]) / span[k];
+  if (n == 2) return {rise[0], rise[0]};
+  slope[0] = end_slope(span[0], rise[0], span[1], rise[1]);
+  slope[n - 1] = end_slope(span[n - 2], rise[n - 2], span[n - 3], rise[n - 3]);
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    slope[k] = key_slope(span[k - 1], rise[k - 1], span[k], rise[k]);
+  return slope;
+}
+
+[[noreturn]] void refuse(std::size_t key, double tau, const std::string& why) {
+  throw std::domain_error("key " + std::to_string(key) + ", at proper time " + bound_text(tau) +
+                          " (units of M): " + why);
+}
+
+void check_keys(const std::vector<PathKey>& keys) {
+  if (keys.size() < 2) throw std::domain_error("a path must have at least 2 keys");
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const PathKey& key = keys[k];
+    if (!(key.r > 0) || !std::isfinite(key.r) || !std::isfinite(key.azimuth))
+      refuse(k + 1, key.tau, "r must exceed 0 (units of M), got " + bound_text(key.r));
+    if (!std::isfinite(key.tau) || (k > 0 && !(key.tau > keys[k - 1].tau)))
+      refuse(k + 1, key.tau, "its proper time must exceed that of the key before");
+  }
+}
+
+std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
+  std::vector<double> taus, radii, azimuths;
+  for (const PathKey& key : keys) {
+    taus.push_back(key.tau), radii.push_back(key.r), azimuths.push_back(key.azimuth);
+  }
+  std::vector<double> radial = slopes(taus, radii), swept = slopes(taus, azimuths);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    radial[k] = keys[k].radial_rate.value_or(radial[k]);
+    swept[k] = keys[k].azimuth_rate.value_or(swept[k]);
+  }
+  std::vector<Piece> pieces;
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const double span = taus[k + 1] - taus[k];
+    pieces.push_back(
+        {taus[k], taus[k + 1],
+         Cubic::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
+         Cubic::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
+  }
+  return pieces;
+}
+
+void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing) {
+  const double tau = piece.begin + t * (piece.end - piece.begin), r = piece.r.at(t);
+  if (!(r > 0)) refuse(key, tau, "after it the path meets the singularity");
+  const Rates p = rates_of(piece, t);
+  if (r > 2) return;
+  const std::string place = "after it, at r = " + bound_text(r) + ", ";
+  if (!((outgoing ? p.radial : -p.radial) > 0))
+    refuse(key, tau,
+           place + (outgoing ? "nothing stops rising in region IV"
+                             : "nothing stops falling inside the hole"));
+  if (!(p.energy2 >= 0))
+    refuse(key, tau, place + "the path is faster than light: it must cross r faster, or turn less");
+}
+
+void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
+  for (int k = 0; k <= kSamples; ++k)
+    check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing);
+}
+
+// Where the cubic turns, between 0 and 1, with both ends.
+std::vector<double> turns_of(const Cubic& c) {
+  std::vector<double> cuts{0};
+  const double a = 3 * c.c3, b = c.c2, under = b * b - a * c.c1;
+  if (under > 0) {
+    const double q = -(b + std::copysign(std::sqrt(under), b));
+    std::vector<double> found;
+    if (a != 0) found.push_back(q / a);
+    if (q != 0) found.push_back(c.c1 / q);
+    std::sort(found.begin(), found.end());
+    for (const double t : found)
+      if (t > cuts.back() && t < 1) cuts.push_back(t);
+  }
+  cuts.push_back(1);
+  return cuts;
+}
+
+double where(const Cubic& c, double value, double low, double high) {
+  const auto f = [&](double t) { return c.at(t) - value; };
+  if (f(low) == 0) return low;
+  if (f(high) == 0) return high;
+  std::uintmax_t steps = 100;
+  const auto found = boost::math::tools::toms748_solve(
+      f, low, high, boost::math::tools::eps_tolerance<double>(52), steps);
+  return (found.first + found.second) / 2;
+}
+
+struct NullPanel {
+  std::size_t piece;
+  double low, high;  // of the piece
+  double from;
+  PanelIntegral sum;
+};
+
+}  // namespace
+
+struct AcceleratedPath::Tables {
+  Tetrad tetrad;
+  std::vector<Piece> pieces;
+  std::vector<NullPanel> panels;
+
+  void append(std::size_t piece, double low, double high, int depth);
+  void sum_up();
+  double null_time(std::size_t piece, double t) const;
+  OrbitPoint state(std::size_t piece, double t) const;
+};
+
+void AcceleratedPath::Tables::append(std::size_t piece, double low, double high, int depth) {
+  const Piece& p = pieces[piece];
+  NullPanel panel{piece, low, high, 0, {}};
+  PanelValues values{};
+  const double middle = (low + high) / 2, half = (high - low) / 2;
+  for (std::size_t j = 0; j < kPanelTerms; ++j)
+    values[j] = null_rate(rates_of(p, middle + half * panel_node(j)), is_outgoing(tetrad));
+  if (integrate_panel(values, half * (p.end - p.begin), kTolerance, panel.sum) || depth == kDepth) {
+    panels.push_back(panel);
+    return;
+  }
+  append(piece, low, middle, depth + 1);
+  append(piece, middle, high, depth + 1);
+}
+
+void AcceleratedPath::Tables::sum_up() {
+  double total = 0;
+  for (NullPanel& panel : panels) {
+    panel.from = total;
+    total += panel_sum(panel.sum, 1);
+  }
+}
+
+double AcceleratedPath::Tables::null_time(std::size_t piece, double t) const {
+  const auto after = std::upper_bound(
+      panels.begin(), panels.end(), std::pair(piece, t),
+      [](const auto& at, const NullPanel& p) { return at < std::pair(p.piece, p.low); });
+  const NullPanel& panel = after == panels.begin() ? *after : *(after - 1);
+  return panel.from +
+         panel_sum(panel.sum, ((t - panel.low) - (panel.high - t)) / (panel.high - panel.low));
+}
+
+OrbitPoint AcceleratedPath::Tables::state(std::size_t piece, double t) const {
+  const Rates p = rates_of(pieces[piece], t);
+  const bool outgoing = is_outgoing(tetrad);
+  const Region outside = is_mirrored(tetrad) ? Region::kIII : Region::kI;
+  const Region inside = outgoing ? Region::kIV : Region::kII;
+  return {p.r > 2 ? outside : inside,
+          tetrad,
+          p.r,
+          pieces[piece].azimuth.at(t),
+          V3d(radial_celerity(p, outgoing), 0, p.tangential),
+          null_time(piece, t)};
+}
+
+AcceleratedPath::AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad) {
+  check_keys(keys);
+  const auto tables = std::make_shared<Tables>(Tables{tetrad, pieces_of(keys), {}});
+  for (std::size_t k = 0; k < tables->pieces.size(); ++k) {
+    check_piece(tables->pieces[k], k + 1, is_outgoing(tetrad));
+    tables->append(k, 0, 1, 0);
+  }
+  tables->sum_up();
+  tables_ = tables;
+}
+
+double AcceleratedPath::begin() const { return tables_->pieces.front().begin; }
+double AcceleratedPath::end() const { return tables_->pieces.back().end; }
+
+OrbitPoint AcceleratedPath::at(double tau) const {
+  const double slack = kRounding * (end() - begin());
+  if (!(tau >= begin() - slack && tau <= end() + slack))
+    throw std::domain_error("proper time " + bound_text(tau) + " (units of M) is not on the path");
+  const std::vector<Piece>& pieces = tables_->pieces;
+  const auto after = std::upper_bound(pieces.begin() + 1, pieces.end(), tau,
+                                      [](double value, const Piece& p) { return value < p.begin; });
+  const auto& piece = *(after - 1);
+  const double t = std::clamp((tau - piece.begin) / (piece.end - piece.begin), 0.0, 1.0);
+  return tables_->state(static_cast<std::size_t>(after - 1 - pieces.begin()), t);
+}
+
+std::optional<double> AcceleratedPath::time_at(double r, Leg leg, double after) const {
+  for (const Piece& piece : tables_->pieces) {
+    const std::vector<double> cuts = turns_of(piece.r);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const double from = piece.r.at(cuts[k]), to = piece.r.at(cuts[k + 1]);
+      const bool falls = to < from;
+      if (from == to || falls != (leg == Leg::kInward) || r < std::min(from, to) ||
+          r > std::max(from, to))
+        continue;
+      const double t = where(piece.r, r, cuts[k], cuts[k + 1]);
+      const double tau = piece.begin + t * (piece.end - piece.begin);
+      if (tau >= after) return tau;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace domefall

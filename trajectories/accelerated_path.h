@@ -1,0 +1,55 @@
+// An observer with engines, who follows keyframes: r and azimuth are cubics of proper time between them,
+// once continuously differentiable, and the rest of the four-velocity is its normalisation,
+// E = sqrt((dr/dtau)^2 + (1 - 2/r)(1 + (r dphi/dtau)^2)) >= 0.  Outside the hole any path is one;
+// inside, the rate dr/dtau must be large enough, and negative (rain) or positive (outgoing tetrad).
+//
+// A rate that a key does not give is chosen so that the path does not overshoot the keys (Fritsch and
+// Butland's harmonic mean; 0 at a key that is an extreme).
+// The state is exact to rounding for its r, azimuth and their rates; null_time is a quadrature with 1e-13.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "trajectories/geodesic.h"
+#include "trajectories/orbit_point.h"
+
+namespace domefall {
+
+struct PathKey {
+  double tau = 0;                      // units of M, growing from key to key
+  double r = 0;                        // units of M, > 0
+  double azimuth = 0;                  // radians; may go back
+  std::optional<double> radial_rate;   // dr/dtau
+  std::optional<double> azimuth_rate;  // dphi/dtau, radians per M
+};
+
+class AcceleratedPath {
+ public:
+  // Two keys or more.  The tetrad holds for the whole path: rain in I and II, outgoing in IV and I, the
+  // other two in III and II, IV and III.
+  // Throws std::domain_error that names the key (counted from 1) and the instant where the path cannot
+  // be flown: keys out of order, r not above 0, or a place inside the hole where it would have to be
+  // faster than light or turn back.
+  explicit AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain);
+
+  double begin() const;  // proper times of the first and the last key
+  double end() const;
+  // tau in [begin(), end()]; std::domain_error elsewhere.  azimuth is that of the keys; null_time
+  // counts from begin().
+  OrbitPoint at(double tau) const;
+  // The first proper time >= after at which r is passed on that leg; nothing if never.
+  std::optional<double> time_at(double r, Leg leg,
+                                double after = -std::numeric_limits<double>::infinity()) const;
+
+ private:
+  struct Tables;
+
+  std::shared_ptr<const Tables> tables_;
+};
+
+inline OrbitPoint point_at(const AcceleratedPath& path, double tau) { return path.at(tau); }
+
+}  // namespace domefall
