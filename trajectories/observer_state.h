@@ -58,6 +58,8 @@ struct ObserverState {
   // Where a trajectory changes its tetrad it goes from the one to the other of the same t.  Of the
   // mirrored frames after t -> -t.  Stands still for a held instant.
   double null_time = 0;
+  // Radians swept in the planes of its orbits since the start of the show.
+  double azimuth = 0;
   // Columns: the directions of R, Theta and Phi of the reference tetrad on the celestial sphere, so
   // R is the observer's place as seen from the hole.  A rotation.
   M33d sky_from_tetrad;

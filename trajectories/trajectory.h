@@ -21,7 +21,8 @@ using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, Giv
 // tau must be in [0, lifetime).
 OrbitPoint point_at(const Trajectory& trajectory, double tau);
 
-// Proper time from the start to the singularity; infinity for an observer that never meets it.
+// The proper time before which the trajectory ends: at the singularity, or just behind the last key of a
+// path; infinity for an observer whose time does not end.
 double lifetime(const Trajectory& trajectory);
 
 }  // namespace domefall

@@ -119,7 +119,9 @@ class Run {
       // All that the run will need: a damaged file is told before the first frame, not in the middle.
       for (const SeenSky sky : kEverySky)
         if (std::any_of(run_.frames.begin(), run_.frames.end(), [this, sky](int frame) {
-              return plan_frame(run_.show, frame_state(run_.show, frame))[sky].lit();
+              const FrameState other = frame_state(run_.show, frame);
+              return plan_frame(run_.show, other)[sky].lit() ||
+                     (other.vanishing && plan_frame(run_.show, *other.vanishing)[sky].lit());
             }))
           renderer_->load_sky(sky);
     }

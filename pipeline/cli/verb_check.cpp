@@ -20,14 +20,14 @@ const char* kind_of(const Trajectory& t) {
 void print_segments(const Show& show) {
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
     const Segment& s = show.timeline[k];
-    const double from = point_at(s.trajectory, s.tau_begin).r,
-                 to = point_at(s.trajectory, s.tau_end).r;
+    const double from = point_at(s.trajectory, s.timing.tau_begin).r,
+                 to = point_at(s.trajectory, s.timing.tau_end).r;
     std::printf("segment %zu    %s, %.6g s", k, kind_of(s.trajectory), s.duration_s);
     if (std::isinf(from))
       std::puts(", flat space");
     else
       std::printf(", r = %.6g M to %.6g M, %.6g M of proper time\n", from, to,
-                  s.tau_end - s.tau_begin);
+                  s.timing.tau_end - s.timing.tau_begin);
   }
 }
 
@@ -44,7 +44,7 @@ void check(const std::string& file) {
   std::set<Region> regions;
   double closest = kFlatSpace;
   for (const Segment& s : show.timeline)
-    for (const double tau : {s.tau_begin, s.tau_end}) {
+    for (const double tau : {s.timing.tau_begin, s.timing.tau_end}) {
       const OrbitPoint point = point_at(s.trajectory, tau);
       regions.insert(point.region);
       closest = std::min(closest, point.r);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <memory>
 #include <numbers>
 
 #include "pipeline/cli/frame_range.h"
@@ -22,15 +24,26 @@ struct Options {
 
 // A dome show on a flat screen: the look of someone in the seats, straight at what the camera looks
 // at, or 45 degrees up the front of the dome where it is given by angles.
-void flatten(Show& show, FrameState& state, const Projection& flat) {
+void flatten(const Show& show, FrameState& state, const Projection& flat) {
+  if (state.vanishing) {
+    auto vanishing = std::make_shared<FrameState>(*state.vanishing);
+    flatten(show, *vanishing, flat);
+    state.vanishing = vanishing;
+  }
+  const Segment& segment = show.timeline[static_cast<std::size_t>(state.segment)];
   const bool dome = std::holds_alternative<Domemaster>(show.projection);
-  const Camera& camera = show.timeline[static_cast<std::size_t>(state.segment)].camera;
+  const bool by_angles =
+      std::holds_alternative<EulerAngles>(segment.camera.attitude) ||
+      std::any_of(segment.attitudes.begin(), segment.attitudes.end(), [](const AttitudeKey& key) {
+        return std::holds_alternative<EulerAngles>(key.attitude);
+      });
+  const M33d dome_axes = state.observer.tetrad_from_camera;
   state.projection = flat;
-  if (!dome || !std::holds_alternative<EulerAngles>(camera.attitude)) {
-    state.observer.tetrad_from_camera = camera_axes(camera, flat, state.observer);
+  if (!dome || !by_angles) {
+    state.observer.tetrad_from_camera =
+        camera_axes_at(show, state.segment, state.show_time_s, flat, state.observer);
     return;
   }
-  const M33d dome_axes = camera_axes(camera, show.projection, state.observer);
   const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
   const double half = std::numbers::sqrt2 / 2;
   state.observer.tetrad_from_camera =

@@ -9,13 +9,12 @@ namespace domefall {
 namespace {
 
 void add_sky(Digest& digest, const RegionSky& sky) {
-  digest.add(static_cast<double>(sky.background.index())).add(sky.background_gain);
+  digest.add(static_cast<double>(sky.background.index()));
   if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
     digest.add_file(panorama->image);
   if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
   digest.add(sky.stars ? "stars" : "no stars");
-  if (sky.stars)
-    digest.add_file(sky.stars->catalogue).add(sky.stars->max_magnitude).add(sky.star_gain);
+  if (sky.stars) digest.add_file(sky.stars->catalogue);
 }
 
 // Of unit vectors, to 1e-12: what is 0 on one processor is 1e-17 on another.
@@ -28,7 +27,7 @@ void add_matrix(Digest& digest, const M33d& m) {
 
 void add_projection(Digest& digest, const Projection& p) {
   digest.add(projection_name(p)).add(columns(p)).add(rows(p));
-  if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(flat->fov);
+  if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(steady(flat->fov));
 }
 
 }  // namespace
@@ -39,8 +38,19 @@ double steady(double value) {
   return std::isfinite(high) ? high : value;
 }
 
+namespace {
+
+void add_picture(Digest& digest, const Picture::Sky& sky) {
+  digest.add(steady(sky.background_gain))
+      .add(steady(sky.star_gain))
+      .add(steady(sky.max_magnitude))
+      .add(sky.soft_limit ? "soft" : "hard");
+}
+
+}  // namespace
+
 // Raised with every change that alters a pixel, so that frames from before it are made again.
-constexpr int kPictures = 2;
+constexpr int kPictures = 3;
 
 FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(grade)) {
   Digest common;
@@ -48,7 +58,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
   add_sky(common, show.sky_one);
   const StarBlobs& b = show.blobs;
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);
-  common.add(show.panorama_shift.blueshift_power).add(show.exposure.ev);
+  common.add(show.panorama_shift.blueshift_power);
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky_three);
@@ -73,9 +83,13 @@ std::string FrameKeys::scene(const FrameState& state) const {
   add_matrix(digest, o.sky_from_tetrad);
   add_matrix(digest, o.tetrad_from_camera);
   add_projection(digest, state.projection);
-  if (o.region == Region::kII || o.region == Region::kIII) digest.add(sky_three_);
-  if (!is_flat(o)) digest.add(sky_four_);
+  digest.add(steady(state.picture.ev));
+  add_picture(digest, state.picture.sky_one);
+  if (o.region == Region::kII || o.region == Region::kIII)
+    digest.add(sky_three_), add_picture(digest, state.picture.sky_three);
+  if (!is_flat(o)) digest.add(sky_four_), add_picture(digest, state.picture.sky_four);
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
+  if (state.vanishing) digest.add(scene(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipeline/show/show.h"
+#include "pipeline/show/frame_state.h"
 
 namespace domefall {
 
@@ -11,8 +11,8 @@ namespace domefall {
 inline constexpr double kReferenceLuminance = 1e-3;
 
 // Pixel value per cd/m^2.
-inline double exposure_scale(const Exposure& exposure) {
-  return std::exp2(exposure.ev) / kReferenceLuminance;
+inline double exposure_scale(const Picture& picture) {
+  return std::exp2(picture.ev) / kReferenceLuminance;
 }
 
 // Illuminance (lux) of a star of magnitude 0, for the brightness that a blob's size goes by.

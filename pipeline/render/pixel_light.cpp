@@ -39,11 +39,10 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
 
 WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
                             double footprint, double g, double scale) {
-  const double gain = scale * sky.background_gain;
   if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background))
-    return (*map)->sample(sky_direction, footprint) * (panorama_intensity(shift, g) * gain);
+    return (*map)->sample(sky_direction, footprint) * (panorama_intensity(shift, g) * scale);
   if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
-  return grid_light({sky_direction}, footprint, g) * gain;
+  return grid_light({sky_direction}, footprint, g) * scale;
 }
 
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
@@ -57,25 +56,29 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
       anti_aliasing_(anti_aliasing),
       long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
                                                                        : kLongOnPanorama),
-      scale_(exposure_scale(show.exposure)),
-      null_time_(state.observer.null_time) {}
+      null_time_(state.observer.null_time) {
+  for (const SeenSky sky : kEverySky)
+    scale_[static_cast<std::size_t>(sky)] =
+        exposure_scale(state.picture) * sky_of(state.picture, sky).background_gain;
+}
 
 // sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
 WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle, bool fine) const {
   const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
   if (sky == nullptr) return {0, 0, 0};
+  const double scale = scale_[static_cast<std::size_t>(batch.sky[k])];
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   if (const auto* rings = std::get_if<Rings>(&sky->background))
     return ring_glow((null_time_ + batch.emission_time[k]) / rings->period,
                      batch.time_scale[k] * sample_angle / rings->period) *
-           (scale_ * sky->background_gain);
+           scale;
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
   // Many looks do the blurring themselves; a box as long as each would also smear the lines of a grid
   // across it, which on an Einstein ring are stretched without bound.
   const bool short_box = fine && std::holds_alternative<Grid>(sky->background);
   return background_light(*sky, show_.panorama_shift, batch.sky_direction(k),
                           sample_angle * (short_box ? shorter : longer), batch.frequency_ratio[k],
-                          scale_);
+                          scale);
 }
 
 bool PixelLight::is_darkened(SeenSky sky, const CameraDirection& n) const {

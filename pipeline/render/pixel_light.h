@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// Light of a sky's background (cd/m^2, times `scale` and the sky's own gain) at frequency ratio
+// Light of a sky's background (cd/m^2, times `scale`) at frequency ratio
 // g = 1/(1+z), filtered over `footprint` radians on the sky.  [Riazuelo] sec. ssec_rgb for panoramas.
 WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
                             double footprint, double g, double scale);
@@ -45,7 +45,7 @@ class PixelLight {
   std::vector<DarkenedSpot> darkened_;
   AntiAliasing anti_aliasing_;
   double long_footprint_;
-  double scale_;  // pixel value per cd/m^2
+  std::array<double, kSkies> scale_;  // pixel value per cd/m^2, by SeenSky, with its gain
   double null_time_;
 };
 

@@ -30,11 +30,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool shows_anything(const RegionSky& sky) {
-  return !std::holds_alternative<BlackSky>(sky.background) && sky.background_gain > 0;
+bool shows_anything(const RegionSky& sky, const Picture::Sky& now) {
+  return !std::holds_alternative<BlackSky>(sky.background) && now.background_gain > 0;
 }
 
-bool has_stars(const RegionSky& sky) { return sky.stars && sky.star_gain > 0; }
+bool has_stars(const RegionSky& sky, const Picture::Sky& now) {
+  return sky.stars && now.star_gain > 0;
+}
 
 // More threads than processors gain nothing, and TBB would say so on the terminal.
 int threads_of(int wanted) {
@@ -97,8 +99,20 @@ void store_row(const float* rgb, int row, HalfFrame& frame) {
 
 namespace {
 
-FramePlan::Sky plan_sky(const RegionSky& sky) {
-  return {shows_anything(sky), has_stars(sky), std::holds_alternative<RingsSky>(sky.background)};
+FramePlan::Sky plan_sky(const RegionSky& sky, const Picture::Sky& now) {
+  return {shows_anything(sky, now), has_stars(sky, now),
+          std::holds_alternative<RingsSky>(sky.background)};
+}
+
+// The part of the light that is the vanishing picture's, the rest the other's.
+void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
+  const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
+  for (int row = 0; row < frame.height; ++row) {
+    Imath::half* own = frame.row(row);
+    const Imath::half* other = vanishing.row(row);
+    for (int k = 0; k < 3 * frame.width; ++k)
+      own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
+  }
 }
 
 }  // namespace
@@ -112,8 +126,8 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o);
-  const auto set = [&plan](SeenSky which, const RegionSky& sky) {
-    plan.sky[static_cast<std::size_t>(which)] = plan_sky(sky);
+  const auto set = [&](SeenSky which, const RegionSky& sky) {
+    plan.sky[static_cast<std::size_t>(which)] = plan_sky(sky, sky_of(state.picture, which));
   };
   const bool mirrored = is_mirrored(o.tetrad);
   const bool home = o.region != Region::kIV;
@@ -160,8 +174,20 @@ const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan&
 }
 
 HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
-  StageTimes unused;
-  StageTimes& t = times ? *times : unused;
+  StageTimes own;
+  HalfFrame frame = render_one(state, own);
+  if (state.vanishing) {
+    StageTimes others;
+    dissolve(frame, render_one(*state.vanishing, others), state.vanishing_part);
+    own.load_s += others.load_s, own.tables_s += others.tables_s;
+    own.stars_s += others.stars_s, own.pixels_s += others.pixels_s;
+    own.table_nodes += others.table_nodes, own.images += others.images;
+  }
+  if (times) *times = own;
+  return frame;
+}
+
+HalfFrame Renderer::render_one(const FrameState& state, StageTimes& t) {
   const FramePlan plan = plan_frame(show_, state);
   auto start = Clock::now();
   const auto lap = [&start] {
@@ -182,7 +208,7 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
     std::vector<StarBlob> blobs;
     for (const SeenSky which : kEverySky)
       if (plan[which].stars)
-        append_blobs(BlobMaker(show_, state, table_of(optics, which)),
+        append_blobs(BlobMaker(show_, state, sky_of(state.picture, which), table_of(optics, which)),
                      *skies[static_cast<std::size_t>(which)]->stars, blobs);
     t.images = blobs.size();
     for (const SeenSky which : kEverySky)

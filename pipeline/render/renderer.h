@@ -60,6 +60,7 @@ class Renderer {
   int threads() const;
 
  private:
+  HalfFrame render_one(const FrameState& state, StageTimes& times);
   const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan);
 
   struct Arena;

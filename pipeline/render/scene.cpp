@@ -11,15 +11,15 @@
 namespace domefall {
 namespace {
 
-std::vector<SceneStar> scene_stars(const StarCatalogue& catalogue, double gain) {
+std::vector<SceneStar> scene_stars(const StarCatalogue& catalogue) {
   std::vector<SceneStar> stars;
   stars.reserve(catalogue.stars.size());
   for (const Star& s : catalogue.stars) {
     const double t = s.temperature;
-    const double flux = gain * std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(t);
+    const double flux = std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(t);
     // flux = surface radiance * pi rho^2
     const double radius = std::sqrt(flux / (blackbody_radiance(t) * std::numbers::pi));
-    stars.push_back({s.direction, flux, t, radius});
+    stars.push_back({s.direction, s.v_magnitude, flux, t, radius});
   }
   return stars;
 }
@@ -40,9 +40,17 @@ bool same_background(const RegionSky& a, const RegionSky& b) {
 }
 
 bool same_stars(const RegionSky& a, const RegionSky& b) {
-  return a.stars && b.stars && a.star_gain == b.star_gain &&
-         a.stars->catalogue == b.stars->catalogue &&
-         a.stars->max_magnitude == b.stars->max_magnitude;
+  return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
+}
+
+// The faintest stars of a sky that any frame takes.
+double deepest_magnitude(const Show& show, SeenSky which, double constant) {
+  const auto channel = static_cast<std::size_t>(which == SeenSky::kOne ? Channel::kMagnitudeOne
+                                                                       : Channel::kMagnitudeThree);
+  double deepest = constant;
+  for (const Segment& segment : show.timeline)
+    if (const auto& curve = segment.curves[channel]) deepest = std::max(deepest, largest(*curve));
+  return deepest;
 }
 
 }  // namespace
@@ -52,27 +60,29 @@ const RegionSky& Scene::region(SeenSky which) const {
   return which == SeenSky::kThree ? show_.sky_three : show_.sky_four;
 }
 
+double Scene::limit_of(SeenSky which) const {
+  return deepest_magnitude(show_, which, region(which).stars.value_or(StarField{}).max_magnitude);
+}
+
 // What another sky has loaded already is shared with it.
 Sky Scene::load(SeenSky which) const {
   const RegionSky& own = region(which);
   Sky sky;
-  sky.background_gain = static_cast<float>(own.background_gain);
   if (std::holds_alternative<GridSky>(own.background)) sky.background = Grid{};
   if (const auto* rings = std::get_if<RingsSky>(&own.background)) sky.background = *rings;
   for (const SeenSky other : kEverySky) {
     const auto& loaded = skies_[static_cast<std::size_t>(other)];
     if (!loaded) continue;
     if (same_background(own, region(other))) sky.background = loaded->background;
-    if (same_stars(own, region(other))) sky.stars = loaded->stars;
+    if (same_stars(own, region(other)) && limit_of(which) == limit_of(other))
+      sky.stars = loaded->stars;
   }
   const auto* panorama = std::get_if<PanoramaSky>(&own.background);
   if (panorama && std::holds_alternative<Black>(sky.background))
     sky.background = std::make_shared<const SkyMap>(read_panorama(panorama->image));
   if (sky.stars) return sky;
   std::vector<SceneStar> stars;
-  if (own.stars && own.star_gain > 0)
-    stars = scene_stars(read_star_catalogue(own.stars->catalogue, own.stars->max_magnitude),
-                        own.star_gain);
+  if (own.stars) stars = scene_stars(read_star_catalogue(own.stars->catalogue, limit_of(which)));
   sky.stars = std::make_shared<const std::vector<SceneStar>>(std::move(stars));
   return sky;
 }

@@ -13,9 +13,10 @@
 
 namespace domefall {
 
-// A star ready to be shifted: bolometric flux (W/m^2, gain included) and temperature at no redshift.
+// A star ready to be shifted: bolometric flux (W/m^2) and temperature at no redshift.
 struct SceneStar {
   SkyDirection direction;
+  double magnitude;  // V
   double flux;
   double temperature;
   double angular_radius;  // radians, of a blackbody of this flux and temperature
@@ -28,7 +29,6 @@ using Rings = RingsSky;
 // The sky of one region.
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
-  float background_gain = 1;
   std::shared_ptr<const std::vector<SceneStar>> stars;  // never null; empty if there are none
 };
 
@@ -42,6 +42,7 @@ class Scene {
  private:
   Sky load(SeenSky which) const;
   const RegionSky& region(SeenSky which) const;
+  double limit_of(SeenSky which) const;  // magnitude of its faintest stars
 
   const Show& show_;
   std::mutex loading_;

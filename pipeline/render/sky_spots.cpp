@@ -22,6 +22,7 @@ class SpotFinder {
   SpotFinder(const Show& show, const FrameState& state, const HoleOptics& optics)
       : show_(show),
         observer_(state.observer),
+        picture_(state.picture),
         projection_(state.projection),
         tracer_(state, optics),
         to_observer_(-state.observer.celerity),
@@ -50,7 +51,7 @@ class SpotFinder {
                  StarBlob& blob) const {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
     const double d_psi = 2 * pi / kAround;
-    const double scale = exposure_scale(show_.exposure);
+    const double scale = exposure_scale(picture_) * sky_of(picture_, spot.sky).background_gain;
     double rgb[3] = {0, 0, 0};
     V3d middle(0, 0, 0);
     for (int i = 0; i < kAlong; ++i) {
@@ -85,6 +86,7 @@ class SpotFinder {
 
   const Show& show_;
   const ObserverState& observer_;
+  const Picture& picture_;
   Projection projection_;
   ViewTracer tracer_;
   Aberration to_observer_;

@@ -50,6 +50,13 @@ DOMEFALL_SIMD void weigh(const CameraDirection* n, int count, const V3d& middle,
   }
 }
 
+// The part of a star's light that a frame takes.
+double part_taken(const Picture::Sky& sky, double magnitude) {
+  constexpr double kFade = 0.5;  // magnitudes
+  if (!sky.soft_limit) return magnitude <= sky.max_magnitude ? 1 : 0;
+  return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
+}
+
 // Pixels per radian at most, up to an angle `reach` from a direction `theta` off the middle.
 double densest(const Projection& p, double theta, double reach) {
   const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
@@ -60,19 +67,25 @@ double densest(const Projection& p, double theta, double reach) {
 
 }  // namespace
 
-BlobMaker::BlobMaker(const Show& show, const FrameState& state, const SkyTable* table)
+BlobMaker::BlobMaker(const Show& show, const FrameState& state, const Picture::Sky& sky,
+                     const SkyTable* table)
     : law_(show.blobs),
+      sky_(sky),
       projection_(state.projection),
       sky_from_tetrad_(state.observer.sky_from_tetrad),
       tetrad_from_camera_(state.observer.tetrad_from_camera),
       from_tetrad_(-state.observer.celerity),
       table_(table),
-      scale_(exposure_scale(show.exposure)),
+      scale_(exposure_scale(state.picture)),
       min_sigma_(std::max(show.blobs.min_sigma * width_factor(projection_),
                           kLeastSigmaPixels * central_pixel_angle(projection_))),
       max_sigma_(std::max(show.blobs.max_sigma * width_factor(projection_), min_sigma_)) {}
 
-void BlobMaker::append(const SceneStar& star, std::vector<StarBlob>& blobs) const {
+void BlobMaker::append(const SceneStar& catalogued, std::vector<StarBlob>& blobs) const {
+  const double taken = sky_.star_gain * part_taken(sky_, catalogued.magnitude);
+  if (!(taken > 0)) return;
+  SceneStar star = catalogued;
+  star.flux *= taken;
   const V3d source = apply_transposed(sky_from_tetrad_, star.direction.v);
   if (table_ == nullptr) {
     append_image(star, source, 0, blobs);

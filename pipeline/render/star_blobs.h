@@ -37,14 +37,17 @@ inline constexpr double kFaintestPeak = 2e-4;
 // Appends to `blobs` those that fall into the picture.  `table` is null in flat space.
 class BlobMaker {
  public:
-  BlobMaker(const Show& show, const FrameState& state, const SkyTable* table);
-  void append(const SceneStar& star, std::vector<StarBlob>& blobs) const;
+  // `sky`: what the frame takes of these stars.
+  BlobMaker(const Show& show, const FrameState& state, const Picture::Sky& sky,
+            const SkyTable* table);
+  void append(const SceneStar& catalogued, std::vector<StarBlob>& blobs) const;
 
  private:
   bool append_image(const SceneStar& star, const V3d& source, int order,
                     std::vector<StarBlob>& blobs) const;
 
   const StarBlobs& law_;
+  Picture::Sky sky_;
   Projection projection_;
   M33d sky_from_tetrad_, tetrad_from_camera_;
   Aberration from_tetrad_;

@@ -31,9 +31,8 @@ Domemaster read_dome(const Item* size) {
   return dome;
 }
 
-Stereographic read_flat(const Item* size, const Section& camera) {
-  Stereographic flat{1920, 1080, 0};
-  flat.fov = radians(camera.number("fov_deg", kDegrees.above(0).below(360), kFovDeg));
+Stereographic read_flat(const Item* size) {
+  Stereographic flat{1920, 1080, radians(kFovDeg)};
   if (!size) return flat;
   if (!size->node.IsSequence() || size->node.size() != 2) {
     size->fail("must be [width, height] in pixels (this projection is flat), got " +
@@ -49,21 +48,40 @@ Stereographic read_flat(const Item* size, const Section& camera) {
 Projection read_projection(const Section& show, const Section& camera) {
   const Item* size = show.find("size");
   if (camera.choice("projection", {"domemaster", "stereographic"}) == std::size_t{1})
-    return read_flat(size, camera);
-  if (const Item* fov = camera.find("fov_deg"))
-    fov->fail("goes with the stereographic projection only; a domemaster shows 180 degrees");
+    return read_flat(size);
   return read_dome(size);
 }
 
-std::optional<Attitude> read_look_at(const Item& item, Lookup& lookup) {
-  static constexpr std::array<std::string_view, 2> kWords{"hole", "motion"};
+constexpr std::array<std::string_view, 7> kKeys{
+    "projection", "fov_deg", "look_at", "euler_deg", "roll_deg", "elevation_deg", "dome_tilt_deg"};
+
+// {keyframe: NAME}
+std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
+  const Section s(item, {"keyframe"});
+  const Item* name = s.find("keyframe");
+  const auto text = name ? read_text(*name) : std::nullopt;
+  if (!text) return std::nullopt;
+  const auto found = named.keyframes.find(*text);
+  if (found != named.keyframes.end()) return found->second;
+  std::vector<std::string_view> known;
+  for (const auto& [key, attitude] : named.keyframes) known.push_back(key);
+  name->fail("names no keyframe before this one that has a name and a direction: '" + shown(*text) +
+             "'" + did_you_mean(*text, known));
+  return std::nullopt;
+}
+
+std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
+  static constexpr std::array<std::string_view, 3> kWords{"hole", "motion", "outward"};
   if (item.node.IsScalar() && item.node.Scalar() == kWords[0]) return LookAtHole{};
   if (item.node.IsScalar() && item.node.Scalar() == kWords[1]) return LookAlongMotion{};
+  if (item.node.IsScalar() && item.node.Scalar() == kWords[2]) return LookOutward{};
+  if (peek(item, "keyframe")) return read_other_keyframe(item, named);
   if (const auto place = read_sky_place(item, lookup, kWords)) return LookAtSky{*place};
   return std::nullopt;
 }
 
-std::optional<Attitude> read_attitude(const Section& camera, Lookup& lookup) {
+std::optional<Attitude> read_attitude(const Section& camera, const NamedCameras& named,
+                                      Lookup& lookup) {
   for (const std::string_view key : {"look_at", "roll_deg", "elevation_deg"})
     camera.one_of({"euler_deg", key});
   if (const Item* euler = camera.find("euler_deg")) {
@@ -72,7 +90,7 @@ std::optional<Attitude> read_attitude(const Section& camera, Lookup& lookup) {
     return EulerAngles{radians((*angle)[0]), radians((*angle)[1]), radians((*angle)[2])};
   }
   const Item* look_at = camera.find("look_at");
-  return look_at ? read_look_at(*look_at, lookup) : std::nullopt;
+  return look_at ? read_look_at(*look_at, named, lookup) : std::nullopt;
 }
 
 std::optional<double> read_angle(const Section& camera, std::string_view key, double most) {
@@ -80,15 +98,21 @@ std::optional<double> read_angle(const Section& camera, std::string_view key, do
   return degrees ? std::optional(radians(*degrees)) : std::nullopt;
 }
 
-CameraKeys read_keys(const Section& camera, const Projection& projection, Lookup& lookup) {
+CameraKeys read_keys(const Section& camera, const Projection& projection, const NamedCameras& named,
+                     Lookup& lookup) {
   CameraKeys keys;
-  keys.attitude = read_attitude(camera, lookup);
+  keys.attitude = read_attitude(camera, named, lookup);
   keys.roll = read_angle(camera, "roll_deg", 3600);
   keys.elevation = read_angle(camera, "elevation_deg", 90);
   keys.dome_tilt = read_angle(camera, "dome_tilt_deg", 90);
-  if (!std::holds_alternative<Domemaster>(projection))
-    for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
-      if (const Item* item = camera.find(key)) item->fail("is for domes; this projection is flat");
+  if (const auto fov = camera.number("fov_deg", kDegrees.above(0).below(360)))
+    keys.fov = radians(*fov);
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
+    if (const Item* item = camera.find(key); item && !dome)
+      item->fail("is for domes; this projection is flat");
+  if (const Item* fov = camera.find("fov_deg"); fov && dome)
+    fov->fail("goes with the stereographic projection only; a domemaster shows 180 degrees");
   return keys;
 }
 
@@ -96,46 +120,71 @@ bool is_euler(const std::optional<Attitude>& attitude) {
   return attitude && std::holds_alternative<EulerAngles>(*attitude);
 }
 
-}  // namespace
-
-ShowCamera read_show_camera(const Section& show, Lookup& lookup) {
-  const Section camera = subsection(show, "camera",
-                                    {"projection", "fov_deg", "look_at", "euler_deg", "roll_deg",
-                                     "elevation_deg", "dome_tilt_deg"});
-  ShowCamera result;
-  result.projection = read_projection(show, camera);
-  result.keys = read_keys(camera, result.projection, lookup);
-  return result;
-}
-
-CameraKeys read_segment_camera(const Item* item, const ShowCamera& show, Lookup& lookup) {
-  CameraKeys keys = show.keys;
-  if (!item) return keys;
-  const Section camera(*item, {"projection", "fov_deg", "look_at", "euler_deg", "roll_deg",
-                               "elevation_deg", "dome_tilt_deg"});
-  for (const std::string_view key : {"projection", "fov_deg"})
-    if (const Item* fixed = camera.find(key))
-      fixed->fail("holds for the whole show; it belongs in the show's own camera section");
-  const CameraKeys own = read_keys(camera, show.projection, lookup);
-  if (is_euler(own.attitude)) keys.roll = keys.elevation = std::nullopt;
-  if (own.attitude) keys.attitude = own.attitude;
-  if (is_euler(keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
+// The keys of a camera other than the show's own, which alone says what kind of picture it is.
+CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup& lookup) {
+  const Section camera(item, kKeys);
+  if (const Item* fixed = camera.find("projection"))
+    fixed->fail("holds for the whole show; it belongs in the show's own camera section");
+  const CameraKeys own = read_keys(camera, show.projection, show.named, lookup);
+  if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
       if (const Item* given = camera.find(key))
         given->fail("goes with look_at only; the show's camera is turned by euler_deg");
+  return own;
+}
+
+void read_named_cameras(const Item& item, ShowCamera& show, Lookup& lookup) {
+  if (!item.node.IsMap()) {
+    item.fail("must be a map of names and cameras, got " + kind_of(item));
+    return;
+  }
+  for (const auto& [key, value] : entries_of(item))
+    show.named.cameras[key] = read_further_camera(value, show, lookup);
+}
+
+}  // namespace
+
+ShowCamera read_show_camera(const Section& show, Lookup& lookup) {
+  const Section camera = subsection(show, "camera", kKeys);
+  ShowCamera result;
+  result.projection = read_projection(show, camera);
+  result.keys = read_keys(camera, result.projection, result.named, lookup);
+  if (auto* flat = std::get_if<Stereographic>(&result.projection))
+    flat->fov = result.keys.fov.value_or(flat->fov);
+  if (const Item* cameras = show.find("cameras")) read_named_cameras(*cameras, result, lookup);
+  return result;
+}
+
+CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup) {
+  if (!item.node.IsScalar()) return read_further_camera(item, show, lookup);
+  const auto name = read_text(item);
+  if (!name) return {};
+  const auto found = show.named.cameras.find(*name);
+  if (found != show.named.cameras.end()) return found->second;
+  std::vector<std::string_view> known;
+  for (const auto& [key, camera] : show.named.cameras) known.push_back(key);
+  item.fail("names a camera that the show's `cameras` does not have: '" + shown(*name) + "'" +
+            did_you_mean(*name, known));
+  return {};
+}
+
+CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
+  if (is_euler(own.attitude)) keys.roll = keys.elevation = std::nullopt;
+  if (own.attitude) keys.attitude = own.attitude;
   if (own.roll) keys.roll = own.roll;
   if (own.elevation) keys.elevation = own.elevation;
   if (own.dome_tilt) keys.dome_tilt = own.dome_tilt;
+  if (own.fov) keys.fov = own.fov;
   return keys;
 }
 
+// An elevation is not heeded with Euler angles, but a keyframe may turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
-  const bool look_at_on_dome =
-      std::holds_alternative<Domemaster>(projection) && !is_euler(keys.attitude);
+  const bool dome = std::holds_alternative<Domemaster>(projection);
   Camera camera;
   camera.attitude = keys.attitude.value_or(LookAtHole{});
   camera.roll = keys.roll.value_or(0);
-  camera.elevation = keys.elevation.value_or(look_at_on_dome ? radians(kDomeElevationDeg) : 0);
+  camera.elevation = keys.elevation.value_or(dome ? radians(kDomeElevationDeg) : 0);
   camera.dome_tilt = keys.dome_tilt.value_or(0);
   return camera;
 }

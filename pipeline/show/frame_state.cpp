@@ -1,145 +1,137 @@
 #include "pipeline/show/frame_state.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
-#include "pipeline/show/placement.h"
+#include "pipeline/show/attitude.h"
+#include "pipeline/show/observer_track.h"
 
 namespace domefall {
 namespace {
 
-// Scene "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
-// is no hole to orbit; outward (R) for a target within 0.06 degrees of that axis.
-V3d up_across(const V3d& target, const ObserverState& o) {
-  const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
-  const V3d outward(1, 0, 0);
-  const V3d up = target.cross(north).length() > 1e-3 ? north : outward;
-  return (up - target * up.dot(target)).normalized();
+const Segment& segment_of(const Show& show, int k) {
+  return show.timeline[static_cast<std::size_t>(k)];
 }
 
-M33d rolled(const V3d& x, const V3d& y, const V3d& z, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return from_columns(x * c - y * s, y * c + x * s, z);
+const std::optional<Curve>& curve_of(const Segment& s, Channel channel) {
+  return s.curves[static_cast<std::size_t>(channel)];
 }
 
-// [Riazuelo] sec. sec_cam: A, B, C are the boosted Theta, Phi, R.
-M33d euler_axes(const EulerAngles& angle) {
-  const V3d a(0, 1, 0), b(0, 0, 1), c(1, 0, 0);
-  const V3d a1 = a * std::cos(angle.phi) + b * std::sin(angle.phi);
-  const V3d b1 = b * std::cos(angle.phi) - a * std::sin(angle.phi);
-  const V3d z = c * std::cos(angle.vartheta) + a1 * std::sin(angle.vartheta);
-  const V3d a2 = a1 * std::cos(angle.vartheta) - c * std::sin(angle.vartheta);
-  return from_columns(a2 * std::cos(angle.psi) + b1 * std::sin(angle.psi),
-                      b1 * std::cos(angle.psi) - a2 * std::sin(angle.psi), z);
+double value_of(const Segment& s, Channel channel, double t, double constant) {
+  const auto& curve = curve_of(s, channel);
+  return curve ? value_at(*curve, t) : constant;
 }
 
-// What stood at elevation e in the front stands at e + tilt.
-M33d tilted(const M33d& axes, double tilt) {
-  const V3d y = column(axes, 1), z = column(axes, 2);
-  const double c = std::cos(tilt), s = std::sin(tilt);
-  return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
+// Everything of the camera but its attitude.
+Camera camera_at(const Segment& s, double t) {
+  Camera camera = s.camera;
+  camera.roll = value_of(s, Channel::kRoll, t, camera.roll);
+  camera.elevation = value_of(s, Channel::kElevation, t, camera.elevation);
+  camera.dome_tilt = value_of(s, Channel::kDomeTilt, t, camera.dome_tilt);
+  return camera;
 }
 
-// Of a frame: durations such as 0.1 s add up to a little more than the instant they mean, and the
-// frame at a cut belongs to what follows it.
-constexpr double kCutTolerance = 1e-6;
+// Steps in which the way from one keyframe to the next is followed, to know which of the turns that
+// lead to the same attitude goes on from the one before.
+constexpr int kTurnSteps = 64;
 
-// `part` of the segment's duration has passed.
-double proper_time_at(const Segment& s, double part) {
-  if (s.pace == Pace::kSteady) return s.tau_begin + part * (s.tau_end - s.tau_begin);
-  const double end = lifetime(s.trajectory), left = end - s.tau_begin;
-  return end - left * std::pow((end - s.tau_end) / left, part);
-}
+class Turn {
+ public:
+  Turn(const Show& show, int segment, const Projection& projection, const AttitudeKey& from,
+       const AttitudeKey& to)
+      : show_(show), segment_(segment), projection_(projection), from_(from), to_(to) {}
 
-// What adds up from segment to segment.
-struct Swept {
-  double azimuth = 0, null_time = 0;
-
-  void add(const OrbitPoint& from, const OrbitPoint& to) {
-    azimuth += to.azimuth - from.azimuth;
-    null_time += to.null_time - from.null_time;
+  M33d axes_at(double t, const ObserverState& observer) const {
+    const double span = to_.at_s - from_.at_s, x = (t - from_.at_s) / span;
+    V3d turn(0, 0, 0);
+    for (int k = 0; k < kTurnSteps && k < x * kTurnSteps; ++k) {
+      const double at = from_.at_s + span * k / kTurnSteps;
+      const int segment = segment_at(show_, at);
+      turn = turn_at(at, observer_at(show_, segment, part_at(show_, segment, at)), turn);
+    }
+    turn = turn_at(t, observer, turn);
+    const double done = to_.ease == Ease::kSmooth ? smooth_step(x) : x;
+    return turned_by(axes(from_, t, observer), turn * done);
   }
+
+ private:
+  M33d axes(const AttitudeKey& key, double t, const ObserverState& observer) const {
+    Camera camera = camera_at(segment_of(show_, segment_), t);
+    camera.attitude = key.attitude;
+    return camera_axes(camera, projection_, observer);
+  }
+  V3d turn_at(double t, const ObserverState& observer, const V3d& before) const {
+    return turn_between(axes(from_, t, observer), axes(to_, t, observer), before);
+  }
+
+  const Show& show_;
+  int segment_;
+  const Projection& projection_;
+  const AttitudeKey &from_, &to_;
 };
 
-// By the segments before this one.
-Swept swept_before(const Show& show, int segment) {
-  Swept swept;
-  for (int k = 0; k < segment; ++k) {
-    const Segment& s = show.timeline[static_cast<std::size_t>(k)];
-    swept.add(point_at(s.trajectory, s.tau_begin), point_at(s.trajectory, s.tau_end));
-  }
-  return swept;
+Picture picture_at(const Show& show, const Segment& s, double t) {
+  Picture picture;
+  picture.ev = value_of(s, Channel::kEv, t, show.exposure.ev);
+  const auto set = [&](Picture::Sky& sky, const RegionSky& own, Channel gain, Channel star_gain,
+                       Channel magnitude) {
+    sky.background_gain = value_of(s, gain, t, own.background_gain);
+    sky.star_gain = value_of(s, star_gain, t, own.star_gain);
+    sky.max_magnitude = value_of(s, magnitude, t, own.stars.value_or(StarField{}).max_magnitude);
+    const auto& limit = curve_of(s, magnitude);
+    sky.soft_limit = limit && limit->keys.size() > 1;
+  };
+  set(picture.sky_one, show.sky_one, Channel::kGainOne, Channel::kStarGainOne,
+      Channel::kMagnitudeOne);
+  set(picture.sky_three, show.sky_three, Channel::kGainThree, Channel::kStarGainThree,
+      Channel::kMagnitudeThree);
+  picture.sky_four.background_gain =
+      value_of(s, Channel::kGainFour, t, show.sky_four.background_gain);
+  return picture;
+}
+
+FrameState state_in(const Show& show, int segment, int frame) {
+  const Segment& s = segment_of(show, segment);
+  FrameState state;
+  state.frame = frame;
+  state.show_time_s = frame / show.frames_per_second;
+  state.segment = segment;
+  const double t = state.show_time_s;
+  state.projection = show.projection;
+  if (auto* flat = std::get_if<Stereographic>(&state.projection))
+    flat->fov = value_of(s, Channel::kFov, t, flat->fov);
+  state.picture = picture_at(show, s, t);
+  state.observer = observer_at(show, segment, part_at(show, segment, t));
+  state.observer.tetrad_from_camera =
+      camera_axes_at(show, segment, t, state.projection, state.observer);
+  return state;
 }
 
 }  // namespace
 
-V3d motion_direction(const ObserverState& o) {
-  // d/dt = T +- sqrt(2/r) R in rain or the outgoing tetrad, here seen from the observer's frame.
-  const double s = std::sqrt(2 / o.r);
-  const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
-  const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
-  return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
-}
-
-std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o) {
-  if (std::holds_alternative<LookAtHole>(attitude))
-    return to_observer(o.celerity, V3d(-1, 0, 0)).direction;
-  if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_direction(o).normalized();
-  if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
-    const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
-    return to_observer(o.celerity, primary_image(o.r, o.tetrad, source).v).direction;
-  }
-  return std::nullopt;
-}
-
-M33d camera_axes(const Camera& camera, const Projection& projection,
-                 const ObserverState& observer) {
-  const auto target = target_direction(camera.attitude, observer);
-  const bool dome = std::holds_alternative<Domemaster>(projection);
-  if (!target) {
-    const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));
-    return dome ? tilted(axes, camera.dome_tilt) : axes;
-  }
-  const V3d& f = *target;
-  const V3d up = up_across(f, observer), right = f.cross(up);
-  if (!dome) return rolled(right, -up, f, camera.roll);
-  // Roll turns the scene about the target, so it comes before the target is set on the dome.
-  const M33d screen = rolled(right, -up, f, camera.roll);
-  const V3d x = column(screen, 0), u = -column(screen, 1);
-  const double elevation = camera.elevation + camera.dome_tilt;
-  const double c = std::cos(elevation), s = std::sin(elevation);
-  return from_columns(x, f * c - u * s, f * s + u * c);
+M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
+                    const ObserverState& observer) {
+  const Segment& s = segment_of(show, segment);
+  Camera camera = camera_at(s, t);
+  const auto& keys = s.attitudes;
+  if (keys.empty()) return camera_axes(camera, projection, observer);
+  const auto next = std::upper_bound(
+      keys.begin(), keys.end(), t, [](double at, const AttitudeKey& key) { return at < key.at_s; });
+  if (next != keys.begin() && next != keys.end() && next->ease != Ease::kHold)
+    return Turn(show, segment, projection, *(next - 1), *next).axes_at(t, observer);
+  camera.attitude = (next == keys.begin() ? next : next - 1)->attitude;
+  return camera_axes(camera, projection, observer);
 }
 
 FrameState frame_state(const Show& show, int frame) {
-  FrameState state;
-  state.frame = frame;
-  state.show_time_s = frame / show.frames_per_second;
-  state.projection = show.projection;
-  double begin = 0;
-  const int last = static_cast<int>(show.timeline.size()) - 1;
-  while (state.segment < last &&
-         (frame + kCutTolerance) / show.frames_per_second >=
-             begin + show.timeline[static_cast<std::size_t>(state.segment)].duration_s)
-    begin += show.timeline[static_cast<std::size_t>(state.segment++)].duration_s;
-  const Segment& segment = show.timeline[static_cast<std::size_t>(state.segment)];
-  const double part = std::clamp((state.show_time_s - begin) / segment.duration_s, 0.0, 1.0);
-  const double tau = proper_time_at(segment, part);
-  const OrbitPoint start = point_at(segment.trajectory, segment.tau_begin);
-  const OrbitPoint point = point_at(segment.trajectory, tau);
-
-  ObserverState& o = state.observer;
-  o.region = point.region;
-  o.tetrad = point.tetrad;
-  o.r = point.r;
-  o.proper_time = tau;
-  o.celerity = point.celerity;
-  Swept swept = swept_before(show, state.segment);
-  swept.add(start, point);
-  o.null_time = swept.null_time;
-  o.sky_from_tetrad = place_tetrad(show.hole_at, show.heading, swept.azimuth);
-  o.tetrad_from_camera = camera_axes(segment.camera, show.projection, o);
+  const double t = frame / show.frames_per_second;
+  const int segment = segment_at(show, t);
+  FrameState state = state_in(show, segment, frame);
+  const double dissolve = segment_of(show, segment).dissolve_s;
+  const double faded = t - segment_times(show)[static_cast<std::size_t>(segment)];
+  if (segment == 0 || !(faded < dissolve)) return state;
+  state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame));
+  state.vanishing_part = 1 - smooth_step(faded / dissolve);
   return state;
 }
 

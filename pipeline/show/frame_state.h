@@ -1,34 +1,45 @@
 // One frame of a show: what the renderer needs, a pure function of show and frame number.
 #pragma once
 
+#include <memory>
+
 #include "pipeline/show/show.h"
 #include "trajectories/observer_state.h"
 
 namespace domefall {
 
+// What keyframes may have changed of exposure and skies, at one instant.
+struct Picture {
+  struct Sky {
+    double background_gain = 1, star_gain = 1;
+    double max_magnitude = 6.5;
+    // The limit is keyframed: stars fade in over the last half magnitude before it, so that none
+    // pops up.  Else all up to it are whole.
+    bool soft_limit = false;
+  };
+  double ev = 0;
+  Sky sky_one, sky_three, sky_four;  // region IV has no stars
+};
+
 struct FrameState {
   int frame = 0;
   double show_time_s = 0;
-  int segment = 0;  // index into the timeline
+  int segment = 0;  // index into the timeline; during a dissolve the later one
   ObserverState observer;
   Projection projection;
+  Picture picture;
+  // During a dissolve the segment that vanishes, and the part it still has of the light.
+  std::shared_ptr<const FrameState> vanishing;
+  double vanishing_part = 0;
 };
 
-// frame in [0, frame_count(show)).  Frame n shows the instant n / frames_per_second; azimuth runs on
-// from segment to segment.
+// frame in [0, frame_count(show)).  Frame n shows the instant n / frames_per_second.
 FrameState frame_state(const Show& show, int frame);
 
-// The camera axes (columns X, Y, Z in the boosted tetrad) for an observer that is otherwise
-// complete.  A flat projection puts the target in the middle; a Domemaster puts it `elevation` above
-// the front of the rim.
-M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer);
-
-// Where the target appears to the observer, in the boosted tetrad; nothing for Euler angles.
-std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& observer);
-
-// The direction (boosted tetrad) in which an observer moves against the static frame, continued
-// through the horizon: minus the part of the Killing vector d/dt that is orthogonal to u.  Zero
-// length if the observer is static.
-V3d motion_direction(const ObserverState& observer);
+// The axes that the camera of a segment has at an instant, for a picture of that projection.
+// Between keyframes it turns about one axis at a time, so that it never jumps however the targets
+// move meanwhile.
+M33d camera_axes_at(const Show& show, int segment, double show_time_s, const Projection& projection,
+                    const ObserverState& observer);
 
 }  // namespace domefall

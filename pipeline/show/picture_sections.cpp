@@ -1,6 +1,7 @@
 #include "pipeline/show/picture_sections.h"
 
 #include "pipeline/show/assets.h"
+#include "pipeline/show/values_section.h"
 
 namespace domefall {
 namespace {
@@ -43,7 +44,7 @@ StarBlobs read_star_blobs(const Section& show) {
 
 Exposure read_exposure(const Section& show) {
   const Section s = subsection(show, "exposure", {"ev"});
-  return {s.number("ev", Range{"stops"}.within(-30, 30), 0)};
+  return {s.number("ev", kStops, 0)};
 }
 
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {

@@ -3,6 +3,27 @@
 #include <cmath>
 
 namespace domefall {
+namespace {
+
+Region mirror_of(Region region) {
+  if (region == Region::kI) return Region::kIII;
+  return region == Region::kIII ? Region::kI : region;
+}
+
+Tetrad mirror_of(Tetrad tetrad) {
+  switch (tetrad) {
+    case Tetrad::kRain:
+      return Tetrad::kRainOfThree;
+    case Tetrad::kOutgoing:
+      return Tetrad::kOutgoingToThree;
+    case Tetrad::kRainOfThree:
+      return Tetrad::kRain;
+    default:
+      return Tetrad::kOutgoing;
+  }
+}
+
+}  // namespace
 
 M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth) {
   const V3d r0 = -hole_at.v;
@@ -10,8 +31,31 @@ M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth) {
   const V3d east = at_pole ? V3d(0, 1, 0) : V3d(-r0.y, r0.x, 0).normalized();
   const V3d north = r0.cross(east);
   const V3d t = north * std::cos(heading) + east * std::sin(heading);
+  return moved_on(from_columns(r0, -r0.cross(t), t), azimuth);
+}
+
+M33d moved_on(const M33d& axes, double azimuth) {
+  const V3d r0 = column(axes, 0), t = column(axes, 2);
   const double c = std::cos(azimuth), s = std::sin(azimuth);
-  return from_columns(r0 * c + t * s, -r0.cross(t), t * c - r0 * s);
+  return from_columns(r0 * c + t * s, column(axes, 1), t * c - r0 * s);
+}
+
+M33d turned(const M33d& axes, double turn) {
+  const V3d south = column(axes, 1), t = column(axes, 2);
+  const double c = std::cos(turn), s = std::sin(turn);
+  return from_columns(column(axes, 0), south * c + t * s, t * c - south * s);
+}
+
+OrbitPoint placed(OrbitPoint point, const Placement& placement) {
+  if (placement.mirrored) {
+    point.region = mirror_of(point.region);
+    point.tetrad = mirror_of(point.tetrad);
+  }
+  if (placement.backward) {
+    point.azimuth = -point.azimuth;
+    point.celerity.z = -point.celerity.z;
+  }
+  return point;
 }
 
 }  // namespace domefall

@@ -32,8 +32,9 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 }
 
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
-  const Section section(root, {"title", "frames_per_second", "size", "black_hole", "timeline",
-                               "camera", "sky", "stars", "exposure", "grade", "output"});
+  const Section section(
+      root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
+             "keyframes", "sky", "stars", "exposure", "grade", "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -42,10 +43,10 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_black_hole(section, lookup, show);
   const ShowCamera camera = read_show_camera(section, lookup);
   show.projection = camera.projection;
-  show.timeline = read_timeline(section, show, camera, lookup);
   read_sky(root, section, lookup, show);
   show.blobs = read_star_blobs(section);
   show.exposure = read_exposure(section);
+  show.timeline = read_timeline(section, show, camera, lookup);
   show.grade = read_grade(section, lookup);
   show.graded_format = read_graded_format(section);
 }

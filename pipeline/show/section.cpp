@@ -15,15 +15,14 @@ std::string join(const std::string& path, std::string_view key) {
 
 }  // namespace
 
-Section::Section(const Item& item, std::initializer_list<std::string_view> known) {
+Section::Section(const Item& item, std::span<const std::string_view> known) {
   item_.emplace(item);
   if (!item.node.IsMap()) {
-    item.fail(std::string("must be a map of keys (") +
-              listed(std::span(known.begin(), known.size())) + "), got " + kind_of(item));
+    item.fail(std::string("must be a map of keys (") + listed(known) + "), got " + kind_of(item));
     item_.reset();
     return;
   }
-  for (const auto& entry : item.node) add(entry.first, entry.second, {known.begin(), known.size()});
+  for (const auto& entry : item.node) add(entry.first, entry.second, known);
 }
 
 void Section::add(const YAML::Node& key, const YAML::Node& value,
@@ -107,8 +106,25 @@ std::optional<Item> peek(const Item& map, std::string_view key) {
   return std::nullopt;
 }
 
+std::vector<std::pair<std::string, Item>> entries_of(const Item& map) {
+  std::vector<std::pair<std::string, Item>> entries;
+  std::set<std::string> names;
+  entries.reserve(map.node.size());
+  for (const auto& entry : map.node) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    const std::string path = join(map.path, name.empty() ? "?" : shown(name));
+    if (name.empty())
+      map.problems->add(place_of(entry.first), path + " is no name; names are plain words");
+    else if (!names.insert(name).second)
+      map.problems->add(place_of(entry.first), path + " is repeated");
+    else
+      entries.emplace_back(name, Item{entry.second, place_of(entry.second), path, map.problems});
+  }
+  return entries;
+}
+
 Section subsection(const Section& parent, std::string_view key,
-                   std::initializer_list<std::string_view> known) {
+                   std::span<const std::string_view> known) {
   const Item* item = parent.find(key);
   return item ? Section(*item, known) : Section();
 }

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "pipeline/show/item.h"
 
@@ -15,7 +16,9 @@ class Section {
   Section() = default;
   // Reports an item that is no map, unknown keys (with the nearest known one) and repeated keys,
   // which yaml-cpp would accept.
-  Section(const Item& item, std::initializer_list<std::string_view> known);
+  Section(const Item& item, std::span<const std::string_view> known);
+  Section(const Item& item, std::initializer_list<std::string_view> known)
+      : Section(item, std::span(known.begin(), known.size())) {}
 
   // The value of a key; null if it is not given.
   const Item* find(std::string_view key) const;
@@ -49,8 +52,16 @@ class Section {
 // The value of a key, before it is known which keys the map may have; nothing if it is no map.
 std::optional<Item> peek(const Item& map, std::string_view key);
 
+// All entries of a map whose keys are names of the user's own, in the file's order; repeated ones are
+// reported.
+std::vector<std::pair<std::string, Item>> entries_of(const Item& map);
+
 // A section under a key, empty if the key is not given.
 Section subsection(const Section& parent, std::string_view key,
-                   std::initializer_list<std::string_view> known);
+                   std::span<const std::string_view> known);
+inline Section subsection(const Section& parent, std::string_view key,
+                          std::initializer_list<std::string_view> known) {
+  return subsection(parent, key, std::span(known.begin(), known.size()));
+}
 
 }  // namespace domefall

@@ -5,9 +5,20 @@
 
 namespace domefall {
 
+std::vector<double> segment_times(const Show& show) {
+  std::vector<double> times;
+  times.reserve(show.timeline.size() + 1);
+  double end = 0;
+  for (const Segment& segment : show.timeline) {
+    times.push_back(end - segment.dissolve_s);
+    end = times.back() + segment.duration_s;
+  }
+  times.push_back(end);
+  return times;
+}
+
 int frame_count(const Show& show) {
-  double seconds = 0;
-  for (const Segment& segment : show.timeline) seconds += segment.duration_s;
+  const double seconds = segment_times(show).back();
   return std::max(1, static_cast<int>(std::lround(seconds * show.frames_per_second)));
 }
 

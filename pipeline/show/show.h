@@ -2,6 +2,7 @@
 // with every default filled in.  docs/show-format.md describes the file key by key.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,54 +10,72 @@
 #include <vector>
 
 #include "pipeline/grade/grade_settings.h"
+#include "pipeline/show/camera.h"
+#include "pipeline/show/curve.h"
+#include "pipeline/show/placement.h"
 #include "pipeline/sky/star_catalogue.h"
 #include "projections/projection.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
 
-// ---- what the camera does ----
-
-// [Riazuelo] sec. sec_cam: rotations by phi about C, vartheta about B', psi about C', of the
-// boosted (Theta, Phi, R).  Radians.
-struct EulerAngles {
-  double phi = 0, vartheta = 0, psi = 0;
-};
-struct LookAtHole {};
-struct LookAlongMotion {};  // against the static frame, continued smoothly inside the horizon
-struct LookAtSky {          // at the primary image of a place on sky I, lensing included
-  SkyDirection target;
-};
-using Attitude = std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngles>;
-
-struct Camera {
-  Attitude attitude = LookAtHole{};
-  double roll =
-      0;  // radians, about the line of sight, clockwise on the image; not with Euler angles
-  double elevation = 0;  // radians above the dome's front rim at which a look-at target stands;
-                         // Domemaster only
-  double dome_tilt =
-      0;  // radians by which the theatre's dome leans towards the front: the image is
-          // turned so that what stood at elevation e stands at e + dome_tilt
-};
-
 // ---- the timeline ----
 
 // How proper time runs from a segment's first to its last instant.
 enum class Pace {
-  kSteady,  // evenly
-  kSlowing,  // so that the time left to the singularity shrinks by equal factors in equal show times:
-  // a fall in which log r falls evenly, and neither the way in is long nor the end a flash
+  kSteady,   // evenly, or by rates that change smoothly from the first instant's to the last one's
+  kEased,    // from standing still to standing still
+  kSlowing,  // so that the time left to the singularity shrinks by equal factors in equal show
+             // times: a fall in which log r falls evenly, and the end is no flash
+  kQuickening  // the same backwards, from the past singularity on
 };
 
-struct Segment {
-  double duration_s = 0;  // show seconds, > 0
-  Trajectory trajectory;
+// Which part of its trajectory a segment shows, and how the observer's clock runs meanwhile.
+struct Timing {
   // Proper time of the trajectory at the segment's first and last instant, units of M (seconds in
   // flat space).
   double tau_begin = 0, tau_end = 0;
   Pace pace = Pace::kSteady;
-  Camera camera;
+  // kSteady: how fast proper time runs at both ends, as parts of the mean; 2 in sum.
+  double rate_begin = 1, rate_end = 1;
+};
+
+// A direction of view from an instant on.
+struct AttitudeKey {
+  double at_s;  // show seconds
+  Attitude attitude;
+  Ease ease = Ease::kSmooth;  // of the turn that ends here
+};
+
+// What keyframes can change, besides the attitude.
+enum class Channel {
+  kRoll,
+  kElevation,
+  kDomeTilt,
+  kFov,  // radians, flat pictures
+  kEv,
+  kGainOne,  // of a sky's background
+  kGainThree,
+  kGainFour,
+  kStarGainOne,
+  kStarGainThree,
+  kMagnitudeOne,  // the faintest stars taken
+  kMagnitudeThree
+};
+inline constexpr std::size_t kChannels = 12;
+
+struct Segment {
+  double duration_s = 0;  // show seconds, > 0
+  // Its first seconds lie over the last ones of the segment before; both are seen, the one fading
+  // into the other.
+  double dissolve_s = 0;
+  Trajectory trajectory;
+  Timing timing;
+  Placement placement;
+  Camera camera;                       // where nothing is keyframed
+  std::vector<AttitudeKey> attitudes;  // keyframes in ascending order; empty: camera.attitude
+  // By Channel, where the show or the segment keyframes it or the segment has a value of its own.
+  std::array<std::optional<Curve>, kChannels> curves;
 };
 
 // ---- the sky ----
@@ -138,7 +157,10 @@ inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
 
 inline constexpr int kMostFrames = 10'000'000;
 
-// The durations' sum times the frame rate, rounded to the nearest whole number (halves away from
+// Show seconds at which each segment begins, and, last, at which the show ends.
+std::vector<double> segment_times(const Show& show);
+
+// The show's length times the frame rate, rounded to the nearest whole number (halves away from
 // zero), at least 1.  Frame n shows the instant n / frames_per_second, so a show of 2 s at 30
 // frames per second has the frames 0 to 59 and ends just before the instant 2 s.
 int frame_count(const Show& show);

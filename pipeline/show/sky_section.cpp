@@ -4,12 +4,10 @@
 
 #include "pipeline/show/assets.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/values_section.h"
 
 namespace domefall {
 namespace {
-
-constexpr Range kGain = kPureNumber.within(0, 1e6);
-constexpr Range kMagnitudes = Range{"magnitudes"}.within(-30, 40);
 
 std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   if (const auto file = lookup.shipped(item, kMilkyWay)) return PanoramaSky{*file};

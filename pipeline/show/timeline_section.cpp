@@ -1,6 +1,10 @@
 #include "pipeline/show/timeline_section.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "pipeline/show/keyframes.h"
+#include "pipeline/show/observer_track.h"
 
 namespace domefall {
 namespace {
@@ -15,80 +19,229 @@ bool is_at_rest(const Trajectory& trajectory) {
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
-double swept_azimuth(const Segment& s) {
-  return point_at(s.trajectory, s.tau_end).azimuth - point_at(s.trajectory, s.tau_begin).azimuth;
-}
-
-void check_target(const Item& segment, const Segment& read) {
-  const bool sees_no_sky = point_at(read.trajectory, read.tau_begin).region == Region::kIV;
-  if (sees_no_sky && std::holds_alternative<LookAtSky>(read.camera.attitude))
-    segment.fail(
-        "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
-        "the segment another camera.look_at");
-}
-
-void check_motion(const Item& segment, const Segment& read) {
-  if (!std::holds_alternative<LookAlongMotion>(read.camera.attitude)) return;
-  if (!is_at_rest(read.trajectory)) return;
-  segment.fail(
-      "has a camera that looks along the motion, but its observer does not move; give "
-      "the segment another camera.look_at");
-}
-
-std::optional<TimedTrajectory> read_motion(const Section& section, const Stage& stage,
-                                           Lookup& lookup) {
-  const Item* trajectory = section.find("trajectory");
-  if (!trajectory && !stage.mass_solar)
-    return TimedTrajectory{StaticObserver{}, 0, stage.duration_s};
-  section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
-  return trajectory ? read_trajectory(*trajectory, stage, lookup) : std::nullopt;
-}
-
-// `azimuth` has been swept before.
-Segment read_segment(const Item& item, const Show& show, double azimuth, const ShowCamera& camera,
-                     Lookup& lookup) {
-  const Section section(item, {"duration_s", "trajectory", "camera"});
-  const auto duration = section.required_number("duration_s", Range{"seconds"}.above(0));
-  Segment segment;
-  segment.duration_s = duration.value_or(1);
-  const CameraKeys keys = read_segment_camera(section.find("camera"), camera, lookup);
-  segment.camera = camera_from(keys, show.projection);
-  const Stage stage{show.mass_solar, show.hole_at, show.heading, azimuth, segment.duration_s};
-  if (const auto motion = read_motion(section, stage, lookup)) {
-    segment.trajectory = motion->trajectory;
-    segment.tau_begin = motion->tau_begin;
-    segment.tau_end = motion->tau_end;
-    segment.pace = motion->pace;
-    check_target(item, segment);
-    check_motion(item, segment);
+// Whether the camera of a segment, which lasts from `begin` to `end`, ever looks so.
+template <class Kind>
+bool ever_looks(const Segment& s, double begin, double end) {
+  if (s.attitudes.empty()) return std::holds_alternative<Kind>(s.camera.attitude);
+  for (std::size_t k = 0; k < s.attitudes.size(); ++k) {
+    const bool last = k + 1 == s.attitudes.size();
+    // A key is looked at from the one before it to the one behind it.
+    const bool gone = !last && s.attitudes[k + 1].at_s <= begin;
+    const bool still_to_come = k > 0 && s.attitudes[k - 1].at_s >= end;
+    if (!gone && !still_to_come && std::holds_alternative<Kind>(s.attitudes[k].attitude))
+      return true;
   }
-  return segment;
+  return false;
+}
+
+class TimelineReader {
+ public:
+  TimelineReader(const Show& show, const ShowCamera& camera, std::vector<Keyframe> keyframes,
+                 Lookup& lookup)
+      : show_(show), camera_(camera), keyframes_(std::move(keyframes)), lookup_(lookup) {
+    so_far_.hole_at = show.hole_at;
+    so_far_.heading = show.heading;
+  }
+
+  void read(const Item& item) {
+    const Section section(
+        item, {"duration_s", "dissolve_s", "trajectory", "camera", "exposure", "sky", "keyframes"});
+    Segment segment;
+    segment.duration_s =
+        section.required_number("duration_s", Range{"seconds"}.above(0)).value_or(1);
+    read_dissolve(section, segment);
+    const double begin = end_ - segment.dissolve_s;
+    read_picture(section, begin, segment);
+    read_motion(item, section, begin, segment);
+    end_ = begin + segment.duration_s;
+    so_far_.timeline.push_back(std::move(segment));
+  }
+
+  double end() const { return end_; }
+  std::vector<Segment> take() { return std::move(so_far_.timeline); }
+
+ private:
+  // A picture fades in from one other at a time.
+  void read_dissolve(const Section& section, Segment& segment) const {
+    const Item* item = section.find("dissolve_s");
+    if (!item) return;
+    if (so_far_.timeline.empty()) {
+      item->fail("needs a segment before this one, out of which the picture fades in");
+      return;
+    }
+    const Segment& before = so_far_.timeline.back();
+    const double most = std::min(segment.duration_s, before.duration_s - before.dissolve_s);
+    const auto dissolve = read_number(*item, Range{"seconds"}.at_least(0));
+    if (!dissolve) return;
+    if (*dissolve <= most)
+      segment.dissolve_s = *dissolve;
+    else
+      item->fail("must be at most " + short_number(most) +
+                 " (seconds), which is how long this segment and what is left of the one before "
+                 "it last, got " +
+                 short_number(*dissolve));
+  }
+
+  double constant_of(const Camera& camera, Channel channel) const {
+    const auto stars = [](const RegionSky& sky) { return sky.stars.value_or(StarField{}); };
+    switch (channel) {
+      case Channel::kRoll:
+        return camera.roll;
+      case Channel::kElevation:
+        return camera.elevation;
+      case Channel::kDomeTilt:
+        return camera.dome_tilt;
+      case Channel::kFov: {
+        const auto* flat = std::get_if<Stereographic>(&show_.projection);
+        return flat ? flat->fov : 0;
+      }
+      case Channel::kEv:
+        return show_.exposure.ev;
+      case Channel::kGainOne:
+        return show_.sky_one.background_gain;
+      case Channel::kGainThree:
+        return show_.sky_three.background_gain;
+      case Channel::kGainFour:
+        return show_.sky_four.background_gain;
+      case Channel::kStarGainOne:
+        return show_.sky_one.star_gain;
+      case Channel::kStarGainThree:
+        return show_.sky_three.star_gain;
+      case Channel::kMagnitudeOne:
+        return stars(show_.sky_one).max_magnitude;
+      case Channel::kMagnitudeThree:
+        break;
+    }
+    return stars(show_.sky_three).max_magnitude;
+  }
+
+  // Camera, exposure and skies, each from the nearest that says it: the segment's keyframes, the
+  // segment, the show's keyframes, the show.
+  void read_picture(const Section& section, double begin, Segment& segment) {
+    CameraKeys own;
+    if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
+    ChannelValues values = read_values(section);
+    const ChannelValues of_camera = camera_values(own);
+    for (std::size_t k = 0; k < kChannels; ++k)
+      if (of_camera[k]) values[k] = of_camera[k];
+    std::vector<Keyframe> keyframes;
+    if (const Item* list = section.find("keyframes"))
+      keyframes = read_keyframes(*list, begin, segment.duration_s, camera_, lookup_);
+
+    segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
+    const Camera shows = camera_from(camera_.keys, show_.projection);
+    const Camera& there = segment.camera;
+    for (std::size_t k = 0; k < kChannels; ++k) {
+      const auto channel = static_cast<Channel>(k);
+      const auto of_show = curve_through(keyframes_, channel, 0, constant_of(shows, channel));
+      std::optional<Curve>& curve = segment.curves[k];
+      if (values[k])
+        curve = Curve{{{begin, *values[k]}}};
+      else if (of_show)
+        curve = of_show;
+      const double base = curve ? value_at(*curve, begin) : constant_of(there, channel);
+      if (auto through = curve_through(keyframes, channel, begin, base)) curve = through;
+    }
+    if (!own.attitude)
+      segment.attitudes =
+          attitudes_through(keyframes_, 0, camera_.keys.attitude.value_or(LookAtHole{}));
+    if (auto through = attitudes_through(keyframes, begin, attitude_at(segment, begin));
+        !through.empty())
+      segment.attitudes = std::move(through);
+  }
+
+  // The nearest of the show's keyframes before an instant, from which a segment's own turn away.
+  static Attitude attitude_at(const Segment& segment, double t) {
+    Attitude attitude = segment.camera.attitude;
+    for (const AttitudeKey& key : segment.attitudes)
+      if (key.at_s <= t || &key == segment.attitudes.data()) attitude = key.attitude;
+    return attitude;
+  }
+
+  void read_motion(const Item& item, const Section& section, double begin, Segment& segment) {
+    const Item* trajectory = section.find("trajectory");
+    std::optional<TimedTrajectory> motion;
+    Stage stage{show_.mass_solar, axes_before(), segment.duration_s, nullptr};
+    if (!so_far_.timeline.empty()) stage.before = &so_far_.timeline.back();
+    if (!trajectory && !show_.mass_solar) {
+      motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};
+    } else {
+      section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
+      if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
+    }
+    if (!motion) return;
+    segment.trajectory = motion->trajectory;
+    segment.timing = motion->timing;
+    segment.placement = motion->placement;
+    check_targets(item, segment, begin);
+  }
+
+  M33d axes_before() const {
+    if (so_far_.timeline.empty()) return place_tetrad(show_.hole_at, show_.heading, 0);
+    return observer_at(so_far_, static_cast<int>(so_far_.timeline.size()) - 1, 1).sky_from_tetrad;
+  }
+
+  static void check_targets(const Item& item, const Segment& segment, double begin) {
+    const double end = begin + segment.duration_s;
+    const auto region_at = [&segment](double tau) {
+      return point_at(segment.trajectory, tau).region;
+    };
+    const bool sees_no_sky = region_at(segment.timing.tau_begin) == Region::kIV &&
+                             region_at(segment.timing.tau_end) == Region::kIV;
+    if (sees_no_sky && ever_looks<LookAtSky>(segment, begin, end))
+      item.fail(
+          "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
+          "the segment another camera.look_at");
+    if (is_at_rest(segment.trajectory) && ever_looks<LookAlongMotion>(segment, begin, end))
+      item.fail(
+          "has a camera that looks along the motion, but its observer does not move; give "
+          "the segment another camera.look_at");
+  }
+
+  const Show& show_;
+  ShowCamera camera_;
+  std::vector<Keyframe> keyframes_;
+  Lookup& lookup_;
+  Show so_far_;  // the segments read, and where the first begins
+  double end_ = 0;
+};
+
+// Keyframes behind the end are never seen.
+void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, double end) {
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    if (keyframes[k].at_s > end)
+      peek((*read_list(list))[k], "at_s")
+          ->fail("lies behind the end of the show at " + short_number(end) + " s, got " +
+                 short_number(keyframes[k].at_s));
 }
 
 }  // namespace
 
 std::vector<Segment> read_timeline(const Section& section, const Show& show,
                                    const ShowCamera& camera, Lookup& lookup) {
-  std::vector<Segment> timeline;
   const Item* list = section.require("timeline", ": a list of segments");
   const auto items = list ? read_list(*list) : std::nullopt;
-  if (!items) return timeline;
-  double frames = 0, azimuth = 0;
+  if (!items) return {};
+  ShowCamera named = camera;
+  const Item* keyframe_list = section.find("keyframes");
+  std::vector<Keyframe> keyframes;
+  if (keyframe_list) keyframes = read_keyframes(*keyframe_list, 0, kMostFrames, named, lookup);
+  TimelineReader reader(show, named, keyframes, lookup);
+  bool fitted = true;
   for (const Item& item : *items) {
-    timeline.push_back(read_segment(item, show, azimuth, camera, lookup));
-    azimuth += swept_azimuth(timeline.back());
-    const bool fitted = frames <= kMostFrames;
-    frames += timeline.back().duration_s * show.frames_per_second;
+    reader.read(item);
+    const double frames = reader.end() * show.frames_per_second;
     if (fitted && frames > kMostFrames)
       item.fail("brings the show to " + short_number(frames) + " frames; at most " +
                 std::to_string(kMostFrames) + " are possible");
+    fitted = frames <= kMostFrames;
   }
-  if (frames < 0.5)
-    list->fail("ends after " + short_number(frames / show.frames_per_second) +
-               " s, before half a frame is over; at " + short_number(show.frames_per_second) +
-               " frames per second a frame lasts " + short_number(1 / show.frames_per_second) +
-               " s");
-  return timeline;
+  if (reader.end() * show.frames_per_second < 0.5)
+    list->fail("ends after " + short_number(reader.end()) + " s, before half a frame is over; at " +
+               short_number(show.frames_per_second) + " frames per second a frame lasts " +
+               short_number(1 / show.frames_per_second) + " s");
+  if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
+  return reader.take();
 }
 
 }  // namespace domefall

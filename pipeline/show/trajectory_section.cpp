@@ -3,69 +3,56 @@
 #include <algorithm>
 #include <array>
 
-#include "pipeline/show/placement.h"
+#include "pipeline/show/nearest_word.h"
+#include "pipeline/show/orbit_section.h"
+#include "pipeline/show/path_section.h"
 #include "pipeline/show/velocity_section.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kNearest = 1e-6, kFarthest = 1e9;
-constexpr double kDefaultEnd = 0.05, kDefaultRate = 1, kMostRate = 1e12;
+constexpr double kDefaultEnd = 0.05;
 // So that the azimuth keeps nine digits behind the point.
 constexpr double kMostOrbits = 1e6;
 // A fall is timed from its start.  Rounding of r^(3/2) there misplaces an end at 1e-8 of the start
 // by 6e-4 of itself, at 1e-9 by 2 %, at 1e-11 it can be 0 (measured, 2e5 random falls each).
 constexpr double kLongestFall = 1e8;
 
-// How far proper time runs in the segment by the key that says it; nothing if it is in error.
-std::optional<double> read_proper_time(const Section& s, const Stage& stage,
-                                       std::optional<double> period) {
-  const auto positive = [&](std::string_view key, std::string_view unit, double most) {
-    return s.number(key, Range{unit}.within(0, most));
-  };
-  if (s.find("time_lapse")) {
-    const auto lapse = positive("time_lapse", "real seconds per second of show", kMostRate);
-    if (!lapse) return std::nullopt;
-    return proper_time_in(stage, *lapse * stage.duration_s);
-  }
-  if (s.find("orbits")) {
-    const auto orbits = positive("orbits", "revolutions", kMostOrbits);
-    if (!orbits || !period) return std::nullopt;
-    return *orbits * *period;
-  }
-  if (s.find("rate_m_per_s")) {
-    const auto rate = positive("rate_m_per_s", "units of M per second of show", kMostRate);
-    if (!rate) return std::nullopt;
-    return *rate * stage.duration_s;
-  }
-  return kDefaultRate * stage.duration_s;
+// Of what is not a world line with an end of its own.
+std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& trajectory,
+                                     const Rate& rate, bool mirrored) {
+  Timing timing{0, rate.span, Pace::kSteady, rate.begin, rate.end};
+  if (!read_pace(s, trajectory, timing)) return std::nullopt;
+  return TimedTrajectory{trajectory, timing, {mirrored}};
 }
 
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage) {
-  const Section s(item, {"type", "r"});
+  const Section s(item, {"type", "r", "region"});
   const double real_time = proper_time_in(stage, stage.duration_s);
   if (!stage.mass_solar) {
     if (const Item* r = s.find("r")) r->fail("needs a black hole; in flat space leave it out");
-    return TimedTrajectory{StaticObserver{}, 0, real_time};
+    return TimedTrajectory{StaticObserver{}, {0, real_time}, {}};
   }
   const auto r = s.required_number(
       "r", kUnitsOfM.above(kStaticInnermost, "nothing holds still at or inside the horizon")
                .at_most(kFarthest));
+  const bool mirrored = is_in_region_three(s);
   if (!r) return std::nullopt;
-  return TimedTrajectory{StaticObserver{*r}, 0, real_time};
+  return TimedTrajectory{StaticObserver{*r}, {0, real_time}, {mirrored}};
 }
 
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage) {
-  const Section s(item, {"type", "r", "orbits", "rate_m_per_s", "time_lapse"});
+  const Section s(item, {"type", "r", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"});
   s.one_of({"orbits", "rate_m_per_s", "time_lapse"});
   const auto r = s.required_number(
       "r", kUnitsOfM
                .above(kCircularInnermost,
                       "at the light circle an orbit needs the speed of light, below it more")
                .at_most(kFarthest));
-  const auto tau = read_proper_time(s, stage, r ? std::optional(period({*r})) : std::nullopt);
-  if (!r || !tau) return std::nullopt;
-  const double orbits = *tau / period({*r});
+  const bool mirrored = is_in_region_three(s);
+  const auto rate = read_rate(s, stage, r ? std::optional(period({*r})) : std::nullopt);
+  if (!r || !rate) return std::nullopt;
+  const double orbits = rate->span / period({*r});
   if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
     const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
     (pace ? *pace : item)
@@ -73,35 +60,41 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
               short_number(kMostOrbits) + " are possible");
     return std::nullopt;
   }
-  return TimedTrajectory{CircularOrbit{*r}, 0, *tau};
+  return timed(s, CircularOrbit{*r}, *rate, mirrored);
 }
 
 // The end of a fall that is timed by a rate; it must come before the singularity.
-std::optional<double> read_fall_time(const Section& s, const Stage& stage,
-                                     const RadialInfall& fall) {
-  const auto tau = read_proper_time(s, stage, std::nullopt);
+std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
+  const auto rate = read_rate(s, stage);
   const double most = proper_time_to(fall, std::max(kNearest, fall.from_r / kLongestFall));
-  if (!tau || *tau <= most) return tau;
+  if (!rate || rate->span <= most) return rate;
   s.one_of({"rate_m_per_s", "time_lapse"})
-      ->fail("lets " + short_number(*tau) + " M of proper time pass in the segment, but from r = " +
-             short_number(fall.from_r) + " the singularity is " + short_number(lifetime(fall)) +
+      ->fail("lets " + short_number(rate->span) +
+             " M of proper time pass in the segment, but from r = " + short_number(fall.from_r) +
+             " the singularity is " + short_number(lifetime(fall)) +
              " M away; slow it down, shorten duration_s or give to_r");
   return std::nullopt;
 }
 
 std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage) {
-  const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse"});
+  const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "region",
+                         "rest_r", "angular_momentum", "v_inf", "impact_parameter", "from_leg",
+                         "from_tau_m", "to_leg", "to_tau_m"});
   const Item* timing = s.one_of({"to_r", "rate_m_per_s", "time_lapse"});
   const Item* to = s.find("to_r");
   const auto to_r = s.number("to_r", kUnitsOfM.at_least(kNearest).at_most(kFarthest));
   const auto from_r = s.required_number("from_r", kUnitsOfM.above(0).at_most(kFarthest));
   if (!from_r || (to && !to_r)) return std::nullopt;
   const RadialInfall fall{*from_r};
-  const bool slowing = s.choice("pace", {"steady", "slowing"}).value_or(0) == 1;
+  const bool mirrored = is_in_region_three(s);
   if (timing && !to) {
-    if (slowing) s.find("pace")->fail("of 'slowing' needs to_r, not a rate");
-    const auto tau = read_fall_time(s, stage, fall);
-    return tau ? std::optional(TimedTrajectory{fall, 0, *tau}) : std::nullopt;
+    const Item* pace = s.find("pace");
+    if (pace && pace->node.IsScalar() && pace->node.Scalar() == "slowing") {
+      pace->fail("of 'slowing' needs to_r, not a rate");
+      return std::nullopt;
+    }
+    const auto rate = read_fall_time(s, stage, fall);
+    return rate ? timed(s, fall, *rate, mirrored) : std::nullopt;
   }
   const double end = to_r.value_or(kDefaultEnd);
   if (end >= *from_r) {
@@ -120,8 +113,7 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
                " (units of M), got " + short_number(end) + "; fall on in a further segment");
     return std::nullopt;
   }
-  return TimedTrajectory{fall, 0, proper_time_to(fall, end),
-                         slowing ? Pace::kSlowing : Pace::kSteady};
+  return timed(s, fall, Rate{proper_time_to(fall, end)}, mirrored);
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
@@ -139,38 +131,82 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
   const auto celerity = read_celerity(s, stage, observer, lookup);
   if (!celerity) return std::nullopt;
   observer.celerity = *celerity;
-  return TimedTrajectory{observer, 0, proper_time_in(stage, stage.duration_s)};
+  return TimedTrajectory{observer, {0, proper_time_in(stage, stage.duration_s)}, {}};
+}
+
+// What the segment before did goes on.
+std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stage) {
+  const Section s(item,
+                  {"type", "to_r", "to_leg", "to_tau_m", "rate_m_per_s", "time_lapse", "pace"});
+  if (!stage.before) {
+    item.fail("goes on with the trajectory of the segment before, but this is the first segment");
+    return std::nullopt;
+  }
+  const auto timing = read_end(s, stage, stage.before->trajectory, stage.before->timing.tau_end);
+  if (!timing) return std::nullopt;
+  Placement placement = stage.before->placement;
+  placement.turn = 0;
+  return TimedTrajectory{stage.before->trajectory, *timing, placement};
+}
+
+constexpr std::array<std::string_view, 11> kTypes{"static", "circular", "parabolic", "hyperbolic",
+                                                  "bound",  "infall",   "thrown",    "kruskal",
+                                                  "path",   "velocity", "continue"};
+
+// These work in flat space too.
+bool needs_hole(std::string_view type) {
+  return type != "static" && type != "velocity" && type != "continue";
+}
+
+// A fall that says more than RadialInfall knows.
+bool is_curved(const Item& item) {
+  static constexpr std::array<std::string_view, 8> kKeys{
+      "rest_r",   "angular_momentum", "v_inf",  "impact_parameter",
+      "from_leg", "from_tau_m",       "to_leg", "to_tau_m"};
+  return std::any_of(kKeys.begin(), kKeys.end(),
+                     [&item](std::string_view key) { return peek(item, key).has_value(); });
+}
+
+std::optional<TimedTrajectory> read_kind(std::string_view type, const Item& item,
+                                         const Stage& stage, Lookup& lookup) {
+  if (type == "static") return read_static(item, stage);
+  if (type == "circular") return read_circular(item, stage);
+  if (type == "parabolic") return read_parabolic(item, stage);
+  if (type == "hyperbolic") return read_hyperbolic(item, stage);
+  if (type == "bound") return read_bound(item, stage);
+  if (type == "infall")
+    return is_curved(item) ? read_curved_infall(item, stage) : read_infall(item, stage);
+  if (type == "thrown") return read_thrown(item, stage, lookup);
+  if (type == "kruskal") return read_kruskal(item, stage);
+  if (type == "path") return read_path(item, stage, lookup);
+  if (type == "velocity") return read_velocity(item, stage, lookup);
+  return read_continue(item, stage);
 }
 
 }  // namespace
 
-double proper_time_in(const Stage& stage, double seconds) {
-  return stage.mass_solar ? seconds / (*stage.mass_solar * kSecondsPerSolarMass) : seconds;
+bool is_in_region_three(const Section& s) {
+  return s.choice("region", {"I", "III"}).value_or(0) == 1;
 }
 
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
                                                Lookup& lookup) {
-  static constexpr std::array<std::string_view, 4> kTypes{"static", "circular", "infall",
-                                                          "velocity"};
   const auto type = peek(item, "type");
   if (!type) {
-    const Section any(
-        item, {"type", "r", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "orbits",
-               "speed", "lorentz_factor", "against", "direction", "region"});
-    any.require("type", ": static, circular, infall or velocity");
+    if (item.node.IsMap())
+      item.problems->add(item.at, item.path + ".type is missing: " + listed(kTypes));
+    else
+      item.fail("must be a map with a type, e.g. {type: infall, from_r: 30}, got " + kind_of(item));
     return std::nullopt;
   }
   const auto kind = read_choice(*type, kTypes);
   if (!kind) return std::nullopt;
-  if (!stage.mass_solar && (*kind == 1 || *kind == 2)) {
+  if (!stage.mass_solar && needs_hole(kTypes[*kind])) {
     type->fail("'" + type->node.Scalar() +
                "' needs a black hole: give the show black_hole.mass_solar");
     return std::nullopt;
   }
-  if (*kind == 0) return read_static(item, stage);
-  if (*kind == 1) return read_circular(item, stage);
-  if (*kind == 2) return read_infall(item, stage);
-  return read_velocity(item, stage, lookup);
+  return read_kind(kTypes[*kind], item, stage, lookup);
 }
 
 }  // namespace domefall

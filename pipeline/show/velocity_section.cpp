@@ -6,7 +6,6 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
-#include "pipeline/show/placement.h"
 
 namespace domefall {
 namespace {
@@ -41,8 +40,7 @@ bool names_sky_place(const Item& item) {
 
 // Where an observer sees a place on its home sky.
 V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
-  const M33d tetrad = place_tetrad(stage.hole_at, stage.heading, stage.azimuth);
-  const V3d source = apply_transposed(tetrad, place.v);
+  const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
 }
 
@@ -112,7 +110,7 @@ Tetrad tetrad_of(Region region, Against against) {
 
 }  // namespace
 
-std::optional<GivenVelocity> read_frame(const Section& s) {
+std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radius_key) {
   const auto against = static_cast<Against>(
       s.choice("against", {"static", "free_fall", "outgoing", "constant_t"}).value_or(0));
   std::optional<Region> region;
@@ -125,7 +123,7 @@ std::optional<GivenVelocity> read_frame(const Section& s) {
                            "constant_t in II and IV");
     return std::nullopt;
   }
-  const auto r = s.required_number("r", radii(against, region));
+  const auto r = s.required_number(radius_key, radii(against, region));
   if (!r) return std::nullopt;
   GivenVelocity frame;
   frame.r = *r;
@@ -136,16 +134,22 @@ std::optional<GivenVelocity> read_frame(const Section& s) {
   return frame;
 }
 
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
-                                 Lookup& lookup) {
+std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
+                                     const GivenVelocity& frame, Lookup& lookup) {
   const auto gamma_v = read_gamma_v(s);
-  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return frame.celerity;
+  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return V3d(0, 0, 0);
   const Item* item =
       s.require("direction",
                 ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
   const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;
   if (!gamma_v || !direction) return std::nullopt;
-  return celerity_against(frame.celerity, *direction * *gamma_v);
+  return *direction * *gamma_v;
+}
+
+std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
+                                 Lookup& lookup) {
+  const auto own = read_own_celerity(s, stage, frame, lookup);
+  return own ? std::optional(celerity_against(frame.celerity, *own)) : std::nullopt;
 }
 
 }  // namespace domefall

@@ -18,7 +18,7 @@ bool same_bytes(const HalfFrame& a, const HalfFrame& b) {
 
 TEST(Renderer, AFrameIsTheSameBytesForAnyNumberOfThreadsAloneOrInARun) {
   Show show = starry(show_of(RadialInfall{2.5}, Domemaster{200}));
-  show.timeline[0].tau_end = 1.6;
+  show.timeline[0].timing.tau_end = 1.6;
   Renderer run(show, 1);
   for (const int frame : {3, 14, 15, 29}) {
     const HalfFrame in_run = run.render(frame_state(show, frame));
@@ -144,7 +144,7 @@ TEST(Renderer, DrawsTheSingularitysTimeAsRingsAboutTheAxis) {
   // Half a period later, bright and dark have changed places at the centre.
   show.frames_per_second = 1;
   show.timeline[0].duration_s = 2;
-  show.timeline[0].tau_end = 2 * 2 * std::sqrt(0.9);
+  show.timeline[0].timing.tau_end = 2 * 2 * std::sqrt(0.9);
   EXPECT_NEAR(green(1)(128, 128) + still(128, 128), most + least, 5e-3f * most);
 
   show.sky_four.background = RingsSky{0.001};

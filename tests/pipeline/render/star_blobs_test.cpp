@@ -32,9 +32,9 @@ std::vector<StarBlob> blobs_of(const Show& show, const V3d& camera_direction, do
   const V3d sky = apply(state.observer.sky_from_tetrad,
                         apply(state.observer.tetrad_from_camera, camera_direction));
   const double t = 6500;
-  const SceneStar star{{sky}, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
+  const SceneStar star{{sky}, m, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
   std::vector<StarBlob> blobs;
-  BlobMaker(show, state, nullptr).append(star, blobs);
+  BlobMaker(show, state, {1, 1, 40}, nullptr).append(star, blobs);
   return blobs;
 }
 
@@ -119,7 +119,7 @@ TEST(StarBlobs, OfMagnitudeZeroBringTheIlluminanceOfTheMagnitudeScale) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
   const auto blobs = blobs_of(show, dome_direction(0.5, 1), 0);
   const WorkingRgb c{blobs.at(0).rgb[0], blobs[0].rgb[1], blobs[0].rgb[2]};
-  EXPECT_NEAR(luminance(c) / exposure_scale(show.exposure), kMagnitudeZeroLux,
+  EXPECT_NEAR(luminance(c) / exposure_scale(Picture{}), kMagnitudeZeroLux,
               0.02 * kMagnitudeZeroLux);
 }
 

@@ -5,6 +5,7 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/show/attitude.h"
 #include "pipeline/show/placement.h"
 #include "show_file.h"
 

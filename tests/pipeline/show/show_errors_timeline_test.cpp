@@ -29,16 +29,19 @@ TEST_F(ShowErrorsInTimelines, TheListOfSegments) {
        "frame lasts 0.03333333333 s"},
       {"PaceOutsideTheTrajectory",
        kHole + "timeline: [{duration_s: 1, orbits: 2, trajectory: {type: circular, r: 9}}]\n",
-       "2:28: timeline[0].orbits is an unknown key; known here: duration_s, trajectory or camera"},
+       "2:28: timeline[0].orbits is an unknown key; known here: duration_s, dissolve_s, "
+       "trajectory, camera, exposure, sky or keyframes"},
   });
 }
 
 TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
   expect_complaints({
       {"NoType", moving("{r: 9}"),
-       "3:33: timeline[0].trajectory.type is missing: static, circular, infall or velocity"},
+       "3:33: timeline[0].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
+       "bound, infall, thrown, kruskal, path, velocity or continue"},
       {"TypeMisspelt", moving("{type: infal, from_r: 9}"),
-       "3:40: timeline[0].trajectory.type must be static, circular, infall or velocity, got "
+       "3:40: timeline[0].trajectory.type must be static, circular, parabolic, hyperbolic, "
+       "bound, infall, thrown, kruskal, path, velocity or continue, got "
        "'infal'; did you mean infall?"},
       {"FromRNegative", moving("{type: infall, from_r: -3}"),
        "3:56: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3"},
@@ -64,7 +67,8 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
       {"SlowingAtAGivenRate", moving("{type: infall, from_r: 10, rate_m_per_s: 2, pace: slowing}"),
        "3:83: timeline[0].trajectory.pace of 'slowing' needs to_r, not a rate"},
       {"PaceMisspelt", moving("{type: infall, from_r: 10, pace: slow}"),
-       "3:66: timeline[0].trajectory.pace must be steady or slowing, got 'slow'; did you mean "
+       "3:66: timeline[0].trajectory.pace must be steady, eased, eased_in, eased_out, slowing, "
+       "quickening or frozen, got 'slow'; did you mean "
        "slowing?"},
       {"OrbitAtTheLightCircle", moving("{type: circular, r: 3}"),
        "3:53: timeline[0].trajectory.r must exceed 3 (units of M), got 3: at the light circle an "

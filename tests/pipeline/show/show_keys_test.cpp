@@ -58,8 +58,8 @@ TEST_F(ShowKeys, SixLinesMakeAShowForADome) {
   ASSERT_EQ(show.timeline.size(), 1u);
   const Segment& s = show.timeline[0];
   EXPECT_EQ(std::get<RadialInfall>(s.trajectory).from_r, 30);
-  EXPECT_EQ(s.tau_begin, 0);
-  EXPECT_NEAR(point_at(s.trajectory, s.tau_end).r, 0.05, 1e-12);
+  EXPECT_EQ(s.timing.tau_begin, 0);
+  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).r, 0.05, 1e-12);
   EXPECT_TRUE(std::holds_alternative<LookAtHole>(s.camera.attitude));
   EXPECT_EQ(s.camera.roll, 0);
   EXPECT_DOUBLE_EQ(s.camera.elevation, 45 * kDegree);
@@ -138,7 +138,7 @@ TEST_F(ShowKeys, WithoutAMassSpaceIsFlatAndASegmentMayRest) {
     EXPECT_FALSE(show.mass_solar) << hole;
     for (const Segment& s : show.timeline) {
       EXPECT_EQ(std::get<StaticObserver>(s.trajectory).r, kFlatSpace);
-      EXPECT_EQ(s.tau_end, s.duration_s);  // seconds
+      EXPECT_EQ(s.timing.tau_end, s.duration_s);  // seconds
     }
   }
 }
@@ -147,35 +147,35 @@ TEST_F(ShowKeys, WithoutAMassSpaceIsFlatAndASegmentMayRest) {
 
 TEST_F(ShowKeys, AFallEndsAtItsToR) {
   const Segment s = segment("{type: infall, from_r: 12, to_r: 3}");
-  EXPECT_NEAR(point_at(s.trajectory, s.tau_end).r, 3, 1e-13);
+  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).r, 3, 1e-13);
 }
 
 TEST_F(ShowKeys, RatesAreUnitsOfMPerSecondOfShow) {
-  EXPECT_DOUBLE_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").tau_end, 15);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").tau_end, 2.5);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8}").tau_end, 10)
+  EXPECT_DOUBLE_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").timing.tau_end, 15);
+  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").timing.tau_end, 2.5);
+  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8}").timing.tau_end, 10)
       << "1 M per second is the default";
 }
 
 TEST_F(ShowKeys, AFallMaySlowDown) {
-  EXPECT_EQ(segment("{type: infall, from_r: 12}").pace, Pace::kSteady);
-  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: steady}").pace, Pace::kSteady);
-  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: slowing}").pace, Pace::kSlowing);
+  EXPECT_EQ(segment("{type: infall, from_r: 12}").timing.pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: steady}").timing.pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: slowing}").timing.pace, Pace::kSlowing);
 }
 
 TEST_F(ShowKeys, OrbitsCountRevolutionsInTheSegment) {
   const Segment s = segment("{type: circular, r: 6, orbits: 1.5}");
   EXPECT_EQ(std::get<CircularOrbit>(s.trajectory).r, 6);
-  EXPECT_NEAR(point_at(s.trajectory, s.tau_end).azimuth, 3 * std::numbers::pi, 1e-13);
+  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).azimuth, 3 * std::numbers::pi, 1e-13);
 }
 
 TEST_F(ShowKeys, TimeLapseIsRealSecondsPerSecondOfShow) {
   // One M of 4e6 suns is 4e6 * 4.925490947e-6 s = 19.701963788 s.
-  EXPECT_NEAR(segment("{type: circular, r: 8, time_lapse: 100}").tau_end, 1000 / 19.701963788,
-              1e-11);
-  EXPECT_NEAR(segment("{type: infall, from_r: 900, time_lapse: 100}").tau_end, 1000 / 19.701963788,
-              1e-11);
-  EXPECT_NEAR(segment("{type: static, r: 8}").tau_end, 10 / 19.701963788, 1e-13);
+  EXPECT_NEAR(segment("{type: circular, r: 8, time_lapse: 100}").timing.tau_end,
+              1000 / 19.701963788, 1e-11);
+  EXPECT_NEAR(segment("{type: infall, from_r: 900, time_lapse: 100}").timing.tau_end,
+              1000 / 19.701963788, 1e-11);
+  EXPECT_NEAR(segment("{type: static, r: 8}").timing.tau_end, 10 / 19.701963788, 1e-13);
 }
 
 TEST_F(ShowKeys, AVelocityAgainstTheStaticFrameIsTheDefault) {
@@ -215,7 +215,7 @@ TEST_F(ShowKeys, InFlatSpaceAVelocityPointsToAPlaceOnTheSky) {
   const Show show = with("", "{type: velocity, speed: 0.6, direction: Vega}", "{mass_solar: 0}");
   const auto v = std::get<GivenVelocity>(show.timeline[0].trajectory);
   EXPECT_EQ(v.r, kFlatSpace);
-  EXPECT_EQ(show.timeline[0].tau_end, 10);
+  EXPECT_EQ(show.timeline[0].timing.tau_end, 10);
   const V3d u = celerity("speed: 0.6, direction: {ra_deg: 279.235, dec_deg: 38.784}", "{}");
   expect_near(u, v.celerity);
   EXPECT_NEAR(u.length(), 0.75, 1e-14);

@@ -1,0 +1,129 @@
+#include "pipeline/show/attitude.h"
+
+#include <Imath/ImathQuat.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
+
+namespace domefall {
+namespace {
+
+// Scene "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
+// is no hole to orbit; outward (R) for a target within 0.06 degrees of that axis.
+V3d up_across(const V3d& target, const ObserverState& o) {
+  const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
+  const V3d outward(1, 0, 0);
+  const V3d up = target.cross(north).length() > 1e-3 ? north : outward;
+  return (up - target * up.dot(target)).normalized();
+}
+
+M33d rolled(const V3d& x, const V3d& y, const V3d& z, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return from_columns(x * c - y * s, y * c + x * s, z);
+}
+
+// [Riazuelo] sec. sec_cam: A, B, C are the boosted Theta, Phi, R.
+M33d euler_axes(const EulerAngles& angle) {
+  const V3d a(0, 1, 0), b(0, 0, 1), c(1, 0, 0);
+  const V3d a1 = a * std::cos(angle.phi) + b * std::sin(angle.phi);
+  const V3d b1 = b * std::cos(angle.phi) - a * std::sin(angle.phi);
+  const V3d z = c * std::cos(angle.vartheta) + a1 * std::sin(angle.vartheta);
+  const V3d a2 = a1 * std::cos(angle.vartheta) - c * std::sin(angle.vartheta);
+  return from_columns(a2 * std::cos(angle.psi) + b1 * std::sin(angle.psi),
+                      b1 * std::cos(angle.psi) - a2 * std::sin(angle.psi), z);
+}
+
+// What stood at elevation e in the front stands at e + tilt.
+M33d tilted(const M33d& axes, double tilt) {
+  const V3d y = column(axes, 1), z = column(axes, 2);
+  const double c = std::cos(tilt), s = std::sin(tilt);
+  return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
+}
+
+// m[k] is the k-th column.  The largest of the four components is found from the trace or a diagonal
+// element, without cancellation.
+Imath::Quatd quaternion_of(const M33d& m) {
+  const double trace = m[0][0] + m[1][1] + m[2][2];
+  if (trace > 0) {
+    const double w = std::sqrt(1 + trace) / 2;
+    return {w, (m[1][2] - m[2][1]) / (4 * w), (m[2][0] - m[0][2]) / (4 * w),
+            (m[0][1] - m[1][0]) / (4 * w)};
+  }
+  int i = m[1][1] > m[0][0] ? 1 : 0;
+  if (m[2][2] > m[i][i]) i = 2;
+  const int j = (i + 1) % 3, k = (i + 2) % 3;
+  V3d v;
+  v[i] = std::sqrt(1 + m[i][i] - m[j][j] - m[k][k]) / 2;
+  v[j] = (m[i][j] + m[j][i]) / (4 * v[i]);
+  v[k] = (m[i][k] + m[k][i]) / (4 * v[i]);
+  return {(m[j][k] - m[k][j]) / (4 * v[i]), v.x, v.y, v.z};
+}
+
+}  // namespace
+
+V3d motion_direction(const ObserverState& o) {
+  // d/dt = T +- sqrt(2/r) R in rain or the outgoing tetrad, here seen from the observer's frame.
+  const double s = std::sqrt(2 / o.r);
+  const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
+  const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
+  return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
+}
+
+std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o) {
+  if (std::holds_alternative<LookAtHole>(attitude))
+    return to_observer(o.celerity, V3d(-1, 0, 0)).direction;
+  if (std::holds_alternative<LookOutward>(attitude))
+    return to_observer(o.celerity, V3d(1, 0, 0)).direction;
+  if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_direction(o).normalized();
+  if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
+    const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
+    return to_observer(o.celerity, primary_image(o.r, o.tetrad, source).v).direction;
+  }
+  return std::nullopt;
+}
+
+M33d camera_axes(const Camera& camera, const Projection& projection,
+                 const ObserverState& observer) {
+  const auto target = target_direction(camera.attitude, observer);
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  if (!target) {
+    const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));
+    return dome ? tilted(axes, camera.dome_tilt) : axes;
+  }
+  const V3d& f = *target;
+  const V3d up = up_across(f, observer), right = f.cross(up);
+  if (!dome) return rolled(right, -up, f, camera.roll);
+  // Roll turns the scene about the target, so it comes before the target is set on the dome.
+  const M33d screen = rolled(right, -up, f, camera.roll);
+  const V3d x = column(screen, 0), u = -column(screen, 1);
+  const double elevation = camera.elevation + camera.dome_tilt;
+  const double c = std::cos(elevation), s = std::sin(elevation);
+  return from_columns(x, f * c - u * s, f * s + u * c);
+}
+
+V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
+  const Imath::Quatd q = quaternion_of(to * from.transposed());
+  const double sine = q.v.length();
+  const double angle = 2 * std::atan2(sine, q.r);
+  // No turn at all, or whole ones: about the axis it had.
+  const V3d axis = sine > 0 ? q.v / sine : before.normalized();
+  const double turns = std::round((before.dot(axis) - angle) / (2 * std::numbers::pi));
+  return axis * (angle + 2 * std::numbers::pi * turns);
+}
+
+M33d turned_by(const M33d& from, const V3d& turn) {
+  const double angle = turn.length();
+  if (!(angle > 0)) return from;
+  const V3d n = turn / angle;
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto rotated = [&](const V3d& v) {
+    return v * c + n.cross(v) * s + n * (n.dot(v) * (1 - c));
+  };
+  return from_columns(apply(from, rotated({1, 0, 0})), apply(from, rotated({0, 1, 0})),
+                      apply(from, rotated({0, 0, 1})));
+}
+
+}  // namespace domefall

@@ -1,0 +1,81 @@
+#include "pipeline/show/keyframes.h"
+
+namespace domefall {
+namespace {
+
+double& value_of(ChannelValues& values, Channel channel) {
+  return *values[static_cast<std::size_t>(channel)];
+}
+
+Keyframe read_keyframe(const Item& item, double start, double latest, ShowCamera& camera,
+                       Lookup& lookup) {
+  const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "sky"});
+  Keyframe keyframe;
+  const auto at = s.required_number("at_s", Range{"seconds"}.within(0, latest));
+  keyframe.at_s = start + at.value_or(0);
+  keyframe.ease = static_cast<Ease>(s.choice("ease", {"smooth", "linear", "hold"}).value_or(0));
+  keyframe.values = read_values(s);
+  if (const Item* own = s.find("camera")) {
+    const CameraKeys keys = read_camera(*own, camera, lookup);
+    keyframe.attitude = keys.attitude;
+    const ChannelValues values = camera_values(keys);
+    for (std::size_t k = 0; k < kChannels; ++k)
+      if (values[k]) keyframe.values[k] = values[k];
+  }
+  if (const Item* name = s.find("name"))
+    if (const auto text = read_text(*name); text && keyframe.attitude)
+      camera.named.keyframes[*text] = *keyframe.attitude;
+  return keyframe;
+}
+
+}  // namespace
+
+ChannelValues camera_values(const CameraKeys& keys) {
+  ChannelValues values;
+  values[static_cast<std::size_t>(Channel::kRoll)] = keys.roll;
+  values[static_cast<std::size_t>(Channel::kElevation)] = keys.elevation;
+  values[static_cast<std::size_t>(Channel::kDomeTilt)] = keys.dome_tilt;
+  values[static_cast<std::size_t>(Channel::kFov)] = keys.fov;
+  return values;
+}
+
+std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
+                                     ShowCamera& camera, Lookup& lookup) {
+  std::vector<Keyframe> keyframes;
+  const auto items = read_list(item);
+  if (!items) return keyframes;
+  for (const Item& entry : *items) {
+    keyframes.push_back(read_keyframe(entry, start, latest, camera, lookup));
+    const std::size_t n = keyframes.size();
+    if (n > 1 && !(keyframes[n - 1].at_s > keyframes[n - 2].at_s) && peek(entry, "at_s"))
+      peek(entry, "at_s")
+          ->fail("must be later than that of the keyframe before it, " +
+                 short_number(keyframes[n - 2].at_s - start) + " (seconds)");
+  }
+  return keyframes;
+}
+
+std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
+                                   double start, double value_there) {
+  Curve curve;
+  for (Keyframe keyframe : keyframes) {
+    if (!keyframe.values[static_cast<std::size_t>(channel)]) continue;
+    if (curve.keys.empty() && keyframe.at_s > start) curve.keys.push_back({start, value_there});
+    curve.keys.push_back({keyframe.at_s, value_of(keyframe.values, channel), keyframe.ease});
+  }
+  if (curve.keys.empty()) return std::nullopt;
+  return curve;
+}
+
+std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,
+                                           const Attitude& attitude_there) {
+  std::vector<AttitudeKey> keys;
+  for (const Keyframe& keyframe : keyframes) {
+    if (!keyframe.attitude) continue;
+    if (keys.empty() && keyframe.at_s > start) keys.push_back({start, attitude_there});
+    keys.push_back({keyframe.at_s, *keyframe.attitude, keyframe.ease});
+  }
+  return keys;
+}
+
+}  // namespace domefall

@@ -1,0 +1,105 @@
+#include "pipeline/show/observer_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trajectories/passages.h"
+
+namespace domefall {
+namespace {
+
+const Segment& segment_of(const Show& show, int k) {
+  return show.timeline[static_cast<std::size_t>(k)];
+}
+
+// r* = r + 2 ln|r/2 - 1|; v = u + 2 r*.
+double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
+
+// Integral of a rate that goes from `a` to `b` like 3 t^2 - 2 t^3.
+double ramp(double a, double b, double t) { return t * (a + (b - a) * t * t * (1 - t / 2)); }
+
+// A place on the timeline where one segment hands over to the next.
+struct Joint {
+  M33d axes;
+  double azimuth = 0, null_time = 0;
+  Tetrad tetrad = Tetrad::kRain;
+  double r = kFlatSpace;
+};
+
+// The null time that a point has if it goes on from the joint: the constant of its trajectory's own
+// count.  From v to u and back by r*; the count starts anew where the two do not meet.
+double null_offset(const Joint& joint, const OrbitPoint& start) {
+  double reached = joint.null_time;
+  if (start.tetrad != joint.tetrad) {
+    const bool same_sky = is_mirrored(start.tetrad) == is_mirrored(joint.tetrad);
+    if (!same_sky || !(joint.r > 2) || std::isinf(joint.r)) return -start.null_time;
+    reached += is_outgoing(start.tetrad) ? -2 * tortoise(joint.r) : 2 * tortoise(joint.r);
+  }
+  return reached - start.null_time;
+}
+
+OrbitPoint point_of(const Segment& s, double tau) {
+  return placed(point_at(s.trajectory, tau), s.placement);
+}
+
+}  // namespace
+
+double proper_time_at(const Segment& s, double part) {
+  const double span = s.timing.tau_end - s.timing.tau_begin;
+  switch (s.timing.pace) {
+    case Pace::kSlowing: {
+      const double end = lifetime(s.trajectory), left = end - s.timing.tau_begin;
+      return end - left * std::pow((end - s.timing.tau_end) / left, part);
+    }
+    case Pace::kQuickening: {
+      const double start = birth(s.trajectory), gone = s.timing.tau_begin - start;
+      return start + gone * std::pow((s.timing.tau_end - start) / gone, part);
+    }
+    case Pace::kEased:
+      return s.timing.tau_begin + span * smooth_step(part);
+    case Pace::kSteady:
+      break;
+  }
+  return s.timing.tau_begin + span * ramp(s.timing.rate_begin, s.timing.rate_end, part);
+}
+
+ObserverState observer_at(const Show& show, int segment, double part) {
+  Joint joint{place_tetrad(show.hole_at, show.heading, 0)};
+  for (int k = 0;; ++k) {
+    const Segment& s = segment_of(show, k);
+    const OrbitPoint start = point_of(s, s.timing.tau_begin);
+    if (k == 0) joint.tetrad = start.tetrad, joint.null_time = 0;
+    const double tau = k == segment ? proper_time_at(s, part) : s.timing.tau_end;
+    const OrbitPoint point = point_of(s, tau);
+    joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
+    joint.azimuth += point.azimuth - start.azimuth;
+    joint.null_time = point.null_time + null_offset(joint, start);
+    joint.tetrad = point.tetrad, joint.r = point.r;
+    if (k < segment) continue;
+    ObserverState o;
+    o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
+    o.proper_time = tau;
+    o.celerity = point.celerity;
+    o.null_time = joint.null_time;
+    o.azimuth = joint.azimuth;
+    o.sky_from_tetrad = joint.axes;
+    return o;
+  }
+}
+
+int segment_at(const Show& show, double show_time_s) {
+  const std::vector<double> times = segment_times(show);
+  const double t = show_time_s + kCutTolerance / show.frames_per_second;
+  int segment = 0;
+  while (segment + 1 < static_cast<int>(show.timeline.size()) &&
+         t >= times[static_cast<std::size_t>(segment) + 1])
+    ++segment;
+  return segment;
+}
+
+double part_at(const Show& show, int segment, double show_time_s) {
+  const double begin = segment_times(show)[static_cast<std::size_t>(segment)];
+  return std::clamp((show_time_s - begin) / segment_of(show, segment).duration_s, 0.0, 1.0);
+}
+
+}  // namespace domefall

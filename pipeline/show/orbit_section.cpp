@@ -1,0 +1,234 @@
+#include "pipeline/show/orbit_section.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "pipeline/show/velocity_section.h"
+#include "trajectories/bound_orbit.h"
+#include "trajectories/hyperbolic_orbit.h"
+#include "trajectories/infall.h"
+#include "trajectories/kruskal_crossing.h"
+#include "trajectories/parabolic_orbit.h"
+
+namespace domefall {
+namespace {
+
+constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
+constexpr Range kMomentum = Range{"units of M"}.within(0, 1e9);
+constexpr Range kExcess = kPureNumber.within(1e-20, 1e9);
+constexpr Range kSpeed = Range{"speed of light = 1"}.above(0).below(1);
+constexpr double kFallEnd = 0.05;
+
+// The keys of every orbit, and its own.
+Section orbit_section(const Item& item, std::initializer_list<std::string_view> own) {
+  std::vector<std::string_view> keys{"type",         "region",     "from_r", "from_leg",
+                                     "from_tau_m",   "to_r",       "to_leg", "to_tau_m",
+                                     "rate_m_per_s", "time_lapse", "pace"};
+  keys.insert(keys.end(), own.begin(), own.end());
+  return {item, keys};
+}
+
+// An orbit that does not exist is told with the place of the key that asks for it.
+template <class Make>
+std::optional<Geodesic> made(const Item& blamed, const Make& make) {
+  try {
+    return make();
+  } catch (const std::domain_error& error) {
+    blamed.fail(error.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
+                                     const Defaults& start, Placement placement = {}) {
+  if (const auto timing = read_timing(s, stage, orbit, start))
+    return TimedTrajectory{orbit, *timing, placement};
+  return std::nullopt;
+}
+
+std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
+  if (const auto r = s.number("periastron", kRadius); r && &by == s.find("periastron"))
+    return made(by, [&] { return parabolic_by_periastron(*r); });
+  if (const auto momentum = s.number("angular_momentum", kMomentum))
+    return made(by, [&] { return parabolic_by_angular_momentum(*momentum); });
+  if (const auto excess = s.number("excess", kExcess))
+    return made(by, [&] { return parabolic_by_excess(*excess); });
+  return std::nullopt;
+}
+
+std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
+  const Item* excess_item = s.find("excess");
+  const auto excess = s.number("excess", kExcess);
+  const auto r = s.number("periastron", kRadius);
+  if (r && excess_item) {
+    if (const Item* v = s.find("v_inf")) {
+      v->fail("excludes excess, which says how far it lies above the slowest possible");
+      return std::nullopt;
+    }
+    if (!excess) return std::nullopt;
+    return made(*excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
+  }
+  const auto v = s.required_number("v_inf", kSpeed);
+  if (!v) return std::nullopt;
+  if (&by == excess_item) {
+    if (!excess) return std::nullopt;
+    return made(by, [&] { return hyperbolic_by_impact_excess(*v, *excess); });
+  }
+  if (r) return made(by, [&] { return hyperbolic_by_periastron(*v, *r); });
+  if (const auto b = s.number("impact_parameter", kMomentum))
+    return made(by, [&] { return hyperbolic_by_impact_parameter(*v, *b); });
+  return std::nullopt;
+}
+
+std::optional<Geodesic> read_ellipse(const Section& s) {
+  if (s.find("periastron") || s.find("apoastron")) {
+    const auto low = s.required_number("periastron", kRadius);
+    const auto high = s.required_number("apoastron", kRadius);
+    if (!low || !high) return std::nullopt;
+    return made(*s.find("periastron"), [&] { return bound_by_turning_points(*low, *high); });
+  }
+  const auto e = s.required_number("eccentricity", kPureNumber.at_least(0).below(1));
+  if (const Item* excess = s.find("excess")) {
+    const auto value = read_number(*excess, kExcess);
+    if (!e || !value) return std::nullopt;
+    return made(*excess, [&] { return bound_by_excess(*e, *value); });
+  }
+  const auto p = s.required_number("semilatus_rectum", kRadius);
+  if (!e || !p) return std::nullopt;
+  return made(*s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
+}
+
+// What falls from infinity, with the place where tau = 0.
+std::optional<Geodesic> read_captured(const Section& s) {
+  const auto from_r = s.required_number("from_r", kRadius);
+  if (s.find("v_inf")) {
+    if (const Item* momentum = s.find("angular_momentum")) {
+      momentum->fail("goes with a fall from rest; with v_inf give impact_parameter");
+      return std::nullopt;
+    }
+    const auto v = s.number("v_inf", kSpeed);
+    const auto b = s.required_number("impact_parameter", kMomentum);
+    if (!from_r || !v || !b) return std::nullopt;
+    return made(*s.find("impact_parameter"), [&] { return fall_with_speed(*v, *b, *from_r); });
+  }
+  const double momentum = s.number("angular_momentum", kMomentum, 0);
+  if (!from_r) return std::nullopt;
+  const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("from_r");
+  return made(*blamed, [&] { return fall_from_infinity(momentum, *from_r); });
+}
+
+// From rest at rest_r, tau = 0 there.
+std::optional<Geodesic> read_dropped(const Section& s) {
+  const auto rest_r =
+      s.number("rest_r", kUnitsOfM.above(kStaticInnermost, "nothing rests at or inside the horizon")
+                             .at_most(kFarthest));
+  const double momentum = s.number("angular_momentum", kMomentum, 0);
+  if (!rest_r) return std::nullopt;
+  const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("rest_r");
+  return made(*blamed, [&] { return fall_from_rest(*rest_r, momentum); });
+}
+
+// Its direction leaves the plane of the orbit before by turning about R.
+Placement placement_of(const V3d& celerity, bool mirrored) {
+  Placement placement{mirrored};
+  const double north = -celerity.y, forward = celerity.z;
+  if (!(std::hypot(north, forward) > 0)) return placement;
+  placement.backward = forward < 0;
+  placement.turn = placement.backward ? std::atan2(-north, -forward) : std::atan2(north, forward);
+  return placement;
+}
+
+}  // namespace
+
+std::optional<TimedTrajectory> read_parabolic(const Item& item, const Stage& stage) {
+  const Section s = orbit_section(item, {"periastron", "angular_momentum", "excess"});
+  const bool mirrored = is_in_region_three(s);
+  const Item* by = s.one_of({"periastron", "angular_momentum", "excess"});
+  if (!by)
+    s.require("periastron", " (units of M); or give angular_momentum (units of M), or excess");
+  const auto orbit = by ? read_escape(s, *by) : std::nullopt;
+  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_hyperbolic(const Item& item, const Stage& stage) {
+  const Section s = orbit_section(item, {"v_inf", "periastron", "impact_parameter", "excess"});
+  const bool mirrored = is_in_region_three(s);
+  const Item* by = s.one_of({"periastron", "impact_parameter"});
+  if (!by) by = s.find("excess");
+  if (!by) s.require("periastron", " (units of M); or give impact_parameter (units of M)");
+  const auto orbit = by ? read_scattering(s, *by) : std::nullopt;
+  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage) {
+  const Section s = orbit_section(
+      item, {"periastron", "apoastron", "semilatus_rectum", "eccentricity", "excess"});
+  for (const std::string_view shape : {"semilatus_rectum", "eccentricity", "excess"})
+    for (const std::string_view turn : {"periastron", "apoastron"}) s.one_of({turn, shape});
+  s.one_of({"semilatus_rectum", "excess"});
+  const bool mirrored = is_in_region_three(s);
+  const auto orbit = read_ellipse(s);
+  if (!orbit) return std::nullopt;
+  const double apoastron = -orbit->radial_period() / 2;
+  return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
+}
+
+std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage& stage) {
+  const Section s =
+      orbit_section(item, {"rest_r", "angular_momentum", "v_inf", "impact_parameter"});
+  s.one_of({"rest_r", "v_inf"});
+  s.one_of({"rest_r", "impact_parameter"});
+  const bool mirrored = is_in_region_three(s);
+  const bool dropped = s.find("rest_r") != nullptr;
+  const auto orbit = dropped ? read_dropped(s) : read_captured(s);
+  if (!orbit) return std::nullopt;
+  Defaults start;
+  if (dropped) start.tau = start.after = 0;
+  start.to_r = kFallEnd;
+  return timed(s, stage, *orbit, start, {mirrored});
+}
+
+std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(
+      item, {"type", "region", "from_r", "speed", "lorentz_factor", "against", "direction", "to_r",
+             "to_leg", "to_tau_m", "rate_m_per_s", "time_lapse", "pace"});
+  const auto frame = read_frame(s, "from_r");
+  if (!frame) return std::nullopt;
+  if (is_outgoing(frame->tetrad)) {
+    s.find("against")->fail(
+        "of a throw must be static, free_fall or constant_t; what comes out of region IV is of "
+        "type kruskal");
+    return std::nullopt;
+  }
+  const auto own = read_own_celerity(s, stage, *frame, lookup);
+  if (!own) return std::nullopt;
+  const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
+  const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
+  const double across = std::hypot(celerity.y, celerity.z);
+  const auto orbit = made(*s.find("from_r"), [&] {
+    return against_static ? thrown_outside(frame->r, celerity.x, across)
+                          : thrown_from_rain(frame->r, celerity.x, across);
+  });
+  if (!orbit) return std::nullopt;
+  const auto timing = read_end(s, stage, *orbit, 0);
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*orbit, *timing, placement_of(celerity, is_mirrored(frame->tetrad))};
+}
+
+std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage) {
+  const Section s = orbit_section(item, {"energy", "angular_momentum"});
+  const bool mirrored = is_in_region_three(s);
+  const auto energy = s.number("energy", kPureNumber.within(0, 1e6));
+  const double momentum = s.number("angular_momentum", kMomentum, 0);
+  if (s.find("energy") && !energy) return std::nullopt;
+  const Item* blamed = s.find("energy") ? s.find("energy") : &item;
+  const auto orbit = made(*blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });
+  if (!orbit) return std::nullopt;
+  Defaults start;
+  start.leg = Leg::kOutward;
+  start.tau = orbit->time_at(kFallEnd, Leg::kOutward);
+  if (std::isfinite(orbit->death())) start.to_r = kFallEnd;
+  return timed(s, stage, *orbit, start, {mirrored});
+}
+
+}  // namespace domefall

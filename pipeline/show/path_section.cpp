@@ -1,0 +1,139 @@
+#include "pipeline/show/path_section.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "pipeline/image/csv_file.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/show/velocity_section.h"
+
+namespace domefall {
+namespace {
+
+constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
+constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetrad::kRainOfThree,
+                                         Tetrad::kOutgoingToThree};
+
+// dr/dtau and dphi/dtau of a celerity against a tetrad: u = gamma T + c, and r falls with T of rain.
+void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
+  const double gamma = std::sqrt(1 + celerity.length2()), s = std::sqrt(2 / key.r);
+  key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
+  key.azimuth_rate = celerity.z / key.r;
+}
+
+// `speed` and `direction` against the static observer there.
+void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup& lookup) {
+  if (!s.find("speed") && !s.find("lorentz_factor")) return;
+  if (!(key.r > kStaticInnermost)) {
+    s.one_of({"speed", "lorentz_factor"})
+        ->fail("is measured by what is static, which exists outside r = 2 M only; leave it out");
+    return;
+  }
+  GivenVelocity frame;
+  frame.r = key.r;
+  frame.celerity = resting_celerity(key.r, frame.tetrad);
+  const auto own = read_own_celerity(s, stage, frame, lookup);
+  if (!own) return;
+  if (std::abs(own->y) > 1e-12 * own->length()) {
+    s.find("direction")->fail("leaves the plane of the path; give radial and phi only");
+    return;
+  }
+  key.radial_rate = own->x * std::sqrt(1 - 2 / key.r);
+  key.azimuth_rate = own->z / key.r;
+}
+
+std::optional<std::vector<PathKey>> read_keys(const Item& list, const Stage& stage,
+                                              Lookup& lookup) {
+  const auto items = read_list(list);
+  if (!items) return std::nullopt;
+  std::vector<PathKey> keys;
+  bool good = true;
+  for (const Item& item : *items) {
+    const Section s(item, {"at_m", "r", "azimuth_deg", "speed", "lorentz_factor", "direction"});
+    const auto at = s.required_number("at_m", kUnitsOfM.within(-1e12, 1e12));
+    const auto r = s.required_number("r", kRadius);
+    good = good && at && r;
+    if (!at || !r) continue;
+    PathKey key{*at, *r, radians(s.number("azimuth_deg", kDegrees.within(-1e9, 1e9), 0)), {}, {}};
+    read_velocity_at(s, stage, key, lookup);
+    keys.push_back(key);
+  }
+  return good ? std::optional(keys) : std::nullopt;
+}
+
+Tetrad tetrad_named(const CsvFile& table) {
+  const std::string_view name = table.text("tetrad");
+  for (const Tetrad tetrad : kTetrads)
+    if (name == tetrad_name(tetrad)) return tetrad;
+  table.fail("tetrad must be rain, outgoing, rain_of_III or outgoing_to_III, got '" +
+             std::string(name) + "'");
+}
+
+struct Table {
+  std::vector<PathKey> keys;
+  Tetrad tetrad = Tetrad::kRain;
+};
+
+// What `domefall states` writes, or any table with some of these columns.
+Table read_table(const std::filesystem::path& file) {
+  CsvFile csv(file);
+  Table table;
+  const bool moving = csv.has("celerity_r") && csv.has("celerity_phi");
+  while (csv.next()) {
+    PathKey key{csv.number("proper_time"), csv.number("r"), 0, {}, {}};
+    if (!(key.r >= kNearest && key.r <= kFarthest))
+      csv.fail("r must lie between 1e-6 and 1e9 (units of M), got " + short_number(key.r));
+    if (csv.has("azimuth_deg")) key.azimuth = radians(csv.number("azimuth_deg"));
+    if (csv.has("tetrad")) {
+      const Tetrad tetrad = tetrad_named(csv);
+      if (!table.keys.empty() && tetrad != table.tetrad)
+        csv.fail("the tetrad changes; a path has one, give each part a file and a segment");
+      table.tetrad = tetrad;
+    }
+    if (csv.has("celerity_theta") && std::abs(csv.number("celerity_theta")) > 1e-12)
+      csv.fail("celerity_theta leaves the plane of the path; it must be 0");
+    if (moving)
+      set_rates(key, {csv.number("celerity_r"), 0, csv.number("celerity_phi")}, table.tetrad);
+    table.keys.push_back(key);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"type", "region", "keyframes", "file", "from_r", "from_leg", "from_tau_m",
+                         "to_r", "to_leg", "to_tau_m", "rate_m_per_s", "time_lapse", "pace"});
+  const Item* by = s.one_of({"keyframes", "file"});
+  const bool mirrored = is_in_region_three(s);
+  if (!by) {
+    s.require("keyframes", ": a list of {at_m, r, azimuth_deg}; or give file, a table of states");
+    return std::nullopt;
+  }
+  Table table;
+  try {
+    if (s.find("keyframes")) {
+      const auto keys = read_keys(*by, stage, lookup);
+      if (!keys) return std::nullopt;
+      table.keys = *keys;
+    } else {
+      const auto name = read_text(*by);
+      const auto file = name ? lookup.file(*by, *name) : std::nullopt;
+      if (!file) return std::nullopt;
+      table = read_table(*file);
+    }
+    const AcceleratedPath path(table.keys, table.tetrad);
+    const Defaults whole{path.begin(), Leg::kInward, path.begin(), {}, path.end()};
+    const auto timing = read_timing(s, stage, path, whole);
+    if (!timing) return std::nullopt;
+    return TimedTrajectory{path, *timing, {mirrored}};
+  } catch (const std::domain_error& error) {
+    by->fail(error.what());
+  } catch (const InputError& error) {
+    by->fail(std::string("names a table in error: ") + error.what());
+  }
+  return std::nullopt;
+}
+
+}  // namespace domefall

@@ -1,0 +1,243 @@
+#include "pipeline/show/timing_section.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace domefall {
+namespace {
+
+constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
+constexpr double kDefaultRate = 1;  // M per second
+constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
+constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
+
+std::string leg_name(Leg leg) { return leg == Leg::kInward ? "inward" : "outward"; }
+
+std::optional<Leg> read_leg(const Section& s, std::string_view key, std::string_view radius) {
+  const Item* item = s.find(key);
+  if (!item) return std::nullopt;
+  if (!s.find(radius)) {
+    item->fail("says on which leg " + std::string(radius) + " lies; give that too");
+    return std::nullopt;
+  }
+  const auto leg = s.choice(key, {"inward", "outward"});
+  return leg ? std::optional(*leg == 0 ? Leg::kInward : Leg::kOutward) : std::nullopt;
+}
+
+void fail_unreached(const Item& item, const Trajectory& trajectory, std::optional<Leg> leg,
+                    const char* when) {
+  const auto [low, high] = reach(trajectory);
+  std::string range = "it stays at r = " + short_number(low) + " M";
+  if (low < high)
+    range = "it moves between r = " + short_number(low) + " M and " +
+            (std::isinf(high) ? "infinity" : short_number(high) + " M");
+  item.fail("is not passed " + (leg ? "on the " + leg_name(*leg) + " leg " : std::string()) + when +
+            "; " + range);
+}
+
+std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
+                                 const Defaults& start) {
+  const Item* given = s.one_of({"from_r", "from_tau_m"});
+  const auto leg = read_leg(s, "from_leg", "from_r");
+  if (s.find("from_tau_m")) {
+    const auto tau = s.number("from_tau_m", kClock);
+    if (!tau) return std::nullopt;
+    if (*tau > birth(trajectory) && *tau < lifetime(trajectory)) return tau;
+    s.find("from_tau_m")
+        ->fail("must lie within the trajectory, that is between " +
+               short_number(birth(trajectory)) + " and " + short_number(lifetime(trajectory)) +
+               " (units of M), got " + short_number(*tau));
+    return std::nullopt;
+  }
+  if (!given) {
+    if (!start.tau) s.require("from_r", " (units of M): where the segment begins");
+    return start.tau;
+  }
+  const auto r = s.number("from_r", kRadius);
+  if (!r) return std::nullopt;
+  const auto tau = time_at(trajectory, *r, leg.value_or(start.leg), start.after);
+  if (!tau) fail_unreached(*given, trajectory, leg.value_or(start.leg), "by this trajectory");
+  return tau;
+}
+
+// The first passage behind the beginning, on one leg or on either.
+std::optional<double> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
+                              double begin) {
+  const double after = begin + 1e-12 * (1 + std::abs(begin));
+  std::optional<double> first;
+  for (const Leg each : {Leg::kInward, Leg::kOutward}) {
+    if (leg && *leg != each) continue;
+    const auto tau = time_at(trajectory, r, each, after);
+    if (tau && (!first || *tau < *first)) first = tau;
+  }
+  return first;
+}
+
+std::optional<double> read_passage(const Section& s, const Trajectory& trajectory, double begin) {
+  const auto leg = read_leg(s, "to_leg", "to_r");
+  const auto r = s.number("to_r", kRadius);
+  if (!r) return std::nullopt;
+  const auto tau = passage(trajectory, *r, leg, begin);
+  if (!tau) fail_unreached(*s.find("to_r"), trajectory, leg, "after the segment's beginning");
+  return tau;
+}
+
+std::optional<double> read_end_time(const Section& s, const Trajectory& trajectory, double begin) {
+  const auto tau = s.number("to_tau_m", kClock);
+  if (!tau) return std::nullopt;
+  if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
+  s.find("to_tau_m")
+      ->fail("must be at least " + short_number(begin) + ", where the segment begins, and below " +
+             short_number(lifetime(trajectory)) + " (units of M), got " + short_number(*tau));
+  return std::nullopt;
+}
+
+std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Trajectory& trajectory,
+                                 double begin) {
+  const auto rate = read_rate(s, stage);
+  if (!rate) return std::nullopt;
+  const double end = begin + rate->span;
+  if (end < lifetime(trajectory)) return Timing{begin, end, Pace::kSteady, rate->begin, rate->end};
+  const Item* given = s.one_of({"rate_m_per_s", "time_lapse"});
+  const std::string what = "lets " + short_number(rate->span) +
+                           " M of proper time pass in the segment, but the trajectory ends " +
+                           short_number(lifetime(trajectory) - begin) + " M after its beginning";
+  if (given)
+    given->fail(what + "; slow it down, shorten duration_s or give to_r");
+  else
+    s.require("to_r", ": the default rate of 1 M per second " + what);
+  return std::nullopt;
+}
+
+// Of free fall without end a show holds what doubles tell apart.
+bool check_end(const Section& s, const Trajectory& trajectory, double tau) {
+  const OrbitPoint end = point_at(trajectory, tau);
+  if (end.r >= kNearest * (1 - 1e-9) && end.r <= kFarthest * (1 + 1e-9)) return true;
+  const Item* given = s.one_of({"to_tau_m", "rate_m_per_s", "time_lapse"});
+  const std::string what = "leads to r = " + short_number(end.r) + " M; shows go from " +
+                           short_number(kNearest) + " to " + short_number(kFarthest) + " M";
+  if (given)
+    given->fail(what);
+  else
+    s.require("to_r", ": the default rate of 1 M per second " + what);
+  return false;
+}
+
+}  // namespace
+
+double proper_time_in(const Stage& stage, double seconds) {
+  return stage.mass_solar ? seconds / (*stage.mass_solar * kSecondsPerSolarMass) : seconds;
+}
+
+std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optional<double> period) {
+  if (s.find("time_lapse")) {
+    const auto lapse =
+        s.number("time_lapse", Range{"real seconds per second of show"}.within(0, kMostRate));
+    if (!lapse) return std::nullopt;
+    return Rate{proper_time_in(stage, *lapse * stage.duration_s)};
+  }
+  if (s.find("orbits")) {
+    const auto orbits = s.number("orbits", Range{"revolutions"}.within(0, kMostOrbits));
+    if (!orbits || !period) return std::nullopt;
+    return Rate{*orbits * *period};
+  }
+  const Item* rate = s.find("rate_m_per_s");
+  if (!rate) return Rate{kDefaultRate * stage.duration_s};
+  const Range range = Range{"units of M per second of show"}.within(0, kMostRate);
+  if (rate->node.IsSequence()) {
+    const auto ends = read_numbers(*rate, 2, range);
+    if (!ends) return std::nullopt;
+    const double mean = ((*ends)[0] + (*ends)[1]) / 2;
+    if (!(mean > 0)) return Rate{0};
+    return Rate{mean * stage.duration_s, (*ends)[0] / mean, (*ends)[1] / mean};
+  }
+  const auto value = read_number(*rate, range);
+  if (!value) return std::nullopt;
+  return Rate{*value * stage.duration_s};
+}
+
+bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
+  const Item* item = s.find("pace");
+  if (!item) return true;
+  const auto pace = s.choice(
+      "pace", {"steady", "eased", "eased_in", "eased_out", "slowing", "quickening", "frozen"});
+  if (!pace) return false;
+  const Item* rate = s.find("rate_m_per_s");
+  const bool ramped = rate && rate->node.IsSequence();
+  switch (*pace) {
+    case 0:
+      return true;
+    case 1:
+      timing.pace = Pace::kEased;
+      break;
+    case 2:
+      timing.rate_begin = 0, timing.rate_end = 2;
+      break;
+    case 3:
+      timing.rate_begin = 2, timing.rate_end = 0;
+      break;
+    case 4:
+    case 5: {
+      const bool slowing = *pace == 4;
+      timing.pace = slowing ? Pace::kSlowing : Pace::kQuickening;
+      const bool singular = reach(trajectory).first == 0;
+      if (singular && std::isfinite(slowing ? lifetime(trajectory) : birth(trajectory))) break;
+      item->fail(slowing
+                     ? "of 'slowing' needs a trajectory that ends in the singularity"
+                     : "of 'quickening' needs a trajectory that begins in the past singularity");
+      return false;
+    }
+    default:
+      timing.tau_end = timing.tau_begin;
+      for (const char* key : {"to_r", "to_tau_m", "rate_m_per_s", "time_lapse", "orbits"})
+        if (const Item* other = s.find(key)) {
+          other->fail("is for time that passes; the pace is frozen");
+          return false;
+        }
+      return true;
+  }
+  if (!ramped) return true;
+  item->fail("excludes two rates, which shape the pace themselves; give one of them");
+  return false;
+}
+
+std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
+                               double begin, const Defaults& defaults) {
+  const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
+  Timing timing{begin, begin};
+  const Item* pace = s.find("pace");
+  if (pace && pace->node.IsScalar() && pace->node.Scalar() == "frozen") {
+    if (!read_pace(s, trajectory, timing)) return std::nullopt;
+    return timing;
+  }
+  std::optional<double> end;
+  if (s.find("to_r")) {
+    end = read_passage(s, trajectory, begin);
+    if (!end) return std::nullopt;
+  } else if (s.find("to_tau_m")) {
+    end = read_end_time(s, trajectory, begin);
+    if (!end) return std::nullopt;
+  } else if (!given && defaults.to_r) {
+    end = passage(trajectory, *defaults.to_r, std::nullopt, begin);
+  } else if (!given) {
+    end = defaults.to_tau;
+  }
+  if (end) {
+    timing.tau_end = *end;
+  } else {
+    const auto rated = read_rated(s, stage, trajectory, begin);
+    if (!rated) return std::nullopt;
+    timing = *rated;
+  }
+  if (!check_end(s, trajectory, timing.tau_end)) return std::nullopt;
+  if (!read_pace(s, trajectory, timing)) return std::nullopt;
+  return timing;
+}
+
+std::optional<Timing> read_timing(const Section& s, const Stage& stage,
+                                  const Trajectory& trajectory, const Defaults& start) {
+  const auto begin = read_begin(s, trajectory, start);
+  return begin ? read_end(s, stage, trajectory, *begin, start) : std::nullopt;
+}
+
+}  // namespace domefall
