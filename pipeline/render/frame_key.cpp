@@ -30,6 +30,15 @@ void add_projection(Digest& digest, const Projection& p) {
   if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(steady(flat->fov));
 }
 
+// Frames of shows that say nothing of effects keep the keys they had before there were any.
+void add_effects(Digest& digest, const Effects& e) {
+  if (e == Effects{}) return;
+  digest.add("effects");
+  for (const bool on : {e.aberration, e.doppler_colour, e.intensity, e.lensing})
+    digest.add(on ? "on" : "off");
+  digest.add(static_cast<double>(e.amplification));
+}
+
 }  // namespace
 
 double steady(double value) {
@@ -59,6 +68,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
   const StarBlobs& b = show.blobs;
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);
   common.add(show.panorama_shift.blueshift_power);
+  add_effects(common, show.effects);
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky_three);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/render/effect_light.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
@@ -37,12 +38,16 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
 
 }  // namespace
 
-WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
+WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
                             double footprint, double g, double scale) {
-  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background))
-    return (*map)->sample(sky_direction, footprint) * (panorama_intensity(shift, g) * scale);
+  const Effects& effects = show.effects;
+  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background)) {
+    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
+    return (*map)->sample(sky_direction, footprint) * (shift * scale);
+  }
   if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
-  return grid_light({sky_direction}, footprint, g) * scale;
+  return grid_light({sky_direction}, footprint, colour_ratio(effects, g)) *
+         (surface_brightness_ratio(effects, g) * scale);
 }
 
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
@@ -50,12 +55,13 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
                        std::vector<DarkenedSpot> darkened)
     : show_(show),
       projection_(state.projection),
-      tracer_(state, optics),
+      tracer_(state, optics, show.effects),
       skies_(skies),
       darkened_(std::move(darkened)),
       anti_aliasing_(anti_aliasing),
       long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
                                                                        : kLongOnPanorama),
+      amplified_(show.effects.amplification == Amplification::kEverything),
       null_time_(state.observer.null_time) {
   for (const SeenSky sky : kEverySky)
     scale_[static_cast<std::size_t>(sky)] =
@@ -76,9 +82,16 @@ WorkingRgb PixelLight::light(const LookBatch& batch, int k, double sample_angle,
   // Many looks do the blurring themselves; a box as long as each would also smear the lines of a grid
   // across it, which on an Einstein ring are stretched without bound.
   const bool short_box = fine && std::holds_alternative<Grid>(sky->background);
-  return background_light(*sky, show_.panorama_shift, batch.sky_direction(k),
+  return background_light(*sky, show_, batch.sky_direction(k),
                           sample_angle * (short_box ? shorter : longer), batch.frequency_ratio[k],
                           scale);
+}
+
+// Of the image of a whole pixel: however finely it is sampled, its caustics are as bright.
+double PixelLight::amplification(const CameraDirection& n, double pixel_angle) const {
+  const Look look = tracer_.look(n);
+  const bool sky = look.known && look.sky != SeenSky::kFour;
+  return sky ? domefall::amplification(look.bundle, pixel_angle) : 1;
 }
 
 bool PixelLight::is_darkened(SeenSky sky, const CameraDirection& n) const {
@@ -94,6 +107,7 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
   if (sky && std::holds_alternative<Rings>(sky->background)) return false;  // blurred exactly
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
+  if (amplified_ && sky && longer > kElongation * shorter) return true;
   return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
 }
 
@@ -103,6 +117,8 @@ void PixelLight::shade(const LookBatch& batch, const CameraDirection* n, int cou
     WorkingRgb c{0, 0, 0};
     if (darkened_.empty() || !is_darkened(batch.sky[k], n[k]))
       c = light(batch, k, sample_angle[k], fine);
+    if (amplified_)
+      c = c * amplification(n[k], sample_angle[k] * (fine ? anti_aliasing_.samples : 1));
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
 }

@@ -8,8 +8,9 @@
 namespace domefall {
 
 // Light of a sky's background (cd/m^2, times `scale`) at frequency ratio
-// g = 1/(1+z), filtered over `footprint` radians on the sky.  [Riazuelo] sec. ssec_rgb for panoramas.
-WorkingRgb background_light(const Sky& sky, const PanoramaShift& shift, const V3d& sky_direction,
+// g = 1/(1+z), filtered over `footprint` radians on the sky, with the show's effects but its
+// amplification.  [Riazuelo] sec. ssec_rgb for panoramas, which have no spectrum to shift.
+WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
                             double footprint, double g, double scale);
 
 // Where one sky is drawn by other means: looks on it within the cap are dark.
@@ -35,6 +36,7 @@ class PixelLight {
              const double* sample_angle, bool fine, float* rgb) const;
   bool is_darkened(SeenSky sky, const CameraDirection& n) const;
   WorkingRgb light(const LookBatch& batch, int k, double sample_angle, bool fine) const;
+  double amplification(const CameraDirection& n, double pixel_angle) const;
   bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
   void supersample(int row, const std::vector<int>& pixels, float* rgb) const;
 
@@ -45,6 +47,7 @@ class PixelLight {
   std::vector<DarkenedSpot> darkened_;
   AntiAliasing anti_aliasing_;
   double long_footprint_;
+  bool amplified_;                    // see Amplification::kEverything
   std::array<double, kSkies> scale_;  // pixel value per cd/m^2, by SeenSky, with its gain
   double null_time_;
 };

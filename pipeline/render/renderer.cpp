@@ -125,7 +125,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const ObserverState& o = state.observer;
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
-  plan.gravity = !is_flat(o);
+  plan.gravity = !is_flat(o) && show.effects.lensing;
   const auto set = [&](SeenSky which, const RegionSky& sky) {
     plan.sky[static_cast<std::size_t>(which)] = plan_sky(sky, sky_of(state.picture, which));
   };
@@ -166,8 +166,9 @@ const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan&
   const WantedSkies wanted{mirrored ? three : one, mirrored ? one : three,
                            plan[SeenSky::kFour].lit(),
                            plan[SeenSky::kFour].lit() && plan[SeenSky::kFour].rings};
-  if (!optics_ || optics_->at.r != o.r || optics_->tetrad != o.tetrad)
-    optics_ = make_hole_optics(o.r, o.tetrad, wanted);
+  const double r = plan.gravity ? o.r : kFlatSpace;
+  if (!optics_ || optics_->at.r != r || optics_->tetrad != o.tetrad)
+    optics_ = make_hole_optics(r, o.tetrad, wanted);
   else
     add_tables(*optics_, wanted);
   return *optics_;
@@ -251,7 +252,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
     if (sky.lit()) tables += (tables.empty() ? "" : " and ") + name;
   }
   if (tables.empty()) tables = "all skies black: none";
-  if (!plan.gravity) tables = "flat space: none";
+  if (!plan.gravity) tables = "straight light: none";
   std::snprintf(line, sizeof line, "load    %8.3f s  %s\n", t.load_s, skies.c_str());
   text += line;
   std::snprintf(line, sizeof line, "tables  %8.5f s  %s, %zu nodes\n", t.tables_s, tables.c_str(),

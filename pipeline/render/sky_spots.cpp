@@ -24,8 +24,10 @@ class SpotFinder {
         observer_(state.observer),
         picture_(state.picture),
         projection_(state.projection),
-        tracer_(state, optics),
-        to_observer_(-state.observer.celerity),
+        tracer_(state, optics, show.effects),
+        vantage_(vantage_of(state.observer, show.effects)),
+        to_observer_(-vantage_.celerity),
+        to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
         pixel_(central_pixel_angle(state.projection)) {}
 
   // toward: where the sky's light might be crowded, in the tetrad of the observer.
@@ -52,6 +54,7 @@ class SpotFinder {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
     const double d_psi = 2 * pi / kAround;
     const double scale = exposure_scale(picture_) * sky_of(picture_, spot.sky).background_gain;
+    const bool amplified = show_.effects.amplification == Amplification::kEverything;
     double rgb[3] = {0, 0, 0};
     V3d middle(0, 0, 0);
     for (int i = 0; i < kAlong; ++i) {
@@ -60,7 +63,8 @@ class SpotFinder {
       const double sine = 2 * ray.sin_half * ray.cos_half;
       const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
       const double phi = table.azimuth(x), g = 1 / one_plus_z(ray);
-      const double footprint = std::max(table.slope(x) * d_alpha, std::abs(std::sin(phi)) * d_psi);
+      const double slope = table.slope(x), ray_angle = 2 * std::atan2(ray.sin_half, ray.cos_half);
+      const double footprint = std::max(slope * d_alpha, std::abs(std::sin(phi)) * d_psi);
       for (int j = 0; j < kAround; ++j) {
         const V3d e(0, std::cos((j + 0.5) * d_psi), std::sin((j + 0.5) * d_psi));
         const AberratedLight seen =
@@ -68,11 +72,13 @@ class SpotFinder {
         const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
         if ((n - spot.centre.v).length2() > spot.chord2) continue;
         const double d = seen.frequency_ratio;
+        const double measured =
+            vantage_.measured ? to_measured_.to_rest(seen.direction).frequency_ratio : 1;
         const V3d from =
             apply(observer_.sky_from_tetrad, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
-        const WorkingRgb c =
-            background_light(sky, show_.panorama_shift, from, footprint, g * d, scale);
-        const double solid_angle = sine * d_alpha * d_psi / (d * d);
+        const WorkingRgb c = background_light(sky, show_, from, footprint, g * d * measured, scale);
+        const double f = amplified ? amplification({ray_angle, phi, slope, d}, pixel_) : 1;
+        const double solid_angle = f * sine * d_alpha * d_psi / (d * d);
         rgb[0] += c.r * solid_angle, rgb[1] += c.g * solid_angle, rgb[2] += c.b * solid_angle;
         middle += n * (luminance(c) * solid_angle);
       }
@@ -89,7 +95,8 @@ class SpotFinder {
   const Picture& picture_;
   Projection projection_;
   ViewTracer tracer_;
-  Aberration to_observer_;
+  Vantage vantage_;
+  Aberration to_observer_, to_measured_;
   double pixel_;
 };
 
@@ -100,7 +107,7 @@ SkySpots find_sky_spots(const Show& show, const FrameState& state, const HoleOpt
   SkySpots found;
   if (is_flat(state.observer)) return found;
   const SpotFinder finder(show, state, optics);
-  const V3d& celerity = state.observer.celerity;
+  const V3d celerity = vantage_of(state.observer, show.effects).celerity;
   const bool mirrored = is_mirrored(optics.tetrad);
   // The far ends of both skies lie on the axis: home outward, far inward.
   const auto look_for = [&](SeenSky name, const std::optional<SkyTable>& table, double outward) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/render/effect_light.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/vector_math.h"
 
@@ -17,6 +18,7 @@ using std::numbers::pi;
 // Images up to this order are always tried, since either side may be the bright one; beyond, the
 // flux falls by exp(-2 pi) with every second order and the first faint one ends the series.
 constexpr int kAlwaysTried = 4, kLastOrder = 24;
+constexpr int kWithoutAmplification = 2;
 
 // The Gaussian at its reach is taken off it, so that it ends at 0.
 const double kCut = std::exp(-kBlobReach * kBlobReach / 2);
@@ -71,10 +73,15 @@ BlobMaker::BlobMaker(const Show& show, const FrameState& state, const Picture::S
                      const SkyTable* table)
     : law_(show.blobs),
       sky_(sky),
+      effects_(show.effects),
       projection_(state.projection),
       sky_from_tetrad_(state.observer.sky_from_tetrad),
       tetrad_from_camera_(state.observer.tetrad_from_camera),
-      from_tetrad_(-state.observer.celerity),
+      vantage_(vantage_of(state.observer, show.effects)),
+      from_tetrad_(-vantage_.celerity),
+      to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
+      from_rest_(vantage_.rest),
+      straight_ratio_(effects_.lensing ? 1 : gravitational_ratio(state.observer.r)),
       table_(table),
       scale_(exposure_scale(state.picture)),
       min_sigma_(std::max(show.blobs.min_sigma * width_factor(projection_),
@@ -91,23 +98,38 @@ void BlobMaker::append(const SceneStar& catalogued, std::vector<StarBlob>& blobs
     append_image(star, source, 0, blobs);
     return;
   }
-  for (int order = 0; order < kLastOrder; ++order) {
+  const bool amplified = effects_.amplification != Amplification::kNone;
+  const int orders = amplified ? kLastOrder : kWithoutAmplification;
+  for (int order = 0; order < orders; ++order) {
     const bool bright = append_image(star, source, order, blobs);
     if (!bright && order + 1 >= kAlwaysTried) return;
   }
+}
+
+// In the frame of the tetrad.
+SkyImage BlobMaker::image(const SceneStar& star, const V3d& source, int order) const {
+  if (effects_.lensing) return image_of(table_, source, order, star.angular_radius);
+  const AberratedLight at = from_rest_.to_rest(source);
+  const double ratio = at.frequency_ratio;
+  return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
 }
 
 // Whether the image is bright enough to matter, be it in the picture or not.
 // [Riazuelo] sec. sec_stars_eff: m_obs = m + 10 log10(1+z) - 2.5 log10(f), T_obs = T/(1+z).
 bool BlobMaker::append_image(const SceneStar& star, const V3d& source, int order,
                              std::vector<StarBlob>& blobs) const {
-  const SkyImage image = image_of(table_, source, order, star.angular_radius);
-  const AberratedLight seen = from_tetrad_.to_rest(image.direction.v);
+  const SkyImage at = image(star, source, order);
+  const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
-  const double g = image.frequency_ratio * doppler;
-  const double amplification = image.amplification / (doppler * doppler);
-  const double flux = star.flux * amplification * g * g * g * g;
-  const WorkingRgb per_flux = blackbody_colours().per_flux(star.temperature * g);
+  double g = at.frequency_ratio * doppler;
+  if (vantage_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
+  double flux = star.flux;
+  if (effects_.amplification != Amplification::kNone)
+    flux *= at.amplification / (doppler * doppler);
+  if (effects_.intensity) flux = flux * g * g * g * g;
+  if (!effects_.doppler_colour) flux = std::min(flux, kSaturated);
+  const WorkingRgb per_flux =
+      blackbody_colours().per_flux(star.temperature * colour_ratio(effects_, g));
   const double lux = luminance(per_flux) * flux;
   const double faintest_peak = lux * scale_ / (2 * pi * min_sigma_ * min_sigma_);
   if (!(faintest_peak > kFaintestPeak)) return false;

@@ -7,6 +7,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/render/scene.h"
 #include "pipeline/show/frame_state.h"
+#include "pipeline/show/vantage.h"
 
 namespace domefall {
 
@@ -34,7 +35,9 @@ bool place_blob(const Projection& projection, StarBlob& blob);
 inline constexpr double kFaintestPeak = 2e-4;
 
 // The observed images of one star, brightest possible orders first, before any blob is made.
-// Appends to `blobs` those that fall into the picture.  `table` is null in flat space.
+// Appends to `blobs` those that fall into the picture.  `table` is null where light goes straight.
+// Without amplification all of a star's images are equally bright, and there is no end of them: the
+// two whose light does not go once around the hole are drawn.
 class BlobMaker {
  public:
   // `sky`: what the frame takes of these stars.
@@ -46,11 +49,16 @@ class BlobMaker {
   bool append_image(const SceneStar& star, const V3d& source, int order,
                     std::vector<StarBlob>& blobs) const;
 
+  SkyImage image(const SceneStar& star, const V3d& source, int order) const;
+
   const StarBlobs& law_;
   Picture::Sky sky_;
+  Effects effects_;
   Projection projection_;
   M33d sky_from_tetrad_, tetrad_from_camera_;
-  Aberration from_tetrad_;
+  Vantage vantage_;
+  Aberration from_tetrad_, to_measured_, from_rest_;
+  double straight_ratio_;  // of light that goes straight: gravity's part of the frequency ratio
   const SkyTable* table_;
   double scale_;      // pixel value per cd/m^2
   double min_sigma_;  // radians, at least 0.9 pixel

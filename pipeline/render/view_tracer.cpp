@@ -173,7 +173,7 @@ bool any(const LookBatch& batch, int count, SeenSky name) {
 
 }  // namespace
 
-ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics)
+ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects)
     : tetrad_from_camera_(state.observer.tetrad_from_camera),
       sky_from_tetrad_(state.observer.sky_from_tetrad),
       celerity_(state.observer.celerity),
@@ -183,9 +183,41 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics)
       home_(is_mirrored(state.observer.tetrad) ? SeenSky::kThree : SeenSky::kOne),
       far_(is_mirrored(state.observer.tetrad) ? SeenSky::kOne : SeenSky::kThree),
       s_(std::sqrt(2 / state.observer.r)),
-      one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {}
+      one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {
+  const Vantage vantage = vantage_of(state.observer, effects);
+  celerity_ = vantage.celerity;
+  if (vantage.measured) to_measured_.emplace(-*vantage.measured);
+  if (effects.lensing || flat_) return;
+  to_rest_.emplace(-vantage.rest);
+  gravitational_ratio_ = gravitational_ratio(state.observer.r);
+}
+
+double ViewTracer::measured_ratio(const CameraDirection& n) const {
+  return to_measured_->to_rest(apply(tetrad_from_camera_, n.v)).frequency_ratio;
+}
 
 Look ViewTracer::look(const CameraDirection& n) const {
+  Look look = to_rest_ ? straight_look(n) : bent_look(n);
+  if (to_measured_ && look.known && look.sky != SeenSky::kFour)
+    look.frequency_ratio *= measured_ratio(n);
+  return look;
+}
+
+// Light near a hole that keeps to the straight lines of the observer at rest.
+Look ViewTracer::straight_look(const CameraDirection& n) const {
+  const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
+  const AberratedLight rest = to_rest_->to_rest(in.direction);
+  const double doppler = 1 / (in.frequency_ratio * rest.frequency_ratio);
+  Look look;
+  look.sky = home_;
+  look.known = true;
+  look.sky_direction = apply(sky_from_tetrad_, rest.direction);
+  look.frequency_ratio = gravitational_ratio_ * doppler;
+  look.radial_scale = look.tangential_scale = look.bundle.doppler = doppler;
+  return look;
+}
+
+Look ViewTracer::bent_look(const CameraDirection& n) const {
   const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
   Look look;
   if (flat_) {
@@ -193,6 +225,7 @@ Look ViewTracer::look(const CameraDirection& n) const {
     look.known = true;
     look.sky_direction = apply(sky_from_tetrad_, in.direction);
     look.frequency_ratio = look.radial_scale = look.tangential_scale = 1 / in.frequency_ratio;
+    look.bundle.doppler = look.frequency_ratio;
     return look;
   }
   const V3d& d = in.direction;
@@ -228,6 +261,7 @@ Look ViewTracer::look(const CameraDirection& n) const {
     if (!table) return look;
     phi = table->azimuth(x);
     slope = table->slope(x);
+    look.bundle = {2 * std::atan2(half.sine, half.cosine), phi, slope, 1 / in.frequency_ratio};
     const double energy =
         std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
     look.frequency_ratio = 1 / (energy * in.frequency_ratio);
@@ -240,7 +274,29 @@ Look ViewTracer::look(const CameraDirection& n) const {
   return look;
 }
 
+void ViewTracer::straight_looks(const CameraDirection* n, int count, LookBatch& batch) const {
+  for (int k = 0; k < count; ++k) {
+    const Look look = straight_look(n[k]);
+    const V3d& sky = look.sky_direction;
+    batch.sky[k] = look.sky;
+    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
+    batch.frequency_ratio[k] = look.frequency_ratio;
+    batch.radial_scale[k] = batch.tangential_scale[k] = look.radial_scale;
+    batch.to_edge[k] = look.to_edge;
+  }
+}
+
 void ViewTracer::look(const CameraDirection* n, int count, LookBatch& batch) const {
+  if (to_rest_)
+    straight_looks(n, count, batch);
+  else
+    bent_looks(n, count, batch);
+  if (!to_measured_) return;
+  for (int k = 0; k < count; ++k)
+    if (batch.sky[k] != SeenSky::kFour) batch.frequency_ratio[k] *= measured_ratio(n[k]);
+}
+
+void ViewTracer::bent_looks(const CameraDirection* n, int count, LookBatch& batch) const {
   const Frame frame{tetrad_from_camera_, sky_from_tetrad_,      Aberration(celerity_), s_,
                     one_minus_s_,        outgoing_ ? -1.0 : 1.0};
   Rain rain;

@@ -2,10 +2,14 @@
 // aberration, lensing, redshift.  The inner loop of Domefall.
 #pragma once
 
+#include <optional>
+
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/amplification.h"
 #include "pipeline/render/seen_sky.h"
 #include "pipeline/show/frame_state.h"
+#include "pipeline/show/vantage.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -21,6 +25,7 @@ struct Look {
   // Of the singularity's light, if its times are tabulated: t at emission from the observer's v or u
   // (EmissionTimeTable), M, and how fast it changes with the angle of view.
   double emission_time = 0, time_scale = 0;
+  RayBundle bundle;  // of skies I and III
   // Angle of view to the nearest edge of a sky, radians; infinite without one.
   double to_edge = HUGE_VAL;
 };
@@ -40,8 +45,9 @@ struct LookBatch {
 
 class ViewTracer {
  public:
-  // The optics must outlive it.
-  ViewTracer(const FrameState& state, const HoleOptics& optics);
+  // The optics must outlive it.  Without lensing they are not looked at: light goes straight in the
+  // frame of the observer at rest, r > 2.
+  ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects = {});
 
   // One direction, step by step; also where no table is.  The oracle of the batch.
   Look look(const CameraDirection& n) const;
@@ -51,12 +57,22 @@ class ViewTracer {
   void look(const CameraDirection* n, int count, LookBatch& batch) const;
 
  private:
+  Look straight_look(const CameraDirection& n) const;
+  Look bent_look(const CameraDirection& n) const;
+  void bent_looks(const CameraDirection* n, int count, LookBatch& batch) const;
+  void straight_looks(const CameraDirection* n, int count, LookBatch& batch) const;
+  // Frequency of light from n as it is to be seen, over that in the picture's frame.
+  double measured_ratio(const CameraDirection& n) const;
+
   M33d tetrad_from_camera_, sky_from_tetrad_;
-  V3d celerity_;
+  V3d celerity_;  // of the observer whose directions are drawn
   const HoleOptics& optics_;
   bool flat_, outgoing_;
   SeenSky home_, far_;
-  double s_, one_minus_s_;  // sqrt(2/r), and 1 minus it from the altitude
+  double s_, one_minus_s_;                 // sqrt(2/r), and 1 minus it from the altitude
+  std::optional<Aberration> to_measured_;  // see Vantage
+  std::optional<Aberration> to_rest_;      // from the tetrad, if light goes straight near a hole
+  double gravitational_ratio_ = 1;
 };
 
 }  // namespace domefall

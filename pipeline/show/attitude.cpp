@@ -7,6 +7,7 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/show/vantage.h"
 
 namespace domefall {
 namespace {
@@ -62,6 +63,16 @@ Imath::Quatd quaternion_of(const M33d& m) {
   return {(m[j][k] - m[k][j]) / (4 * v[i]), v.x, v.y, v.z};
 }
 
+// motion_direction in the frame whose directions are drawn: for one at rest outside the horizon that
+// is where the observer goes; inside, the same continuation.
+V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
+  if (!vantage.measured) return motion_direction(o);
+  if (o.r > 2) return *vantage.measured;
+  ObserverState resting = o;
+  resting.celerity = vantage.celerity;
+  return motion_direction(resting);
+}
+
 }  // namespace
 
 V3d motion_direction(const ObserverState& o) {
@@ -72,22 +83,27 @@ V3d motion_direction(const ObserverState& o) {
   return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
 }
 
-std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o) {
+std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,
+                                    const Effects& effects) {
+  const Vantage vantage = vantage_of(o, effects);
   if (std::holds_alternative<LookAtHole>(attitude))
-    return to_observer(o.celerity, V3d(-1, 0, 0)).direction;
+    return to_observer(vantage.celerity, V3d(-1, 0, 0)).direction;
   if (std::holds_alternative<LookOutward>(attitude))
-    return to_observer(o.celerity, V3d(1, 0, 0)).direction;
-  if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_direction(o).normalized();
+    return to_observer(vantage.celerity, V3d(1, 0, 0)).direction;
+  if (std::holds_alternative<LookAlongMotion>(attitude))
+    return motion_seen(o, vantage).normalized();
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
     const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
-    return to_observer(o.celerity, primary_image(o.r, o.tetrad, source).v).direction;
+    const V3d image = effects.lensing ? primary_image(o.r, o.tetrad, source).v
+                                      : to_tetrad(vantage.rest, source).direction;
+    return to_observer(vantage.celerity, image).direction;
   }
   return std::nullopt;
 }
 
-M33d camera_axes(const Camera& camera, const Projection& projection,
-                 const ObserverState& observer) {
-  const auto target = target_direction(camera.attitude, observer);
+M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
+                 const Effects& effects) {
+  const auto target = target_direction(camera.attitude, observer, effects);
   const bool dome = std::holds_alternative<Domemaster>(projection);
   if (!target) {
     const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));

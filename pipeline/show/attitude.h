@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "pipeline/show/camera.h"
+#include "pipeline/show/show.h"
 #include "projections/projection.h"
 #include "trajectories/observer_state.h"
 
@@ -11,11 +11,13 @@ namespace domefall {
 
 // The camera axes (columns X, Y, Z in the boosted tetrad) for an observer that is otherwise
 // complete.  A flat projection puts the target in the middle; a Domemaster puts it `elevation` above
-// the front of the rim.
-M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer);
+// the front of the rim.  Without aberration the tetrad is that of the observer at rest (vantage.h).
+M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
+                 const Effects& effects = {});
 
-// Where the target appears to the observer, in the boosted tetrad; nothing for Euler angles.
-std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& observer);
+// Where the target appears in the picture, in the same tetrad; nothing for Euler angles.
+std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& observer,
+                                    const Effects& effects = {});
 
 // The direction (boosted tetrad) in which an observer moves against the static frame, continued
 // through the horizon: minus the part of the Killing vector d/dt that is orthogonal to u.  Zero

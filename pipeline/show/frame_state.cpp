@@ -58,7 +58,7 @@ class Turn {
   M33d axes(const AttitudeKey& key, double t, const ObserverState& observer) const {
     Camera camera = camera_at(segment_of(show_, segment_), t);
     camera.attitude = key.attitude;
-    return camera_axes(camera, projection_, observer);
+    return camera_axes(camera, projection_, observer, show_.effects);
   }
   V3d turn_at(double t, const ObserverState& observer, const V3d& before) const {
     return turn_between(axes(from_, t, observer), axes(to_, t, observer), before);
@@ -114,13 +114,13 @@ M33d camera_axes_at(const Show& show, int segment, double t, const Projection& p
   const Segment& s = segment_of(show, segment);
   Camera camera = camera_at(s, t);
   const auto& keys = s.attitudes;
-  if (keys.empty()) return camera_axes(camera, projection, observer);
+  if (keys.empty()) return camera_axes(camera, projection, observer, show.effects);
   const auto next = std::upper_bound(
       keys.begin(), keys.end(), t, [](double at, const AttitudeKey& key) { return at < key.at_s; });
   if (next != keys.begin() && next != keys.end() && next->ease != Ease::kHold)
     return Turn(show, segment, projection, *(next - 1), *next).axes_at(t, observer);
   camera.attitude = (next == keys.begin() ? next : next - 1)->attitude;
-  return camera_axes(camera, projection, observer);
+  return camera_axes(camera, projection, observer, show.effects);
 }
 
 FrameState frame_state(const Show& show, int frame) {

@@ -1,5 +1,6 @@
 #include "pipeline/show/read_show.h"
 
+#include "pipeline/show/effects_section.h"
 #include "pipeline/show/picture_sections.h"
 #include "pipeline/show/sky_section.h"
 #include "pipeline/show/timeline_section.h"
@@ -34,7 +35,7 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(
       root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
-             "keyframes", "sky", "stars", "exposure", "grade", "output"});
+             "keyframes", "effects", "sky", "stars", "exposure", "grade", "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -46,6 +47,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_sky(root, section, lookup, show);
   show.blobs = read_star_blobs(section);
   show.exposure = read_exposure(section);
+  show.effects = read_effects(section);
   show.timeline = read_timeline(section, show, camera, lookup);
   show.grade = read_grade(section, lookup);
   show.graded_format = read_graded_format(section);
@@ -65,7 +67,10 @@ Show read_show(const std::filesystem::path& file) {
   show.file = file;
   Lookup lookup(file.parent_path());
   const TextPlace start{node.Mark().line, node.Mark().column};
-  read_sections({node, start, "", &problems}, lookup, show);
+  const Item root{node, start, "", &problems};
+  read_sections(root, lookup, show);
+  problems.raise();
+  check_effects(root, show);
   problems.raise();
   return show;
 }

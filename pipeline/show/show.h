@@ -126,6 +126,28 @@ struct Exposure {
   double ev = 0;  // stops: pixel value 1 is kReferenceLuminance / 2^ev
 };
 
+// ---- the physics ----
+
+// Whose brightness follows the magnification f of [Riazuelo] eq. eq_ampl.
+enum class Amplification {
+  kNone,        // nothing: a star keeps its flux however large its image would be
+  kStars,       // point sources, as in nature
+  kEverything,  // backgrounds too, whose true brightness per solid angle it does not change:
+                // [Riazuelo] fig. fig_dev3
+};
+
+// Effects that a show may leave out, to show the others one at a time ([Riazuelo] app. app_img); the
+// default is nature.  docs/show-format.md says what each means.
+struct Effects {
+  bool aberration = true;
+  bool doppler_colour = true;  // of every frequency shift, gravitational ones too
+  bool intensity = true;       // so does this
+  bool lensing = true;         // false: every frame lies at r > 2
+  Amplification amplification = Amplification::kStars;
+
+  bool operator==(const Effects&) const = default;
+};
+
 // ---- the whole ----
 
 enum class GradedFormat { kNone, kPng, kTiff };
@@ -146,6 +168,7 @@ struct Show {
   // The past singularity, as a sphere seen by azimuth alone, without stars or redshift.
   RegionSky sky_four{BlackSky{}, 1, std::nullopt, 1};
   PanoramaShift panorama_shift;
+  Effects effects;
   StarBlobs blobs;
   Exposure exposure;
   GradeSettings grade;
