@@ -31,6 +31,18 @@ void print_segments(const Show& show) {
   }
 }
 
+// What the pictures leave out of nature, or add to it.
+void print_effects(const Effects& effects) {
+  if (effects == Effects{}) return;
+  std::printf("effects     ");
+  if (!effects.aberration) std::printf(" no aberration;");
+  if (!effects.doppler_colour) std::printf(" no Doppler colours;");
+  if (!effects.intensity) std::printf(" intensities at rest;");
+  if (!effects.lensing) std::printf(" no lensing;");
+  constexpr const char* kAmplified[] = {"nothing is", "stars are", "everything is"};
+  std::printf(" %s amplified\n", kAmplified[static_cast<int>(effects.amplification)]);
+}
+
 void check(const std::string& file) {
   const Show show = read_show(file);
   // A file that is there may still be damaged: what the frames will read is read.
@@ -57,6 +69,7 @@ void check(const std::string& file) {
   if (inside || regions.contains(Region::kI)) scene.sky(SeenSky::kOne);
   if (inside || regions.contains(Region::kIII)) scene.sky(SeenSky::kThree);
   if (show.mass_solar) scene.sky(SeenSky::kFour);
+  print_effects(show.effects);
   print_segments(show);
   if (!show.mass_solar) return;
   std::printf("regions     ");

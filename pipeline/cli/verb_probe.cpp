@@ -6,6 +6,7 @@
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/render/effect_light.h"
 #include "pipeline/render/view_tracer.h"
 #include "pipeline/show/read_show.h"
 
@@ -26,6 +27,17 @@ PixelPosition parse_pixel(const std::string& text) {
   return at;
 }
 
+// What becomes of a blackbody there under the effects that the show keeps.
+void print_effects(const Effects& effects, const Look& look, double width) {
+  const double g = look.frequency_ratio, colour = colour_ratio(effects, g);
+  const double colour2 = colour * colour;
+  std::printf("thermal sky  temperature times %.6g, bolometric intensity times %.6g\n", colour,
+              surface_brightness_ratio(effects, g) * colour2 * colour2);
+  if (effects.amplification == Amplification::kEverything)
+    std::printf("amplified    %.6g times, over the pixel's width\n",
+                amplification(look.bundle, width));
+}
+
 void probe(const Options& o) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);
@@ -34,7 +46,8 @@ void probe(const Options& o) {
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
-  const Look look = ViewTracer(state, optics).look(direction_at(show.projection, pixel));
+  const Look look =
+      ViewTracer(state, optics, show.effects).look(direction_at(show.projection, pixel));
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
   if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
@@ -48,6 +61,8 @@ void probe(const Options& o) {
   if (!singularity) std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
   std::printf("compression  %.6g towards the hole, %.6g across\n", look.radial_scale,
               look.tangential_scale);
+  if (!singularity && show.effects != Effects{})
+    print_effects(show.effects, look, pixel_angle(show.projection, pixel));
 }
 
 }  // namespace
