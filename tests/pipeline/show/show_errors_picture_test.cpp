@@ -137,6 +137,44 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
   });
 }
 
+TEST_F(ShowErrorsInPictures, Effects) {
+  const std::string told =
+      "effects.lensing can be false outside the horizon only (r > 2), but frame ";
+  expect_complaints({
+      {"NoSwitch", kShow + "effects: {aberration: 0}\n",
+       "3:23: effects.aberration must be true or false, got '0'"},
+      {"EffectMisspelt", kShow + "effects: {lensign: false}\n",
+       "3:11: effects.lensign is an unknown key; did you mean lensing?"},
+      {"WordMisspelt", kShow + "effects: {amplification: star}\n",
+       "3:26: effects.amplification must be stars, none or everything, got 'star'; did you mean "
+       "stars?"},
+      {"NoMap", kShow + "effects: none\n",
+       "3:10: effects must be a map of keys (aberration, doppler_colour, intensity, lensing or "
+       "amplification), got 'none'"},
+      {"StraightLightInside",
+       moving("{type: velocity, r: 1.5, against: free_fall, speed: 0}") +
+           "effects: {lensing: false}\n",
+       "4:20: " + told + "0, in timeline[0], lies at r = 1.5 (units of M)"},
+      {"StraightLightBeforeThePastHorizon",
+       moving("{type: velocity, r: 1.5, region: IV, against: outgoing, speed: 0}") +
+           "effects: {lensing: false}\n",
+       "4:20: " + told + "0, in timeline[0], lies at r = 1.5 (units of M)"},
+      {"StraightLightAtTheHorizon",
+       moving("{type: velocity, r: 2, against: free_fall, speed: 0}") +
+           "effects: {lensing: false}\n",
+       "4:20: " + told + "0, in timeline[0], lies at r = 2 (units of M)"},
+      {"StraightLightFallsIn",
+       kHole +
+           "timeline:\n  - {duration_s: 1, trajectory: {type: static, r: 9}}\n"
+           "  - {duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 1, pace: slowing}}\n"
+           "effects: {lensing: false}\n",
+       "5:20: " + told + "89, in timeline[1], lies at r = 1.037299197 (units of M)"},
+      {"LensingComesAfterTheTimeline",
+       moving("{type: infall, from_r: -3}") + "effects: {lensing: false}\n",
+       "3:56: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3"},
+  });
+}
+
 TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
   expect_complaints({
       {"ExposureTooHigh", kShow + "exposure: {ev: 31}\n",

@@ -338,6 +338,32 @@ TEST_F(ShowKeys, FilesBesideTheShowComeBeforeThoseOfTheWorkingFolder) {
   std::filesystem::current_path(before);
 }
 
+TEST_F(ShowKeys, EffectsAreThoseOfNatureUnlessTheShowLeavesThemOut) {
+  EXPECT_EQ(with("").effects, Effects{});
+  EXPECT_EQ(
+      with("effects: {aberration: true, doppler_colour: true, intensity: true, lensing: true, "
+           "amplification: stars}\n")
+          .effects,
+      Effects{});
+  EXPECT_FALSE(with("effects: {aberration: false}\n").effects.aberration);
+  EXPECT_FALSE(with("effects: {doppler_colour: false}\n").effects.doppler_colour);
+  EXPECT_FALSE(with("effects: {intensity: false}\n").effects.intensity);
+  EXPECT_FALSE(with("effects: {lensing: false}\n", "{type: static, r: 30}").effects.lensing);
+  EXPECT_EQ(with("effects: {amplification: none}\n").effects.amplification, Amplification::kNone);
+  EXPECT_EQ(with("effects: {amplification: everything}\n").effects.amplification,
+            Amplification::kEverything);
+}
+
+// What counts is where frames are: a fall may end at the horizon if the frame before is outside.
+TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
+  const std::string straight = "effects: {lensing: false}\n";
+  EXPECT_FALSE(with(straight, "{type: infall, from_r: 6, to_r: 2}").effects.lensing);
+  EXPECT_FALSE(with(straight, "{type: infall, from_r: 6, to_r: 3}").effects.lensing);
+  EXPECT_FALSE(with(straight, "{type: velocity, region: III, r: 4, speed: 0.5, direction: inward}")
+                   .effects.lensing);
+  EXPECT_FALSE(with(straight, "{type: static}", "{mass_solar: 0}").effects.lensing);
+}
+
 TEST_F(ShowKeys, StarsExposureAndGrade) {
   write("house.ocio", "");
   const Show show = with(
