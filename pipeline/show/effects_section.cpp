@@ -12,13 +12,15 @@ bool read_switch(const Section& section, std::string_view key) {
   return section.choice(key, {"true", "false"}).value_or(0) == 0;
 }
 
-bool is_within(const FrameState& state) {
-  return !(state.observer.r > 2) || (state.vanishing && is_within(*state.vanishing));
+// The one of a frame's pictures that lies on or inside a horizon; null if none does.
+const FrameState* within(const FrameState& state) {
+  if (!(state.observer.r > 2)) return &state;
+  return state.vanishing ? within(*state.vanishing) : nullptr;
 }
 
-// A frame on or inside a horizon, if there is one.  Nothing that is inside the black hole was not
-// inside before at the end of its segment, and what comes out of a white hole is inside at the start:
-// the frames next to the ends of segments and of dissolves tell.
+// A frame on or inside a horizon, if there is one.  What falls in is inside to the end of its
+// segment, and what comes out of the white hole is inside at its start: the frames next to the ends of
+// segments and of dissolves tell.
 std::optional<FrameState> frame_within(const Show& show) {
   const int last = frame_count(show) - 1;
   std::vector<double> ends = segment_times(show);
@@ -27,8 +29,8 @@ std::optional<FrameState> frame_within(const Show& show) {
   for (const double seconds : ends) {
     const int end = static_cast<int>(std::lround(seconds * show.frames_per_second));
     for (int frame = std::max(end - 1, 0); frame <= std::min(end + 1, last); ++frame) {
-      FrameState state = frame_state(show, frame);
-      if (is_within(state)) return state;
+      const FrameState state = frame_state(show, frame);
+      if (const FrameState* found = within(state)) return *found;
     }
   }
   return std::nullopt;
@@ -53,14 +55,14 @@ Effects read_effects(const Section& show) {
 
 void check_effects(const Item& root, const Show& show) {
   if (show.effects.lensing) return;
-  const auto within = frame_within(show);
-  if (!within) return;
+  const auto found = frame_within(show);
+  if (!found) return;
   const auto effects = peek(root, "effects");
   const auto lensing = effects ? peek(*effects, "lensing") : std::nullopt;
   (lensing ? *lensing : root)
       .fail("can be false outside the horizon only (r > 2), but frame " +
-            std::to_string(within->frame) + ", in timeline[" + std::to_string(within->segment) +
-            "], lies at r = " + short_number(within->observer.r) + " (units of M)");
+            std::to_string(found->frame) + ", in timeline[" + std::to_string(found->segment) +
+            "], lies at r = " + short_number(found->observer.r) + " (units of M)");
 }
 
 }  // namespace domefall

@@ -306,7 +306,7 @@ std::vector<StarBlob> blobs_of(const Show& show, const V3d& sky) {
   const bool bent = show.effects.lensing && optics.home_sky;
   const SceneStar star{{sky}, 1e-6, 6500, 1e-9};
   std::vector<StarBlob> blobs;
-  BlobMaker(show, state, bent ? &*optics.home_sky : nullptr).append(star, blobs);
+  BlobMaker(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr).append(star, blobs);
   return blobs;
 }
 
