@@ -170,6 +170,9 @@ class TimelineReader {
       if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
     }
     if (!motion) return;
+    const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
+    if (type) segment.type = type->node.Scalar();
+    if (segment.type == "continue") segment.type = so_far_.timeline.back().type;
     segment.trajectory = motion->trajectory;
     segment.timing = motion->timing;
     segment.placement = motion->placement;

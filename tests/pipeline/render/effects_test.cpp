@@ -9,6 +9,7 @@
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/star_blobs.h"
 #include "pipeline/render/view_tracer.h"
+#include "pipeline/show/attitude.h"
 #include "scenes.h"
 
 namespace domefall {
@@ -304,9 +305,10 @@ std::vector<StarBlob> blobs_of(const Show& show, const V3d& sky) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
   const bool bent = show.effects.lensing && optics.home_sky;
-  const SceneStar star{{sky}, 1e-6, 6500, 1e-9};
+  const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
   std::vector<StarBlob> blobs;
-  BlobMaker(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr).append(star, blobs);
+  BlobMaker(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr)
+      .append(star, blobs);
   return blobs;
 }
 
@@ -330,7 +332,7 @@ TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
         const StarBlob& blob = blobs[0];
         EXPECT_LT((blob.centre.v - n.v).length(), 1e-8);
         const double g = look.frequency_ratio;
-        double flux = 1e-6 * exposure_scale(show.exposure);
+        double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
         if (effects.intensity) flux *= g * g * g * g;
         if (effects.amplification != Amplification::kNone)
           flux /= look.radial_scale * look.tangential_scale;
@@ -354,7 +356,7 @@ TEST(Effects, WithoutAmplificationBothImagesOfAStarAreAsBrightAsTheStar) {
                 .dot(blobs[1].centre.v.cross(V3d(0, 0, 1))),
             0)
       << "on either side of the hole";
-  const double flux = 1e-6 * exposure_scale(show.exposure);
+  const double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
   for (const StarBlob& blob : blobs)
     EXPECT_NEAR(blob.rgb[1] / (flux * blackbody_colours().per_flux(6500).g), 1, 1e-6);
   show.effects.amplification = Amplification::kStars;

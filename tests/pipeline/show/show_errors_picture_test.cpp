@@ -78,13 +78,16 @@ TEST_F(ShowErrorsInPictures, Cameras) {
        "2:12: timeline[0] has a camera that looks along the motion, but its observer does not "
        "move; give the segment another camera.look_at"},
       {"StarMisspelt", kShow + "camera: {look_at: Betelgeuze}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the star "
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
+       "star "
        "'Betelgeuze', which the naked-eye catalogue does not have; did you mean Betelgeuse?"},
       {"UnknownStar", kShow + "camera: {look_at: Qwertyuiop}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the star "
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
+       "star "
        "'Qwertyuiop', which the naked-eye catalogue does not have"},
       {"HoleMisspelt", kShow + "camera: {look_at: holes}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the star "
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
+       "star "
        "'holes', which the naked-eye catalogue does not have; did you mean hole?"},
       {"RollUnderTheShowsEulerAngles",
        kHole + "camera: {euler_deg: [0, 0, 0]}\n"

@@ -82,7 +82,10 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
        "3:79: timeline[0].trajectory.time_lapse excludes orbits; give one of them"},
       {"FallCountedInOrbits", moving("{type: infall, from_r: 9, orbits: 1}"),
        "3:59: timeline[0].trajectory.orbits is an unknown key; known here: type, from_r, to_r, "
-       "pace, rate_m_per_s or time_lapse"},
+       "pace, rate_m_per_s, "
+       "time_lapse, region, rest_r, angular_momentum, v_inf, impact_parameter, from_leg, "
+       "from_tau_m, "
+       "to_leg or to_tau_m"},
       {"StaticAtTheHorizon", moving("{type: static, r: 2}"),
        "3:51: timeline[0].trajectory.r must exceed 2 (units of M), got 2: nothing holds still at "
        "or inside the horizon"},

@@ -15,10 +15,10 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"OnlyAComment", "# nothing yet\n", "1:1: the show is empty; it needs a timeline at least"},
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, sky, stars, exposure, grade or output), got a list"},
+       "camera, cameras, keyframes, effects, sky, stars, exposure, grade or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, sky, stars, exposure, grade or output), got 'hello'"},
+       "camera, cameras, keyframes, effects, sky, stars, exposure, grade or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
@@ -50,17 +50,13 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"UndefinedAlias", "timeline: *shots\n",
        "1:11: this is not valid YAML: the referenced anchor is not defined"},
       {"CyclicAlias", "timeline: &t [*t]\n",
-       "1:11: timeline[0] must be a map of keys (duration_s, trajectory or camera), got a list"},
+       "1:11: timeline[0] must be a map of keys (duration_s, dissolve_s, trajectory, camera, "
+       "exposure, sky or keyframes), got a list"},
       {"CyclicTrajectory",
        kHole + "timeline:\n"
                "  - &s {duration_s: 1, trajectory: *s}\n",
-       "3:5: timeline[0].trajectory.type is missing: static, circular, infall or velocity\n"
-       "3:9: timeline[0].trajectory.duration_s is an unknown key; known here: type, r, from_r, "
-       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against, direction or "
-       "region\n"
-       "3:24: timeline[0].trajectory.trajectory is an unknown key; known here: type, r, from_r, "
-       "to_r, pace, rate_m_per_s, time_lapse, orbits, speed, lorentz_factor, against, direction or "
-       "region"},
+       "3:5: timeline[0].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
+       "bound, infall, thrown, kruskal, path, velocity or continue"},
       {"MergeKey", kShow + "camera: {<<: {look_at: hole}}\n",
        "3:10: camera.<< is an unknown key; known here: projection, fov_deg, look_at, euler_deg, "
        "roll_deg, elevation_deg or dome_tilt_deg"},
@@ -80,7 +76,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
   expect_complaints({
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
-       "timeline, camera, effects, sky, stars, exposure, grade or output"},
+       "timeline, camera, cameras, keyframes, effects, sky, stars, exposure, grade or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",

@@ -65,11 +65,13 @@ TEST_F(ShowFormat, EveryKeyIsInTheManual) {
   expect_described("grade: {cdl: {qqq: 1}}\n");
   expect_described("sky: {region_I: {qqq: 1}}\n");
   expect_described("black_hole: {at: {qqq: 1}}\n");
-  for (const char* type : {"infall", "circular", "static", "velocity"})
+  for (const char* type : {"infall", "circular", "static", "velocity", "parabolic", "hyperbolic",
+                           "bound", "thrown", "kruskal", "path"})
     expect_described(
         "black_hole: {mass_solar: 1}\n"
         "timeline: [{duration_s: 1, trajectory: {qqq: 1, type: " +
         std::string(type) + "}}]\n");
+  expect_described("timeline: [{duration_s: 1}]\nkeyframes: [{qqq: 1}]\n");
   EXPECT_GE(keys, 60);
 }
 

@@ -265,7 +265,6 @@ TEST_F(ShowKeys, ASegmentsCameraIsLaidOverTheShowsKeyByKey) {
   EXPECT_DOUBLE_EQ(camera(2).roll, 7 * kDegree);
   EXPECT_TRUE(std::holds_alternative<EulerAngles>(camera(3).attitude));
   EXPECT_EQ(camera(3).roll, 0);
-  EXPECT_EQ(camera(3).elevation, 0);
   EXPECT_DOUBLE_EQ(camera(3).dome_tilt, 15 * kDegree);
 }
 
