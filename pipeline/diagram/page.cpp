@@ -1,0 +1,53 @@
+#include "pipeline/diagram/page.h"
+
+#include "pipeline/diagram/panels.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kWidth = 1400, kLeft = 80;
+
+std::string subtitle(const Show& show) {
+  const int frames = frame_count(show);
+  double seconds = 0;
+  for (const Segment& s : show.timeline) seconds += s.duration_s;
+  const std::string dot = "  \u00b7  ";
+  std::string text = show.file.filename().string() + dot + number_text(seconds) + " s" + dot +
+                     std::to_string(frames) + " frames at " + number_text(show.frames_per_second) +
+                     " a second";
+  if (show.mass_solar)
+    text += dot + number_text(*show.mass_solar) +
+            " solar masses, 1 M = " + number_text(*show.mass_solar * kSecondsPerSolarMass) + " s";
+  return text;
+}
+
+void draw_title(Svg& page, const Show& show) {
+  constexpr double kTitle = 28, kSmall = 14, kRoom = kWidth - 2 * kLeft;
+  page.text({kLeft, 54}, shortened(show.title, kTitle, kRoom), {kTitle, "#1b1e24", "start", true});
+  page.text({kLeft, 80}, shortened(subtitle(show), kSmall, kRoom), {kSmall, "#5a606c"});
+}
+
+constexpr PageBox kTimes{kLeft, 132, kWidth - 150, 372};
+
+}  // namespace
+
+std::string show_page(const Show& show) {
+  const Path path = sample_path(show);
+  Svg page(kWidth, show.mass_solar ? 1010 : 490);
+  draw_title(page, show);
+  if (show.mass_solar) {
+    draw_radius_panel(page, kTimes, show, path);
+    draw_orbit_panel(page, {kLeft, 466, kLeft + 460, 926}, path);
+    draw_penrose_panel(page, {620, 506, 1340, 866}, path);
+  } else {
+    draw_speed_panel(page, kTimes, show, path);
+    page.text(
+        {kLeft, 448},
+        "flat space: no hole. The place does not change, so there is neither a radius, nor an "
+        "orbit, nor a Carter\u2013Penrose diagram to draw.",
+        {14, "#5a606c"});
+  }
+  return page.document();
+}
+
+}  // namespace domefall

@@ -1,0 +1,61 @@
+// The path of a show's observer, sampled finely enough to be drawn as a smooth curve.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/diagram/penrose.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+struct PathPoint {
+  double time_s = 0;  // of the show
+  int segment = 0;
+  Region region = Region::kI;
+  double r = kFlatSpace;  // M
+  double azimuth = 0;     // radians in the orbital plane from the show's start, in (-pi, pi]
+  double swept = 0;       // radians since the start of the trajectory, unbounded
+  double speed = 0;       // against the reference tetrad; in flat space against the sky
+  PenrosePoint penrose;   // unset in flat space
+};
+
+// Circles and whirls: of a segment that goes around more often, only so many turns at its beginning
+// and as many at its end are sampled finely.
+inline constexpr double kTurnsDrawn = 20;
+
+// Whether the curve from one point to the next of a path is drawn: within a segment, and in the
+// orbital plane only where the step is small.
+bool is_joined(const PathPoint& a, const PathPoint& b);
+bool is_joined_in_plane(const PathPoint& a, const PathPoint& b);
+
+// The observer is somewhere else afterwards (r or region change); b belongs to the segment after
+// a's.
+bool is_jump(const PathPoint& a, const PathPoint& b);
+
+struct Path {
+  std::vector<PathPoint> points;    // in the order of time, each segment's ends included
+  std::vector<PathPoint> instants;  // one every `instant_step_s` from the start
+  double instant_step_s = 0;
+  double time_shift = 0;                // M: added to t for the Penrose diagram
+  bool is_centred_on_crossing = false;  // of a horizon; otherwise on the middle of the show
+  bool has_gaps_in_plane = false;       // more than 2 kTurnsDrawn turns in a segment
+};
+
+// About 2000 instants evenly, at least 48 to a segment, and more wherever the curve turns by more
+// than 2.5 degrees about the hole, r changes by more than 4 %, or the Penrose diagram is crossed by
+// more than 1/150 of its height.  At most some 1e5 points.
+//
+// The Killing symmetry t -> t + constant moves every point of the Penrose diagram along its curve of
+// constant r.  The constant is chosen so that the first crossing of a horizon (of the past and the
+// future one: their mean) lies at the middle of its line, or, where none is crossed, the middle of
+// the show at t = 0.
+Path sample_path(const Show& show);
+
+// "circular": what a show file calls the trajectory of a segment.
+std::string trajectory_kind(const Segment& segment);
+
+// 1, 2 or 5 times a power of ten, the least that is `least` or more; least > 0.
+double round_step(double least);
+
+}  // namespace domefall

@@ -1,0 +1,139 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/diagram/panels.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kWidth = 2.2;
+
+// Part of the path that is one stroke.
+struct Stretch {
+  int segment = 0;
+  Region region = Region::kI;
+  std::vector<PagePoint> points;
+};
+
+const char* dashes_of(Region region) {
+  if (region == Region::kIII) return "8 4";
+  return region == Region::kIV ? "2 4" : "";
+}
+
+std::vector<Stretch> stretches_of(const Path& path,
+                                  const std::function<PagePoint(const PathPoint&)>& place,
+                                  bool (*joined)(const PathPoint&, const PathPoint&)) {
+  std::vector<Stretch> stretches;
+  const PathPoint* before = nullptr;
+  for (const PathPoint& p : path.points) {
+    const bool goes_on = before != nullptr && joined(*before, p);
+    if (!goes_on || before->segment != p.segment ||
+        dashes_of(before->region) != dashes_of(p.region)) {
+      stretches.push_back({p.segment, p.region, {}});
+      if (goes_on) stretches.back().points.push_back(place(*before));
+    }
+    stretches.back().points.push_back(place(p));
+    before = &p;
+  }
+  return stretches;
+}
+
+double length_of(const std::vector<PagePoint>& points) {
+  double sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    sum += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+  return sum;
+}
+
+// Halfway along, or after a turn's worth of a long one.
+void draw_arrow(Svg& page, const Stretch& stretch) {
+  constexpr double kShortest = 45, kFarthest = 400, kSize = 7;
+  const double length = length_of(stretch.points);
+  if (length < kShortest) return;
+  const double wanted = std::min(length / 2, kFarthest);
+  double gone = 0;
+  for (std::size_t i = 1; i < stretch.points.size(); ++i) {
+    const PagePoint &a = stretch.points[i - 1], &b = stretch.points[i];
+    const double step = std::hypot(b.x - a.x, b.y - a.y);
+    gone += step;
+    if (gone < wanted || step == 0) continue;
+    const double dx = (b.x - a.x) / step, dy = (b.y - a.y) / step;
+    const double part = 1 - (gone - wanted) / step;
+    const PagePoint m{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
+    page.area({{m.x + kSize * dx, m.y + kSize * dy},
+               {m.x - kSize * dx - 0.75 * kSize * dy, m.y - kSize * dy + 0.75 * kSize * dx},
+               {m.x - 0.4 * kSize * dx, m.y - 0.4 * kSize * dy},
+               {m.x - kSize * dx + 0.75 * kSize * dy, m.y - kSize * dy - 0.75 * kSize * dx}},
+              segment_colour(stretch.segment));
+    return;
+  }
+}
+
+void draw_dot(Svg& page, const PagePoint& at, const std::string& colour) {
+  page.circle(at, 3, colour, {"#ffffff", 1});
+}
+
+void draw_start(Svg& page, const PagePoint& at, const std::string& colour) {
+  page.circle(at, 5.5, "#ffffff", {colour, 2.2});
+}
+
+void draw_end(Svg& page, const PagePoint& at, const std::string& colour) {
+  constexpr double kHalf = 5;
+  const PageBox box{at.x - kHalf, at.y - kHalf, at.x + kHalf, at.y + kHalf};
+  page.rectangle(box, colour);
+  page.frame(box, {"#ffffff", 1.2});
+}
+
+}  // namespace
+
+std::string segment_colour(int segment) {
+  // Okabe and Ito's colours, told apart by the colour-blind too, darkened for white paper.
+  static constexpr std::array kColours{"#0072b2", "#d55e00", "#00876a", "#b5508c",
+                                       "#b07d00", "#2f95c8", "#7a5bb5", "#7c4a1e"};
+  return kColours[static_cast<std::size_t>(segment) % kColours.size()];
+}
+
+void draw_heading(Svg& page, const PageBox& box, const std::string& text) {
+  page.text({box.left, box.top - 14}, text, {16, "#1b1e24", "start", true});
+}
+
+void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const PathPoint&)>& place,
+               bool (*joined)(const PathPoint&, const PathPoint&)) {
+  const std::vector<Stretch> stretches = stretches_of(path, place, joined);
+  for (const Stretch& s : stretches) page.curve(s.points, {"#ffffff", kWidth + 2.4});
+  for (const Stretch& s : stretches)
+    page.curve(s.points, {segment_colour(s.segment), kWidth, dashes_of(s.region)});
+  int arrow_of = -1;
+  for (const Stretch& s : stretches) {
+    if (s.segment == arrow_of || length_of(s.points) < 45) continue;
+    draw_arrow(page, s);
+    arrow_of = s.segment;
+  }
+  for (const PathPoint& p : path.instants) draw_dot(page, place(p), segment_colour(p.segment));
+  const PathPoint &first = path.points.front(), &last = path.points.back();
+  draw_end(page, place(last), segment_colour(last.segment));
+  draw_start(page, place(first), segment_colour(first.segment));
+}
+
+void draw_key(Svg& page, const PagePoint& at, const Path& path) {
+  const std::string colour = "#30343c";
+  const double y = at.y - 4.5;
+  draw_start(page, {at.x + 6, y}, colour);
+  page.text({at.x + 17, at.y}, "start");
+  draw_end(page, {at.x + 73, y}, colour);
+  page.text({at.x + 84, at.y}, "end");
+  draw_dot(page, {at.x + 134, y}, colour);
+  page.text({at.x + 143, at.y}, "every " + number_text(path.instant_step_s) + " s");
+  double x = at.x + 245;
+  for (const Region region : {Region::kIII, Region::kIV}) {
+    bool visited = false;
+    for (const PathPoint& p : path.points) visited |= p.region == region;
+    if (!visited) continue;
+    page.line({x, y}, {x + 34, y}, {colour, kWidth, dashes_of(region)});
+    page.text({x + 41, at.y}, std::string("in region ") + region_name(region));
+    x += 150;
+  }
+}
+
+}  // namespace domefall

@@ -1,0 +1,52 @@
+#include "pipeline/diagram/penrose.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/optics/kruskal.h"
+
+namespace domefall {
+namespace {
+
+// arctan(exp(log)), in (0, pi/2), where exp(log) may overflow; 0 for log = minus infinity.
+double arctan_exp(double log) {
+  return log > 0 ? std::numbers::pi / 2 - std::atan(std::exp(-log)) : std::atan(std::exp(log));
+}
+
+PenrosePoint compactified(Region region, double log_u, double log_v) {
+  const double u = sign_of_u(region) * arctan_exp(log_u), v = sign_of_v(region) * arctan_exp(log_v);
+  return {(u - v) / std::numbers::pi, (u + v) / std::numbers::pi};
+}
+
+}  // namespace
+
+// ln|r/2 - 1| as log1p near the singularity, where r* = -r^2/4 is a small difference; beside the
+// horizon r - 2 is exact.
+double tortoise(double r) {
+  return r + 2 * (r < 1 ? std::log1p(-r / 2) : std::log(std::abs(r - 2) / 2));
+}
+
+PenrosePoint penrose_point(Region region, double t, double r) {
+  if (r == 2) return {};
+  const double star = tortoise(r);
+  return compactified(region, (star + t) / 4, (star - t) / 4);
+}
+
+PenrosePoint penrose_point(Region region, Tetrad tetrad, double r, double null_time) {
+  // The reflection U <-> V carries region III to region I and t to -t.
+  if (is_mirrored(tetrad)) {
+    const Region reflected = region == Region::kIII ? Region::kI : region;
+    const Tetrad own = is_outgoing(tetrad) ? Tetrad::kOutgoing : Tetrad::kRain;
+    const PenrosePoint p = penrose_point(reflected, own, r, null_time);
+    return {-p.x, p.up};
+  }
+  const double half_star = tortoise(r) / 2;  // ln|U V|
+  if (is_outgoing(tetrad)) {
+    const double log_v = -null_time / 4;
+    return compactified(region, half_star - log_v, log_v);
+  }
+  const double log_u = null_time / 4;
+  return compactified(region, log_u, half_star - log_u);
+}
+
+}  // namespace domefall

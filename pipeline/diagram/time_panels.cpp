@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/diagram/panels.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kLabelSize = 12;
+
+Scale time_scale(const PageBox& box, const Show& show) {
+  double seconds = 0;
+  for (const Segment& s : show.timeline) seconds += s.duration_s;
+  return {0, seconds, box.left, box.right};
+}
+
+// "2 infall", "2" or nothing, as there is room.
+std::string band_label(const Show& show, std::size_t k, double room) {
+  const std::string digits = std::to_string(k + 1);
+  const std::string full = digits + " " + trajectory_kind(show.timeline[k]);
+  for (const std::string& text : {full, digits})
+    if (text_width(text, kLabelSize) < room) return text;
+  return "";
+}
+
+void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& show) {
+  double begin = 0;
+  for (std::size_t k = 0; k < show.timeline.size(); ++k) {
+    const double end = begin + show.timeline[k].duration_s;
+    const std::string colour = segment_colour(static_cast<int>(k));
+    page.rectangle({x(begin), box.top, x(end), box.bottom}, colour, 0.07);
+    page.rectangle({x(begin), box.top, x(end), box.top + 22}, colour, 0.16);
+    const std::string label = band_label(show, k, x(end) - x(begin) - 6);
+    if (!label.empty())
+      page.text({(x(begin) + x(end)) / 2, box.top + 15.5}, label,
+                {kLabelSize, colour.c_str(), "middle", true});
+    begin = end;
+  }
+}
+
+// A line between segments; where the place jumps, heavier and with a word.
+void mark_cuts(Svg& page, const PageBox& box, const Scale& x, const Path& path) {
+  double free_from = box.left;
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    const PathPoint &a = path.points[i - 1], &b = path.points[i];
+    if (a.segment == b.segment) continue;
+    const double at = x(b.time_s);
+    const bool jump = is_jump(a, b);
+    page.line({at, box.top}, {at, box.bottom},
+              jump ? Stroke{"#30343c", 1.4, "6 3"} : Stroke{"#a3a9b5", 1});
+    if (!jump || at < free_from) continue;
+    page.text({at + 4, box.bottom - 6}, "cut", {11, "#30343c", "start", false, true, true});
+    free_from = at + 32;
+  }
+}
+
+void draw_curve(Svg& page, const Path& path, const Scale& x, const Scale& y,
+                double PathPoint::*quantity) {
+  std::vector<PagePoint> points;
+  int segment = 0;
+  const auto finish = [&] {
+    page.curve(points, {segment_colour(segment), 2.4});
+    points.clear();
+  };
+  for (const PathPoint& p : path.points) {
+    if (p.segment != segment) finish();
+    segment = p.segment;
+    points.push_back({x(p.time_s), y(p.*quantity)});
+  }
+  finish();
+}
+
+void draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path& path,
+                     const Scale& y, double PathPoint::*quantity) {
+  const Scale x = time_scale(box, show);
+  shade_segments(page, box, x, show);
+  draw_axes(page, box, x, y, 12, 6);
+  mark_cuts(page, box, x, path);
+  page.text({box.right, box.bottom + 36}, "show time (s)", {13, "#30343c", "end"});
+  draw_curve(page, path, x, y, quantity);
+}
+
+Scale radius_scale(const PageBox& box, const Path& path) {
+  double least = path.points.front().r, most = least;
+  for (const PathPoint& p : path.points) {
+    least = std::min(least, p.r);
+    most = std::max(most, p.r);
+  }
+  // The names of the segments take the uppermost 22 pixels.
+  const double top = box.top + 30;
+  constexpr double kLogarithmicFrom = 20;
+  if (most > kLogarithmicFrom * least)
+    return {std::min(least, 1.9) * 0.8, most, box.bottom, top, true};
+  return {0, std::max(most, 3.2), box.bottom, top, false};
+}
+
+// Named beside the box, apart from each other.
+void mark_radii(Svg& page, const PageBox& box, const Scale& y) {
+  double horizon = y(2), circle = y(3);
+  page.line({box.left, horizon}, {box.right, horizon}, {"#16181d", 1.6});
+  page.line({box.left, circle}, {box.right, circle}, {"#16181d", 1.2, "5 4"});
+  constexpr double kApart = 16;
+  const double spread = std::max(0.0, kApart - (horizon - circle)) / 2;
+  horizon += spread;
+  circle -= spread;
+  page.text({box.right + 8, horizon + 4}, "horizon r = 2", {12});
+  page.text({box.right + 8, circle + 4}, "light circle r = 3", {12});
+}
+
+}  // namespace
+
+void draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
+  const Scale y = radius_scale(box, path);
+  draw_heading(page, box, y.logarithmic ? "Radius r (M), logarithmic" : "Radius r (M)");
+  page.begin_group("radius");
+  draw_time_panel(page, box, show, path, y, &PathPoint::r);
+  mark_radii(page, box, y);
+  page.end_group();
+}
+
+void draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
+  draw_heading(page, box, "Speed (that of light is 1)");
+  page.begin_group("speed");
+  draw_time_panel(page, box, show, path, {0, 1, box.bottom, box.top + 30, false},
+                  &PathPoint::speed);
+  page.end_group();
+}
+
+}  // namespace domefall
