@@ -59,6 +59,7 @@ std::vector<double> axis_marks(const Scale& scale, int count) {
 
 std::string number_text(double value) {
   const double size = std::abs(value);
+  if (value < 0) return "\u2212" + number_text(size);
   if (size == 0 || (size < 0.99999e5 && size >= 0.99999e-3)) return general(value);
   const int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   const std::string mantissa = general(value / std::pow(10, exponent));

@@ -22,8 +22,10 @@ std::string subtitle(const Show& show) {
 }
 
 void draw_title(Svg& page, const Show& show) {
-  constexpr double kTitle = 28, kSmall = 14, kRoom = kWidth - 2 * kLeft;
-  page.text({kLeft, 54}, shortened(show.title, kTitle, kRoom), {kTitle, "#1b1e24", "start", true});
+  constexpr double kSmall = 14, kRoom = kWidth - 2 * kLeft;
+  double size = 28;
+  while (size > 18 && text_width(show.title, size) > kRoom) size -= 2;
+  page.text({kLeft, 54}, shortened(show.title, size, kRoom), {size, "#1b1e24", "start", true});
   page.text({kLeft, 80}, shortened(subtitle(show), kSmall, kRoom), {kSmall, "#5a606c"});
 }
 

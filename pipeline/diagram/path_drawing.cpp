@@ -1,6 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "pipeline/diagram/panels.h"
 
@@ -46,26 +47,50 @@ double length_of(const std::vector<PagePoint>& points) {
   return sum;
 }
 
-// Halfway along, or after a turn's worth of a long one.
-void draw_arrow(Svg& page, const Stretch& stretch) {
-  constexpr double kShortest = 45, kFarthest = 400, kSize = 7;
-  const double length = length_of(stretch.points);
-  if (length < kShortest) return;
-  const double wanted = std::min(length / 2, kFarthest);
+constexpr double kShortestWithArrow = 45;
+
+struct Arrow {
+  PagePoint middle;
+  PagePoint along;  // unit vector
+};
+
+// After so many pixels of a stretch.
+std::optional<Arrow> arrow_after(const Stretch& stretch, double wanted) {
   double gone = 0;
   for (std::size_t i = 1; i < stretch.points.size(); ++i) {
     const PagePoint &a = stretch.points[i - 1], &b = stretch.points[i];
     const double step = std::hypot(b.x - a.x, b.y - a.y);
     gone += step;
     if (gone < wanted || step == 0) continue;
-    const double dx = (b.x - a.x) / step, dy = (b.y - a.y) / step;
     const double part = 1 - (gone - wanted) / step;
-    const PagePoint m{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
-    page.area({{m.x + kSize * dx, m.y + kSize * dy},
-               {m.x - kSize * dx - 0.75 * kSize * dy, m.y - kSize * dy + 0.75 * kSize * dx},
-               {m.x - 0.4 * kSize * dx, m.y - 0.4 * kSize * dy},
-               {m.x - kSize * dx + 0.75 * kSize * dy, m.y - kSize * dy - 0.75 * kSize * dx}},
-              segment_colour(stretch.segment));
+    return Arrow{{a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)},
+                 {(b.x - a.x) / step, (b.y - a.y) / step}};
+  }
+  return std::nullopt;
+}
+
+void draw_arrow(Svg& page, const Arrow& arrow, const std::string& colour) {
+  constexpr double kSize = 7;
+  const PagePoint m = arrow.middle;
+  const double dx = kSize * arrow.along.x, dy = kSize * arrow.along.y;
+  page.area({{m.x + dx, m.y + dy},
+             {m.x - dx - 0.75 * dy, m.y - dy + 0.75 * dx},
+             {m.x - 0.4 * dx, m.y - 0.4 * dy},
+             {m.x - dx + 0.75 * dy, m.y - dy - 0.75 * dx}},
+            colour);
+}
+
+// Halfway along, or within the first turn of a long stretch; aside from there if a dot is in the way.
+void add_arrow(Svg& page, const Stretch& stretch, const std::vector<PagePoint>& dots) {
+  constexpr double kFarthest = 400, kClear = 14;
+  const double middle = std::min(length_of(stretch.points) / 2, kFarthest);
+  for (const double part : {1.0, 0.85, 1.15, 0.7, 1.3, 0.5}) {
+    const auto arrow = arrow_after(stretch, part * middle);
+    const auto in_the_way = [&](const PagePoint& dot) {
+      return std::hypot(dot.x - arrow->middle.x, dot.y - arrow->middle.y) < kClear;
+    };
+    if (!arrow || std::any_of(dots.begin(), dots.end(), in_the_way)) continue;
+    draw_arrow(page, *arrow, segment_colour(stretch.segment));
     return;
   }
 }
@@ -75,11 +100,12 @@ void draw_dot(Svg& page, const PagePoint& at, const std::string& colour) {
 }
 
 void draw_start(Svg& page, const PagePoint& at, const std::string& colour) {
-  page.circle(at, 5.5, "#ffffff", {colour, 2.2});
+  page.circle(at, 7, "none", {"#ffffff", 4.6});
+  page.circle(at, 7, "none", {colour, 2.2});
 }
 
 void draw_end(Svg& page, const PagePoint& at, const std::string& colour) {
-  constexpr double kHalf = 5;
+  constexpr double kHalf = 4;
   const PageBox box{at.x - kHalf, at.y - kHalf, at.x + kHalf, at.y + kHalf};
   page.rectangle(box, colour);
   page.frame(box, {"#ffffff", 1.2});
@@ -104,13 +130,19 @@ void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const 
   for (const Stretch& s : stretches) page.curve(s.points, {"#ffffff", kWidth + 2.4});
   for (const Stretch& s : stretches)
     page.curve(s.points, {segment_colour(s.segment), kWidth, dashes_of(s.region)});
+  std::vector<PagePoint> dots;
+  for (const PathPoint& p : path.instants) dots.push_back(place(p));
   int arrow_of = -1;
   for (const Stretch& s : stretches) {
-    if (s.segment == arrow_of || length_of(s.points) < 45) continue;
-    draw_arrow(page, s);
+    if (s.segment == arrow_of || length_of(s.points) < kShortestWithArrow) continue;
+    add_arrow(page, s, dots);
     arrow_of = s.segment;
   }
-  for (const PathPoint& p : path.instants) draw_dot(page, place(p), segment_colour(p.segment));
+  // A held instant is a dot of its own, whether or not a multiple of the step falls into it.
+  for (const Stretch& s : stretches)
+    if (length_of(s.points) < 1) draw_dot(page, s.points.back(), segment_colour(s.segment));
+  for (std::size_t i = 0; i < dots.size(); ++i)
+    draw_dot(page, dots[i], segment_colour(path.instants[i].segment));
   const PathPoint &first = path.points.front(), &last = path.points.back();
   draw_end(page, place(last), segment_colour(last.segment));
   draw_start(page, place(first), segment_colour(first.segment));
@@ -119,10 +151,10 @@ void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const 
 void draw_key(Svg& page, const PagePoint& at, const Path& path) {
   const std::string colour = "#30343c";
   const double y = at.y - 4.5;
-  draw_start(page, {at.x + 6, y}, colour);
-  page.text({at.x + 17, at.y}, "start");
-  draw_end(page, {at.x + 73, y}, colour);
-  page.text({at.x + 84, at.y}, "end");
+  draw_start(page, {at.x + 8, y}, colour);
+  page.text({at.x + 21, at.y}, "start");
+  draw_end(page, {at.x + 77, y}, colour);
+  page.text({at.x + 87, at.y}, "end");
   draw_dot(page, {at.x + 134, y}, colour);
   page.text({at.x + 143, at.y}, "every " + number_text(path.instant_step_s) + " s");
   double x = at.x + 245;

@@ -42,7 +42,7 @@ void draw_radii(Svg& page, const Diagram& at) {
       draw_constant_radius(page, at, region, r, r == 3 ? circle : light);
   for (const Region region : {Region::kII, Region::kIV})
     for (const double r : {1.0, 1.5, 1.9}) draw_constant_radius(page, at, region, r, light);
-  for (const double r : {2.1, 2.5, 3.0, 4.0, 6.0, 10.0}) label_radius(page, at, Region::kIII, r);
+  for (const double r : {2.1, 2.5, 3.0, 4.0, 6.0}) label_radius(page, at, Region::kIII, r);
   for (const double r : {1.5, 1.9}) label_radius(page, at, Region::kIV, r);
 }
 
@@ -87,9 +87,9 @@ void draw_names(Svg& page, const Diagram& at) {
       const PagePoint p = at(side * x, up);
       return PagePoint{p.x + side * dx, p.y + dy};
     };
-    page.text(beside(0.5, 0.5, 5, -5), "i\u207a", corner);
-    page.text(beside(0.5, -0.5, 5, 15), "i\u207b", corner);
-    page.text(beside(1, 0, 7, 5), "i\u2070", corner);
+    page.text(beside(0.5, 0.5, 9, -6), "i\u207a", corner);
+    page.text(beside(0.5, -0.5, 9, 16), "i\u207b", corner);
+    page.text(beside(1, 0, 8, 5), "i\u2070", corner);
     page.text(beside(0.75, 0.25, 9, -6), "\u2110\u207a", {16, "#30343c", outwards});
     page.text(beside(0.75, -0.25, 9, 16), "\u2110\u207b", {16, "#30343c", outwards});
   }
@@ -104,10 +104,8 @@ void draw_names(Svg& page, const Diagram& at) {
 }
 
 std::string note_of(const Path& path) {
-  const double shift = path.time_shift;
-  const std::string by =
-      (shift < 0 ? "\u2212" : "") + number_text(std::stod(std::to_string(std::abs(shift)))) + " M";
-  return "The origin of t is free: it is chosen (t shifted by " + by + ") so that " +
+  return "The origin of t is free: it is chosen (t shifted by " + number_text(path.time_shift) +
+         " M) so that " +
          (path.is_centred_on_crossing ? "the horizon is crossed at the middle of its line."
                                       : "the middle of the show lies at t = 0.");
 }

@@ -7,6 +7,8 @@ namespace domefall {
 namespace {
 
 constexpr double kLabelSize = 12;
+// The names of the segments take the uppermost pixels.
+constexpr double kBand = 22, kTopOfCurves = 30;
 
 Scale time_scale(const PageBox& box, const Show& show) {
   double seconds = 0;
@@ -28,8 +30,10 @@ void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& s
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
     const double end = begin + show.timeline[k].duration_s;
     const std::string colour = segment_colour(static_cast<int>(k));
-    page.rectangle({x(begin), box.top, x(end), box.bottom}, colour, 0.07);
-    page.rectangle({x(begin), box.top, x(end), box.top + 22}, colour, 0.16);
+    const PageBox band{x(begin), box.top, x(end), box.top + kBand};
+    page.rectangle(band, "#ffffff");  // over the grid
+    page.rectangle(band, colour, 0.22);
+    page.rectangle({x(begin), band.bottom, x(end), box.bottom}, colour, 0.07);
     const std::string label = band_label(show, k, x(end) - x(begin) - 6);
     if (!label.empty())
       page.text({(x(begin) + x(end)) / 2, box.top + 15.5}, label,
@@ -70,11 +74,25 @@ void draw_curve(Svg& page, const Path& path, const Scale& x, const Scale& y,
   finish();
 }
 
+// Named beside the box, apart from each other.
+void mark_radii(Svg& page, const PageBox& box, const Scale& y) {
+  double horizon = y(2), circle = y(3);
+  page.line({box.left, horizon}, {box.right, horizon}, {"#16181d", 1.6});
+  page.line({box.left, circle}, {box.right, circle}, {"#16181d", 1.2, "5 4"});
+  constexpr double kApart = 16, kAboveAxis = 6;
+  const double spread = std::max(0.0, kApart - (horizon - circle)) / 2;
+  horizon = std::min(horizon + spread, box.bottom - kAboveAxis);
+  circle = std::min(circle - spread, horizon - kApart);
+  page.text({box.right + 8, horizon + 4}, "horizon r = 2", {12});
+  page.text({box.right + 8, circle + 4}, "light circle r = 3", {12});
+}
+
 void draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path& path,
-                     const Scale& y, double PathPoint::*quantity) {
+                     const Scale& y, double PathPoint::*quantity, bool marks_radii) {
   const Scale x = time_scale(box, show);
-  shade_segments(page, box, x, show);
   draw_axes(page, box, x, y, 12, 6);
+  shade_segments(page, box, x, show);
+  if (marks_radii) mark_radii(page, box, y);
   mark_cuts(page, box, x, path);
   page.text({box.right, box.bottom + 36}, "show time (s)", {13, "#30343c", "end"});
   draw_curve(page, path, x, y, quantity);
@@ -86,25 +104,11 @@ Scale radius_scale(const PageBox& box, const Path& path) {
     least = std::min(least, p.r);
     most = std::max(most, p.r);
   }
-  // The names of the segments take the uppermost 22 pixels.
-  const double top = box.top + 30;
+  const double top = box.top + kTopOfCurves;
   constexpr double kLogarithmicFrom = 20;
   if (most > kLogarithmicFrom * least)
-    return {std::min(least, 1.9) * 0.8, most, box.bottom, top, true};
+    return {std::min(least, 1.9) * 0.8, std::max(most, 3.2), box.bottom, top, true};
   return {0, std::max(most, 3.2), box.bottom, top, false};
-}
-
-// Named beside the box, apart from each other.
-void mark_radii(Svg& page, const PageBox& box, const Scale& y) {
-  double horizon = y(2), circle = y(3);
-  page.line({box.left, horizon}, {box.right, horizon}, {"#16181d", 1.6});
-  page.line({box.left, circle}, {box.right, circle}, {"#16181d", 1.2, "5 4"});
-  constexpr double kApart = 16;
-  const double spread = std::max(0.0, kApart - (horizon - circle)) / 2;
-  horizon += spread;
-  circle -= spread;
-  page.text({box.right + 8, horizon + 4}, "horizon r = 2", {12});
-  page.text({box.right + 8, circle + 4}, "light circle r = 3", {12});
 }
 
 }  // namespace
@@ -113,16 +117,15 @@ void draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Pa
   const Scale y = radius_scale(box, path);
   draw_heading(page, box, y.logarithmic ? "Radius r (M), logarithmic" : "Radius r (M)");
   page.begin_group("radius");
-  draw_time_panel(page, box, show, path, y, &PathPoint::r);
-  mark_radii(page, box, y);
+  draw_time_panel(page, box, show, path, y, &PathPoint::r, true);
   page.end_group();
 }
 
 void draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
   draw_heading(page, box, "Speed (that of light is 1)");
   page.begin_group("speed");
-  draw_time_panel(page, box, show, path, {0, 1, box.bottom, box.top + 30, false},
-                  &PathPoint::speed);
+  draw_time_panel(page, box, show, path, {0, 1, box.bottom, box.top + kTopOfCurves, false},
+                  &PathPoint::speed, false);
   page.end_group();
 }
 

@@ -1,0 +1,138 @@
+#include "pipeline/diagram/path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/pipeline/show/show_file.h"
+
+namespace domefall {
+namespace {
+
+class Paths : public ShowFile {
+ protected:
+  Path path(const std::string& segments, const std::string& more = "") {
+    return sample_path(read("black_hole: {mass_solar: 4e6}\n" + more + "timeline:\n" + segments));
+  }
+};
+
+const PathPoint& at_radius(const Path& path, double r) {
+  return *std::min_element(path.points.begin(), path.points.end(),
+                           [r](const PathPoint& a, const PathPoint& b) {
+                             return std::abs(a.r - r) < std::abs(b.r - r);
+                           });
+}
+
+TEST_F(Paths, AFallCrossesTheHorizonAtTheMiddleOfItsLine) {
+  const Path p =
+      path("  - {duration_s: 20, trajectory: {type: infall, from_r: 30, pace: slowing}}\n");
+  EXPECT_TRUE(p.is_centred_on_crossing);
+  const PathPoint& crossing = at_radius(p, 2);
+  // The nearest sample is within 4 % of r = 2, so within 1/150 on the diagram.
+  EXPECT_NEAR(crossing.penrose.x, 0.25, 0.01);
+  EXPECT_NEAR(crossing.penrose.up, 0.25, 0.01);
+  EXPECT_EQ(p.points.front().time_s, 0);
+  EXPECT_EQ(p.points.front().r, 30);
+  EXPECT_EQ(p.points.back().time_s, 20);
+  EXPECT_NEAR(p.points.back().r, 0.05, 1e-9);
+}
+
+TEST_F(Paths, ATimelikePathRisesSteeplyInSmallSteps) {
+  const Path p = path(
+      "  - {duration_s: 5, trajectory: {type: circular, r: 7, orbits: 1.5}}\n"
+      "  - {duration_s: 5, trajectory: {type: infall, from_r: 7, to_r: 0.01}}\n");
+  for (std::size_t i = 1; i < p.points.size(); ++i) {
+    const PathPoint &a = p.points[i - 1], &b = p.points[i];
+    EXPECT_TRUE(is_joined(a, b));
+    EXPECT_GT(b.time_s, a.time_s);
+    const double dx = std::abs(b.penrose.x - a.penrose.x), up = b.penrose.up - a.penrose.up;
+    EXPECT_LE(dx, up + 4e-16);
+    EXPECT_LT(std::hypot(dx, up), 1.0 / 150);
+    if (a.segment == b.segment) {
+      EXPECT_LT(std::abs(std::log(b.r / a.r)), 0.0401);
+      EXPECT_LT(std::abs(b.swept - a.swept), 2.501 * std::numbers::pi / 180);
+    }
+  }
+}
+
+TEST_F(Paths, AnOrbitIsCentredInTimeAndEndsAtTheAngleItSwept) {
+  const Path p = path("  - {duration_s: 12, trajectory: {type: circular, r: 6, orbits: 1.25}}\n");
+  EXPECT_FALSE(p.is_centred_on_crossing);
+  EXPECT_NEAR(p.points.front().penrose.up, -p.points.back().penrose.up, 1e-6);
+  EXPECT_NEAR(p.points.front().azimuth, 0, 1e-12);
+  EXPECT_NEAR(p.points.back().azimuth, std::numbers::pi / 2, 1e-9);
+  EXPECT_EQ(p.instant_step_s, 1);
+  ASSERT_EQ(p.instants.size(), 12);
+  EXPECT_NEAR(p.instants[4].swept, 4.0 / 12 * 2.5 * std::numbers::pi, 1e-7);
+}
+
+TEST_F(Paths, OfAMillionTurnsTheFirstAndLastAreSampled) {
+  const Path p = path("  - {duration_s: 300, trajectory: {type: circular, r: 9, orbits: 1e6}}\n",
+                      "frames_per_second: 240\n");
+  EXPECT_TRUE(p.has_gaps_in_plane);
+  EXPECT_LT(p.points.size(), 30'000);
+  double drawn = 0;
+  for (std::size_t i = 1; i < p.points.size(); ++i) {
+    EXPECT_TRUE(std::isfinite(p.points[i].penrose.x));
+    if (is_joined_in_plane(p.points[i - 1], p.points[i]))
+      drawn += p.points[i].swept - p.points[i - 1].swept;
+  }
+  // And 0.4 turns in the middle of the show, which fill the Penrose diagram.
+  EXPECT_NEAR(drawn / (2 * std::numbers::pi), 2 * kTurnsDrawn, 0.6);
+}
+
+TEST_F(Paths, AJumpOfRadiusIsACutAndAChangeOfMotionIsNone) {
+  const Path p = path(
+      "  - {duration_s: 1, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 1, trajectory: {type: circular, r: 9}}\n"
+      "  - {duration_s: 1, trajectory: {type: static, r: 8}}\n"
+      "  - {duration_s: 1, trajectory: {type: velocity, r: 8, region: III, against: free_fall, "
+      "speed: 0}}\n");
+  std::vector<bool> jumps;
+  for (std::size_t i = 1; i < p.points.size(); ++i)
+    if (p.points[i].segment != p.points[i - 1].segment)
+      jumps.push_back(is_jump(p.points[i - 1], p.points[i]));
+  EXPECT_EQ(jumps, (std::vector{false, true, true}));
+}
+
+TEST_F(Paths, AFallThatFollowsALongOrbitIsTheOneInTheMiddle) {
+  const Path p = path(
+      "  - {duration_s: 9, trajectory: {type: circular, r: 10, orbits: 1e6}}\n"
+      "  - {duration_s: 9, trajectory: {type: infall, from_r: 10, to_r: 1}}\n");
+  const PathPoint& crossing = at_radius(p, 2);
+  // v reaches 3e8 M, of which a double keeps 6e-8 M.
+  EXPECT_NEAR(crossing.penrose.x, 0.25, 0.01);
+  EXPECT_NEAR(crossing.penrose.up, 0.25, 0.01);
+  EXPECT_NEAR(p.points.front().penrose.x, 0.5, 1e-12);
+  EXPECT_NEAR(p.points.front().penrose.up, -0.5, 1e-12);
+}
+
+TEST_F(Paths, AnInstantOnTheHorizonItselfIsOnTheDiagonal) {
+  const Path p = path(
+      "  - {duration_s: 1, trajectory: {type: velocity, r: 2, region: II, against: free_fall, "
+      "speed: 0}}\n");
+  for (const PathPoint& q : p.points) {
+    EXPECT_NEAR(q.penrose.x, 0.25, 1e-15);
+    EXPECT_NEAR(q.penrose.up, 0.25, 1e-15);
+  }
+}
+
+TEST_F(Paths, FlatSpaceHasASpeedAndNoPlace) {
+  const Path p = sample_path(
+      read("timeline: [{duration_s: 2, trajectory: {type: velocity, speed: 0.6, direction: "
+           "Vega}}]\n"));
+  for (const PathPoint& q : p.points) {
+    EXPECT_NEAR(q.speed, 0.6, 1e-15);
+    EXPECT_EQ(q.r, kFlatSpace);
+  }
+}
+
+TEST(RoundStep, IsTheNextOfOneTwoFive) {
+  EXPECT_DOUBLE_EQ(round_step(1), 1);
+  EXPECT_DOUBLE_EQ(round_step(1.01), 2);
+  EXPECT_DOUBLE_EQ(round_step(0.03), 0.05);
+  EXPECT_DOUBLE_EQ(round_step(700), 1000);
+}
+
+}  // namespace
+}  // namespace domefall
