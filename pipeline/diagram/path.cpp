@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "pipeline/show/frame_state.h"
@@ -109,23 +108,37 @@ double crossing_time(const Instants& show, int a, int b) {
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
-// The mean over the crossings of the first uncut run of segments that has any.
-std::optional<double> mean_crossing(const Instants& show, const std::vector<int>& ticks) {
-  double sum = 0;
-  int count = 0;
+// The crossings of the first uncut run of segments that has any, in order.
+std::vector<double> first_crossings(const Instants& show, const std::vector<int>& ticks) {
+  std::vector<double> times;
   Instant before = show.at(ticks[0]);
   for (std::size_t k = 1; k < ticks.size(); ++k) {
     const Instant now = show.at(ticks[k]);
     if (is_jump(before.point, now.point)) {
-      if (count > 0) break;
+      if (!times.empty()) break;
     } else if (is_inside(before.point.region) != is_inside(now.point.region)) {
-      sum += crossing_time(show, ticks[k - 1], ticks[k]);
-      ++count;
+      times.push_back(crossing_time(show, ticks[k - 1], ticks[k]));
     }
     before = now;
   }
-  if (count == 0) return std::nullopt;
-  return sum / count;
+  return times;
+}
+
+void choose_origin_of_time(const Instants& show, const std::vector<int>& ticks, Path& path) {
+  constexpr double kBothVisible = 16;  // U of one is e^4 times that of the other
+  const std::vector<double> crossings = first_crossings(show, ticks);
+  double centre = 0;
+  if (crossings.empty()) {
+    centre = killing_time(show.at(kTicks / 2));
+  } else if (crossings.size() > 1 &&
+             std::abs(crossings.back() - crossings.front()) < kBothVisible) {
+    path.centre = Path::Centre::kTwoCrossings;
+    centre = (crossings.front() + crossings.back()) / 2;
+  } else {
+    path.centre = Path::Centre::kCrossing;
+    centre = crossings.back();
+  }
+  path.time_shift = -centre;
 }
 
 // ---- sampling ----
@@ -136,8 +149,14 @@ std::vector<int> even_ticks(const Instants& show) {
   for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
     const long first = starts[k], last = std::max(starts[k + 1] - 1, starts[k]);
     const long steps = std::max<long>(kLeastOfSegment, (last - first) * kEvenly / kTicks);
-    for (long i = 0; i <= steps; ++i)
-      ticks.push_back(static_cast<int>(first + (last - first) * i / steps));
+    for (long i = 0; i <= steps; ++i) {
+      // Out of step with any period that the orbit has: multiples of the golden ratio.
+      const double turns = static_cast<double>(i) * std::numbers::phi;
+      const double aside = i == 0 || i == steps ? 0 : turns - std::floor(turns) - 0.5;
+      const double part = (static_cast<double>(i) + aside) / static_cast<double>(steps);
+      ticks.push_back(
+          static_cast<int>(first + std::lround(part * static_cast<double>(last - first))));
+    }
   }
   std::sort(ticks.begin(), ticks.end());
   ticks.erase(std::unique(ticks.begin(), ticks.end()), ticks.end());
@@ -152,6 +171,7 @@ class Sampler {
   PathPoint at(int tick) const {
     const Instant i = show_.at(tick);
     PathPoint p = i.point;
+    p.is_in_drawn_turn = p.swept < begin_ || p.swept > end_;
     if (p.r != kFlatSpace)
       p.penrose = penrose_point(p.region, i.tetrad, p.r,
                                 i.null_time + sense_of_t(i.tetrad) * path_.time_shift);
@@ -178,9 +198,9 @@ class Sampler {
  private:
   bool is_coarse(const PathPoint& a, const PathPoint& b) const {
     if (a.r == kFlatSpace) return false;
-    const bool turns = std::abs(b.swept - a.swept) > 2.5 * kDegree;
-    const bool drawn = std::min(a.swept, b.swept) < begin_ || std::max(a.swept, b.swept) > end_;
-    return (turns && drawn) || std::abs(std::log(b.r / a.r)) > 0.04 ||
+    const bool bends =
+        std::abs(b.swept - a.swept) > 2.5 * kDegree || std::abs(std::log(b.r / a.r)) > 0.04;
+    return (bends && (a.is_in_drawn_turn || b.is_in_drawn_turn)) ||
            std::hypot(b.penrose.x - a.penrose.x, b.penrose.up - a.penrose.up) > 1.0 / 150;
   }
 
@@ -203,6 +223,7 @@ void sample_finely(const Instants& show, const std::vector<int>& ticks, Path& pa
     while (last + 1 < ticks.size() && show.at(ticks[last + 1]).point.segment == now.segment) ++last;
     sampler.begin_segment(now.swept, show.at(ticks[last]).point.swept);
     path.points.push_back(now);
+    path.points.back().is_in_drawn_turn = before.is_in_drawn_turn = true;
   }
 }
 
@@ -236,18 +257,15 @@ bool is_joined(const PathPoint& a, const PathPoint& b) { return !is_jump(a, b); 
 
 bool is_joined_in_plane(const PathPoint& a, const PathPoint& b) {
   constexpr double kWidest = 10 * kDegree;
-  return is_joined(a, b) && (a.segment != b.segment || std::abs(b.swept - a.swept) < kWidest);
+  return a.is_in_drawn_turn && b.is_in_drawn_turn && is_joined(a, b) &&
+         (a.segment != b.segment || std::abs(b.swept - a.swept) < kWidest);
 }
 
 Path sample_path(const Show& show) {
   const Instants instants(show);
   const std::vector<int> ticks = even_ticks(instants);
   Path path;
-  if (show.mass_solar) {
-    const auto crossing = mean_crossing(instants, ticks);
-    path.is_centred_on_crossing = crossing.has_value();
-    path.time_shift = -(crossing ? *crossing : killing_time(instants.at(kTicks / 2)));
-  }
+  if (show.mass_solar) choose_origin_of_time(instants, ticks, path);
   sample_finely(instants, ticks, path);
   mark_instants(instants, path);
   return path;

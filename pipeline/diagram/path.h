@@ -18,6 +18,7 @@ struct PathPoint {
   double swept = 0;       // radians since the start of the trajectory, unbounded
   double speed = 0;       // against the reference tetrad; in flat space against the sky
   PenrosePoint penrose;   // unset in flat space
+  bool is_in_drawn_turn = true;
 };
 
 // Circles and whirls: of a segment that goes around more often, only so many turns at its beginning
@@ -37,19 +38,21 @@ struct Path {
   std::vector<PathPoint> points;    // in the order of time, each segment's ends included
   std::vector<PathPoint> instants;  // one every `instant_step_s` from the start
   double instant_step_s = 0;
-  double time_shift = 0;                // M: added to t for the Penrose diagram
-  bool is_centred_on_crossing = false;  // of a horizon; otherwise on the middle of the show
-  bool has_gaps_in_plane = false;       // more than 2 kTurnsDrawn turns in a segment
+  double time_shift = 0;  // M: added to t for the Penrose diagram
+  enum class Centre { kMiddleOfShow, kCrossing, kTwoCrossings };
+  Centre centre = Centre::kMiddleOfShow;
+  bool has_gaps_in_plane = false;  // more than 2 kTurnsDrawn turns in a segment
 };
 
 // About 2000 instants evenly, at least 48 to a segment, and more wherever the curve turns by more
 // than 2.5 degrees about the hole, r changes by more than 4 %, or the Penrose diagram is crossed by
 // more than 1/150 of its height.  At most some 1e5 points.
+// Where there are too many turns to draw, r is sampled as it comes, out of step with any period.
 //
 // The Killing symmetry t -> t + constant moves every point of the Penrose diagram along its curve of
-// constant r.  The constant is chosen so that the first crossing of a horizon (of the past and the
-// future one: their mean) lies at the middle of its line, or, where none is crossed, the middle of
-// the show at t = 0.
+// constant r.  The constant is chosen for the first run without a cut that crosses a horizon: its last
+// crossing lies at the middle of its line; or, where the past and the future horizon are crossed
+// within 16 M, both lie symmetrically.  Where none is crossed, the middle of the show is at t = 0.
 Path sample_path(const Show& show);
 
 // "circular": what a show file calls the trajectory of a segment.

@@ -103,11 +103,15 @@ void draw_names(Svg& page, const Diagram& at) {
   page.text({left.x - 9, left.y - 9}, "r = 2", horizon);
 }
 
+const char* reason_of(Path::Centre centre) {
+  if (centre == Path::Centre::kMiddleOfShow) return "the middle of the show lies at t = 0.";
+  if (centre == Path::Centre::kCrossing) return "a horizon is crossed at the middle of its line.";
+  return "the crossings of both horizons lie symmetrically.";
+}
+
 std::string note_of(const Path& path) {
   return "The origin of t is free: it is chosen (t shifted by " + number_text(path.time_shift) +
-         " M) so that " +
-         (path.is_centred_on_crossing ? "the horizon is crossed at the middle of its line."
-                                      : "the middle of the show lies at t = 0.");
+         " M) so that " + reason_of(path.centre);
 }
 
 }  // namespace
