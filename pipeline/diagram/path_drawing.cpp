@@ -111,6 +111,17 @@ void draw_end(Svg& page, const PagePoint& at, const std::string& colour) {
   page.frame(box, {"#ffffff", 1.2});
 }
 
+// A segment that stays where it is is a dot, whether or not a multiple of the step falls into it.
+void draw_held_instants(Svg& page, const std::vector<Stretch>& stretches) {
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    const int segment = stretches[k].segment;
+    const bool alone = (k == 0 || stretches[k - 1].segment != segment) &&
+                       (k + 1 == stretches.size() || stretches[k + 1].segment != segment);
+    if (alone && length_of(stretches[k].points) < 1)
+      draw_dot(page, stretches[k].points.back(), segment_colour(segment));
+  }
+}
+
 }  // namespace
 
 std::string segment_colour(int segment) {
@@ -138,9 +149,7 @@ void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const 
     add_arrow(page, s, dots);
     arrow_of = s.segment;
   }
-  // A held instant is a dot of its own, whether or not a multiple of the step falls into it.
-  for (const Stretch& s : stretches)
-    if (length_of(s.points) < 1) draw_dot(page, s.points.back(), segment_colour(s.segment));
+  draw_held_instants(page, stretches);
   for (std::size_t i = 0; i < dots.size(); ++i)
     draw_dot(page, dots[i], segment_colour(path.instants[i].segment));
   const PathPoint &first = path.points.front(), &last = path.points.back();

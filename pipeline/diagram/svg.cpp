@@ -141,9 +141,7 @@ void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& styl
   // A rim under the letters; paint-order, which would do it in one, is not known to all viewers.
   if (style.halo)
     body_ += common +
-             " fill=\"#ffffff\" stroke=\"#ffffff\" stroke-width=\"3.5\" "
-             "stroke-linejoin=\"round\"" +
-             end;
+             R"( fill="#ffffff" stroke="#ffffff" stroke-width="3.5" stroke-linejoin="round")" + end;
   body_ += common + attribute("fill", std::string(style.colour)) + end;
 }
 
