@@ -117,8 +117,8 @@ void Svg::curve(const std::vector<PagePoint>& points, const Stroke& stroke) {
     path += "L" + pair(p);
     last = p;
   }
-  body_ += "<path d=\"" + path + "\" fill=\"none\" stroke-linejoin=\"round\"" +
-           (*stroke.dashes == 0 ? " stroke-linecap=\"round\"" : "") + stroke_attributes(stroke) +
+  body_ += "<path d=\"" + path + R"(" fill="none" stroke-linejoin="round")" +
+           (*stroke.dashes == 0 ? R"( stroke-linecap="round")" : "") + stroke_attributes(stroke) +
            "/>\n";
 }
 
