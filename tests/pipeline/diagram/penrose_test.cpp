@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "trajectories/kruskal_crossing.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -135,11 +136,11 @@ TEST(Penrose, AStaticObserverGoesFromThePastToTheFutureInfinityOnACurveSymmetric
 
 // x + up and up - x, arctan U and arctan V, never fall along a timelike path: |dx| < dup, but where
 // rounding swallows one of the two growths: next to U = 0 and to the infinities.
-void expect_timelike(const Trajectory& trajectory, double tau_end, double start) {
+void expect_timelike(const Trajectory& trajectory, double tau_begin, double tau_end, double start) {
   constexpr int kSteps = 400;
   PenrosePoint before;
   for (int i = 0; i <= kSteps; ++i) {
-    const OrbitPoint o = point_at(trajectory, tau_end * i / kSteps);
+    const OrbitPoint o = point_at(trajectory, tau_begin + (tau_end - tau_begin) * i / kSteps);
     const PenrosePoint p = penrose_point(o.region, o.tetrad, o.r, start + o.null_time);
     ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.up));
     if (i > 0) {
@@ -157,10 +158,28 @@ void expect_timelike(const Trajectory& trajectory, double tau_end, double start)
 RC_GTEST_PROP(Penrose, EveryPathIsTimelike, ()) {
   const double r = std::exp(any_between(std::log(3.01), std::log(1000.0)));
   const double start = any_between(-60, 60), span = std::exp(any_between(-3, 8));
-  expect_timelike(StaticObserver{r}, span, start);
-  expect_timelike(CircularOrbit{r}, span, start);
+  expect_timelike(StaticObserver{r}, 0, span, start);
+  expect_timelike(CircularOrbit{r}, 0, span, start);
   const RadialInfall fall{r};
-  expect_timelike(fall, proper_time_to(fall, 1e-3), start);
+  expect_timelike(fall, 0, proper_time_to(fall, 1e-3), start);
+}
+
+// IV, I, II: the outgoing frame up to the largest r, rain from there on, with one t.
+RC_GTEST_PROP(Penrose, APathThroughThreeRegionsIsTimelike, ()) {
+  const double start = any_between(-40, 40);
+  const Geodesic path = kruskal_crossing(any_between(0.05, 0.99), any_between(0, 3));
+  expect_timelike(path, 0.9999 * path.birth(), 0.9999 * path.death(), start);
+}
+
+TEST(Penrose, APathThroughThreeRegionsIsContinuousWhereItsTetradChanges) {
+  const Geodesic path = kruskal_crossing(0.3, 0.5);
+  const OrbitPoint a = path.at(-1e-7), b = path.at(1e-7);
+  ASSERT_EQ(a.tetrad, Tetrad::kOutgoing);
+  ASSERT_EQ(b.tetrad, Tetrad::kRain);
+  const PenrosePoint p = penrose_point(a.region, a.tetrad, a.r, a.null_time),
+                     q = penrose_point(b.region, b.tetrad, b.r, b.null_time);
+  EXPECT_LT(std::hypot(q.x - p.x, q.up - p.up), 1e-7);
+  EXPECT_GT(q.up, p.up);
 }
 
 }  // namespace
