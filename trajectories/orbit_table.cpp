@@ -8,7 +8,25 @@ namespace domefall {
 namespace {
 
 constexpr int kDepth = 60;  // halvings of a panel
+constexpr std::size_t kMostPanels = 4000;
 constexpr int kNewtonSteps = 80;
+
+// The integrand's noise is its slope times this rounding of the parameter.
+double rounding_of(double low, double high) {
+  constexpr double kUnits = 8;
+  return kUnits * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+}
+
+// The greatest slope between nodes over the greatest value.
+double steepness(const PanelValues& values) {
+  double slope = 0, largest = std::abs(values[0]);
+  for (std::size_t j = 1; j < kPanelTerms; ++j) {
+    slope =
+        std::max(slope, std::abs(values[j] - values[j - 1]) / (panel_node(j - 1) - panel_node(j)));
+    largest = std::max(largest, std::abs(values[j]));
+  }
+  return largest > 0 ? slope / largest : 0;
+}
 
 }  // namespace
 
@@ -43,17 +61,20 @@ bool OrbitTable::fill(Panel& panel) const {
     const Sums rate = rates(middle + half * panel_node(j), middle > turn_);
     tau[j] = rate.tau, azimuth[j] = rate.azimuth, null_time[j] = rate.null_time;
   }
-  const bool a = integrate_panel(tau, half, tolerance_, panel.tau);
-  const bool b = integrate_panel(azimuth, half, tolerance_, panel.azimuth);
-  const bool c = integrate_panel(null_time, half, tolerance_, panel.null_time);
-  return a && b && c;
+  const double unit = rounding_of(panel.low, panel.high) / half;
+  const auto integrated = [&](const PanelValues& values, PanelIntegral& integral) {
+    return integrate_panel(values, half, tolerance_ + unit * steepness(values), integral);
+  };
+  const bool a = integrated(tau, panel.tau), b = integrated(azimuth, panel.azimuth);
+  return integrated(null_time, panel.null_time) && a && b;
 }
 
 void OrbitTable::append(double low, double high, int depth) {
   Panel panel;
   panel.low = low, panel.high = high;
   const double middle = (low + high) / 2;
-  const bool splits = depth < kDepth && middle > low && middle < high;
+  const bool splits =
+      depth < kDepth && panels_.size() < kMostPanels && middle > low && middle < high;
   if (fill(panel) || !splits) {
     panels_.push_back(panel);
     return;

@@ -1,0 +1,131 @@
+// Orbits against tests/reference/orbits.csv: 50-digit quadratures over r itself (make_orbits.py), which
+// share no parameter with the code.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "trajectories/bound_orbit.h"
+#include "trajectories/hyperbolic_orbit.h"
+#include "trajectories/infall.h"
+#include "trajectories/kruskal_crossing.h"
+#include "trajectories/parabolic_orbit.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+struct Row {
+  std::string kind, label;
+  double a = 0, b = 0, c = 0;
+  Leg leg = Leg::kInward;
+  double periods = 0, tau = 0, r = 0, azimuth = 0, null_time = 0, energy = 0, momentum = 0;
+};
+
+std::vector<Row> rows() {
+  std::ifstream file(DOMEFALL_TEST_DATA "/orbits.csv");
+  std::vector<Row> all;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#' || line.rfind("kind", 0) == 0) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    const auto number = [&cells](std::size_t k) {
+      return cells.at(k).empty() ? 0 : std::stod(cells.at(k));
+    };
+    all.push_back({cells.at(0), line, number(1), number(2), number(3),
+                   cells.at(4) == "in" ? Leg::kInward : Leg::kOutward, number(5), number(6),
+                   number(7), number(8), number(9), number(10), number(11)});
+  }
+  return all;
+}
+
+Geodesic orbit_of(const Row& row) {
+  using Factory = std::function<Geodesic(const Row&)>;
+  static const std::map<std::string, Factory> kFactories = {
+      {"parabolic_periastron", [](const Row& q) { return parabolic_by_periastron(q.a); }},
+      {"parabolic_angular_momentum",
+       [](const Row& q) { return parabolic_by_angular_momentum(q.a); }},
+      {"parabolic_excess", [](const Row& q) { return parabolic_by_excess(q.a); }},
+      {"hyperbolic_periastron", [](const Row& q) { return hyperbolic_by_periastron(q.a, q.b); }},
+      {"hyperbolic_speed_excess",
+       [](const Row& q) { return hyperbolic_by_speed_excess(q.a, q.b); }},
+      {"hyperbolic_impact", [](const Row& q) { return hyperbolic_by_impact_parameter(q.a, q.b); }},
+      {"hyperbolic_impact_excess",
+       [](const Row& q) { return hyperbolic_by_impact_excess(q.a, q.b); }},
+      {"bound_turning_points", [](const Row& q) { return bound_by_turning_points(q.a, q.b); }},
+      {"bound_shape", [](const Row& q) { return bound_by_shape(q.a, q.b); }},
+      {"bound_excess", [](const Row& q) { return bound_by_excess(q.a, q.b); }},
+      {"rest", [](const Row& q) { return fall_from_rest(q.a, q.b); }},
+      {"infinity", [](const Row& q) { return fall_from_infinity(q.a, q.b); }},
+      {"speed", [](const Row& q) { return fall_with_speed(q.a, q.b, q.c); }},
+      {"thrown", [](const Row& q) { return thrown_outside(q.a, q.b, q.c); }},
+      {"rain", [](const Row& q) { return thrown_from_rain(q.a, q.b, q.c); }},
+      {"crossing", [](const Row& q) { return kruskal_crossing(q.a, q.b); }}};
+  return kFactories.at(row.kind)(row);
+}
+
+double radial_speed(const Row& row) {
+  const double l = row.momentum / row.r;
+  return std::sqrt(std::abs(row.energy * row.energy - (1 - 2 / row.r) * (1 + l * l)));
+}
+
+// What a rounding of tau moves the orbit by: the best that any function of it can do.
+struct Allowance {
+  double r, azimuth, null_time;
+};
+Allowance allowance(const Row& row) {
+  const double lost = 4 * kEpsilon * std::abs(row.tau), u = radial_speed(row);
+  const double l = row.momentum / row.r;
+  return {lost * u / row.r, lost * l / row.r, lost * (1 + l * l) / (row.energy + u)};
+}
+
+TEST(OrbitReference, HasTheRowsThatTheTestsCountOn) { EXPECT_GE(rows().size(), 200U); }
+
+TEST(OrbitReference, RadiusAndAzimuthAgreeToTenDigits) {
+  for (const Row& row : rows()) {
+    const OrbitPoint p = orbit_of(row).at(row.tau);
+    const Allowance least = allowance(row);
+    EXPECT_NEAR(p.r / row.r, 1, 1e-10 + least.r) << row.label;
+    EXPECT_NEAR(p.azimuth, row.azimuth,
+                1e-10 * std::max(1.0, std::abs(row.azimuth)) + least.azimuth)
+        << row.label;
+    EXPECT_NEAR(p.null_time, row.null_time,
+                1e-10 * std::max(1.0, std::abs(row.null_time)) + least.null_time)
+        << row.label;
+    if (std::getenv("ORBITS_VERBOSE") != nullptr)
+      std::printf("%-26s %9.2g %9.2g %9.2g r %8.2g/%-8.1g phi %8.2g/%-8.1g n %8.2g/%-8.1g tau %.4g r %.4g\n", row.kind.c_str(), row.a,row.b,row.c,
+        p.r/row.r-1, least.r, p.azimuth-row.azimuth, least.azimuth, p.null_time-row.null_time, least.null_time, row.tau,row.r);
+  }
+}
+
+TEST(OrbitReference, EnergyAndAngularMomentumAgree) {
+  for (const Row& row : rows()) {
+    const Geodesic orbit = orbit_of(row);
+    EXPECT_NEAR(orbit.energy(), row.energy, 4 * kEpsilon * std::max(1.0, row.energy)) << row.label;
+    EXPECT_NEAR(orbit.angular_momentum(), row.momentum, 8 * kEpsilon * row.momentum) << row.label;
+  }
+}
+
+TEST(OrbitReference, TheTimeOfARadiusAgrees) {
+  for (const Row& row : rows()) {
+    const Geodesic orbit = orbit_of(row);
+    const double after = row.periods > 0 ? row.tau - 1e-6 * std::abs(row.tau)
+                                         : -std::numeric_limits<double>::infinity();
+    const auto tau = orbit.time_at(row.r, row.leg, after);
+    ASSERT_TRUE(tau.has_value()) << row.label;
+    if (row.periods > 0 || !std::isfinite(orbit.radial_period())) {
+      EXPECT_NEAR(*tau, row.tau, 1e-10 * std::max(1.0, std::abs(row.tau))) << row.label;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace domefall
