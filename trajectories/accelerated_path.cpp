@@ -101,6 +101,8 @@ void check_keys(const std::vector<PathKey>& keys) {
     const PathKey& key = keys[k];
     if (!(key.r > 0) || !std::isfinite(key.r) || !std::isfinite(key.azimuth))
       refuse(k + 1, key.tau, "r must exceed 0 (units of M), got " + bound_text(key.r));
+    if (!std::isfinite(key.radial_rate.value_or(0)) || !std::isfinite(key.azimuth_rate.value_or(0)))
+      refuse(k + 1, key.tau, "its rates must be finite numbers");
     if (!std::isfinite(key.tau) || (k > 0 && !(key.tau > keys[k - 1].tau)))
       refuse(k + 1, key.tau, "its proper time must exceed that of the key before");
   }

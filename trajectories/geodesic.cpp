@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_table.h"
 #include "trajectories/static_observer.h"
 
@@ -107,11 +108,11 @@ double Geodesic::azimuth_per_period() const {
 OrbitPoint Geodesic::at(double tau) const {
   const OrbitTable& table = tables_->table;
   double turns = 0;
-  if (tables_->is_bound()) {
+  if (tables_->is_bound() && std::isfinite(tau)) {
     turns = std::floor((tau - table.begin().tau) / tables_->period());
     tau -= turns * tables_->period();
   } else if (!(tau >= table.begin().tau && tau <= table.end().tau)) {
-    throw std::domain_error("proper time " + std::to_string(tau) +
+    throw std::domain_error("proper time " + bound_text(tau) +
                             " (units of M) is beyond the orbit's ends");
   }
   OrbitPoint p = tables_->state(table.parameter(tau));
@@ -127,8 +128,12 @@ std::optional<double> Geodesic::time_at(double r, Leg leg, double after) const {
   const double s = tables_->curve.parameter(r, leg == Leg::kOutward);
   if (std::isnan(s) || r > OrbitCurve::kFarthest || r < OrbitCurve::kDeepest) return std::nullopt;
   double tau = tables_->table.at(s).tau;
-  if (tables_->is_bound() && after > tau)
-    tau += std::ceil((after - tau) / tables_->period()) * tables_->period();
+  if (tables_->is_bound()) {
+    const double start = after == -kInfinity ? 0 : after, period = tables_->period();
+    tau += std::ceil((start - tau) / period) * period;
+    if (tau < start) tau += period;
+    return tau;
+  }
   if (tau < after) return std::nullopt;
   return tau;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/orbit_bounds.h"
@@ -27,7 +28,10 @@ Geodesic geodesic_through(const OrbitConstants& constants, double r, double spee
   return {start.curve, start.parameter, turn_of(start)};
 }
 
-void require_forward(double tangential) {
+void require_celerity(double radial, double tangential) {
+  if (!std::isfinite(radial))
+    throw std::domain_error("radial celerity must be a finite number (gamma v), got " +
+                            bound_text(radial));
   require_at_least("tangential celerity", "gamma v", tangential, 0,
                    "Phi is the direction of the motion");
 }
@@ -83,7 +87,7 @@ Geodesic fall_from_rest(double from_r, double angular_momentum) {
 
 Geodesic thrown_outside(double r, double radial, double tangential) {
   require_above("r", kUnitsOfM, r, 2, "nothing rests at the horizon or inside, to throw from");
-  require_forward(tangential);
+  require_celerity(radial, tangential);
   const double f = (r - 2) / r, u2 = radial * radial + tangential * tangential;
   const OrbitConstants constants{std::sqrt((1 + u2) * f), u2 * f - 2 / r, r * tangential};
   return geodesic_through(constants, r, radial * std::sqrt(f));
@@ -91,7 +95,7 @@ Geodesic thrown_outside(double r, double radial, double tangential) {
 
 Geodesic thrown_from_rain(double r, double radial, double tangential) {
   require_above("r", kUnitsOfM, r, 0, "the singularity is there");
-  require_forward(tangential);
+  require_celerity(radial, tangential);
   const double s = std::sqrt(2 / r), gamma = std::hypot(1, std::hypot(radial, tangential));
   const double energy = gamma - s * radial;
   const OrbitConstants constants{std::abs(energy), (energy - 1) * (energy + 1), r * tangential};

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kDepth = 60;  // halvings of a panel
 constexpr std::size_t kMostPanels = 4000;
+constexpr double kWidest = 1;  // of a parameter in which tau grows like exp(3s)
 constexpr int kNewtonSteps = 80;
 
 // The integrand's noise is its slope times this rounding of the parameter.
@@ -73,9 +74,10 @@ void OrbitTable::append(double low, double high, int depth) {
   Panel panel;
   panel.low = low, panel.high = high;
   const double middle = (low + high) / 2;
+  const bool wide = curve_.kind() != OrbitCurve::Kind::kBound && high - low > kWidest;
   const bool splits =
       depth < kDepth && panels_.size() < kMostPanels && middle > low && middle < high;
-  if (fill(panel) || !splits) {
+  if ((fill(panel) && !wide) || !splits) {
     panels_.push_back(panel);
     return;
   }
@@ -101,16 +103,21 @@ void OrbitTable::sum_up(double origin, double turn) {
   Sums sums;
   for (auto p = first; p != panels_.end(); ++p) {
     if (p->low == turn && p->low > origin) sums.null_time += jump;
-    p->from = sums;
+    p->from = sums, p->begin_tau = sums.tau;
     sums = in_panel(*p, 1);
   }
   end_ = sums, sums = {};
   for (auto p = std::make_reverse_iterator(first); p != panels_.rend(); ++p) {
     if (p->high == turn) sums.null_time -= jump;
+    const Sums above = sums;
     sums.tau -= panel_sum(p->tau, 1), sums.azimuth -= panel_sum(p->azimuth, 1);
     sums.null_time -= panel_sum(p->null_time, 1);
-    p->from = sums;
+    // Counted from the upper end, which is the nearer to the origin.
+    p->from = above, p->begin_tau = sums.tau;
+    p->tau[0] -= panel_sum(p->tau, 1), p->azimuth[0] -= panel_sum(p->azimuth, 1);
+    p->null_time[0] -= panel_sum(p->null_time, 1);
   }
+  begin_ = sums;
 }
 
 OrbitTable::Sums OrbitTable::at(double s) const {
@@ -124,10 +131,11 @@ OrbitTable::Sums OrbitTable::at(double s) const {
 double OrbitTable::parameter(double tau) const {
   const auto after =
       std::upper_bound(panels_.begin(), panels_.end(), tau,
-                       [](double value, const Panel& p) { return value < p.from.tau; });
+                       [](double value, const Panel& p) { return value < p.begin_tau; });
   const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
   const double half = (panel.high - panel.low) / 2, wanted = tau - panel.from.tau;
-  double low = -1, high = 1, x = 2 * wanted / panel_sum(panel.tau, 1) - 1;
+  const double at_low = panel_sum(panel.tau, -1), at_high = panel_sum(panel.tau, 1);
+  double low = -1, high = 1, x = 2 * (wanted - at_low) / (at_high - at_low) - 1;
   if (!(x > low)) return panel.low;
   if (!(x < high)) return panel.high;
   for (int k = 0; k < kNewtonSteps; ++k) {

@@ -24,14 +24,15 @@ class OrbitTable {
   };
   Sums at(double s) const;
   double parameter(double tau) const;  // of tau clamped to what is tabulated
-  const Sums& begin() const { return panels_.front().from; }
+  const Sums& begin() const { return begin_; }
   const Sums& end() const { return end_; }
   std::size_t panel_count() const { return panels_.size(); }
 
  private:
   struct Panel {
     double low = 0, high = 0;
-    Sums from;                              // at low
+    double begin_tau = 0;
+    Sums from;                              // at the end nearer to the origin
     PanelIntegral tau, azimuth, null_time;  // what is added since
   };
 
@@ -44,7 +45,7 @@ class OrbitTable {
   OrbitCurve curve_;
   double turn_, tolerance_;
   std::vector<Panel> panels_;
-  Sums end_;
+  Sums begin_, end_;
 };
 
 // r + 2 ln |r/2 - 1|, of r and r - 2.

@@ -20,6 +20,8 @@
 namespace domefall {
 namespace {
 
+// Measured: 2e-13 in all three, beyond the allowance for the rounding of tau.
+constexpr double kBound = 1e-12;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct Row {
@@ -89,20 +91,17 @@ Allowance allowance(const Row& row) {
 
 TEST(OrbitReference, HasTheRowsThatTheTestsCountOn) { EXPECT_GE(rows().size(), 200U); }
 
-TEST(OrbitReference, RadiusAndAzimuthAgreeToTenDigits) {
+TEST(OrbitReference, RadiusAzimuthAndNullTimeAgreeToTwelveDigits) {
   for (const Row& row : rows()) {
     const OrbitPoint p = orbit_of(row).at(row.tau);
     const Allowance least = allowance(row);
-    EXPECT_NEAR(p.r / row.r, 1, 1e-10 + least.r) << row.label;
+    EXPECT_NEAR(p.r / row.r, 1, kBound + least.r) << row.label;
     EXPECT_NEAR(p.azimuth, row.azimuth,
-                1e-10 * std::max(1.0, std::abs(row.azimuth)) + least.azimuth)
+                kBound * std::max(1.0, std::abs(row.azimuth)) + least.azimuth)
         << row.label;
     EXPECT_NEAR(p.null_time, row.null_time,
-                1e-10 * std::max(1.0, std::abs(row.null_time)) + least.null_time)
+                kBound * std::max(1.0, std::abs(row.null_time)) + least.null_time)
         << row.label;
-    if (std::getenv("ORBITS_VERBOSE") != nullptr)
-      std::printf("%-26s %9.2g %9.2g %9.2g r %8.2g/%-8.1g phi %8.2g/%-8.1g n %8.2g/%-8.1g tau %.4g r %.4g\n", row.kind.c_str(), row.a,row.b,row.c,
-        p.r/row.r-1, least.r, p.azimuth-row.azimuth, least.azimuth, p.null_time-row.null_time, least.null_time, row.tau,row.r);
   }
 }
 
@@ -122,7 +121,9 @@ TEST(OrbitReference, TheTimeOfARadiusAgrees) {
     const auto tau = orbit.time_at(row.r, row.leg, after);
     ASSERT_TRUE(tau.has_value()) << row.label;
     if (row.periods > 0 || !std::isfinite(orbit.radial_period())) {
-      EXPECT_NEAR(*tau, row.tau, 1e-10 * std::max(1.0, std::abs(row.tau))) << row.label;
+      // A rounding of r moves tau by that over the speed.
+      const double lost = kEpsilon * row.r / radial_speed(row);
+      EXPECT_NEAR(*tau, row.tau, 1e-12 * std::max(1.0, std::abs(row.tau)) + 4 * lost) << row.label;
     }
   }
 }

@@ -1,0 +1,150 @@
+#include "trajectories/accelerated_path.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "tests/trajectories/motion.h"
+#include "trajectories/infall.h"
+#include "trajectories/kruskal_crossing.h"
+#include "trajectories/static_observer.h"
+#include "trajectories/trajectory.h"
+
+namespace domefall {
+namespace {
+
+using testing::HasSubstr;
+
+// From hovering at 10 M to hovering at 2.5 M, a quarter around.
+AcceleratedPath descent() { return AcceleratedPath({{0, 10, 0, 0, 0}, {60, 2.5, 1.5, 0, 0}}); }
+
+TEST(AcceleratedPath, APoweredDescentBeginsAndEndsAtRest) {
+  const AcceleratedPath path = descent();
+  for (const double tau : {0.0, 60.0}) {
+    const OrbitPoint p = path.at(tau);
+    EXPECT_NEAR(p.celerity.x, resting_celerity(p.r).x, 1e-15);
+    EXPECT_EQ(p.celerity.z, 0);
+  }
+  EXPECT_EQ(path.at(0).r, 10);
+  EXPECT_NEAR(path.at(60).r, 2.5, 1e-15);
+  EXPECT_NEAR(path.at(60).azimuth, 1.5, 1e-15);
+}
+
+TEST(AcceleratedPath, ItsStatesMoveAsItsPlacesDo) {
+  const AcceleratedPath path = descent();
+  const double h = 1e-4;
+  for (double tau = 1; tau < 60; tau += 1.7) {
+    const OrbitPoint p = path.at(tau), before = path.at(tau - h), after = path.at(tau + h);
+    EXPECT_NEAR(radial_speed_of(p), (after.r - before.r) / (2 * h), 1e-8);
+    EXPECT_NEAR(p.celerity.z, p.r * (after.azimuth - before.azimuth) / (2 * h), 1e-8);
+    const double l = p.celerity.z, e = energy_of(p);
+    EXPECT_NEAR((after.null_time - before.null_time) / (2 * h),
+                (1 + l * l) / (e - radial_speed_of(p)), 1e-8);
+  }
+}
+
+TEST(AcceleratedPath, APathOverTheHorizonIsSmoothThere) {
+  const AcceleratedPath path({{0, 6, 0}, {4, 3, 0.5}, {7, 1, 0.8}});
+  const double horizon = path.time_at(2, Leg::kInward).value();
+  EXPECT_EQ(path.at(horizon - 1e-3).region, Region::kI);
+  EXPECT_EQ(path.at(horizon + 1e-3).region, Region::kII);
+  for (const double h : {1e-3, 1e-5, 1e-7, 1e-9}) {
+    const OrbitPoint a = path.at(horizon - h), b = path.at(horizon + h);
+    EXPECT_NEAR((b.r - a.r) / (2 * h), radial_speed_of(a), 10 * h + 1e-14 / h);
+    EXPECT_NEAR(b.celerity.x, a.celerity.x, 20 * h + 1e-13);
+    EXPECT_NEAR(b.null_time, a.null_time, 20 * h + 1e-13);
+  }
+}
+
+// Sampled finely, a geodesic's keys make its path.
+TEST(AcceleratedPath, FollowsAGeodesicThroughItsKeys) {
+  const Geodesic fall = fall_from_rest(8, 2);
+  std::vector<PathKey> keys;
+  const double end = 0.98 * fall.death();
+  for (int k = 0; k <= 400; ++k) {
+    const double tau = end * k / 400;
+    const OrbitPoint p = fall.at(tau);
+    keys.push_back({tau, p.r, p.azimuth, radial_speed_of(p), p.celerity.z / p.r});
+  }
+  const AcceleratedPath path(keys);
+  for (double tau = 0.05; tau < end; tau += 0.37) {
+    const OrbitPoint p = path.at(tau), q = fall.at(tau);
+    EXPECT_NEAR(p.r, q.r, 1e-6);
+    EXPECT_NEAR(p.null_time, q.null_time, 1e-4);
+    EXPECT_NEAR(energy_of(p), fall.energy(), 1e-3) << tau;
+  }
+}
+
+TEST(AcceleratedPath, RisesOutOfRegionFourInTheOutgoingTetrad) {
+  const AcceleratedPath path({{0, 0.5, 0}, {2, 1.8, 0}, {8, 5, 0.2, 0.0}}, Tetrad::kOutgoing);
+  EXPECT_EQ(path.at(0.1).region, Region::kIV);
+  EXPECT_EQ(path.at(7).region, Region::kI);
+  EXPECT_NEAR(path.at(8).celerity.x, resting_celerity(5, Tetrad::kOutgoing).x, 0.01);
+  const AcceleratedPath mirror({{0, 0.5, 0}, {2, 1.8, 0}, {8, 5, 0.2, 0.0}},
+                               Tetrad::kOutgoingToThree);
+  EXPECT_EQ(mirror.at(7).region, Region::kIII);
+  EXPECT_EQ(mirror.at(7).celerity, path.at(7).celerity);
+  for (double tau = 0; tau <= 8; tau += 0.1)
+    EXPECT_TRUE(has_tetrad(mirror.at(tau).region, mirror.at(tau).tetrad));
+}
+
+TEST(AcceleratedPath, DoesNotOvershootItsKeys) {
+  const AcceleratedPath path({{0, 10, 0}, {1, 10, 0}, {2, 3, 1}, {3, 3, 1}, {20, 9, 1.1}});
+  for (double tau = 0; tau <= 20; tau += 0.01) {
+    EXPECT_LE(path.at(tau).r, 10);
+    EXPECT_GE(path.at(tau).r, 3);
+  }
+  EXPECT_EQ(path.at(2.5).r, 3);
+}
+
+TEST(AcceleratedPath, TimeAtFindsEveryPassage) {
+  const AcceleratedPath path({{0, 10, 0}, {10, 4, 0}, {20, 8, 0}, {30, 5, 0}});
+  const double down = path.time_at(6, Leg::kInward).value();
+  const double up = path.time_at(6, Leg::kOutward).value();
+  const double again = path.time_at(6, Leg::kInward, down + 1).value();
+  EXPECT_LT(down, up);
+  EXPECT_LT(up, again);
+  for (const double tau : {down, up, again}) EXPECT_NEAR(path.at(tau).r, 6, 1e-14);
+  EXPECT_FALSE(path.time_at(3.9, Leg::kInward));
+  EXPECT_FALSE(path.time_at(6, Leg::kOutward, 21));
+  EXPECT_EQ(path.time_at(4, Leg::kInward).value(), 10);
+}
+
+TEST(AcceleratedPath, EndsWhereItsKeysEnd) {
+  EXPECT_THROW(descent().at(61), std::domain_error);
+  EXPECT_THROW(descent().at(std::nan("")), std::domain_error);
+  EXPECT_EQ(descent().begin(), 0);
+  EXPECT_EQ(descent().end(), 60);
+  EXPECT_EQ(point_at(Trajectory(descent()), 60).r, descent().at(60).r);
+}
+
+TEST(AcceleratedPath, RefusesWhatCannotBeFlown) {
+  const auto refusal = [](const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain) {
+    try {
+      const AcceleratedPath path(keys, tetrad);
+    } catch (const std::domain_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal({{0, 10, 0}}), HasSubstr("at least 2 keys"));
+  EXPECT_THAT(refusal({{0, 10, 0}, {0, 9, 0}}), HasSubstr("key 2, at proper time 0"));
+  EXPECT_THAT(refusal({{0, 10, 0}, {1, -1, 0}}), HasSubstr("r must exceed 0 (units of M), got -1"));
+  EXPECT_THAT(refusal({{0, 10, 0}, {1, std::nan(""), 0}}), HasSubstr("got nan"));
+  EXPECT_THAT(
+      refusal({{0, 3, 0}, {5, 1.5, 0}, {10, 1.5, 0}}),
+      HasSubstr("key 1, at proper time 5 (units of M): after it, at r = 1.5, nothing stops"));
+  EXPECT_THAT(refusal({{0, 1.5, 0}, {100, 1.0, 0}}), HasSubstr("faster than light"));
+  EXPECT_THAT(refusal({{0, 1.5, 0}, {0.3, 1.0, 9}}), HasSubstr("faster than light"));
+  EXPECT_THAT(refusal({{0, 1.5, 0}, {0.3, 1.0, 0}}, Tetrad::kOutgoing),
+              HasSubstr("nothing stops rising in region IV"));
+  EXPECT_THAT(refusal({{0, 5, 0, -50.0}, {10, 5, 0}}), HasSubstr("singularity"));
+  EXPECT_THAT(refusal({{0, 5, 0, std::nan("")}, {10, 5, 0}}), HasSubstr("key 1"));
+}
+
+}  // namespace
+}  // namespace domefall
