@@ -19,11 +19,11 @@
 namespace domefall {
 
 struct PathKey {
-  double tau = 0;                      // units of M, growing from key to key
-  double r = 0;                        // units of M, > 0
-  double azimuth = 0;                  // radians; may go back
-  std::optional<double> radial_rate;   // dr/dtau
-  std::optional<double> azimuth_rate;  // dphi/dtau, radians per M
+  double tau = 0;                                     // units of M, growing from key to key
+  double r = 0;                                       // units of M, > 0
+  double azimuth = 0;                                 // radians; may go back
+  std::optional<double> radial_rate = std::nullopt;   // dr/dtau
+  std::optional<double> azimuth_rate = std::nullopt;  // dphi/dtau, radians per M
 };
 
 class AcceleratedPath {

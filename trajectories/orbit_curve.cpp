@@ -89,8 +89,8 @@ OrbitCurve::Point OrbitCurve::returning_at(double s) const {
   const double sine = std::sinh(s), cosine = std::cosh(s), wa = 1 / far_;
   const double r = far_ / square(cosine), l2 = square(constants_.angular_momentum);
   const double fallen = wa * square(sine), w = wa + fallen;
-  const double g =
-      far_ <= 6 ? excess_ + l2 * fallen * (2 * w + 4 * wa - 1) : excess_ + 2 * l2 * square(w - w_);
+  const double g = far_ <= 6 ? excess_ + l2 * fallen * (2 * fallen + (6 - far_) / far_)
+                             : excess_ + 2 * l2 * square(w - w_);
   const double root = std::sqrt(wa * g);
   return {r, -sine * root, 2 * r / (cosine * root)};
 }

@@ -9,6 +9,9 @@
 namespace domefall {
 namespace {
 
+// A difference of terms of about 1 that is less is taken from the roots.
+constexpr double kCancels = 0.01;
+
 // The zero of f in (low, high], of a function that changes its sign there; high if it does not.
 template <class Function>
 double zero(const Function& f, double low, double high) {
@@ -44,9 +47,10 @@ struct State {
 
 double outward_sign(double speed) { return speed > 0 ? 1 : -1; }
 
-OrbitStart unturned(const State& state, double w_b, double excess) {
+OrbitStart unturned(const State& state, double w_b, double over) {
   const bool escaping = state.speed > 0;
-  OrbitStart start{OrbitCurve::unturned(state.c, escaping, w_b, std::max(excess, kLeastExcess)), 0};
+  const double excess = state.c.angular_momentum > 4 ? std::max(over, kLeastExcess) : kLeastExcess;
+  OrbitStart start{OrbitCurve::unturned(state.c, escaping, w_b, excess), 0};
   start.parameter = start.curve.parameter(1 / state.w, escaping);
   return start;
 }
@@ -66,7 +70,6 @@ double returning_excess(const State& state, double w, const Barrier* barrier, do
   const double l = state.c.angular_momentum;
   if (w >= 1.0 / 6) return 2 - 2 * l * l * w * (1 - 3 * w);
   const double least = 2 - l * l * (1 - 2 * w) * (1 + 6 * w) / 8;
-  constexpr double kCancels = 0.01;
   if (barrier == nullptr || least > kCancels) return least;
   const double off = l * (barrier->w - (1 - 2 * w) / 4);
   return over / (barrier->w - w) - 2 * off * off;
@@ -82,9 +85,10 @@ OrbitStart turned_inside(const State& state, double over_two, const BarrierRoots
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
   const double risen =
       state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, std::max(state.w - barrier.w, 0.0));
-  // w3 - w1, of the third root w1 = w_b - spread + below - above.
+  // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below - above.
+  const double w = state.w - risen, plain = 2 - 2 * l * l * w * (1 - 3 * w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
-  return returning(state, over_two, risen, 2 * l * l * to_third * gap);
+  return returning(state, over_two, risen, plain > kCancels ? plain : 2 * l * l * to_third * gap);
 }
 
 OrbitStart turned_outside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "trajectories/orbit_bounds.h"
 
 namespace domefall {
 namespace {
@@ -10,12 +14,12 @@ namespace {
 constexpr int kDepth = 60;  // halvings of a panel
 constexpr std::size_t kMostPanels = 4000;
 constexpr double kWidest = 1;  // of a parameter in which tau grows like exp(3s)
+constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr int kNewtonSteps = 80;
 
 // The integrand's noise is its slope times this rounding of the parameter.
 double rounding_of(double low, double high) {
-  constexpr double kUnits = 8;
-  return kUnits * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+  return kNoise * std::max(std::abs(low), std::abs(high));
 }
 
 // The greatest slope between nodes over the greatest value.
@@ -44,39 +48,46 @@ OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, doub
 }
 
 // dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each the
-// form that is regular at r = 2 where the motion crosses it.
-OrbitTable::Sums OrbitTable::rates(double s, bool ingoing) const {
+// form that does not cancel, and is regular at r = 2 where the motion crosses it.  What is left to cancel
+// is r - 2 where the motion leaves the other horizon.
+OrbitTable::Sums OrbitTable::rates(double s, bool ingoing, double& noise) const {
   const OrbitCurve::Point p = curve_.at(s);
   const double e = curve_.constants().energy, l = curve_.constants().angular_momentum / p.r;
   const double inward = ingoing ? -p.radial_speed : p.radial_speed;
-  const double null_rate = e == 0        ? 0
-                           : inward >= 0 ? (1 + l * l) / (e + inward)
-                                         : (e - inward) / (1 - 2 / p.r);
+  const bool cancels = -inward > e / 2;
+  if (cancels) noise = std::max(noise, kNoise / std::abs(1 - 2 / p.r));
+  const double null_rate = e == 0    ? 0
+                           : cancels ? (e - inward) / (1 - 2 / p.r)
+                                     : (1 + l * l) / (e + inward);
   return {p.rate, p.rate * l / p.r, p.rate * null_rate};
 }
 
 bool OrbitTable::fill(Panel& panel) const {
   PanelValues tau{}, azimuth{}, null_time{};
   const double middle = (panel.low + panel.high) / 2, half = (panel.high - panel.low) / 2;
+  double null_noise = 0;
   for (std::size_t j = 0; j < kPanelTerms; ++j) {
-    const Sums rate = rates(middle + half * panel_node(j), middle > turn_);
+    const Sums rate = rates(middle + half * panel_node(j), middle > turn_, null_noise);
     tau[j] = rate.tau, azimuth[j] = rate.azimuth, null_time[j] = rate.null_time;
   }
   const double unit = rounding_of(panel.low, panel.high) / half;
-  const auto integrated = [&](const PanelValues& values, PanelIntegral& integral) {
-    return integrate_panel(values, half, tolerance_ + unit * steepness(values), integral);
+  const auto integrated = [&](const PanelValues& values, double noise, PanelIntegral& integral) {
+    return integrate_panel(values, half, tolerance_ + noise + unit * steepness(values), integral);
   };
-  const bool a = integrated(tau, panel.tau), b = integrated(azimuth, panel.azimuth);
-  return integrated(null_time, panel.null_time) && a && b;
+  const bool a = integrated(tau, 0, panel.tau), b = integrated(azimuth, 0, panel.azimuth);
+  return integrated(null_time, null_noise, panel.null_time) && a && b;
 }
 
 void OrbitTable::append(double low, double high, int depth) {
   Panel panel;
   panel.low = low, panel.high = high;
+  if (panels_.size() > kMostPanels)
+    throw std::runtime_error(
+        "an orbit of energy " + bound_text(curve_.constants().energy) + " and angular momentum " +
+        bound_text(curve_.constants().angular_momentum) + " takes too many panels");
   const double middle = (low + high) / 2;
   const bool wide = curve_.kind() != OrbitCurve::Kind::kBound && high - low > kWidest;
-  const bool splits =
-      depth < kDepth && panels_.size() < kMostPanels && middle > low && middle < high;
+  const bool splits = depth < kDepth && middle > low && middle < high;
   if ((fill(panel) && !wide) || !splits) {
     panels_.push_back(panel);
     return;

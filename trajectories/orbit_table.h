@@ -16,6 +16,7 @@ class OrbitTable {
   // All three are 0 at the parameter `origin`.  Up to `turn` the null time is u = t - r*, from there
   // on v = t + r*, of one t: v - u = 2 r* there.  turn = -infinity: v throughout; infinity: u.
   // Of E = 0 the null time is left 0: it is not finite at the turn.
+  // Throws std::runtime_error if the panels become too many, which no orbit has been seen to do.
   // tolerance: of the integrands, relative to the largest of their panel.
   OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance);
 
@@ -36,7 +37,7 @@ class OrbitTable {
     PanelIntegral tau, azimuth, null_time;  // what is added since
   };
 
-  Sums rates(double s, bool ingoing) const;
+  Sums rates(double s, bool ingoing, double& noise) const;
   bool fill(Panel& panel) const;
   void append(double low, double high, int depth);
   void sum_up(double origin, double turn);

@@ -48,7 +48,7 @@ TEST(AcceleratedPath, ItsStatesMoveAsItsPlacesDo) {
 }
 
 TEST(AcceleratedPath, APathOverTheHorizonIsSmoothThere) {
-  const AcceleratedPath path({{0, 6, 0}, {4, 3, 0.5}, {7, 1, 0.8}});
+  const AcceleratedPath path({{0, 6, 0}, {4, 3, 0.3}, {5.2, 1, 0.35}});
   const double horizon = path.time_at(2, Leg::kInward).value();
   EXPECT_EQ(path.at(horizon - 1e-3).region, Region::kI);
   EXPECT_EQ(path.at(horizon + 1e-3).region, Region::kII);
@@ -80,11 +80,12 @@ TEST(AcceleratedPath, FollowsAGeodesicThroughItsKeys) {
 }
 
 TEST(AcceleratedPath, RisesOutOfRegionFourInTheOutgoingTetrad) {
-  const AcceleratedPath path({{0, 0.5, 0}, {2, 1.8, 0}, {8, 5, 0.2, 0.0}}, Tetrad::kOutgoing);
+  const AcceleratedPath path({{0, 0.5, 0}, {0.6, 1.8, 0}, {3, 4, 0.1}, {8, 5, 0.2, 0.0}},
+                             Tetrad::kOutgoing);
   EXPECT_EQ(path.at(0.1).region, Region::kIV);
   EXPECT_EQ(path.at(7).region, Region::kI);
   EXPECT_NEAR(path.at(8).celerity.x, resting_celerity(5, Tetrad::kOutgoing).x, 0.01);
-  const AcceleratedPath mirror({{0, 0.5, 0}, {2, 1.8, 0}, {8, 5, 0.2, 0.0}},
+  const AcceleratedPath mirror({{0, 0.5, 0}, {0.6, 1.8, 0}, {3, 4, 0.1}, {8, 5, 0.2, 0.0}},
                                Tetrad::kOutgoingToThree);
   EXPECT_EQ(mirror.at(7).region, Region::kIII);
   EXPECT_EQ(mirror.at(7).celerity, path.at(7).celerity);
@@ -135,9 +136,11 @@ TEST(AcceleratedPath, RefusesWhatCannotBeFlown) {
   EXPECT_THAT(refusal({{0, 10, 0}, {0, 9, 0}}), HasSubstr("key 2, at proper time 0"));
   EXPECT_THAT(refusal({{0, 10, 0}, {1, -1, 0}}), HasSubstr("r must exceed 0 (units of M), got -1"));
   EXPECT_THAT(refusal({{0, 10, 0}, {1, std::nan(""), 0}}), HasSubstr("got nan"));
-  EXPECT_THAT(
-      refusal({{0, 3, 0}, {5, 1.5, 0}, {10, 1.5, 0}}),
-      HasSubstr("key 1, at proper time 5 (units of M): after it, at r = 1.5, nothing stops"));
+  EXPECT_THAT(refusal({{0, 1.5, 0}, {0.6, 1.0, 0}, {0.7, 1.0, 0}}),
+              HasSubstr("(units of M): after it, at r = 1"));
+  EXPECT_THAT(refusal({{0, 1.5, 0, 0.1}, {0.3, 1.0, 0}}),
+              HasSubstr("key 1, at proper time 0 (units of M): after it, at r = 1.5, nothing stops "
+                        "falling inside the hole"));
   EXPECT_THAT(refusal({{0, 1.5, 0}, {100, 1.0, 0}}), HasSubstr("faster than light"));
   EXPECT_THAT(refusal({{0, 1.5, 0}, {0.3, 1.0, 9}}), HasSubstr("faster than light"));
   EXPECT_THAT(refusal({{0, 1.5, 0}, {0.3, 1.0, 0}}, Tetrad::kOutgoing),
