@@ -192,31 +192,6 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const 
   gravitational_ratio_ = gravitational_ratio(state.observer.r);
 }
 
-double ViewTracer::measured_ratio(const CameraDirection& n) const {
-  return to_measured_->to_rest(apply(tetrad_from_camera_, n.v)).frequency_ratio;
-}
-
-Look ViewTracer::look(const CameraDirection& n) const {
-  Look look = to_rest_ ? straight_look(n) : bent_look(n);
-  if (to_measured_ && look.known && look.sky != SeenSky::kFour)
-    look.frequency_ratio *= measured_ratio(n);
-  return look;
-}
-
-// Light near a hole that keeps to the straight lines of the observer at rest.
-Look ViewTracer::straight_look(const CameraDirection& n) const {
-  const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
-  const AberratedLight rest = to_rest_->to_rest(in.direction);
-  const double doppler = 1 / (in.frequency_ratio * rest.frequency_ratio);
-  Look look;
-  look.sky = home_;
-  look.known = true;
-  look.sky_direction = apply(sky_from_tetrad_, rest.direction);
-  look.frequency_ratio = gravitational_ratio_ * doppler;
-  look.radial_scale = look.tangential_scale = look.bundle.doppler = doppler;
-  return look;
-}
-
 Look ViewTracer::bent_look(const CameraDirection& n) const {
   const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
   Look look;
@@ -272,28 +247,6 @@ Look ViewTracer::bent_look(const CameraDirection& n) const {
   look.radial_scale = slope / in.frequency_ratio;
   look.tangential_scale = std::abs(across) / in.frequency_ratio;
   return look;
-}
-
-void ViewTracer::straight_looks(const CameraDirection* n, int count, LookBatch& batch) const {
-  for (int k = 0; k < count; ++k) {
-    const Look look = straight_look(n[k]);
-    const V3d& sky = look.sky_direction;
-    batch.sky[k] = look.sky;
-    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
-    batch.frequency_ratio[k] = look.frequency_ratio;
-    batch.radial_scale[k] = batch.tangential_scale[k] = look.radial_scale;
-    batch.to_edge[k] = look.to_edge;
-  }
-}
-
-void ViewTracer::look(const CameraDirection* n, int count, LookBatch& batch) const {
-  if (to_rest_)
-    straight_looks(n, count, batch);
-  else
-    bent_looks(n, count, batch);
-  if (!to_measured_) return;
-  for (int k = 0; k < count; ++k)
-    if (batch.sky[k] != SeenSky::kFour) batch.frequency_ratio[k] *= measured_ratio(n[k]);
 }
 
 void ViewTracer::bent_looks(const CameraDirection* n, int count, LookBatch& batch) const {

@@ -299,6 +299,32 @@ TEST(Effects, WithoutLensingMotionIsThatAgainstTheObserverAtRest) {
   }
 }
 
+// What is looked at stands in the middle, wherever the effects that are left put it.
+TEST(Effects, CamerasFindTheirTargetWhereItIsDrawn) {
+  const SkyDirection target{V3d(0.6, -0.64, 0.48)};
+  for (const Trajectory& t : observers())
+    for (const Effects& effects : settings(is_outside(t))) {
+      if (point_at(t, 0).region == Region::kIV) continue;  // sees no sky
+      Show show = show_of(t, Stereographic{64, 48, 1});
+      show.effects = effects;
+      show.timeline[0].camera.attitude = LookAtSky{target};
+      const Look look = Traced(show).tracer.look({V3d(0, 0, 1)});
+      const double scale = 1 + look.radial_scale + look.tangential_scale;
+      EXPECT_LT((look.sky_direction - target.v).length(), 1e-8 * scale);
+    }
+}
+
+TEST(Effects, WithoutAberrationMotionIsStillAhead) {
+  Show show = show_of(CircularOrbit{6}, Stereographic{64, 48, 1});
+  show.effects = {false, true, true, false, Amplification::kStars};
+  show.timeline[0].camera.attitude = LookAlongMotion{};
+  const Traced traced(show);
+  const Look look = traced.tracer.look({V3d(0, 0, 1)});
+  const V3d along_phi = apply(traced.state.observer.sky_from_tetrad, V3d(0, 0, 1));
+  EXPECT_LT((look.sky_direction - along_phi).length(), 1e-14);
+  EXPECT_NEAR(look.frequency_ratio, std::sqrt(6 / 4.0) * std::sqrt(3), 1e-14);
+}
+
 // ---- stars ----
 
 std::vector<StarBlob> blobs_of(const Show& show, const V3d& sky) {
