@@ -8,8 +8,9 @@ namespace {
 
 // What stays at its radius.
 template <class Kind>
-constexpr bool kStays = std::is_same_v<Kind, StaticObserver> ||
-                        std::is_same_v<Kind, CircularOrbit> || std::is_same_v<Kind, GivenVelocity>;
+constexpr bool kStays =
+    std::is_same_v<Kind, StaticObserver> || std::is_same_v<Kind, CircularOrbit> ||
+    std::is_same_v<Kind, GivenVelocity> || std::is_same_v<Kind, SpeedRamp>;
 
 // To a few parts in 1e5 of the path's extent.
 std::pair<double, double> reach_of(const AcceleratedPath& path) {
@@ -54,7 +55,9 @@ std::pair<double, double> reach(const Trajectory& trajectory) {
   return std::visit(
       [](const auto& kind) -> std::pair<double, double> {
         using Kind = std::decay_t<decltype(kind)>;
-        if constexpr (kStays<Kind>)
+        if constexpr (std::is_same_v<Kind, SpeedRamp>)
+          return {kind.frame.r, kind.frame.r};
+        else if constexpr (kStays<Kind>)
           return {kind.r, kind.r};
         else if constexpr (std::is_same_v<Kind, RadialInfall>)
           return {0, kind.from_r};

@@ -10,12 +10,13 @@
 #include "trajectories/given_velocity.h"
 #include "trajectories/orbit_point.h"
 #include "trajectories/radial_infall.h"
+#include "trajectories/speed_ramp.h"
 #include "trajectories/static_observer.h"
 
 namespace domefall {
 
 using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
-                                Geodesic, AcceleratedPath>;
+                                SpeedRamp, Geodesic, AcceleratedPath>;
 
 // The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
 // tau must be in [0, lifetime), of a geodesic in (birth, death), of a path on it.

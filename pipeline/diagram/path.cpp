@@ -240,6 +240,7 @@ struct KindName {
   std::string operator()(const CircularOrbit&) const { return "circular"; }
   std::string operator()(const RadialInfall&) const { return "infall"; }
   std::string operator()(const GivenVelocity&) const { return "velocity"; }
+  std::string operator()(const SpeedRamp&) const { return "velocity"; }
   std::string operator()(const AcceleratedPath&) const { return "keyframes"; }
   template <class Other>
   std::string operator()(const Other&) const {

@@ -66,7 +66,7 @@ inline constexpr std::size_t kChannels = 12;
 
 struct Segment {
   std::string type = "static";  // of its trajectory, in the words of show files
-  double duration_s = 0;  // show seconds, > 0
+  double duration_s = 0;        // show seconds, > 0
   // Its first seconds lie over the last ones of the segment before; both are seen, the one fading
   // into the other.
   double dissolve_s = 0;

@@ -117,7 +117,8 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
-  const Section s(item, {"type", "r", "region", "speed", "lorentz_factor", "against", "direction"});
+  const Section s(
+      item, {"type", "r", "region", "speed", "lorentz_factor", "against", "direction", "pace"});
   GivenVelocity observer;
   if (stage.mass_solar) {
     const auto frame = read_frame(s);
@@ -128,10 +129,9 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
       if (const Item* given = s.find(key))
         given->fail("needs a black hole; in flat space leave it out");
   }
-  const auto celerity = read_celerity(s, stage, observer, lookup);
-  if (!celerity) return std::nullopt;
-  observer.celerity = *celerity;
-  return TimedTrajectory{observer, {0, proper_time_in(stage, stage.duration_s)}, {}};
+  const auto trajectory = read_velocity_trajectory(s, stage, observer, lookup);
+  if (!trajectory) return std::nullopt;
+  return timed(s, *trajectory, Rate{proper_time_in(stage, stage.duration_s)}, false);
 }
 
 // What the segment before did goes on.

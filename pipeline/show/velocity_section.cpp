@@ -10,18 +10,44 @@
 namespace domefall {
 namespace {
 
-constexpr double kNearest = 1e-6, kFarthest = 1e9;  // units of M
 constexpr double kMostLorentzFactor = 1e9;
 
+constexpr Range kFactors = kPureNumber.within(1, kMostLorentzFactor);
+constexpr Range kSpeeds = Range{"speed of light = 1"}.at_least(0).below(1);
+
 // gamma v: a speed in double precision would not hold a Lorentz factor of 1e9.
+double gamma_v_of_factor(double factor) { return std::sqrt((factor - 1) * (factor + 1)); }
+double gamma_v_of_speed(double v) { return v / std::sqrt((1 - v) * (1 + v)); }
+
 std::optional<double> read_gamma_v(const Section& s) {
   s.one_of({"speed", "lorentz_factor"});
   if (s.find("lorentz_factor")) {
-    const auto factor = s.number("lorentz_factor", kPureNumber.within(1, kMostLorentzFactor));
-    return factor ? std::optional(std::sqrt((*factor - 1) * (*factor + 1))) : std::nullopt;
+    const auto factor = s.number("lorentz_factor", kFactors);
+    return factor ? std::optional(gamma_v_of_factor(*factor)) : std::nullopt;
   }
-  const auto v = s.required_number("speed", Range{"speed of light = 1"}.at_least(0).below(1));
-  return v ? std::optional(*v / std::sqrt((1 - *v) * (1 + *v))) : std::nullopt;
+  const auto v = s.required_number("speed", kSpeeds);
+  return v ? std::optional(gamma_v_of_speed(*v)) : std::nullopt;
+}
+
+const Item* two_speeds(const Section& s) {
+  for (const char* key : {"speed", "lorentz_factor"})
+    if (const Item* item = s.find(key); item && item->node.IsSequence()) return item;
+  return nullptr;
+}
+
+// Of what starts from rest in a direction, so that it has one.
+constexpr double kLeastRapidity = 1e-8;
+
+std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Item& item) {
+  const bool by_factor = &item == s.find("lorentz_factor");
+  const auto ends = read_numbers(item, 2, by_factor ? kFactors : kSpeeds);
+  if (!ends) return std::nullopt;
+  std::array<double, 2> rapidities{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double gamma_v = by_factor ? gamma_v_of_factor((*ends)[k]) : gamma_v_of_speed((*ends)[k]);
+    rapidities[k] = std::max(kLeastRapidity, std::asinh(gamma_v));
+  }
+  return rapidities;
 }
 
 std::optional<V3d> read_components(const Item& item) {
@@ -60,6 +86,12 @@ std::optional<V3d> read_direction(const Item& item, const Stage& stage, const Gi
     return std::nullopt;
   }
   return seen_towards(*place, stage, frame);
+}
+
+const Item* require_direction(const Section& s) {
+  return s.require(
+      "direction",
+      ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
 }
 
 enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
@@ -138,18 +170,28 @@ std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
                                      const GivenVelocity& frame, Lookup& lookup) {
   const auto gamma_v = read_gamma_v(s);
   if (gamma_v && *gamma_v == 0 && !s.find("direction")) return V3d(0, 0, 0);
-  const Item* item =
-      s.require("direction",
-                ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
+  const Item* item = require_direction(s);
   const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;
   if (!gamma_v || !direction) return std::nullopt;
   return *direction * *gamma_v;
 }
 
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
-                                 Lookup& lookup) {
+std::optional<Trajectory> read_velocity_trajectory(const Section& s, const Stage& stage,
+                                                   const GivenVelocity& frame, Lookup& lookup) {
+  if (const Item* speeds = two_speeds(s)) {
+    s.one_of({"speed", "lorentz_factor"});
+    const auto rapidities = read_rapidities(s, *speeds);
+    const Item* item = require_direction(s);
+    const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;
+    if (!rapidities || !direction) return std::nullopt;
+    return SpeedRamp{frame, *direction, (*rapidities)[0], (*rapidities)[1],
+                     proper_time_in(stage, stage.duration_s)};
+  }
   const auto own = read_own_celerity(s, stage, frame, lookup);
-  return own ? std::optional(celerity_against(frame.celerity, *own)) : std::nullopt;
+  if (!own) return std::nullopt;
+  GivenVelocity held = frame;
+  held.celerity = celerity_against(frame.celerity, *own);
+  return held;
 }
 
 }  // namespace domefall

@@ -13,7 +13,10 @@ std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radiu
 // primary image), so that it lies dead ahead.
 std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
                                      const GivenVelocity& frame, Lookup& lookup);
-std::optional<V3d> read_celerity(const Section& s, const Stage& stage, const GivenVelocity& frame,
-                                 Lookup& lookup);
+
+// The same of an instant held, or, of two speeds, of what goes evenly from the one to the other in the
+// segment: against frame.tetrad.
+std::optional<Trajectory> read_velocity_trajectory(const Section& s, const Stage& stage,
+                                                   const GivenVelocity& frame, Lookup& lookup);
 
 }  // namespace domefall
