@@ -29,7 +29,8 @@
 //
 // Proper time, azimuth and null time are quadratures made once by the factory (below 1 ms); a copy shares
 // them.  at() takes 1 to 2 microseconds.  Beyond r = 1e30 M nothing is tabulated, and where tau leaves
-// (birth, death) or that table at() throws std::domain_error.
+// (birth, death) or that table at() throws std::domain_error; so do all factories of an orbit of E, L or a
+// periastron beyond 1e15.
 #pragma once
 
 #include <limits>

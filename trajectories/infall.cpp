@@ -14,6 +14,8 @@ namespace {
 using Kind = OrbitCurve::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of gamma: an energy below it is what rounding leaves of 0.
+constexpr double kNoEnergy = 1e-14;
 const char* const kUnitsOfM = "units of M";
 
 // In rain from the throw on.
@@ -24,7 +26,7 @@ double turn_of(const OrbitStart& start) {
 }
 
 Geodesic geodesic_through(const OrbitConstants& constants, double r, double speed) {
-  const OrbitStart start = orbit_through(constants, r, r - 2, speed);
+  const OrbitStart start = orbit_through(constants, r, speed);
   return {start.curve, start.parameter, turn_of(start)};
 }
 
@@ -97,7 +99,8 @@ Geodesic thrown_from_rain(double r, double radial, double tangential) {
   require_above("r", kUnitsOfM, r, 0, "the singularity is there");
   require_celerity(radial, tangential);
   const double s = std::sqrt(2 / r), gamma = std::hypot(1, std::hypot(radial, tangential));
-  const double energy = gamma - s * radial;
+  const double exact = gamma - s * radial;
+  const double energy = std::abs(exact) < kNoEnergy * gamma ? 0 : exact;
   const OrbitConstants constants{std::abs(energy), (energy - 1) * (energy + 1), r * tangential};
   const Geodesic thrown = geodesic_through(constants, r, radial - s * gamma);
   return energy < 0 ? mirrored(thrown) : thrown;

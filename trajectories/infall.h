@@ -25,7 +25,7 @@ double fall_bound(double from_r);
 Geodesic thrown_outside(double r, double radial, double tangential);
 // Thrown at r > 0, inside the hole or out, with that celerity against the rain.  tau = 0 at r.  If its
 // energy is negative it moves towards region III: it is that geodesic of positive energy mirrored, given
-// in the rain tetrad of III.
+// in the rain tetrad of III.  An energy below 1e-14 gamma is 0.
 Geodesic thrown_from_rain(double r, double radial, double tangential);
 
 }  // namespace domefall

@@ -19,7 +19,7 @@ Geodesic kruskal_crossing(double energy, double angular_momentum) {
                      "closer to 0 it is 0 in double precision");
   require_at_least("angular_momentum", "units of M", angular_momentum, 0, "it is a size");
   const OrbitConstants constants{energy, (energy - 1) * (energy + 1), angular_momentum};
-  const OrbitStart start = orbit_through(constants, 2, 0, energy);
+  const OrbitStart start = orbit_through(constants, 2, energy);
   if (start.curve.kind() == OrbitCurve::Kind::kReturning) return {start.curve, 0, 0};
   return {start.curve, start.parameter, std::numeric_limits<double>::infinity()};
 }

@@ -56,12 +56,12 @@ OrbitStart unturned(const State& state, double w_b, double over) {
 }
 
 // Falls from an apoastron `risen` in w above the state; `excess` as OrbitCurve::returning wants it.
-OrbitStart returning(const State& state, double over_two, double risen, double excess) {
-  const bool apex = state.c.energy == 0;
-  const double w = apex ? 0.5 : state.w - risen;
-  // 1/2 - w = (1/2 - w_state) + risen.
-  const double above = apex ? 0 : (over_two * state.w / 2 + risen) / w * 2;
-  return {OrbitCurve::returning(state.c, apex ? 2 : 1 / w, above, std::max(excess, kLeastExcess)),
+// E^2 = (1 - 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
+OrbitStart returning(const State& state, double risen, double excess) {
+  const double w = state.c.energy == 0 ? 0.5 : state.w - risen;
+  const double lw = state.c.angular_momentum * w;
+  const double over_two = state.c.energy * state.c.energy / (w * (1 + lw * lw));
+  return {OrbitCurve::returning(state.c, 1 / w, over_two, std::max(excess, kLeastExcess)),
           -outward_sign(state.speed) * std::asinh(std::sqrt(risen / w))};
 }
 
@@ -75,20 +75,19 @@ double returning_excess(const State& state, double w, const Barrier* barrier, do
   return over / (barrier->w - w) - 2 * off * off;
 }
 
-OrbitStart falling(const State& state, double over_two, const Barrier* barrier, double over) {
+OrbitStart falling(const State& state, const Barrier* barrier, double over) {
   const double risen = state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, state.w);
-  return returning(state, over_two, risen, returning_excess(state, state.w - risen, barrier, over));
+  return returning(state, risen, returning_excess(state, state.w - risen, barrier, over));
 }
 
-OrbitStart turned_inside(const State& state, double over_two, const BarrierRoots& beside,
-                         const Barrier& barrier) {
+OrbitStart turned_inside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
   const double risen =
       state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, std::max(state.w - barrier.w, 0.0));
   // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below - above.
   const double w = state.w - risen, plain = 2 - 2 * l * l * w * (1 - 3 * w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
-  return returning(state, over_two, risen, plain > kCancels ? plain : 2 * l * l * to_third * gap);
+  return returning(state, risen, plain > kCancels ? plain : 2 * l * l * to_third * gap);
 }
 
 OrbitStart turned_outside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
@@ -131,18 +130,17 @@ OrbitCurve scattered_orbit(const OrbitConstants& constants, double depth) {
                                std::max(beside.below + beside.above, kLeastExcess));
 }
 
-OrbitStart orbit_through(const OrbitConstants& constants, double r, double over_two, double speed) {
+OrbitStart orbit_through(const OrbitConstants& constants, double r, double speed) {
   const State state{constants, 1 / r, speed};
   const double l = constants.angular_momentum;
   const bool unbound = constants.excess_energy >= 0;
-  if (l * l <= 12) return unbound ? unturned(state, 0.25, 0) : falling(state, over_two, nullptr, 0);
+  if (l * l <= 12) return unbound ? unturned(state, 0.25, 0) : falling(state, nullptr, 0);
   const Barrier barrier = barrier_of(l);
   const double off = l * (state.w - barrier.w);
   const double over = speed * speed - 2 * off * off * (state.w - barrier.w + barrier.spread);
-  if (over > 0)
-    return unbound ? unturned(state, barrier.w, over) : falling(state, over_two, &barrier, over);
+  if (over > 0) return unbound ? unturned(state, barrier.w, over) : falling(state, &barrier, over);
   const BarrierRoots beside = roots_beside(barrier, l, -over);
-  if (state.w >= barrier.w) return turned_inside(state, over_two, beside, barrier);
+  if (state.w >= barrier.w) return turned_inside(state, beside, barrier);
   return turned_outside(state, beside, barrier);
 }
 

@@ -6,7 +6,7 @@
 namespace domefall {
 
 // The unstable circular orbit of an angular momentum, at the top of the potential
-// V = (1 - 2w)(1 + L^2 w^2), w = 1/r: E^2 - V = P(w) = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + 2q... ).
+// V = (1 - 2w)(1 + L^2 w^2), w = 1/r, where E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + spread).
 struct Barrier {
   double w;       // of its radius; 1/6 to 1/3
   double spread;  // 3w - 1/2 = sqrt(1 - 12/L^2)/2: from w to the third root of the top's cubic
@@ -28,9 +28,8 @@ struct OrbitStart {
   double parameter;
 };
 
-// The geodesic through r with the radial velocity dr/dtau = speed; `over_two` = r - 2.  Outside the
-// hole, or inside it with speed of either sign.
-OrbitStart orbit_through(const OrbitConstants& constants, double r, double over_two, double speed);
+// The geodesic through r with the radial velocity dr/dtau = speed, outside the hole or inside it.
+OrbitStart orbit_through(const OrbitConstants& constants, double r, double speed);
 
 // An orbit that would whirl longer than one of this excess is taken to have this one: rounding has long
 // decided what it does.

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kDepth = 60;  // halvings of a panel
 constexpr std::size_t kMostPanels = 4000;
-constexpr double kWidest = 1;  // of a parameter in which tau grows like exp(3s)
+constexpr double kMost = 1e15;  // squares are added to 1
+constexpr double kWidest = 1;   // of a parameter in which tau grows like exp(3s)
 constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr int kNewtonSteps = 80;
 
@@ -39,6 +40,12 @@ double tortoise(double r, double over_two) { return r + 2 * std::log(std::abs(ov
 
 OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance)
     : curve_(curve), turn_(turn), tolerance_(tolerance) {
+  const OrbitConstants& c = curve.constants();
+  if (!(c.energy < kMost && c.angular_momentum < kMost && curve.innermost() < kMost &&
+        curve.begin() <= origin && origin <= curve.end()))
+    throw std::domain_error(
+        "an orbit must have an energy, an angular momentum and a periastron below 1e15 (units of "
+        "M) and start between r = 1e-16 and 1e30");
   std::vector<double> cuts{curve.begin(), 0, origin, curve.end()};
   if (std::isfinite(turn)) cuts.push_back(turn);
   std::sort(cuts.begin(), cuts.end());

@@ -289,6 +289,30 @@ TEST(Geodesic, NegativeEnergyInsideComesFromRegionThree) {
   EXPECT_EQ(orbit.at(orbit.time_at(3, Leg::kInward).value()).region, Region::kIII);
 }
 
+// At rest in t inside, as rounding has it: the apex orbit.
+TEST(Geodesic, AtRestInTInsideHasNoEnergy) {
+  for (const double r : {0.3, 1.0, 1.9}) {
+    const Geodesic orbit = thrown_from_rain(r, resting_celerity(r).x, 0);
+    EXPECT_EQ(orbit.energy(), 0);
+    EXPECT_EQ(orbit.outermost(), 2);
+    EXPECT_NEAR(orbit.at(0).r, r, 1e-14);
+    EXPECT_NEAR(orbit.death() - orbit.birth(), 2 * pi, 1e-13);
+  }
+}
+
+// As little energy as can be told from none: the states stay finite, the switch of tetrads too.
+TEST(Geodesic, NearlyNoEnergyInsideIsNoTrouble) {
+  const double r = 1, rest = resting_celerity(r).x;
+  for (const double more : {1e-12, 1e-9, 1e-6, -1e-12, -1e-9, -1e-6}) {
+    const Geodesic orbit = thrown_from_rain(r, rest + more, 1e-3);
+    for (const double tau : instants(orbit)) {
+      const OrbitPoint p = orbit.at(tau);
+      EXPECT_TRUE(std::isfinite(p.null_time) && std::isfinite(gamma_of(p))) << more << ' ' << tau;
+      EXPECT_NEAR(energy_of(p), orbit.energy(), 1e-13 * gamma_of(p)) << more << ' ' << tau;
+    }
+  }
+}
+
 // Next to the horizon the rain's own speed against the static observer is all there is to see: celerities
 // of sqrt(2/(r - 2)) whose differences are the throw's.
 TEST(Geodesic, AThrowIsTheCelerityAskedFor) {
