@@ -224,8 +224,11 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
 
 std::string orbits(const Report& report, const std::vector<Figure>& plots) {
   std::string page =
-      "## Orbits\n\nStates along an orbit by its closed form and by integrating the geodesic "
-      "equation, against the same\nformulas with 50 digits. Time for a thousand states.\n\n"
+      "## Orbits\n\nStates along an orbit by its closed form, or the quadratures that stand for "
+      "one, and "
+      "by integrating the\ngeodesic equation, against formulas and quadratures with 50 digits. "
+      "Time "
+      "for a thousand states.\n\n"
       "| orbit | method | tolerance | r, relative | φ, radians | drift of E | of L | of u·u | s "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const OrbitErrorRow& r : report.orbits)
@@ -235,7 +238,8 @@ std::string orbits(const Report& report, const std::vector<Figure>& plots) {
             error(r.angular_momentum_drift) + " | " + error(r.norm_drift) + " | " +
             formatted("%.2g", r.seconds) + " |\n";
   page +=
-      "\n**Default: the closed form**, which is both the most exact and the quickest, and "
+      "\n**Default: the closed form, or the quadratures**, which is both the most exact and the "
+      "quickest, and "
       "makes any frame without\nthe ones before it. What it errs by at the end of the fall is the "
       "rounding of a proper time of 77 M, of which\n1e-5 M are left. An integrated circle with an "
       "error of about 1 in r has left the circle.\n\n";
