@@ -238,10 +238,10 @@ std::string orbits(const Report& report, const std::vector<Figure>& plots) {
             error(r.angular_momentum_drift) + " | " + error(r.norm_drift) + " | " +
             formatted("%.2g", r.seconds) + " |\n";
   page +=
-      "\n**Default: the closed form, or the quadratures**, which is both the most exact and the "
-      "quickest, and "
-      "makes any frame without\nthe ones before it. What it errs by at the end of the fall is the "
-      "rounding of a proper time of 77 M, of which\n1e-5 M are left. An integrated circle with an "
+      "\n**Default: the closed form, or the quadratures**, which are the most "
+      "exact, and make any frame\nwithout the ones before it. What they err by at the end of a "
+      "fall is the rounding of a proper time of 77 M,\nof which 1e-5 M are left (with angular "
+      "momentum 2e-9 M). An integrated circle with an "
       "error of about 1 in r has left the circle.\n\n";
   for (const Figure& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
