@@ -22,10 +22,10 @@ void print_states(const std::string& file, const std::string& frames, const std:
       " Theta, Phi;\n# ra_deg and dec_deg: the observer's place as seen from the hole; camera axes "
       "in the boosted"
       " (R, Theta, Phi)\n"
+      "# azimuth_deg: swept in the planes of its orbits since the start of the show\n"
       "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing\n"
       "frame,show_time_s,segment,region,tetrad,r,proper_time,celerity_r,celerity_theta,celerity_"
-      "phi,ra_"
-      "deg,dec_deg,"
+      "phi,ra_deg,dec_deg,azimuth_deg,"
       "x_r,x_theta,x_phi,y_r,y_theta,y_phi,z_r,z_theta,z_phi,null_time");
   for (const int n : chosen) {
     const FrameState s = frame_state(show, n);
@@ -34,9 +34,10 @@ void print_states(const std::string& file, const std::string& frames, const std:
     double ra = std::atan2(place.y, place.x) * 180 / std::numbers::pi;
     if (ra < 0) ra += 360;
     const double dec = std::atan2(place.z, std::hypot(place.x, place.y)) * 180 / std::numbers::pi;
-    std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g", n, s.show_time_s,
-                s.segment, region_name(o.region), tetrad_name(o.tetrad), o.r, o.proper_time,
-                o.celerity.x, o.celerity.y, o.celerity.z, ra, dec);
+    std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g,%.15g", n,
+                s.show_time_s, s.segment, region_name(o.region), tetrad_name(o.tetrad), o.r,
+                o.proper_time, o.celerity.x, o.celerity.y, o.celerity.z, ra, dec,
+                o.azimuth * 180 / std::numbers::pi);
     for (int k = 0; k < 3; ++k) {
       const V3d axis = column(o.tetrad_from_camera, k);
       std::printf(",%.17g,%.17g,%.17g", axis.x, axis.y, axis.z);
