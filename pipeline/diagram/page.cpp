@@ -9,8 +9,7 @@ constexpr double kWidth = 1400, kLeft = 80;
 
 std::string subtitle(const Show& show) {
   const int frames = frame_count(show);
-  double seconds = 0;
-  for (const Segment& s : show.timeline) seconds += s.duration_s;
+  const double seconds = segment_times(show).back();
   const std::string dot = "  \u00b7  ";
   std::string text = show.file.filename().string() + dot + number_text(seconds) + " s" + dot +
                      std::to_string(frames) + " frames at " + number_text(show.frames_per_second) +

@@ -5,23 +5,25 @@
 #include <numbers>
 #include <utility>
 
-#include "pipeline/show/frame_state.h"
+#include "pipeline/show/observer_track.h"
 #include "pipeline/show/placement.h"
 
 namespace domefall {
 namespace {
 
-// A show's length in ticks.  A power of two above any number of frames and below the greatest int.
+// A segment's length in ticks.
 constexpr int kTicks = 1 << 30;
 constexpr int kEvenly = 2000, kLeastOfSegment = 48;
 constexpr std::size_t kMostPoints = 100'000;
 constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
 
-double seconds_of(const Show& show) {
-  double sum = 0;
-  for (const Segment& s : show.timeline) sum += s.duration_s;
-  return sum;
-}
+// An instant of a segment.  Where segments dissolve, two of them show the same one.
+struct Tick {
+  int segment = 0, tick = 0;
+
+  bool operator==(const Tick&) const = default;
+  auto operator<=>(const Tick&) const = default;
+};
 
 // What a tick of a show is like.
 struct Instant {
@@ -30,28 +32,24 @@ struct Instant {
   double null_time = 0;
 };
 
-// Answers for instants between the frames: the same show at a frame rate of one frame per tick.  No
-// camera target is sought.
+// Answers for instants between the frames too.  No camera is asked where it looks.
 class Instants {
  public:
   explicit Instants(const Show& show)
       : show_(show),
         origin_(place_tetrad(show.hole_at, show.heading, 0)),
-        seconds_(seconds_of(show)) {
-    show_.frames_per_second = kTicks / seconds_;
-    for (Segment& s : show_.timeline) s.camera.attitude = EulerAngles{};
-  }
+        times_(segment_times(show)) {}
 
-  Instant at(int tick) const {
-    const FrameState state = frame_state(show_, tick);
-    const ObserverState& o = state.observer;
-    const Segment& segment = show_.timeline[static_cast<std::size_t>(state.segment)];
+  Instant at(const Tick& tick) const {
+    const Segment& segment = show_.timeline[static_cast<std::size_t>(tick.segment)];
+    const double part = static_cast<double>(tick.tick) / kTicks;
+    const ObserverState o = observer_at(show_, tick.segment, part);
     const V3d place = column(o.sky_from_tetrad, 0);
     Instant i;
     i.tetrad = o.tetrad;
     i.null_time = o.null_time;
-    i.point.time_s = state.show_time_s;
-    i.point.segment = state.segment;
+    i.point.time_s = times_[static_cast<std::size_t>(tick.segment)] + part * segment.duration_s;
+    i.point.segment = tick.segment;
     i.point.region = o.region;
     i.point.r = o.r;
     i.point.azimuth = std::atan2(place.dot(column(origin_, 2)), place.dot(column(origin_, 0)));
@@ -61,28 +59,25 @@ class Instants {
     return i;
   }
 
-  double seconds() const { return seconds_; }
-
-  int tick_at(double time_s) const {
-    return static_cast<int>(std::llround(std::clamp(time_s / seconds_, 0.0, 1.0) * kTicks));
+  double seconds() const { return times_.back(); }
+  int segments() const { return static_cast<int>(show_.timeline.size()); }
+  double part_of_show(int segment) const {
+    return show_.timeline[static_cast<std::size_t>(segment)].duration_s / seconds();
   }
 
-  // The first tick of each segment, and one behind the last.
-  std::vector<int> segment_starts() const {
-    std::vector<int> starts{0};
-    double end = 0;
-    for (const Segment& s : show_.timeline) {
-      end += s.duration_s;
-      starts.push_back(static_cast<int>(std::ceil(end / seconds_ * kTicks - 0.5)));
-    }
-    starts.back() = kTicks + 1;
-    return starts;
+  // Of the segment that a frame of that instant shows; of the later one while two dissolve.
+  Tick tick_at(double time_s) const {
+    const int segment = segment_at(show_, time_s);
+    return {segment, static_cast<int>(std::lround(part_at(show_, segment, time_s) * kTicks))};
   }
+
+  // Just before a segment's end, which is the start of the next, but for the last.
+  int last_tick(int segment) const { return segment + 1 < segments() ? kTicks - 1 : kTicks; }
 
  private:
-  Show show_;
+  const Show& show_;
   M33d origin_;
-  double seconds_;
+  std::vector<double> times_;
 };
 
 // ---- the origin of t ----
@@ -97,11 +92,12 @@ double killing_time(const Instant& i) {
 
 bool is_inside(Region region) { return region == Region::kII || region == Region::kIV; }
 
-// v or u at which a horizon is crossed between two ticks, one of them inside, by bisection.
-double crossing_time(const Instants& show, int a, int b) {
+// v or u at which a horizon is crossed between two ticks of a segment, one of them inside, by
+// bisection.
+double crossing_time(const Instants& show, Tick a, Tick b) {
   const Region before = show.at(a).point.region;
-  while (b - a > 1) {
-    const int middle = a + (b - a) / 2;
+  while (b.tick - a.tick > 1) {
+    const Tick middle{a.segment, a.tick + (b.tick - a.tick) / 2};
     (show.at(middle).point.region == before ? a : b) = middle;
   }
   const Instant inner = show.at(is_inside(before) ? a : b);
@@ -109,7 +105,7 @@ double crossing_time(const Instants& show, int a, int b) {
 }
 
 // The crossings of the first uncut run of segments that has any, in order.
-std::vector<double> first_crossings(const Instants& show, const std::vector<int>& ticks) {
+std::vector<double> first_crossings(const Instants& show, const std::vector<Tick>& ticks) {
   std::vector<double> times;
   Instant before = show.at(ticks[0]);
   for (std::size_t k = 1; k < ticks.size(); ++k) {
@@ -124,12 +120,12 @@ std::vector<double> first_crossings(const Instants& show, const std::vector<int>
   return times;
 }
 
-void choose_origin_of_time(const Instants& show, const std::vector<int>& ticks, Path& path) {
+void choose_origin_of_time(const Instants& show, const std::vector<Tick>& ticks, Path& path) {
   constexpr double kBothVisible = 16;  // U of one is e^4 times that of the other
   const std::vector<double> crossings = first_crossings(show, ticks);
   double centre = 0;
   if (crossings.empty()) {
-    centre = killing_time(show.at(kTicks / 2));
+    centre = killing_time(show.at(show.tick_at(show.seconds() / 2)));
   } else if (crossings.size() > 1 &&
              std::abs(crossings.back() - crossings.front()) < kBothVisible) {
     path.centre = Path::Centre::kTwoCrossings;
@@ -143,19 +139,17 @@ void choose_origin_of_time(const Instants& show, const std::vector<int>& ticks, 
 
 // ---- sampling ----
 
-std::vector<int> even_ticks(const Instants& show) {
-  const std::vector<int> starts = show.segment_starts();
-  std::vector<int> ticks;
-  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
-    const long first = starts[k], last = std::max(starts[k + 1] - 1, starts[k]);
-    const long steps = std::max<long>(kLeastOfSegment, (last - first) * kEvenly / kTicks);
-    for (long i = 0; i <= steps; ++i) {
+std::vector<Tick> even_ticks(const Instants& show) {
+  std::vector<Tick> ticks;
+  for (int segment = 0; segment < show.segments(); ++segment) {
+    const int last = show.last_tick(segment);
+    const int steps =
+        std::max(kLeastOfSegment, static_cast<int>(show.part_of_show(segment) * kEvenly));
+    for (int i = 0; i <= steps; ++i) {
       // Out of step with any period that the orbit has: multiples of the golden ratio.
-      const double turns = static_cast<double>(i) * std::numbers::phi;
+      const double turns = i * std::numbers::phi;
       const double aside = i == 0 || i == steps ? 0 : turns - std::floor(turns) - 0.5;
-      const double part = (static_cast<double>(i) + aside) / static_cast<double>(steps);
-      ticks.push_back(
-          static_cast<int>(first + std::lround(part * static_cast<double>(last - first))));
+      ticks.push_back({segment, static_cast<int>(std::lround((i + aside) / steps * last))});
     }
   }
   std::sort(ticks.begin(), ticks.end());
@@ -168,7 +162,7 @@ class Sampler {
  public:
   Sampler(const Instants& show, Path& path) : show_(show), path_(path) {}
 
-  PathPoint at(int tick) const {
+  PathPoint at(const Tick& tick) const {
     const Instant i = show_.at(tick);
     PathPoint p = i.point;
     p.is_in_drawn_turn = p.swept < begin_ || p.swept > end_;
@@ -184,9 +178,9 @@ class Sampler {
     if (begin_ < end_) path_.has_gaps_in_plane = true;
   }
 
-  void add(int tick_a, const PathPoint& a, int tick_b, const PathPoint& b) {
-    if (tick_b - tick_a > 1 && path_.points.size() < kMostPoints && is_coarse(a, b)) {
-      const int middle = tick_a + (tick_b - tick_a) / 2;
+  void add(const Tick& tick_a, const PathPoint& a, const Tick& tick_b, const PathPoint& b) {
+    if (tick_b.tick - tick_a.tick > 1 && path_.points.size() < kMostPoints && is_coarse(a, b)) {
+      const Tick middle{tick_a.segment, tick_a.tick + (tick_b.tick - tick_a.tick) / 2};
       const PathPoint m = at(middle);
       add(tick_a, a, middle, m);
       add(middle, m, tick_b, b);
@@ -209,7 +203,7 @@ class Sampler {
   double begin_ = 0, end_ = 0;  // between them turns are not drawn
 };
 
-void sample_finely(const Instants& show, const std::vector<int>& ticks, Path& path) {
+void sample_finely(const Instants& show, const std::vector<Tick>& ticks, Path& path) {
   Sampler sampler(show, path);
   PathPoint before;
   for (std::size_t k = 0; k < ticks.size(); ++k) {
@@ -219,9 +213,8 @@ void sample_finely(const Instants& show, const std::vector<int>& ticks, Path& pa
       sampler.add(ticks[k - 1], last_one, ticks[k], now);
       continue;
     }
-    std::size_t last = k;
-    while (last + 1 < ticks.size() && show.at(ticks[last + 1]).point.segment == now.segment) ++last;
-    sampler.begin_segment(now.swept, show.at(ticks[last]).point.swept);
+    const Tick last{now.segment, show.last_tick(now.segment)};
+    sampler.begin_segment(now.swept, show.at(last).point.swept);
     path.points.push_back(now);
     path.points.back().is_in_drawn_turn = before.is_in_drawn_turn = true;
   }
@@ -234,19 +227,6 @@ void mark_instants(const Instants& show, Path& path) {
   for (int i = 0; i * path.instant_step_s < show.seconds(); ++i)
     path.instants.push_back(sampler.at(show.tick_at(i * path.instant_step_s)));
 }
-
-struct KindName {
-  std::string operator()(const StaticObserver&) const { return "static"; }
-  std::string operator()(const CircularOrbit&) const { return "circular"; }
-  std::string operator()(const RadialInfall&) const { return "infall"; }
-  std::string operator()(const GivenVelocity&) const { return "velocity"; }
-  std::string operator()(const SpeedRamp&) const { return "velocity"; }
-  std::string operator()(const AcceleratedPath&) const { return "keyframes"; }
-  template <class Other>
-  std::string operator()(const Other&) const {
-    return "orbit";
-  }
-};
 
 }  // namespace
 
@@ -265,16 +245,12 @@ bool is_joined_in_plane(const PathPoint& a, const PathPoint& b) {
 
 Path sample_path(const Show& show) {
   const Instants instants(show);
-  const std::vector<int> ticks = even_ticks(instants);
+  const std::vector<Tick> ticks = even_ticks(instants);
   Path path;
   if (show.mass_solar) choose_origin_of_time(instants, ticks, path);
   sample_finely(instants, ticks, path);
   mark_instants(instants, path);
   return path;
-}
-
-std::string trajectory_kind(const Segment& segment) {
-  return std::visit(KindName{}, segment.trajectory);
 }
 
 double round_step(double least) {

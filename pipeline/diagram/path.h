@@ -1,7 +1,6 @@
 // The path of a show's observer, sampled finely enough to be drawn as a smooth curve.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "pipeline/diagram/penrose.h"
@@ -35,7 +34,9 @@ bool is_joined_in_plane(const PathPoint& a, const PathPoint& b);
 bool is_jump(const PathPoint& a, const PathPoint& b);
 
 struct Path {
-  std::vector<PathPoint> points;    // in the order of time, each segment's ends included
+  // Segment by segment, each in the order of time with its ends included: where two dissolve into each
+  // other the second starts before the first one's end.
+  std::vector<PathPoint> points;
   std::vector<PathPoint> instants;  // one every `instant_step_s` from the start
   double instant_step_s = 0;
   double time_shift = 0;  // M: added to t for the Penrose diagram
@@ -54,9 +55,6 @@ struct Path {
 // crossing lies at the middle of its line; or, where the past and the future horizon are crossed
 // within 16 M, both lie symmetrically.  Where none is crossed, the middle of the show is at t = 0.
 Path sample_path(const Show& show);
-
-// "circular": what a show file calls the trajectory of a segment.
-std::string trajectory_kind(const Segment& segment);
 
 // 1, 2 or 5 times a power of ten, the least that is `least` or more; least > 0.
 double round_step(double least);

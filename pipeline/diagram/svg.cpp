@@ -122,10 +122,11 @@ void Svg::curve(const std::vector<PagePoint>& points, const Stroke& stroke) {
            "/>\n";
 }
 
-void Svg::area(const std::vector<PagePoint>& points, const std::string& fill) {
+void Svg::area(const std::vector<PagePoint>& points, const std::string& fill, double opacity) {
   std::string path;
   for (const PagePoint& p : points) path += (path.empty() ? "M" : "L") + pair(p);
-  body_ += "<path d=\"" + path + "Z\"" + attribute("fill", fill) + "/>\n";
+  body_ += "<path d=\"" + path + "Z\"" + attribute("fill", fill) +
+           (opacity < 1 ? attribute("fill-opacity", opacity) : "") + "/>\n";
 }
 
 void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& style) {

@@ -54,7 +54,7 @@ class Svg {
               const Stroke& stroke = {"none", 0});
   // Points nearer than 0.15 pixel to the one before are left out, but for the last.
   void curve(const std::vector<PagePoint>& points, const Stroke& stroke);
-  void area(const std::vector<PagePoint>& points, const std::string& fill);
+  void area(const std::vector<PagePoint>& points, const std::string& fill, double opacity = 1);
   void text(const PagePoint& at, std::string_view text, const TextStyle& style = {});
   // Shapes between the two belong together and bear this id.
   void begin_group(std::string_view id);

@@ -11,50 +11,56 @@ constexpr double kLabelSize = 12;
 constexpr double kBand = 22, kTopOfCurves = 30;
 
 Scale time_scale(const PageBox& box, const Show& show) {
-  double seconds = 0;
-  for (const Segment& s : show.timeline) seconds += s.duration_s;
-  return {0, seconds, box.left, box.right};
+  return {0, segment_times(show).back(), box.left, box.right};
 }
 
 // "2 infall", "2" or nothing, as there is room.
 std::string band_label(const Show& show, std::size_t k, double room) {
   const std::string digits = std::to_string(k + 1);
-  const std::string full = digits + " " + trajectory_kind(show.timeline[k]);
+  const std::string full = digits + " " + show.timeline[k].type;
   for (const std::string& text : {full, digits})
     if (text_width(text, kLabelSize) < room) return text;
   return "";
 }
 
+// Where two segments dissolve the band of the one tapers off as that of the other grows.
 void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& show) {
-  double begin = 0;
+  const std::vector<double> times = segment_times(show);
+  page.rectangle({box.left, box.top, box.right, box.top + kBand}, "#ffffff");  // over the grid
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
-    const double end = begin + show.timeline[k].duration_s;
+    const double begin = x(times[k]), end = x(times[k] + show.timeline[k].duration_s);
+    const double grown = x(times[k] + show.timeline[k].dissolve_s), tapers = x(times[k + 1]);
     const std::string colour = segment_colour(static_cast<int>(k));
-    const PageBox band{x(begin), box.top, x(end), box.top + kBand};
-    page.rectangle(band, "#ffffff");  // over the grid
-    page.rectangle(band, colour, 0.22);
-    page.rectangle({x(begin), band.bottom, x(end), box.bottom}, colour, 0.07);
-    const std::string label = band_label(show, k, x(end) - x(begin) - 6);
+    const double bottom = box.top + kBand;
+    page.area({{grown, box.top}, {end, box.top}, {tapers, bottom}, {begin, bottom}}, colour, 0.22);
+    page.rectangle({begin, bottom, end, box.bottom}, colour, 0.07);
+    const double from = (begin + grown) / 2, to = (tapers + end) / 2;
+    const std::string label = band_label(show, k, to - from - 6);
     if (!label.empty())
-      page.text({(x(begin) + x(end)) / 2, box.top + 15.5}, label,
+      page.text({(from + to) / 2, box.top + 15.5}, label,
                 {kLabelSize, colour.c_str(), "middle", true});
-    begin = end;
   }
 }
 
-// A line between segments; where the place jumps, heavier and with a word.
-void mark_cuts(Svg& page, const PageBox& box, const Scale& x, const Path& path) {
+// A line between segments, or one at either end of a dissolve; where the place jumps, heavier and with a
+// word.
+void mark_cuts(Svg& page, const PageBox& box, const Scale& x, const Path& path, const Show& show) {
+  const std::vector<double> times = segment_times(show);
   double free_from = box.left;
   for (std::size_t i = 1; i < path.points.size(); ++i) {
     const PathPoint &a = path.points[i - 1], &b = path.points[i];
     if (a.segment == b.segment) continue;
-    const double at = x(b.time_s);
+    const auto k = static_cast<std::size_t>(b.segment);
+    const double dissolve = show.timeline[k].dissolve_s, at = x(times[k]);
     const bool jump = is_jump(a, b);
-    page.line({at, box.top}, {at, box.bottom},
-              jump ? Stroke{"#30343c", 1.4, "6 3"} : Stroke{"#a3a9b5", 1});
-    if (!jump || at < free_from) continue;
-    page.text({at + 4, box.bottom - 6}, "cut", {11, "#30343c", "start", false, true, true});
-    free_from = at + 32;
+    const Stroke stroke = jump ? Stroke{"#30343c", 1.4, "6 3"} : Stroke{"#a3a9b5", 1};
+    page.line({at, box.top}, {at, box.bottom}, stroke);
+    if (dissolve > 0)
+      page.line({x(times[k] + dissolve), box.top}, {x(times[k] + dissolve), box.bottom}, stroke);
+    const char* word = dissolve > 0 ? "dissolve" : "cut";
+    if ((!jump && !(dissolve > 0)) || at < free_from) continue;
+    page.text({at + 4, box.bottom - 6}, word, {11, "#30343c", "start", false, true, true});
+    free_from = at + text_width(word, 11) + 12;
   }
 }
 
@@ -93,7 +99,7 @@ void draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path
   draw_axes(page, box, x, y, 12, 6);
   shade_segments(page, box, x, show);
   if (marks_radii) mark_radii(page, box, y);
-  mark_cuts(page, box, x, path);
+  mark_cuts(page, box, x, path, show);
   page.text({box.right, box.bottom + 36}, "show time (s)", {13, "#30343c", "end"});
   draw_curve(page, path, x, y, quantity);
 }

@@ -69,6 +69,17 @@ TEST_F(Pages, HaveThreePanelsNearAHoleAndNoNumberThatIsNone) {
   }
 }
 
+TEST_F(Pages, NameTrajectoriesAndDissolves) {
+  const std::string page = show_page(
+      read("black_hole: {mass_solar: 10}\ntimeline:\n"
+           "  - {duration_s: 6, trajectory: {type: parabolic, periastron: 6, from_r: 20}}\n"
+           "  - {duration_s: 6, dissolve_s: 2, trajectory: {type: circular, r: 9}}\n"
+           "  - {duration_s: 6, trajectory: {type: static, r: 12}}\n"));
+  for (const char* text :
+       {">1 parabolic<", ">2 circular<", ">3 static<", ">dissolve<", ">cut<", "  16 s  "})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
 TEST_F(Pages, SayThatFlatSpaceHasNoHole) {
   const std::string page = show_page(read("timeline: [{duration_s: 5}]\n"));
   EXPECT_NE(page.find("flat space: no hole"), std::string::npos);

@@ -94,6 +94,22 @@ TEST_F(Paths, AJumpOfRadiusIsACutAndAChangeOfMotionIsNone) {
   EXPECT_EQ(jumps, (std::vector{false, true, true}));
 }
 
+TEST_F(Paths, SegmentsThatDissolveOverlapInTimeAndBothReachTheirEnds) {
+  const Path p = path(
+      "  - {duration_s: 6, trajectory: {type: infall, from_r: 10, to_r: 3}}\n"
+      "  - {duration_s: 8, dissolve_s: 2, trajectory: {type: circular, r: 9}}\n");
+  const auto second = std::find_if(p.points.begin(), p.points.end(),
+                                   [](const PathPoint& q) { return q.segment == 1; });
+  ASSERT_NE(second, p.points.end());
+  EXPECT_NEAR((second - 1)->time_s, 6, 1e-7);  // a tick before the end
+  EXPECT_NEAR((second - 1)->r, 3, 1e-7);
+  EXPECT_EQ(second->time_s, 4);
+  EXPECT_TRUE(is_jump(*(second - 1), *second));
+  EXPECT_EQ(p.points.back().time_s, 12);
+  ASSERT_EQ(p.instants.size(), 12);  // every second of 12 s
+  for (const PathPoint& q : p.instants) EXPECT_EQ(q.segment, q.time_s < 4 ? 0 : 1) << q.time_s;
+}
+
 TEST_F(Paths, AFallThatFollowsALongOrbitIsTheOneInTheMiddle) {
   const Path p = path(
       "  - {duration_s: 9, trajectory: {type: circular, r: 10, orbits: 1e6}}\n"
