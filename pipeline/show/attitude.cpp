@@ -44,14 +44,14 @@ M33d tilted(const M33d& axes, double tilt) {
   return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
 }
 
-// m[k] is the k-th column.  The largest of the four components is found from the trace or a diagonal
+// The largest of the four components is found from the trace or a diagonal
 // element, without cancellation.
 Imath::Quatd quaternion_of(const M33d& m) {
   const double trace = m[0][0] + m[1][1] + m[2][2];
   if (trace > 0) {
     const double w = std::sqrt(1 + trace) / 2;
-    return {w, (m[1][2] - m[2][1]) / (4 * w), (m[2][0] - m[0][2]) / (4 * w),
-            (m[0][1] - m[1][0]) / (4 * w)};
+    return {w, (m[2][1] - m[1][2]) / (4 * w), (m[0][2] - m[2][0]) / (4 * w),
+            (m[1][0] - m[0][1]) / (4 * w)};
   }
   int i = m[1][1] > m[0][0] ? 1 : 0;
   if (m[2][2] > m[i][i]) i = 2;
@@ -60,7 +60,7 @@ Imath::Quatd quaternion_of(const M33d& m) {
   v[i] = std::sqrt(1 + m[i][i] - m[j][j] - m[k][k]) / 2;
   v[j] = (m[i][j] + m[j][i]) / (4 * v[i]);
   v[k] = (m[i][k] + m[k][i]) / (4 * v[i]);
-  return {(m[j][k] - m[k][j]) / (4 * v[i]), v.x, v.y, v.z};
+  return {(m[k][j] - m[j][k]) / (4 * v[i]), v.x, v.y, v.z};
 }
 
 // motion_direction in the frame whose directions are drawn: for one at rest outside the horizon that
@@ -121,7 +121,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
 }
 
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
-  const Imath::Quatd q = quaternion_of(to * from.transposed());
+  const Imath::Quatd q = quaternion_of(from.transposed() * to);
   const double sine = q.v.length();
   const double angle = 2 * std::atan2(sine, q.r);
   // No turn at all, or whole ones: about the axis it had.
