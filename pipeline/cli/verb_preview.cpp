@@ -11,6 +11,7 @@
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
 #include "pipeline/show/assets.h"
+#include "pipeline/show/camera_track.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {

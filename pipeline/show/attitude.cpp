@@ -121,7 +121,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
 }
 
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
-  const Imath::Quatd q = quaternion_of(from.transposed() * to);
+  const Imath::Quatd q = quaternion_of(to * from.transposed());
   const double sine = q.v.length();
   const double angle = 2 * std::atan2(sine, q.r);
   // No turn at all, or whole ones: about the axis it had.
@@ -138,8 +138,7 @@ M33d turned_by(const M33d& from, const V3d& turn) {
   const auto rotated = [&](const V3d& v) {
     return v * c + n.cross(v) * s + n * (n.dot(v) * (1 - c));
   };
-  return from_columns(apply(from, rotated({1, 0, 0})), apply(from, rotated({0, 1, 0})),
-                      apply(from, rotated({0, 0, 1})));
+  return from_columns(rotated(column(from, 0)), rotated(column(from, 1)), rotated(column(from, 2)));
 }
 
 }  // namespace domefall

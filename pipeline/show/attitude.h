@@ -24,8 +24,8 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
 // length if the observer is static.
 V3d motion_direction(const ObserverState& observer);
 
-// The rotation vector (axis times angle, in the axes of `from`) that turns `from` into `to`; of its
-// representations, whole turns apart, the nearest to `before`.
+// The rotation vector (axis times angle, in what the cameras' axes are given in) that turns `from` into
+// `to`; of its representations, whole turns apart, the nearest to `before`.
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before);
 
 // The axes that such a turn leads to.

@@ -36,10 +36,4 @@ struct FrameState {
 // frame in [0, frame_count(show)).  Frame n shows the instant n / frames_per_second.
 FrameState frame_state(const Show& show, int frame);
 
-// The axes that the camera of a segment has at an instant, for a picture of that projection.
-// Between keyframes it turns about one axis at a time, so that it never jumps however the targets
-// move meanwhile.
-M33d camera_axes_at(const Show& show, int segment, double show_time_s, const Projection& projection,
-                    const ObserverState& observer);
-
 }  // namespace domefall

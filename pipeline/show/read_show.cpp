@@ -1,5 +1,6 @@
 #include "pipeline/show/read_show.h"
 
+#include "pipeline/show/camera_track.h"
 #include "pipeline/show/effects_section.h"
 #include "pipeline/show/picture_sections.h"
 #include "pipeline/show/sky_section.h"
@@ -72,6 +73,7 @@ Show read_show(const std::filesystem::path& file) {
   problems.raise();
   check_effects(root, show);
   problems.raise();
+  follow_turns(show);
   return show;
 }
 

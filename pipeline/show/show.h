@@ -45,6 +45,10 @@ struct AttitudeKey {
   double at_s;  // show seconds
   Attitude attitude;
   Ease ease = Ease::kSmooth;  // of the turn that ends here
+  // The turns (axis times angle, radians) from the attitude before to this one, at equal steps of the way
+  // between them: which of the turns that lead to the same axes goes on from the one before.  Empty: found
+  // anew for every frame.
+  std::vector<V3d> turns{};
 };
 
 // What keyframes can change, besides the attitude.

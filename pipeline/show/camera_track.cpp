@@ -1,0 +1,108 @@
+#include "pipeline/show/camera_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/show/attitude.h"
+#include "pipeline/show/observer_track.h"
+
+namespace domefall {
+namespace {
+
+const Segment& segment_of(const Show& show, int k) {
+  return show.timeline[static_cast<std::size_t>(k)];
+}
+
+double value_of(const Segment& s, Channel channel, double t, double constant) {
+  const auto& curve = s.curves[static_cast<std::size_t>(channel)];
+  return curve ? value_at(*curve, t) : constant;
+}
+
+// Everything of the camera but its attitude.
+Camera camera_at(const Segment& s, double t) {
+  Camera camera = s.camera;
+  camera.roll = value_of(s, Channel::kRoll, t, camera.roll);
+  camera.elevation = value_of(s, Channel::kElevation, t, camera.elevation);
+  camera.dome_tilt = value_of(s, Channel::kDomeTilt, t, camera.dome_tilt);
+  return camera;
+}
+
+// Steps in which the way from one keyframe to the next is followed, to know which of the turns that
+// lead to the same attitude goes on from the one before.
+constexpr int kTurnSteps = 64;
+
+class Turn {
+ public:
+  Turn(const Show& show, int segment, const Projection& projection, const AttitudeKey& from,
+       const AttitudeKey& to)
+      : show_(show), segment_(segment), projection_(projection), from_(from), to_(to) {}
+
+  M33d axes_at(double t, const ObserverState& observer) const {
+    const double x = (t - from_.at_s) / (to_.at_s - from_.at_s);
+    const int steps = std::clamp(static_cast<int>(std::ceil(x * kTurnSteps)), 1, kTurnSteps);
+    const V3d before =
+        to_.turns.empty() ? followed(steps).back() : to_.turns[static_cast<std::size_t>(steps) - 1];
+    const V3d turn = turn_at(t, observer, before);
+    const double done = to_.ease == Ease::kSmooth ? smooth_step(x) : x;
+    return turned_by(axes(from_, t, observer), turn * done);
+  }
+
+  // The turns at the first so many steps of the way.
+  std::vector<V3d> followed(int steps) const {
+    std::vector<V3d> turns;
+    turns.reserve(static_cast<std::size_t>(steps));
+    V3d turn(0, 0, 0);
+    for (int k = 0; k < steps; ++k) {
+      const double at = std::lerp(from_.at_s, to_.at_s, static_cast<double>(k) / kTurnSteps);
+      const int segment = segment_at(show_, at);
+      turn = turn_at(at, observer_at(show_, segment, part_at(show_, segment, at)), turn);
+      turns.push_back(turn);
+    }
+    return turns;
+  }
+
+ private:
+  M33d axes(const AttitudeKey& key, double t, const ObserverState& observer) const {
+    Camera camera = camera_at(segment_of(show_, segment_), t);
+    camera.attitude = key.attitude;
+    return camera_axes(camera, projection_, observer, show_.effects);
+  }
+  V3d turn_at(double t, const ObserverState& observer, const V3d& before) const {
+    return turn_between(axes(from_, t, observer), axes(to_, t, observer), before);
+  }
+
+  const Show& show_;
+  int segment_;
+  const Projection& projection_;
+  const AttitudeKey &from_, &to_;
+};
+
+}  // namespace
+
+M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
+                    const ObserverState& observer) {
+  const Segment& s = segment_of(show, segment);
+  Camera camera = camera_at(s, t);
+  const auto& keys = s.attitudes;
+  if (keys.empty()) return camera_axes(camera, projection, observer, show.effects);
+  const auto next = std::upper_bound(
+      keys.begin(), keys.end(), t, [](double at, const AttitudeKey& key) { return at < key.at_s; });
+  if (next != keys.begin() && next != keys.end() && next->ease != Ease::kHold)
+    return Turn(show, segment, projection, *(next - 1), *next).axes_at(t, observer);
+  camera.attitude = (next == keys.begin() ? next : next - 1)->attitude;
+  return camera_axes(camera, projection, observer, show.effects);
+}
+
+void follow_turns(Show& show) {
+  const std::vector<double> times = segment_times(show);
+  for (std::size_t s = 0; s < show.timeline.size(); ++s) {
+    std::vector<AttitudeKey>& keys = show.timeline[s].attitudes;
+    const double begin = times[s], end = begin + show.timeline[s].duration_s;
+    for (std::size_t k = 1; k < keys.size(); ++k)
+      if (keys[k].ease != Ease::kHold && keys[k].at_s > begin && keys[k - 1].at_s < end)
+        keys[k].turns = Turn(show, static_cast<int>(s), show.projection, keys[k - 1], keys[k])
+                            .followed(kTurnSteps);
+  }
+}
+
+}  // namespace domefall
