@@ -28,13 +28,24 @@ Section orbit_section(const Item& item, std::initializer_list<std::string_view> 
   return {item, keys};
 }
 
-// An orbit that does not exist is told with the place of the key that asks for it.
+// Trajectories begin their messages with the name of the quantity that is out of bounds: it is told at
+// the place of its key, or else at that of the key that asked for the orbit.
+void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
+  const std::size_t space = message.find(' ');
+  const std::string_view quantity = std::string_view(message).substr(0, space);
+  const Item* key = s.find(quantity == "p" ? "semilatus_rectum" : quantity);
+  if (key)
+    key->fail(message.substr(space + 1));
+  else
+    asked.fail("asks for what does not exist: " + message);
+}
+
 template <class Make>
-std::optional<Geodesic> made(const Item& blamed, const Make& make) {
+std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& make) {
   try {
     return make();
   } catch (const std::domain_error& error) {
-    blamed.fail(error.what());
+    fail_impossible(s, asked, error.what());
     return std::nullopt;
   }
 }
@@ -48,11 +59,11 @@ std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const
 
 std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
   if (const auto r = s.number("periastron", kRadius); r && &by == s.find("periastron"))
-    return made(by, [&] { return parabolic_by_periastron(*r); });
+    return made(s, by, [&] { return parabolic_by_periastron(*r); });
   if (const auto momentum = s.number("angular_momentum", kMomentum))
-    return made(by, [&] { return parabolic_by_angular_momentum(*momentum); });
+    return made(s, by, [&] { return parabolic_by_angular_momentum(*momentum); });
   if (const auto excess = s.number("excess", kExcess))
-    return made(by, [&] { return parabolic_by_excess(*excess); });
+    return made(s, by, [&] { return parabolic_by_excess(*excess); });
   return std::nullopt;
 }
 
@@ -66,17 +77,17 @@ std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
       return std::nullopt;
     }
     if (!excess) return std::nullopt;
-    return made(*excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
+    return made(s, *excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
   }
   const auto v = s.required_number("v_inf", kSpeed);
   if (!v) return std::nullopt;
   if (&by == excess_item) {
     if (!excess) return std::nullopt;
-    return made(by, [&] { return hyperbolic_by_impact_excess(*v, *excess); });
+    return made(s, by, [&] { return hyperbolic_by_impact_excess(*v, *excess); });
   }
-  if (r) return made(by, [&] { return hyperbolic_by_periastron(*v, *r); });
+  if (r) return made(s, by, [&] { return hyperbolic_by_periastron(*v, *r); });
   if (const auto b = s.number("impact_parameter", kMomentum))
-    return made(by, [&] { return hyperbolic_by_impact_parameter(*v, *b); });
+    return made(s, by, [&] { return hyperbolic_by_impact_parameter(*v, *b); });
   return std::nullopt;
 }
 
@@ -85,17 +96,17 @@ std::optional<Geodesic> read_ellipse(const Section& s) {
     const auto low = s.required_number("periastron", kRadius);
     const auto high = s.required_number("apoastron", kRadius);
     if (!low || !high) return std::nullopt;
-    return made(*s.find("periastron"), [&] { return bound_by_turning_points(*low, *high); });
+    return made(s, *s.find("periastron"), [&] { return bound_by_turning_points(*low, *high); });
   }
   const auto e = s.required_number("eccentricity", kPureNumber.at_least(0).below(1));
   if (const Item* excess = s.find("excess")) {
     const auto value = read_number(*excess, kExcess);
     if (!e || !value) return std::nullopt;
-    return made(*excess, [&] { return bound_by_excess(*e, *value); });
+    return made(s, *excess, [&] { return bound_by_excess(*e, *value); });
   }
   const auto p = s.required_number("semilatus_rectum", kRadius);
   if (!e || !p) return std::nullopt;
-  return made(*s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
+  return made(s, *s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
 }
 
 // What falls from infinity, with the place where tau = 0.
@@ -109,12 +120,12 @@ std::optional<Geodesic> read_captured(const Section& s) {
     const auto v = s.number("v_inf", kSpeed);
     const auto b = s.required_number("impact_parameter", kMomentum);
     if (!from_r || !v || !b) return std::nullopt;
-    return made(*s.find("impact_parameter"), [&] { return fall_with_speed(*v, *b, *from_r); });
+    return made(s, *s.find("impact_parameter"), [&] { return fall_with_speed(*v, *b, *from_r); });
   }
   const double momentum = s.number("angular_momentum", kMomentum, 0);
   if (!from_r) return std::nullopt;
   const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("from_r");
-  return made(*blamed, [&] { return fall_from_infinity(momentum, *from_r); });
+  return made(s, *blamed, [&] { return fall_from_infinity(momentum, *from_r); });
 }
 
 // From rest at rest_r, tau = 0 there.
@@ -125,7 +136,7 @@ std::optional<Geodesic> read_dropped(const Section& s) {
   const double momentum = s.number("angular_momentum", kMomentum, 0);
   if (!rest_r) return std::nullopt;
   const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("rest_r");
-  return made(*blamed, [&] { return fall_from_rest(*rest_r, momentum); });
+  return made(s, *blamed, [&] { return fall_from_rest(*rest_r, momentum); });
 }
 
 // Its direction leaves the plane of the orbit before by turning about R.
@@ -205,7 +216,7 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
   const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
   const double across = std::hypot(celerity.y, celerity.z);
-  const auto orbit = made(*s.find("from_r"), [&] {
+  const auto orbit = made(s, *s.find("from_r"), [&] {
     return against_static ? thrown_outside(frame->r, celerity.x, across)
                           : thrown_from_rain(frame->r, celerity.x, across);
   });
@@ -222,7 +233,8 @@ std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage
   const double momentum = s.number("angular_momentum", kMomentum, 0);
   if (s.find("energy") && !energy) return std::nullopt;
   const Item* blamed = s.find("energy") ? s.find("energy") : &item;
-  const auto orbit = made(*blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });
+  const auto orbit =
+      made(s, *blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });
   if (!orbit) return std::nullopt;
   Defaults start;
   start.leg = Leg::kOutward;

@@ -211,6 +211,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
     return timing;
   }
   std::optional<double> end;
+  if (!s.find("to_r")) read_leg(s, "to_leg", "to_r");
   if (s.find("to_r")) {
     end = read_passage(s, trajectory, begin);
     if (!end) return std::nullopt;
