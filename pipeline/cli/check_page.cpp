@@ -1,0 +1,215 @@
+#include "pipeline/cli/check_page.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace domefall {
+namespace {
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+  const int length = std::snprintf(nullptr, 0, format, values...);
+  std::string text(static_cast<std::size_t>(std::max(length, 0)), ' ');
+  std::snprintf(text.data(), text.size() + 1, format, values...);
+  return text;
+}
+
+class Page {
+ public:
+  explicit Page(const CheckReport& report) : r_(report), show_(report.show) {}
+
+  std::string text() {
+    head();
+    effects();
+    for (std::size_t k = 0; k < r_.survey.segments.size(); ++k) segment(k);
+    whole();
+    light();
+    time();
+    warnings();
+    return text_;
+  }
+
+ private:
+  void line(const std::string& name, const std::string& text) {
+    text_ += text_of("%-12s %s\n", name.c_str(), text.c_str());
+  }
+
+  void head() {
+    line("title", show_.title);
+    line("frames", text_of("%d at %g a second (%.6g s), %s of %d x %d", frame_count(show_),
+                           show_.frames_per_second, segment_times(show_).back(),
+                           std::string(projection_name(show_.projection)).c_str(),
+                           columns(show_.projection), rows(show_.projection)));
+    if (r_.display.empty())
+      line("graded for", "nothing: scene-linear frames alone");
+    else
+      line("graded for", r_.display + ", " + r_.view);
+    if (show_.mass_solar)
+      line("black hole", text_of("%.6g solar masses: 1 M lasts %s", *show_.mass_solar,
+                                 duration_text(*show_.mass_solar * kSecondsPerSolarMass).c_str()));
+    else
+      line("black hole", "none: flat space");
+  }
+
+  // What the pictures leave out of nature, or add to it.
+  void effects() {
+    const Effects& e = show_.effects;
+    if (e == Effects{}) return;
+    std::string text;
+    if (!e.aberration) text += "no aberration; ";
+    if (!e.doppler_colour) text += "no Doppler colours; ";
+    if (!e.intensity) text += "intensities at rest; ";
+    if (!e.lensing) text += "no lensing; ";
+    constexpr const char* kAmplified[] = {"nothing is", "stars are", "everything is"};
+    line("effects", text + kAmplified[static_cast<int>(e.amplification)] + " amplified");
+  }
+
+  static std::string regions_text(const std::vector<Region>& regions) {
+    constexpr std::size_t kMost = 12;
+    std::string text;
+    for (std::size_t k = 0; k < regions.size() && k < kMost; ++k)
+      text += std::string(k > 0 ? ", " : "") + region_name(regions[k]);
+    return text + (regions.size() > kMost ? ", ..." : "");
+  }
+
+  std::string proper_time(double span) const {
+    if (!show_.mass_solar) return duration_text(span);
+    return text_of("%.6g M (%s)", span,
+                   duration_text(span * *show_.mass_solar * kSecondsPerSolarMass).c_str());
+  }
+
+  std::string rate(const SegmentSurvey& s) const {
+    const char* unit = show_.mass_solar ? "M" : "s";
+    const double mean = s.proper_time / (s.end_s - s.begin_s);
+    const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean);
+    return steady ? text_of("%.4g %s a second", mean, unit)
+                  : text_of("%.4g %s a second (%.4g at first, %.4g at last)", mean, unit,
+                            s.rate_begin, s.rate_end);
+  }
+
+  void segment(std::size_t k) {
+    const SegmentSurvey& s = r_.survey.segments[k];
+    if (k > 0) joint(r_.joints[k - 1]);
+    line("segment " + std::to_string(k),
+         text_of("%s, %.6g s to %.6g s", s.type.c_str(), s.begin_s, s.end_s));
+    std::string text = "flat space; ";
+    if (show_.mass_solar) {
+      text = text_of("r = %.6g M to %.6g M", s.r_begin, s.r_end);
+      if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
+        text += text_of(", closest %.6g M at %.5g s", s.closest.value, s.closest.time_s);
+      line("", text + "; region " + regions_text(s.regions));
+      text.clear();
+    }
+    line("", text + proper_time(s.proper_time) + " of proper time, " + rate(s));
+  }
+
+  static void add(std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : "; ") + text;
+  }
+
+  void joint(const SegmentJoint& j) {
+    std::string changes;
+    if (j.region_before != j.region_after)
+      add(changes,
+          text_of("region %s to %s", region_name(j.region_before), region_name(j.region_after)));
+    if (j.place_jumps() && j.r_before != j.r_after)
+      add(changes, text_of("r jumps from %.6g M to %.6g M", j.r_before, j.r_after));
+    if (j.velocity_jumps()) add(changes, text_of("velocity jumps by %.4g of light's", *j.speed));
+    if (changes.empty()) changes = "the motion goes on";
+    const std::string name = j.dissolve_s > 0 ? text_of("dissolve of %.4g s", j.dissolve_s)
+                             : j.place_jumps() || j.velocity_jumps() ? "cut"
+                                                                     : "joint";
+    line("", text_of("-- %s at %.6g s: ", name.c_str(), j.time_s) + changes);
+  }
+
+  static std::string place(const Extreme& e) {
+    return text_of("frame %d (%.5g s)", e.frame, e.time_s);
+  }
+
+  void whole() {
+    text_ += "\nthe whole show\n";
+    if (show_.mass_solar) line("regions", regions_text(r_.survey.regions));
+    if (const auto& e = r_.survey.closest)
+      line("closest", text_of("r = %.6g M, ", e->value) + place(*e));
+    if (const auto& e = r_.survey.fastest) {
+      const double gamma = std::hypot(1.0, e->value);
+      line("fastest", text_of("%.6g of light's speed (Lorentz factor %.5g) against who is at rest "
+                              "there, ",
+                              e->value / gamma, gamma) +
+                          place(*e));
+    }
+    if (const auto& e = r_.survey.bluest)
+      line("bluest sky", text_of("1 + z = %.5g, ", e->value) + place(*e));
+    if (const auto& e = r_.survey.reddest)
+      line("reddest sky", text_of("1 + z = %.5g, ", e->value) + place(*e));
+  }
+
+  void light_line(const char* name, const FrameLight& light) {
+    std::string text =
+        text_of("frame %d (%.5g s), segment %d: mean luminance %.3g, 99 %% below %.3g", light.frame,
+                light.time_s, light.segment, light.mean, light.percentile99);
+    constexpr double kMuch = 0.03;
+    if (light.white > kMuch)
+      text += text_of("; %.0f %% of the pixels at or beyond white", 100 * light.white);
+    line(name, text);
+  }
+
+  void light() {
+    light_line("brightest", r_.light.brightest);
+    if (r_.light.darkest.frame != r_.light.brightest.frame) light_line("darkest", r_.light.darkest);
+  }
+
+  void time() {
+    if (!r_.time) return line("to render", "not measured: no temporary file can be written");
+    line("to render",
+         text_of("about %s on this machine with %d thread%s at %d x %d (%.3g s a frame)",
+                 duration_text(r_.time->seconds).c_str(), r_.time->threads,
+                 r_.time->threads == 1 ? "" : "s", columns(show_.projection),
+                 rows(show_.projection), r_.time->frame_s));
+  }
+
+  void warnings() {
+    if (r_.warnings.empty()) {
+      text_ += "\nno warnings\n";
+      return;
+    }
+    constexpr std::size_t kMost = 20;
+    text_ += "\nwarnings\n";
+    for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
+      const ShowWarning& w = r_.warnings[k];
+      text_ += text_of("%8.5g s, frame %d, segment %d: %s\n", w.time_s, w.frame, w.segment,
+                       w.text.c_str());
+    }
+    if (r_.warnings.size() > kMost)
+      text_ += text_of("  and %zu more\n", r_.warnings.size() - kMost);
+  }
+
+  const CheckReport& r_;
+  const Show& show_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  struct Unit {
+    double from, seconds;
+    const char* name;
+  };
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400, kYear = 31557600;
+  constexpr Unit kUnits[] = {{2 * kYear, kYear, "years"},
+                             {2 * kDay, kDay, "days"},
+                             {2 * kHour, kHour, "h"},
+                             {2 * kMinute, kMinute, "min"},
+                             {0.1, 1, "s"},
+                             {1e-4, 1e-3, "ms"},
+                             {0, 1e-6, "us"}};
+  for (const Unit& unit : kUnits)
+    if (std::abs(seconds) >= unit.from)
+      return text_of("%.3g %s", seconds / unit.seconds, unit.name);
+  return text_of("%g s", seconds);
+}
+
+std::string check_page(const CheckReport& report) { return Page(report).text(); }
+
+}  // namespace domefall
