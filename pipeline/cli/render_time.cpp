@@ -16,7 +16,7 @@ namespace {
 
 // Pixels along the longer side of the larger of the two sizes; the smaller one has a quarter of it.
 constexpr int kLarge = 1024, kSmaller = 4;
-constexpr int kSmallFrames = 6, kLargeFrames = 4;
+constexpr int kSmallFrames = 4, kLargeFrames = 3;
 
 class TemporaryFolder {
  public:

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kWidth = 48, kMostPictures = 200, kLeastWidth = 16;
+constexpr int kWidth = 48, kMostPictures = 60, kLeastWidth = 16;
 constexpr double kFadeStops = 3;
 // Of white's code value: the last steps before it are not seen.
 constexpr double kNearWhite = 0.99;

@@ -27,7 +27,7 @@ struct LightSurvey {
   int frames = 0;  // looked at
 };
 
-// One frame for each second, at most 200 and at least 2 if the show has them, 48 pixels wide.  Means
+// One frame for each second, at most 60 and at least 2 if the show has them, 48 pixels wide.  Means
 // are those of a large picture to a few percent; stars are as bright, but larger.
 // Grader: null without a grade.
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);

@@ -77,11 +77,28 @@ struct Pairs {
   std::vector<FramePair> pairs;
 };
 
+// Between keyframes a camera turns smoothly, and each frame of it takes milliseconds: there every tenth
+// pair tells, and those about the keyframes.
+std::vector<int> chosen_frames(const Show& show) {
+  constexpr int kWithinTurns = 10;
+  const int count = frame_count(show), step = (count + kMostPairs - 1) / kMostPairs;
+  std::vector<int> frames;
+  for (int n = 1; n < count; n += step) {
+    const auto segment = static_cast<std::size_t>(segment_at(show, n / show.frames_per_second));
+    const std::vector<AttitudeKey>& keys = show.timeline[segment].attitudes;
+    const auto is_near = [&](const AttitudeKey& key) {
+      return std::abs(key.at_s * show.frames_per_second - n) <= 2;
+    };
+    if (keys.size() < 2 || n % kWithinTurns == 0 || std::any_of(keys.begin(), keys.end(), is_near))
+      frames.push_back(n);
+  }
+  return frames;
+}
+
 Pairs compare_frames(const Show& show) {
   constexpr std::size_t kTogether = 32;
-  const int count = frame_count(show), step = (count + kMostPairs - 1) / kMostPairs;
   Pairs found;
-  for (int n = 1; n < count; n += step) found.frames.push_back(n);
+  found.frames = chosen_frames(show);
   found.pairs.resize(found.frames.size());
   tbb::parallel_for(
       std::size_t{0}, (found.frames.size() + kTogether - 1) / kTogether, [&](std::size_t chunk) {

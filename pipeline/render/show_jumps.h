@@ -40,8 +40,9 @@ inline constexpr double kLargestRateStep = 2;  // a factor, where nothing else j
 
 // In the order of time: a camera that turns faster, against the sky and against the hole (whichever is
 // slower: a camera that keeps either in view stands still); exposures that jump; clocks that change their
-// rate where a motion goes on; what a keyframe with `ease: hold` changes.  Between all frames of a show
-// of up to 20,000 frames, of a longer one between 20,000 pairs of neighbours, evenly.
+// rate where a motion goes on; what a keyframe with `ease: hold` changes.  All frames of a show of up to
+// 20,000 frames are compared with the next one, of a longer one 20,000; of segments with keyframed
+// targets every tenth and those about the keyframes.
 std::vector<ShowWarning> show_warnings(const Show& show);
 
 }  // namespace domefall
