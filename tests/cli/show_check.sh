@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# domefall check: a page to read, and the same facts as JSON; warnings do not make it fail; a damaged file does.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+
+cat >around.yaml <<'END'
+title: "Around \"it\""
+frames_per_second: 10
+size: 256
+black_hole: {mass_solar: 4.3e6}
+timeline:
+  - {duration_s: 6, trajectory: {type: parabolic, periastron: 6, from_r: 20, to_r: 20, to_leg: outward}}
+  - {duration_s: 2, trajectory: {type: continue, rate_m_per_s: 100}}
+  - {duration_s: 4, dissolve_s: 1, trajectory: {type: infall, from_r: 8, to_r: 0.5}, camera: {look_at: outward}}
+  - {duration_s: 2, trajectory: {type: static, r: 3}}
+END
+
+exits 0 "$DOMEFALL" check around.yaml
+[ "$(wc -l <stdout)" -le 60 ] || fail "more than a page"
+# tells PATTERN: the page has such a line.
+tells() { grep -qE -- "$1" stdout || { cat stdout >&2; fail "no '$1'"; }; }
+tells '^title +Around "it"$'
+tells '^frames +130 at 10 a second \(13 s\), domemaster of 256 x 256$'
+tells '^graded for +Dome G2\.2 Rec\.709, Dome$'
+tells '^segment 0 +parabolic, 0 s to 6 s$'
+tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
+tells '^segment 2 +infall, 7 s to 11 s$'
+tells '^ +-- joint at 6 s: the motion goes on$'
+tells '^ +-- dissolve of 1 s at 7 s: r jumps from '
+tells '^ +-- cut at 11 s: region II to I; r jumps from 0\.5 M to 3 M$'
+tells '^regions +I, II, I$'
+tells '^closest +r = 0\.5 M, frame 1(09|10) '
+tells '^fastest +[01]'
+tells '^bluest sky +1 \+ z = 0\.'
+tells '^reddest sky +1 \+ z = [1-9]'
+tells '^brightest +frame [0-9]+ .* mean luminance'
+tells '^to render +about .* on this machine with [0-9]+ threads? at 256 x 256'
+tells '^ +6 s, frame 60, segment 1: the motion goes on, but its clock jumps from '
+cp stdout page
+
+exits 0 "$DOMEFALL" check around.yaml --json
+python3 - stdout page <<'END'
+import json, sys
+with open(sys.argv[1]) as f:
+    facts = json.load(f, parse_constant=lambda name: sys.exit('not JSON: ' + name))
+assert facts['title'] == 'Around "it"'
+assert facts['frames'] == 130 and facts['duration_s'] == 13 and facts['width'] == 256
+assert [s['type'] for s in facts['segments']] == ['parabolic', 'parabolic', 'infall', 'static']
+closest = facts['segments'][0]['closest']
+assert abs(closest['value'] - 6) < 1e-9 and abs(closest['time_s'] - 3) < 1e-5, closest
+assert facts['segments'][2]['regions'] == ['I', 'II'] and facts['regions'] == ['I', 'II', 'I']
+assert abs(facts['closest_r']['value'] - 0.5) < 1e-9
+assert 0 < facts['fastest_speed']['value'] < 1 <= facts['fastest_lorentz_factor']['value']
+assert facts['least_one_plus_z']['value'] < 1 < facts['largest_one_plus_z']['value']
+assert facts['joints'][1]['dissolve_s'] == 1 and facts['joints'][0]['velocity_jump'] < 1e-6
+assert len(facts['warnings']) == 1 and facts['warnings'][0]['frame'] == 60, facts['warnings']
+assert facts['render']['seconds'] > 0 and facts['render']['threads'] >= 1
+assert facts['brightest']['mean'] >= facts['darkest']['mean'] > 0
+END
+
+# Flat space; infinities are null.
+cat >flat.yaml <<'END'
+size: 64
+output: {graded: none}
+timeline: [{duration_s: 2, trajectory: {type: velocity, speed: 0.6, direction: Vega}}]
+END
+exits 0 "$DOMEFALL" check flat.yaml
+tells '^black hole +none: flat space$'
+tells '^fastest +0\.6 of '
+tells '^reddest sky +1 \+ z = 2,'
+tells '^no warnings$'
+exits 0 "$DOMEFALL" check flat.yaml --json
+python3 -c 'import json, sys
+facts = json.load(open("stdout"))
+assert facts["segments"][0]["from_r"] is None and facts["closest_r"] is None
+assert facts["display"] is None and facts["mass_solar"] is None'
+
+# Where no temporary file can be written all else is still said.
+exits 0 env TMPDIR="$folder/nowhere/at/all" "$DOMEFALL" check flat.yaml
+tells '^to render +not measured'
+
+# Files that are there but damaged are told.
+printf 'not a picture' >broken.tif
+printf 'sky: {region_I: {background: broken.tif}}\ntimeline: [{duration_s: 2}]\n' >panorama.yaml
+exits 2 "$DOMEFALL" check panorama.yaml
+says 'broken\.tif'
+[ ! -s stdout ] || fail "talk on stdout"
+printf 'ra_deg,dec_deg,v_mag,b_v\n1,2,x,0\n' >broken.csv
+printf 'sky: {region_I: {background: black, stars: broken.csv}}\ntimeline: [{duration_s: 2}]\n' >stars.yaml
+exits 2 "$DOMEFALL" check stars.yaml
+says 'broken\.csv'
+printf 'grade: {display: Nonsuch}\ntimeline: [{duration_s: 2}]\n' >grade.yaml
+exits 2 "$DOMEFALL" check grade.yaml
+says 'Nonsuch'
