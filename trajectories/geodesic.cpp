@@ -27,14 +27,6 @@ double radial_celerity(const OrbitCurve::Point& p, const OrbitConstants& c, bool
   return outgoing ? -w : w;
 }
 
-Region mirror_of(Region region) {
-  return region == Region::kI ? Region::kIII : region == Region::kIII ? Region::kI : region;
-}
-
-Tetrad mirror_of(Tetrad tetrad) {
-  return tetrad == Tetrad::kRain ? Tetrad::kRainOfThree : Tetrad::kOutgoingToThree;
-}
-
 }  // namespace
 
 struct Geodesic::Tables {

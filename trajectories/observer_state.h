@@ -44,6 +44,16 @@ constexpr bool has_tetrad(Region region, Tetrad t) {
   return is_outgoing(t) == (region == Region::kIV);
 }
 
+// The reflection t -> -t.
+constexpr Region mirror_of(Region region) {
+  if (region == Region::kI) return Region::kIII;
+  return region == Region::kIII ? Region::kI : region;
+}
+constexpr Tetrad mirror_of(Tetrad t) {
+  if (is_outgoing(t)) return is_mirrored(t) ? Tetrad::kOutgoing : Tetrad::kOutgoingToThree;
+  return is_mirrored(t) ? Tetrad::kRain : Tetrad::kRainOfThree;
+}
+
 // The radius of an observer in flat space: every formula has its limit there.
 inline constexpr double kFlatSpace = std::numeric_limits<double>::infinity();
 

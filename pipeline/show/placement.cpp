@@ -3,27 +3,6 @@
 #include <cmath>
 
 namespace domefall {
-namespace {
-
-Region mirror_of(Region region) {
-  if (region == Region::kI) return Region::kIII;
-  return region == Region::kIII ? Region::kI : region;
-}
-
-Tetrad mirror_of(Tetrad tetrad) {
-  switch (tetrad) {
-    case Tetrad::kRain:
-      return Tetrad::kRainOfThree;
-    case Tetrad::kOutgoing:
-      return Tetrad::kOutgoingToThree;
-    case Tetrad::kRainOfThree:
-      return Tetrad::kRain;
-    default:
-      return Tetrad::kOutgoing;
-  }
-}
-
-}  // namespace
 
 M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth) {
   const V3d r0 = -hole_at.v;
