@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Makes naked_eye_stars.csv, the stars of V <= 6.5, from the star data of d3-celestial.
+"""Makes star catalogues from the star data of d3-celestial.
 
     make_naked_eye_stars.py [d3-celestial-0.7.35.tgz] > naked_eye_stars.csv
+    make_naked_eye_stars.py --faintest 8.5 [d3-celestial-0.7.35.tgz] > stars_to_8.csv
 
+The first has the stars of V <= 6.5, the second every star of the source, which ends at V = 8 or so.
 The archive is the npm package of that name and version; without one it is fetched with `npm pack`.
 Its SHA-256 is checked. Stars without a colour get an empty b_v. Standard library only.
 """
 
+import argparse
 import csv
 import hashlib
 import json
@@ -20,7 +23,7 @@ import tempfile
 
 PACKAGE = "d3-celestial@0.7.35"
 SHA256 = "490796718c201e15f38c324bda5458fc4de22519313093bf261b628185eaae81"
-FAINTEST = 6.5
+NAKED_EYE = 6.5
 
 GREEK = dict(zip(
     "αβγδεζηθικλμνξοπρστυφχψω",
@@ -28,13 +31,18 @@ GREEK = dict(zip(
     "tau upsilon phi chi psi omega".split()))
 SUPERSCRIPTS = str.maketrans("¹²³⁴⁵⁶⁷⁸⁹⁰", "1234567890")
 
+# Faint stars that a show names, by Hipparcos number: the source has no designation for them.
+FAINT_NAMES = {32073: "HD 49359"}
+
 # Positions to be met, in degrees (J2000): SIMBAD's, rounded.
 CHECKS = {"Sirius": (101.2872, -16.7161), "Vega": (279.2347, 38.7837),
-          "Betelgeuse": (88.7929, 7.4071)}
+          "Betelgeuse": (88.7929, 7.4071), "HD 49359": (100.52023, -69.70654)}
 
 
-def designation(entry):
+def designation(hip, entry):
     """Bayer letter, else Flamsteed number, with the constellation: 'alpha CMa', '61 Cyg'."""
+    if hip in FAINT_NAMES:
+        return FAINT_NAMES[hip]
     letter = entry.get("bayer", "").translate(SUPERSCRIPTS)
     letter = re.sub(r"[α-ω]", lambda m: GREEK.get(m[0], "sigma"), letter)
     label = letter or entry.get("flam", "")
@@ -47,15 +55,15 @@ def angle(a, b):
     return math.hypot((ra - ra2) * math.cos(math.radians(dec)), dec - dec2)
 
 
-def rows(stars, names):
+def rows(stars, names, faintest):
     for star in stars:
         v_mag = star["properties"]["mag"]
-        if v_mag > FAINTEST:
+        if v_mag > faintest:
             continue
         ra, dec = star["geometry"]["coordinates"]
         entry = names.get(str(star["id"]), {})
         yield [star["id"], f"{ra % 360:.4f}", f"{dec:.4f}", f"{v_mag:.2f}",
-               star["properties"]["bv"], entry.get("name", ""), designation(entry)]
+               star["properties"]["bv"], entry.get("name", ""), designation(star["id"], entry)]
 
 
 def fetched(folder):
@@ -76,27 +84,44 @@ def read_package(archive):
         return load("stars.8.json")["features"], load("starnames.json")
 
 
-def main():
-    if len(sys.argv) > 1:
-        stars, names = read_package(sys.argv[1])
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            stars, names = read_package(fetched(folder))
-    table = sorted(rows(stars, names), key=lambda row: (float(row[3]), row[0]))
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("archive", nargs="?", help="the package; fetched if not given")
+    parser.add_argument("--faintest", type=float, default=NAKED_EYE, metavar="V",
+                        help="leave out fainter stars (default: %(default)s)")
+    return parser.parse_args()
 
-    out = csv.writer(sys.stdout, lineterminator="\n")
-    print("# Stars of V <= 6.5, J2000, from d3-celestial 0.7.35 (BSD-3-Clause), which compiled them"
-          " from XHIP and Hipparcos.")
-    out.writerow("hip ra_deg dec_deg v_mag b_v name designation".split())
-    out.writerows(table)
 
-    places = {row[5]: (float(row[1]), float(row[2])) for row in table if row[5]}
+def check_places(table):
+    """Stops if one of CHECKS that should be in the table is elsewhere or missing."""
+    places = {name: (float(row[1]), float(row[2])) for row in table for name in row[5:] if name}
+    faintest = float(table[-1][3])
     for name, place in CHECKS.items():
+        if name in FAINT_NAMES.values() and faintest <= NAKED_EYE:
+            continue
         off = angle(places[name], place)
         print(f"{name}: {off * 3600:.1f} arcsec off", file=sys.stderr)
         if off > 2e-4:
             sys.exit(f"{name} is not where it should be")
-    print(f"{len(table)} stars, {len(places)} with a proper name, "
+
+
+def main():
+    options = arguments()
+    if options.archive:
+        stars, names = read_package(options.archive)
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            stars, names = read_package(fetched(folder))
+    table = sorted(rows(stars, names, options.faintest), key=lambda row: (float(row[3]), row[0]))
+    check_places(table)
+
+    out = csv.writer(sys.stdout, lineterminator="\n")
+    print(f"# Stars of V <= {float(table[-1][3]):g}, J2000, from d3-celestial 0.7.35 (BSD-3-Clause),"
+          " which compiled them from XHIP and Hipparcos.")
+    out.writerow("hip ra_deg dec_deg v_mag b_v name designation".split())
+    out.writerows(table)
+    proper = {row[5] for row in table if row[5]}
+    print(f"{len(table)} stars, {len(proper)} with a proper name, "
           f"{sum(not row[4] for row in table)} without a colour", file=sys.stderr)
 
 
