@@ -1,0 +1,94 @@
+// The shows of shows/paper/ as tests see them: what stands where in which frame, by the optics and the
+// cameras that render them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pipeline/render/view_tracer.h"
+#include "pipeline/show/attitude.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+
+inline constexpr double kOneDegree = std::numbers::pi / 180;
+inline constexpr double kLightKmPerS = 299792.458;
+
+inline double angle_between(const V3d& a, const V3d& b) {
+  return 2 * std::atan2((a - b).length(), (a + b).length());
+}
+
+inline Show figure(const std::string& label) {
+  return read_show(DOMEFALL_SOURCE_DIR "/shows/paper/" + label + ".yaml");
+}
+
+// One panel.  Positions in the picture are fractions of its width and height from the top left.
+class Panel {
+ public:
+  Panel(const Show& show, int frame)
+      : state(frame_state(show, frame)),
+        optics(
+            make_hole_optics(state.observer.r, state.observer.tetrad, {.home = true, .far = true})),
+        tracer(state, optics, show.effects) {}
+
+  // The tracer looks at the optics beside it.
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+  Panel(Panel&&) = delete;
+  Panel& operator=(Panel&&) = delete;
+  ~Panel() = default;
+
+  PixelPosition pixel(double x, double y) const {
+    return {0.5 + x * columns(state.projection), 0.5 + y * rows(state.projection)};
+  }
+  Look look(double x, double y) const {
+    return tracer.look(direction_at(state.projection, pixel(x, y)));
+  }
+  double z(double x, double y) const { return 1 / look(x, y).frequency_ratio - 1; }
+
+  // Where a direction in the observer's frame stands in the camera's; X to the right, Y down.
+  V3d in_camera(const V3d& seen) const {
+    return apply_transposed(state.observer.tetrad_from_camera, seen);
+  }
+  // The k-th image of a place on the home sky, in the camera's axes: 0 is the primary one.
+  V3d image(const V3d& sky, int order) const {
+    const V3d source = apply_transposed(state.observer.sky_from_tetrad, sky);
+    const SkyTable* table = optics.home_sky ? &*optics.home_sky : nullptr;
+    const V3d in_tetrad = image_of(table, source, order, 1e-9).direction.v;
+    return in_camera(to_observer(state.observer.celerity, in_tetrad).direction);
+  }
+  V3d hole() const {
+    return in_camera(to_observer(state.observer.celerity, V3d(-1, 0, 0)).direction);
+  }
+  // Whether that direction (camera axes) is in the picture.
+  bool shows(const V3d& n) const {
+    const auto p = pixel_of(state.projection, {n});
+    return n.z > -0.9 && p && p->i > 0.5 && p->i < columns(state.projection) + 0.5 && p->j > 0.5 &&
+           p->j < rows(state.projection) + 0.5;
+  }
+  // Speed against the observer at rest at the same r > 2, who moves outwards in the rain frame.
+  double local_speed() const {
+    const ObserverState& o = state.observer;
+    const double s = std::sqrt(2 / o.r), rest_gamma = 1 / std::sqrt(1 - s * s);
+    const double gamma =
+        std::sqrt(1 + o.celerity.dot(o.celerity)) * rest_gamma - o.celerity.x * rest_gamma * s;
+    return std::sqrt((1 - 1 / gamma) * (1 + 1 / gamma));
+  }
+
+  FrameState state;
+  HoleOptics optics;
+  ViewTracer tracer;
+};
+
+inline V3d star(const std::string& name) {
+  static const StarCatalogue catalogue =
+      read_star_catalogue(DOMEFALL_SOURCE_DIR "/shows/assets/stars_to_8.csv", 8);
+  const auto place = find_star(catalogue, name);
+  EXPECT_TRUE(place) << name;
+  return place ? place->v : V3d(1, 0, 0);
+}
+
+}  // namespace domefall
