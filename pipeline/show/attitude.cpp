@@ -93,6 +93,8 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
   if (std::holds_alternative<LookAlongMotion>(attitude))
     return motion_seen(o, vantage).normalized();
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
+    // From region IV no sky is seen; outward is where its images come up at r = 2.
+    if (o.region == Region::kIV) return to_observer(vantage.celerity, V3d(1, 0, 0)).direction;
     const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
     const V3d image = effects.lensing ? primary_image(o.r, o.tetrad, source).v
                                       : to_tetrad(vantage.rest, source).direction;
