@@ -4,6 +4,8 @@
 #
 #     docs/gallery/make_paper_pictures.sh [LABEL...]
 #
+# The filter has no negative lobes, which would draw dark rings around bright stars.
+#
 # Needs build/release/domefall (or $DOMEFALL) and oiiotool.  Frames stay in out/paper/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -20,7 +22,7 @@ for label in "${labels[@]}"; do
   "$domefall" render "shows/paper/$label.yaml" --out "$out"
   for frame in "$out"/graded/*.png; do
     number=$(basename "$frame" .png | grep -oE '[0-9]+$')
-    oiiotool "$frame" --resize:filter=lanczos3 "${width}x0" -d uint8 \
+    oiiotool "$frame" --resize:filter=blackman-harris "${width}x0" -d uint8 \
       --compression "jpeg:$quality" -o "docs/gallery/${label}_$number.jpg"
   done
 done
