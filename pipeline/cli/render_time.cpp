@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <future>
 
@@ -14,9 +16,9 @@
 namespace domefall {
 namespace {
 
-// Pixels along the longer side of the larger of the two sizes; the smaller one has a quarter of it.
-constexpr int kLarge = 1024, kSmaller = 4;
-constexpr int kSmallFrames = 4, kLargeFrames = 3;
+// Pixels along the upper side of the largest of the three sizes; the others have a half and a quarter.
+constexpr int kLarge = 1024, kSmallest = 16;
+constexpr int kFrames = 3;  // of each
 
 class TemporaryFolder {
  public:
@@ -38,7 +40,12 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-double pixels_of(const Projection& p) { return 1.0 * columns(p) * rows(p); }
+// Seconds a frame: by the clock, and of all processors together, which other programs hardly change.
+struct Cost {
+  double wall = 0, processor = 0;
+};
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 FrameState resized_state(const Show& show, int frame, int width) {
   FrameState state = frame_state(show, frame);
@@ -56,21 +63,24 @@ class Run {
   Run(const Show& show, Renderer& renderer, const Grader* grader)
       : show_(show), renderer_(renderer), grader_(grader) {}
 
-  // Seconds a frame, in a run in which one frame is written while the next is rendered.
-  double seconds_per_frame(int frames, int width) const {
+  // Of a run in which one frame is written while the next is rendered.
+  Cost per_frame(int width) const {
+    using Clock = std::chrono::steady_clock;
     const int count = frame_count(show_);
     std::future<void> writing;
-    std::chrono::steady_clock::time_point start;
-    // One more, from whose writing on the clock runs.
-    for (int k = 0; k <= frames; ++k) {
-      const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * frames);
+    Clock::time_point start;
+    double processor = 0;
+    // One more, from whose writing on the clocks run.
+    for (int k = 0; k <= kFrames; ++k) {
+      const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<HalfFrame>(
           renderer_.render(resized_state(show_, static_cast<int>(number), width)));
       if (writing.valid()) writing.get();
-      if (k == 0) start = std::chrono::steady_clock::now();
-      if (k < frames) writing = std::async(std::launch::async, [this, frame] { write(*frame); });
+      if (k == 0) start = Clock::now(), processor = processor_seconds();
+      if (k < kFrames) writing = std::async(std::launch::async, [this, frame] { write(*frame); });
     }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / frames;
+    return {std::chrono::duration<double>(Clock::now() - start).count() / kFrames,
+            (processor_seconds() - processor) / kFrames};
   }
 
  private:
@@ -96,16 +106,17 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   set_file_threads(renderer.threads());
   const Run run(show, renderer, grader);
   const int large = std::min(columns(show.projection), kLarge);
-  const double small_s = run.seconds_per_frame(kSmallFrames, std::max(16, large / kSmaller));
-  const double large_s = run.seconds_per_frame(kLargeFrames, large);
-  const double small_pixels = pixels_of(shrunk(show.projection, std::max(16, large / kSmaller))),
-               large_pixels = pixels_of(shrunk(show.projection, large));
-  const double per_pixel = large_pixels > small_pixels
-                               ? std::max(0.0, large_s - small_s) / (large_pixels - small_pixels)
-                               : 0;
+  const Cost quarter = run.per_frame(std::max(kSmallest, large / 4)),
+             half = run.per_frame(std::max(kSmallest, large / 2)), whole = run.per_frame(large);
+  // Part of the work goes with the pixels, part with the length of edges and with stars.
+  const double step = std::max(0.0, whole.processor - half.processor);
+  const double growth =
+      std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
+  const double doublings = std::log2(1.0 * columns(show.projection) / large);
+  const double more = step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
   RenderTime time;
   time.threads = renderer.threads();
-  time.frame_s = large_s + per_pixel * (pixels_of(show.projection) - large_pixels);
+  time.frame_s = whole.wall * (1 + more / std::max(whole.processor, 1e-9));
   time.seconds = time.frame_s * frame_count(show);
   return time;
 }
