@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "pipeline/show/observer_track.h"
@@ -22,7 +23,9 @@ struct Tick {
   int segment = 0, tick = 0;
 
   bool operator==(const Tick&) const = default;
-  auto operator<=>(const Tick&) const = default;
+  bool operator<(const Tick& other) const {
+    return std::tie(segment, tick) < std::tie(other.segment, other.tick);
+  }
 };
 
 // What a tick of a show is like.
