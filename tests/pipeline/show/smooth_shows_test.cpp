@@ -1,0 +1,219 @@
+// The productions in shows/ move so that a dome's audience can follow: frame by frame, from the first
+// to the last, across every join that is not a dissolve.
+//
+// What is bounded is what the audience sees. 26 places all around the sky and the hole's two poles
+// (the directions to its centre and away from it) are followed to where they appear on the dome, bent,
+// aberrated and through the camera. So a leap of the camera, of the place, of the velocity or of the
+// clock shows, whichever it comes from, and what cancels (an orbit and the camera that follows it)
+// does not. Places nearly behind the hole are left out: their images swing around it as they please.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
+#include "pipeline/show/observer_track.h"
+#include "pipeline/show/frame_state.h"
+#include "show_file.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kFramesPerSecond = 30;
+
+// What one may do from a frame to the next, and how much that may change with the frame after it.
+struct Bounds {
+  double change, change_of_change;
+};
+// A dome's whole picture turning faster makes people ill: 25 degrees per second; and a change of speed
+// is felt as a jerk from about 2 degrees per second on.
+constexpr Bounds kOnDome{25 * kDegree / kFramesPerSecond, 2 * kDegree / kFramesPerSecond};
+constexpr Bounds kOnSky = kOnDome;
+// The hole grows or shrinks by less than a third in a second.
+constexpr Bounds kLogRadius{0.33 / kFramesPerSecond, 0.04 / kFramesPerSecond};
+constexpr Bounds kStops{0.15, 0.01};
+constexpr double kDark = -10;  // stops: the brightest star is below the last step of 8 bits
+// Sources nearer than this to the point behind the hole are not followed.
+constexpr double kBehindHole = 50 * kDegree;
+
+struct Mark {
+  V3d at{0, 0, 0};  // on the dome, camera axes
+  bool seen = false;
+};
+
+struct Look {
+  std::vector<Mark> marks;
+  V3d place;
+  double log_r = 0, ev = 0;
+};
+
+Mark on_dome(const ObserverState& o, const V3d& in_tetrad) {
+  return {apply_transposed(o.tetrad_from_camera, to_observer(o.celerity, in_tetrad).direction),
+          true};
+}
+
+Look look_of(const FrameState& s) {
+  const ObserverState& o = s.observer;
+  Look look;
+  look.place = column(o.sky_from_tetrad, 0);
+  look.log_r = std::log(o.r);
+  look.ev = s.picture.ev;
+  look.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
+  const bool sky = !(is_outgoing(o.tetrad) && o.r <= 2);
+  for (int k = 0; k < 27; ++k) {
+    const V3d corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (!(corner.length() > 0)) continue;
+    const V3d source = apply_transposed(o.sky_from_tetrad, corner.normalized());
+    const bool behind = std::acos(std::clamp(-source.x, -1.0, 1.0)) < kBehindHole;
+    look.marks.push_back(sky && !behind ? on_dome(o, primary_image(o.r, o.tetrad, source).v)
+                                        : Mark{});
+  }
+  return look;
+}
+
+double angle(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
+
+struct Worst {
+  double change = 0, change_of_change = 0;
+  int frame = 0, frame_of_change = 0;
+  void take(int n, double first, double second) {
+    if (!(first <= change)) change = first, frame = n;
+    if (!(second <= change_of_change)) change_of_change = second, frame_of_change = n;
+  }
+};
+
+struct Motion {
+  Worst dome, sky, log_r, stops;
+};
+
+// Three frames in a row.
+void compare(const Look& a, const Look& b, const Look& c, int n, Motion& motion) {
+  const auto turn = [](const V3d& x, const V3d& y, const V3d& z) {
+    return (x - y * 2 + z).length();
+  };
+  for (std::size_t k = 0; k < b.marks.size(); ++k) {
+    const Mark &x = a.marks[k], &y = b.marks[k], &z = c.marks[k];
+    if (x.seen && y.seen && z.seen) motion.dome.take(n, angle(y.at, z.at), turn(x.at, y.at, z.at));
+  }
+  motion.sky.take(n, angle(b.place, c.place), turn(a.place, b.place, c.place));
+  const auto numbers = [n](Worst& worst, double x, double y, double z) {
+    worst.take(n, std::abs(z - y), std::abs(x - 2 * y + z));
+  };
+  numbers(motion.log_r, a.log_r, b.log_r, c.log_r);
+  numbers(motion.stops, a.ev, b.ev, c.ev);
+}
+
+bool dissolves_between(const Show& show, int from, int to) {
+  for (int k = from + 1; k <= to; ++k)
+    if (show.timeline[static_cast<std::size_t>(k)].dissolve_s > 0) return true;
+  return false;
+}
+
+bool begins_or_ends(const Curve& curve, double t, double near) {
+  return std::any_of(curve.keys.begin(), curve.keys.end(),
+                     [&](const auto& key) { return std::abs(key.at_s - t) < near; });
+}
+
+// Whether something may begin or end: within three frames of a join or a keyframe.
+bool is_critical(const Show& show, double t) {
+  const double near = 3.5 / kFramesPerSecond;
+  for (const double join : segment_times(show))
+    if (std::abs(join - t) < near) return true;
+  const Segment& s = show.timeline[static_cast<std::size_t>(segment_at(show, t))];
+  for (const auto& curve : s.curves)
+    if (curve && begins_or_ends(*curve, t, near)) return true;
+  return std::any_of(s.attitudes.begin(), s.attitudes.end(),
+                     [&](const auto& key) { return std::abs(key.at_s - t) < near; });
+}
+
+// All frames where something may begin or end, and four of each twelve in between.
+Motion motion_of(const Show& show, int first = 0, int end = 1 << 30) {
+  Motion motion;
+  std::vector<Look> last;
+  int segment = 0;
+  for (int n = first; n < std::min(end, frame_count(show)); ++n) {
+    if (n % 12 >= 4 && !is_critical(show, n / kFramesPerSecond)) {
+      last.clear();
+      continue;
+    }
+    const FrameState s = frame_state(show, n);
+    if (dissolves_between(show, segment, s.segment)) last.clear();
+    segment = s.segment;
+    last.push_back(look_of(s));
+    if (last.size() > 3) last.erase(last.begin());
+    if (last.size() == 3) compare(last[0], last[1], last[2], n, motion);
+  }
+  return motion;
+}
+
+std::string text_of(const std::string& name) {
+  std::ifstream in(DOMEFALL_SOURCE_DIR "/shows/" + name + ".yaml");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class SmoothShows : public ShowFile, public testing::WithParamInterface<const char*> {
+ protected:
+  SmoothShows() { setenv("DOMEFALL_ASSETS", DOMEFALL_SOURCE_DIR "/shows/assets", 1); }
+};
+
+void expect_within(const char* what, const Worst& worst, const Bounds& bounds) {
+  EXPECT_LE(worst.change, bounds.change) << what << " at frame " << worst.frame;
+  EXPECT_LE(worst.change_of_change, bounds.change_of_change)
+      << what << " jerks at frame " << worst.frame_of_change;
+}
+
+TEST_P(SmoothShows, NothingLeapsOrJerks) {
+  const Motion motion = motion_of(read(text_of(GetParam())));
+  for (const auto& [name, w] : {std::pair{"dome", motion.dome}, {"sky", motion.sky}, {"log_r", motion.log_r}, {"ev", motion.stops}}) std::printf("%s %g@%d %g@%d per s\n", name, w.change * 30, w.frame, w.change_of_change * 30, w.frame_of_change);
+  expect_within("the scene on the dome", motion.dome, kOnDome);
+  expect_within("the place on the sky", motion.sky, kOnSky);
+  expect_within("log r", motion.log_r, kLogRadius);
+  expect_within("the exposure", motion.stops, kStops);
+}
+
+TEST_P(SmoothShows, LastsOneToThreeMinutesBetweenDarkAndDark) {
+  const Show show = read(text_of(GetParam()));
+  EXPECT_EQ(show.frames_per_second, kFramesPerSecond);
+  const int frames = frame_count(show);
+  EXPECT_GE(frames, 60 * kFramesPerSecond);
+  EXPECT_LE(frames, 180 * kFramesPerSecond);
+  EXPECT_LE(frame_state(show, 0).picture.ev, kDark);
+  EXPECT_LE(frame_state(show, frames - 1).picture.ev, kDark);
+}
+
+INSTANTIATE_TEST_SUITE_P(Productions, SmoothShows,
+                         testing::Values("into_the_dark", "flyby", "kruskal_journey"),
+                         [](const auto& show) { return std::string(show.param); });
+
+using AJumpEditedIn = SmoothShows;
+
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(AJumpEditedIn, IsFound) {
+  const std::string text = text_of("into_the_dark");
+  const Motion clock =
+      motion_of(read(edited(text, "rate_m_per_s: [4.1, 1.6]", "rate_m_per_s: [2.85, 2.85]")));
+  EXPECT_GT(clock.dome.change_of_change, kOnDome.change_of_change);
+  const Motion place = motion_of(
+      read(edited(text, "azimuth_deg: 0, speed: 0.4472135955", "azimuth_deg: 0, speed: 0.25")));
+  EXPECT_GT(place.dome.change_of_change, kOnDome.change_of_change);
+  const Motion radius = motion_of(read(edited(text, "rest_r: 6", "rest_r: 5.8")));
+  EXPECT_GT(radius.log_r.change, kLogRadius.change);
+  const Motion flash = motion_of(read(edited(text, "{ev: 0.5}}", "{ev: 0.5}, ease: hold}")));
+  EXPECT_GT(flash.stops.change, kStops.change);
+  const Motion camera = motion_of(
+      read(edited(text, "camera: {look_at: motion}}", "camera: {look_at: motion}, ease: hold}")));
+  EXPECT_GT(camera.dome.change, kOnDome.change);
+}
+
+}  // namespace
+}  // namespace domefall
