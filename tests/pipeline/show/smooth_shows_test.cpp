@@ -16,8 +16,8 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
-#include "pipeline/show/observer_track.h"
 #include "pipeline/show/frame_state.h"
+#include "pipeline/show/observer_track.h"
 #include "show_file.h"
 
 namespace domefall {
@@ -169,7 +169,6 @@ void expect_within(const char* what, const Worst& worst, const Bounds& bounds) {
 
 TEST_P(SmoothShows, NothingLeapsOrJerks) {
   const Motion motion = motion_of(read(text_of(GetParam())));
-  for (const auto& [name, w] : {std::pair{"dome", motion.dome}, {"sky", motion.sky}, {"log_r", motion.log_r}, {"ev", motion.stops}}) std::printf("%s %g@%d %g@%d per s\n", name, w.change * 30, w.frame, w.change_of_change * 30, w.frame_of_change);
   expect_within("the scene on the dome", motion.dome, kOnDome);
   expect_within("the place on the sky", motion.sky, kOnSky);
   expect_within("log r", motion.log_r, kLogRadius);
@@ -198,20 +197,24 @@ std::string edited(std::string text, const std::string& from, const std::string&
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
+// Each near where it was made.
 TEST_F(AJumpEditedIn, IsFound) {
   const std::string text = text_of("into_the_dark");
-  const Motion clock =
-      motion_of(read(edited(text, "rate_m_per_s: [4.1, 1.6]", "rate_m_per_s: [2.85, 2.85]")));
+  const auto motion = [&](const char* from, const char* to, int second) {
+    const int n = second * static_cast<int>(kFramesPerSecond);
+    return motion_of(read(edited(text, from, to)), n - 60, n + 60);
+  };
+  const Motion clock = motion("rate_m_per_s: [4.1, 1.6]", "rate_m_per_s: [2.85, 2.85]", 57);
   EXPECT_GT(clock.dome.change_of_change, kOnDome.change_of_change);
-  const Motion place = motion_of(
-      read(edited(text, "azimuth_deg: 0, speed: 0.4472135955", "azimuth_deg: 0, speed: 0.25")));
-  EXPECT_GT(place.dome.change_of_change, kOnDome.change_of_change);
-  const Motion radius = motion_of(read(edited(text, "rest_r: 6", "rest_r: 5.8")));
+  const Motion speed =
+      motion("azimuth_deg: 0, speed: 0.4472135955", "azimuth_deg: 0, speed: 0.25", 36);
+  EXPECT_GT(speed.dome.change_of_change, kOnDome.change_of_change);
+  const Motion radius = motion("rest_r: 6", "rest_r: 5.8", 110);
   EXPECT_GT(radius.log_r.change, kLogRadius.change);
-  const Motion flash = motion_of(read(edited(text, "{ev: 0.5}}", "{ev: 0.5}, ease: hold}")));
+  const Motion flash = motion("{ev: 0.5}}", "{ev: 0.5}, ease: hold}", 6);
   EXPECT_GT(flash.stops.change, kStops.change);
-  const Motion camera = motion_of(
-      read(edited(text, "camera: {look_at: motion}}", "camera: {look_at: motion}, ease: hold}")));
+  const Motion camera =
+      motion("camera: {look_at: motion}}", "camera: {look_at: motion}, ease: hold}", 77);
   EXPECT_GT(camera.dome.change, kOnDome.change);
 }
 
