@@ -140,10 +140,10 @@ TEST_F(Keyframes, CamerasTurnWithoutAJump) {
 // Out of region IV, where no sky is seen, a star comes up straight ahead.
 TEST_F(Keyframes, ACameraFindsItsStarAtThePastHorizon) {
   const auto fastest = [this](int rate) {
-    const Show s = show(
-        "frames_per_second: " + std::to_string(rate) +
-        "\ncamera: {look_at: Vega}\n"
-        "timeline: [{duration_s: 2, trajectory: {type: kruskal, from_r: 1.9, to_r: 2.3}}]\n");
+    const Show s =
+        show("frames_per_second: " + std::to_string(rate) +
+             "\ncamera: {look_at: Vega}\n"
+             "timeline: [{duration_s: 2, trajectory: {type: kruskal, from_r: 1.9, to_r: 2.3}}]\n");
     return largest_turn_per_frame(s);
   };
   EXPECT_LT(fastest(120), 0.6 * fastest(60));
