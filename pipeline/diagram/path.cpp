@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -107,37 +108,40 @@ double crossing_time(const Instants& show, Tick a, Tick b) {
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
-// The crossings of the first uncut run of segments that has any, in order.
-std::vector<double> first_crossings(const Instants& show, const std::vector<Tick>& ticks) {
+// The crossings between the ticks of one run, in order.
+std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run) {
   std::vector<double> times;
-  Instant before = show.at(ticks[0]);
-  for (std::size_t k = 1; k < ticks.size(); ++k) {
-    const Instant now = show.at(ticks[k]);
-    if (is_jump(before.point, now.point)) {
-      if (!times.empty()) break;
-    } else if (is_inside(before.point.region) != is_inside(now.point.region)) {
-      times.push_back(crossing_time(show, ticks[k - 1], ticks[k]));
-    }
-    before = now;
-  }
+  for (std::size_t k = 1; k < run.size(); ++k)
+    if (run[k - 1].segment == run[k].segment &&
+        is_inside(show.at(run[k - 1]).point.region) != is_inside(show.at(run[k]).point.region))
+      times.push_back(crossing_time(show, run[k - 1], run[k]));
   return times;
 }
 
-void choose_origin_of_time(const Instants& show, const std::vector<Tick>& ticks, Path& path) {
+Origin origin_of(const Instants& show, std::span<const Tick> run) {
   constexpr double kBothVisible = 16;  // U of one is e^4 times that of the other
-  const std::vector<double> crossings = first_crossings(show, ticks);
-  double centre = 0;
-  if (crossings.empty()) {
-    centre = killing_time(show.at(show.tick_at(show.seconds() / 2)));
-  } else if (crossings.size() > 1 &&
-             std::abs(crossings.back() - crossings.front()) < kBothVisible) {
-    path.centre = Path::Centre::kTwoCrossings;
-    centre = (crossings.front() + crossings.back()) / 2;
-  } else {
-    path.centre = Path::Centre::kCrossing;
-    centre = crossings.back();
+  const std::vector<double> crossings = crossings_of(show, run);
+  if (crossings.empty())
+    return {-killing_time(show.at(run[run.size() / 2])), Origin::Centre::kMiddle};
+  if (crossings.size() > 1 && std::abs(crossings.back() - crossings.front()) < kBothVisible)
+    return {-(crossings.front() + crossings.back()) / 2, Origin::Centre::kTwoCrossings};
+  return {-crossings.back(), Origin::Centre::kCrossing};
+}
+
+// For each segment that of its run.
+std::vector<Origin> origins_of_time(const Instants& show, const std::vector<Tick>& ticks) {
+  std::vector<Origin> origins(static_cast<std::size_t>(show.segments()));
+  std::size_t first = 0;
+  for (std::size_t k = 1; k <= ticks.size(); ++k) {
+    const bool goes_on =
+        k < ticks.size() && !is_jump(show.at(ticks[k - 1]).point, show.at(ticks[k]).point);
+    if (goes_on) continue;
+    const Origin origin = origin_of(show, std::span(ticks).subspan(first, k - first));
+    for (int segment = ticks[first].segment; segment <= ticks[k - 1].segment; ++segment)
+      origins[static_cast<std::size_t>(segment)] = origin;
+    first = k;
   }
-  path.time_shift = -centre;
+  return origins;
 }
 
 // ---- sampling ----
@@ -171,7 +175,7 @@ class Sampler {
     p.is_in_drawn_turn = p.swept < begin_ || p.swept > end_;
     if (p.r != kFlatSpace)
       p.penrose = penrose_point(p.region, i.tetrad, p.r,
-                                i.null_time + sense_of_t(i.tetrad) * path_.time_shift);
+                                i.null_time + sense_of_t(i.tetrad) * shift_of(p.segment));
     return p;
   }
 
@@ -193,6 +197,10 @@ class Sampler {
   }
 
  private:
+  double shift_of(int segment) const {
+    return path_.origins[static_cast<std::size_t>(segment)].time_shift;
+  }
+
   bool is_coarse(const PathPoint& a, const PathPoint& b) const {
     if (a.r == kFlatSpace) return false;
     const bool bends =
@@ -250,7 +258,7 @@ Path sample_path(const Show& show) {
   const Instants instants(show);
   const std::vector<Tick> ticks = even_ticks(instants);
   Path path;
-  if (show.mass_solar) choose_origin_of_time(instants, ticks, path);
+  if (show.mass_solar) path.origins = origins_of_time(instants, ticks);
   sample_finely(instants, ticks, path);
   mark_instants(instants, path);
   return path;

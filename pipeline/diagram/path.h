@@ -33,15 +33,20 @@ bool is_joined_in_plane(const PathPoint& a, const PathPoint& b);
 // a's.
 bool is_jump(const PathPoint& a, const PathPoint& b);
 
+// Where t = 0 lies in the Penrose diagram, and why there.
+struct Origin {
+  double time_shift = 0;  // M: added to t
+  enum class Centre { kMiddle, kCrossing, kTwoCrossings };
+  Centre centre = Centre::kMiddle;
+};
+
 struct Path {
   // Segment by segment, each in the order of time with its ends included: where two dissolve into each
   // other the second starts before the first one's end.
   std::vector<PathPoint> points;
   std::vector<PathPoint> instants;  // one every `instant_step_s` from the start
   double instant_step_s = 0;
-  double time_shift = 0;  // M: added to t for the Penrose diagram
-  enum class Centre { kMiddleOfShow, kCrossing, kTwoCrossings };
-  Centre centre = Centre::kMiddleOfShow;
+  std::vector<Origin> origins;     // by segment; empty in flat space
   bool has_gaps_in_plane = false;  // more than 2 kTurnsDrawn turns in a segment
 };
 
@@ -51,9 +56,9 @@ struct Path {
 // Where there are too many turns to draw, r is sampled as it comes, out of step with any period.
 //
 // The Killing symmetry t -> t + constant moves every point of the Penrose diagram along its curve of
-// constant r.  The constant is chosen for the first run without a cut that crosses a horizon: its last
-// crossing lies at the middle of its line; or, where the past and the future horizon are crossed
-// within 16 M, both lie symmetrically.  Where none is crossed, the middle of the show is at t = 0.
+// constant r.  The constant is chosen for each run without a jump: its last crossing of a horizon lies at
+// the middle of its line; or, where the past and the future horizon are crossed within 16 M, both lie
+// symmetrically.  Where none is crossed, the middle of the run is at t = 0.
 Path sample_path(const Show& show);
 
 // 1, 2 or 5 times a power of ten, the least that is `least` or more; least > 0.

@@ -103,15 +103,21 @@ void draw_names(Svg& page, const Diagram& at) {
   page.text({left.x - 9, left.y - 9}, "r = 2", horizon);
 }
 
-const char* reason_of(Path::Centre centre) {
-  if (centre == Path::Centre::kMiddleOfShow) return "the middle of the show lies at t = 0.";
-  if (centre == Path::Centre::kCrossing) return "a horizon is crossed at the middle of its line.";
+const char* reason_of(Origin::Centre centre) {
+  if (centre == Origin::Centre::kMiddle) return "the middle of the show lies at t = 0.";
+  if (centre == Origin::Centre::kCrossing) return "a horizon is crossed at the middle of its line.";
   return "the crossings of both horizons lie symmetrically.";
 }
 
 std::string note_of(const Path& path) {
-  return "The origin of t is free: it is chosen (t shifted by " + number_text(path.time_shift) +
-         " M) so that " + reason_of(path.centre);
+  const Origin& first = path.origins.front();
+  for (const Origin& other : path.origins)
+    if (other.time_shift != first.time_shift)
+      return "The origin of t is free: after each jump it is chosen anew, so that a crossing or "
+             "the "
+             "middle is central.";
+  return "The origin of t is free: it is chosen (t shifted by " + number_text(first.time_shift) +
+         " M) so that " + reason_of(first.centre);
 }
 
 }  // namespace

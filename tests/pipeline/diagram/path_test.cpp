@@ -26,7 +26,7 @@ const PathPoint& at_radius(const Path& path, double r) {
 TEST_F(Paths, AFallCrossesTheHorizonAtTheMiddleOfItsLine) {
   const Path p =
       path("  - {duration_s: 20, trajectory: {type: infall, from_r: 30, pace: slowing}}\n");
-  EXPECT_EQ(p.centre, Path::Centre::kCrossing);
+  EXPECT_EQ(p.origins.at(0).centre, Origin::Centre::kCrossing);
   const PathPoint& crossing = at_radius(p, 2);
   // The nearest sample is within 4 % of r = 2, so within 1/150 on the diagram.
   EXPECT_NEAR(crossing.penrose.x, 0.25, 0.01);
@@ -57,7 +57,7 @@ TEST_F(Paths, ATimelikePathRisesSteeplyInSmallSteps) {
 
 TEST_F(Paths, AnOrbitIsCentredInTimeAndEndsAtTheAngleItSwept) {
   const Path p = path("  - {duration_s: 12, trajectory: {type: circular, r: 6, orbits: 1.25}}\n");
-  EXPECT_EQ(p.centre, Path::Centre::kMiddleOfShow);
+  EXPECT_EQ(p.origins.at(0).centre, Origin::Centre::kMiddle);
   EXPECT_NEAR(p.points.front().penrose.up, -p.points.back().penrose.up, 1e-6);
   EXPECT_NEAR(p.points.front().azimuth, 0, 1e-12);
   EXPECT_NEAR(p.points.back().azimuth, std::numbers::pi / 2, 1e-9);
@@ -147,6 +147,25 @@ TEST(RoundStep, IsTheNextOfOneTwoFive) {
   EXPECT_DOUBLE_EQ(round_step(1.01), 2);
   EXPECT_DOUBLE_EQ(round_step(0.03), 0.05);
   EXPECT_DOUBLE_EQ(round_step(700), 1000);
+}
+
+// After a jump the second world line has nothing to do with the first one's t: each is central.
+TEST_F(Paths, EveryRunIsCentredByItself) {
+  const Path p = path(
+      "  - {duration_s: 4, trajectory: {type: infall, from_r: 20, to_r: 0.1, pace: slowing}}\n"
+      "  - {duration_s: 4, trajectory: {type: kruskal, energy: 0}}\n"
+      "  - {duration_s: 4, trajectory: {type: infall, from_r: 5, to_r: 0.1, region: III}}\n");
+  EXPECT_EQ(p.origins.at(0).centre, Origin::Centre::kCrossing);
+  EXPECT_EQ(p.origins.at(1).centre, Origin::Centre::kMiddle);
+  EXPECT_EQ(p.origins.at(2).centre, Origin::Centre::kCrossing);
+  double upper = -1, lower = 1;
+  for (const PathPoint& point : p.points) {
+    if (point.segment != 1) continue;
+    EXPECT_NEAR(point.penrose.x, 0, 1e-9);  // straight through the throat, at t = 0
+    upper = std::max(upper, point.penrose.up), lower = std::min(lower, point.penrose.up);
+  }
+  EXPECT_GT(upper, 0.3);
+  EXPECT_LT(lower, -0.3);
 }
 
 }  // namespace
