@@ -66,7 +66,8 @@ Look look_of(const FrameState& s) {
   look.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
   const bool sky = !(is_outgoing(o.tetrad) && o.r <= 2);
   for (int k = 0; k < 27; ++k) {
-    const V3d corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const int row = k / 3 % 3, layer = k / 9;
+    const V3d corner(k % 3 - 1, row - 1, layer - 1);
     if (!(corner.length() > 0)) continue;
     const V3d source = apply_transposed(o.sky_from_tetrad, corner.normalized());
     const bool behind = std::acos(std::clamp(-source.x, -1.0, 1.0)) < kBehindHole;
