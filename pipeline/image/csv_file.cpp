@@ -9,6 +9,9 @@
 namespace domefall {
 namespace {
 
+// Spreadsheets put it before what they save as UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
   return first == std::string_view::npos ? "" : text.substr(first, last - first + 1);
@@ -29,6 +32,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 CsvFile::CsvFile(const std::filesystem::path& file) : file_(file), in_(file) {
   if (!in_) throw InputError(file.string() + ": the table cannot be read");
   if (!next_line()) fail("the table has no header line");
+  if (line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
   for (const std::string_view cell : cells_of(line_)) columns_.emplace_back(cell);
 }
 

@@ -51,3 +51,11 @@ END
 
 given_back '{type: parabolic, periastron: 6, from_r: 12, to_r: 12, to_leg: outward}' 1
 given_back '{type: infall, from_r: 12, to_r: 5}' 0
+
+# Spreadsheets put a byte order mark before what they save as UTF-8.
+printf '\xef\xbb\xbfproper_time,r\r\n0,12\r\n10,11\r\n' >marked.csv
+cat >marked.yaml <<'SHOW'
+black_hole: {mass_solar: 10}
+timeline: [{duration_s: 1, trajectory: {type: path, file: marked.csv}}]
+SHOW
+exits 0 "$DOMEFALL" states marked.yaml
