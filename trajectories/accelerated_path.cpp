@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +16,9 @@ namespace {
 
 constexpr int kSamples = 512;  // of a piece, where it is examined
 constexpr double kTolerance = 1e-13;
-constexpr int kDepth = 40;  // halvings of a panel
+constexpr int kDepth = 40;             // halvings of a panel
+constexpr std::size_t kPanels = 4000;  // of a piece
+constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
@@ -30,6 +33,7 @@ struct Cubic {
   }
   double at(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
   double slope(double t) const { return c1 + t * (2 * c2 + t * 3 * c3); }
+  double size() const { return std::abs(c0) + std::abs(c1) + std::abs(c2) + std::abs(c3); }
 };
 
 struct Piece {
@@ -60,6 +64,15 @@ double null_rate(const Rates& p, bool outgoing) {
   const double energy = std::sqrt(p.energy2), inward = outgoing ? p.radial : -p.radial;
   return inward >= 0 ? (1 + p.tangential * p.tangential) / (energy + inward)
                      : (energy - inward) / (1 - 2 / p.r);
+}
+
+// Relative, of null_rate: what rounding of r and its slope does to 1 - 2/r and to E.
+double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
+  const double inward = outgoing ? p.radial : -p.radial,
+               sum = std::sqrt(p.energy2) + std::abs(inward);
+  const double place = kNoise * piece.r.size() / p.r;
+  const double rate = kNoise * piece.r.size() / (piece.end - piece.begin);
+  return (inward >= 0 ? place / (sum * sum) : place / std::abs(1 - 2 / p.r)) + rate / sum;
 }
 
 // Of a key inside: 0 at an extreme, else the harmonic mean weighted towards the shorter side.
@@ -143,11 +156,6 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
     refuse(key, tau, place + "the path is faster than light: it must cross r faster, or turn less");
 }
 
-void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
-  for (int k = 0; k <= kSamples; ++k)
-    check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing);
-}
-
 // Where the cubic turns, between 0 and 1, with both ends.
 std::vector<double> turns_of(const Cubic& c) {
   std::vector<double> cuts{0};
@@ -163,6 +171,13 @@ std::vector<double> turns_of(const Cubic& c) {
   }
   cuts.push_back(1);
   return cuts;
+}
+
+void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
+  for (int k = 0; k <= kSamples; ++k)
+    check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing);
+  // It may touch the horizon between two samples.
+  for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
 }
 
 double where(const Cubic& c, double value, double low, double high) {
@@ -189,25 +204,35 @@ struct AcceleratedPath::Tables {
   std::vector<Piece> pieces;
   std::vector<NullPanel> panels;
 
-  void append(std::size_t piece, double low, double high, int depth);
+  void append(std::size_t piece, double low, double high, int depth, std::size_t most);
   void sum_up();
   double null_time(std::size_t piece, double t) const;
   OrbitPoint state(std::size_t piece, double t) const;
 };
 
-void AcceleratedPath::Tables::append(std::size_t piece, double low, double high, int depth) {
+void AcceleratedPath::Tables::append(std::size_t piece, double low, double high, int depth,
+                                     std::size_t most) {
   const Piece& p = pieces[piece];
+  const bool outgoing = is_outgoing(tetrad);
   NullPanel panel{piece, low, high, 0, {}};
   PanelValues values{};
+  double noise = 0;
   const double middle = (low + high) / 2, half = (high - low) / 2;
-  for (std::size_t j = 0; j < kPanelTerms; ++j)
-    values[j] = null_rate(rates_of(p, middle + half * panel_node(j)), is_outgoing(tetrad));
-  if (integrate_panel(values, half * (p.end - p.begin), kTolerance, panel.sum) || depth == kDepth) {
+  for (std::size_t j = 0; j < kPanelTerms; ++j) {
+    const double t = middle + half * panel_node(j);
+    const Rates rates = rates_of(p, t);
+    check_instant(p, piece + 1, t, outgoing);
+    values[j] = null_rate(rates, outgoing);
+    noise = std::max(noise, null_noise(p, rates, outgoing));
+  }
+  const double span = p.end - p.begin;
+  if (integrate_panel(values, half * span, kTolerance + noise, panel.sum) || depth == kDepth ||
+      panels.size() >= most) {
     panels.push_back(panel);
     return;
   }
-  append(piece, low, middle, depth + 1);
-  append(piece, middle, high, depth + 1);
+  append(piece, low, middle, depth + 1, most);
+  append(piece, middle, high, depth + 1, most);
 }
 
 void AcceleratedPath::Tables::sum_up() {
@@ -245,7 +270,7 @@ AcceleratedPath::AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad
   const auto tables = std::make_shared<Tables>(Tables{tetrad, pieces_of(keys), {}});
   for (std::size_t k = 0; k < tables->pieces.size(); ++k) {
     check_piece(tables->pieces[k], k + 1, is_outgoing(tetrad));
-    tables->append(k, 0, 1, 0);
+    tables->append(k, 0, 1, 0, tables->panels.size() + kPanels);
   }
   tables->sum_up();
   tables_ = tables;

@@ -5,7 +5,8 @@
 //
 // A rate that a key does not give is chosen so that the path does not overshoot the keys (Fritsch and
 // Butland's harmonic mean; 0 at a key that is an extreme).
-// The state is exact to rounding for its r, azimuth and their rates; null_time is a quadrature with 1e-13.
+// The state is exact to rounding for its r, azimuth and their rates; null_time is a quadrature with 1e-13,
+// or what rounding leaves of r - 2 next to a horizon that the tetrad does not cross: 1e-12/(r - 2).
 #pragma once
 
 #include <limits>

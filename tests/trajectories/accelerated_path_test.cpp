@@ -47,6 +47,29 @@ TEST(AcceleratedPath, ItsStatesMoveAsItsPlacesDo) {
   }
 }
 
+// Rounding of r - 2 is all that is left of dv/dtau there; it once took all memory to resolve that.
+TEST(AcceleratedPath, AClimbFromNextToTheHorizonIsTabulated) {
+  for (const double off : {1e-3, 1e-4, 1e-6, 1e-9}) {
+    const AcceleratedPath path({{0, 10, 0, 0, 0}, {60, 2 + off, 0, 0, 0}, {120, 10, 0, 0, 0}});
+    const OrbitPoint down = path.at(60), up = path.at(120);
+    // v = t + r* goes by the same r* both ways, and by t twice.
+    const double rstar = 10 + 2 * std::log(4.0) - down.r - 2 * std::log((down.r - 2) / 2);
+    EXPECT_NEAR(up.null_time - down.null_time, down.null_time + 2 * rstar, 1e-10 + 1e-12 / off);
+  }
+}
+
+// Its lowest place lies between the samples at which it is examined.
+TEST(AcceleratedPath, APathThatTouchesTheHorizonIsRefused) {
+  const double f = std::sqrt(1.0 / 3), in = 0.766983, out = 0.74397351;
+  const auto rate = [f](double v) { return v / std::sqrt(1 - v * v) * f; };
+  try {
+    const AcceleratedPath path({{0, 3, 0, -rate(in), 0}, {6, 3, 0, rate(out), 0}});
+    FAIL() << path.at(2.9468298206751853).r;
+  } catch (const std::domain_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nothing stops falling inside the hole"));
+  }
+}
+
 TEST(AcceleratedPath, APathOverTheHorizonIsSmoothThere) {
   const AcceleratedPath path({{0, 6, 0}, {4, 3, 0.3}, {5.2, 1, 0.35}});
   const double horizon = path.time_at(2, Leg::kInward).value();
