@@ -7,7 +7,8 @@ namespace domefall {
 namespace {
 
 constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
-constexpr double kDefaultRate = 1;  // M per second
+constexpr double kDefaultRate = 1;      // M per second
+constexpr double kEndTolerance = 1e-3;  // of r at the end of a segment
 constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
@@ -112,6 +113,16 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
 // Of free fall without end a show holds what doubles tell apart.
 bool check_end(const Section& s, const Trajectory& trajectory, double tau) {
   const OrbitPoint end = point_at(trajectory, tau);
+  if (const Item* to_r = s.find("to_r")) {
+    // What is left to the singularity may be less than the rounding of the proper time before it.
+    const double wanted = s.number("to_r", kRadius).value_or(end.r);
+    if (std::abs(end.r - wanted) <= kEndTolerance * wanted) return true;
+    to_r->fail(
+        "lies too close to the singularity: the proper time of this trajectory, rounded, leads to "
+        "r = " +
+        short_number(end.r) + " M instead; end farther out");
+    return false;
+  }
   if (end.r >= kNearest * (1 - 1e-9) && end.r <= kFarthest * (1 + 1e-9)) return true;
   const Item* given = s.one_of({"to_tau_m", "rate_m_per_s", "time_lapse"});
   const std::string what = "leads to r = " + short_number(end.r) + " M; shows go from " +
