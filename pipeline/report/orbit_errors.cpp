@@ -92,7 +92,7 @@ Orbit geodesic_of(std::string name, const Geodesic& geodesic, const ReferenceOrb
               {reference.energy(), reference.angular_momentum},
               {}};
   for (const ReferencePlace& at : path) {
-    const double tau = static_cast<double>(at.tau);
+    const auto tau = static_cast<double>(at.tau);
     const Real rest = tau - at.tau;
     orbit.taus.push_back(tau);
     orbit.places.push_back({at.r + way * rest * reference.radial_speed(at.r),
@@ -104,14 +104,16 @@ Orbit geodesic_of(std::string name, const Geodesic& geodesic, const ReferenceOrb
 // A geometric series of distances from `from`, which must be a turning point.
 std::vector<Real> radii_beyond(const Real& from, double first, double last, int states) {
   std::vector<Real> radii;
+  radii.reserve(static_cast<std::size_t>(states));
   for (int k = 0; k < states; ++k)
-    radii.push_back(from + first * std::pow(last / first, double(k) / (states - 1)));
+    radii.emplace_back(from + first * std::pow(last / first, double(k) / (states - 1)));
   return radii;
 }
 
 std::vector<Real> radii_to(double from, double to, int states) {
   std::vector<Real> radii;
-  for (int k = 1; k <= states; ++k) radii.push_back(from * std::pow(to / from, double(k) / states));
+  radii.reserve(static_cast<std::size_t>(states));
+  for (int k = 1; k <= states; ++k) radii.emplace_back(from * std::pow(to / from, double(k) / states));
   return radii;
 }
 

@@ -125,7 +125,7 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
   const Section camera(item, kKeys);
   if (const Item* fixed = camera.find("projection"))
     fixed->fail("holds for the whole show; it belongs in the show's own camera section");
-  const CameraKeys own = read_keys(camera, show.projection, show.named, lookup);
+  CameraKeys own = read_keys(camera, show.projection, show.named, lookup);
   if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
       if (const Item* given = camera.find(key))

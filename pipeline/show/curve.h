@@ -22,11 +22,11 @@ struct Curve {
   std::vector<CurveKey> keys;  // never empty; times ascend strictly
 };
 
-// The first key's value before it, the last one's after it.  Smooth stretches are cubic: where two of
+// At t seconds of show.  The first key's value before it, the last one's after it.  Smooth stretches are cubic: where two of
 // them meet the slope is the harmonic mean of the secants, 0 at a turn (Fritsch and Butland 1984), so
 // that the curve is monotone wherever its keys are; at the curve's ends and beside a hold it is 0,
 // beside a straight stretch that stretch's.
-double value_at(const Curve& curve, double show_time_s);
+double value_at(const Curve& curve, double t);
 
 // The largest value it ever has.
 double largest(const Curve& curve);
