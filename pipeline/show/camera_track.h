@@ -6,10 +6,10 @@
 
 namespace domefall {
 
-// The axes that the camera of a segment has at an instant, for a picture of that projection.
+// The axes that the camera of a segment has t seconds into the show, for a picture of that projection.
 // Between keyframes it turns about one axis at a time, so that it never jumps however the targets
 // move meanwhile.
-M33d camera_axes_at(const Show& show, int segment, double show_time_s, const Projection& projection,
+M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
                     const ObserverState& observer);
 
 // Fills in AttitudeKey::turns of a show that is otherwise complete, some milliseconds for each that

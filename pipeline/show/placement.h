@@ -16,7 +16,7 @@ namespace domefall {
 M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth);
 
 // The same axes after a further azimuth, in their plane.
-M33d moved_on(const M33d& sky_from_tetrad, double azimuth);
+M33d moved_on(const M33d& axes, double azimuth);
 
 // What a segment does with the orbit of its trajectory.
 struct Placement {
@@ -27,7 +27,7 @@ struct Placement {
 };
 
 // The axes at the start of a segment, from those at the end of the one before.
-M33d turned(const M33d& sky_from_tetrad, double turn);
+M33d turned(const M33d& axes, double turn);
 
 OrbitPoint placed(OrbitPoint point, const Placement& placement);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/show/keyframes.h"
 #include "pipeline/show/observer_track.h"
@@ -36,9 +37,9 @@ bool ever_looks(const Segment& s, double begin, double end) {
 
 class TimelineReader {
  public:
-  TimelineReader(const Show& show, const ShowCamera& camera, std::vector<Keyframe> keyframes,
+  TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
                  Lookup& lookup)
-      : show_(show), camera_(camera), keyframes_(std::move(keyframes)), lookup_(lookup) {
+      : show_(show), camera_(std::move(camera)), keyframes_(std::move(keyframes)), lookup_(lookup) {
     so_far_.hole_at = show.hole_at;
     so_far_.heading = show.heading;
   }

@@ -247,9 +247,9 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
 }
 
 std::optional<Timing> read_timing(const Section& s, const Stage& stage,
-                                  const Trajectory& trajectory, const Defaults& start) {
-  const auto begin = read_begin(s, trajectory, start);
-  return begin ? read_end(s, stage, trajectory, *begin, start) : std::nullopt;
+                                  const Trajectory& trajectory, const Defaults& defaults) {
+  const auto begin = read_begin(s, trajectory, defaults);
+  return begin ? read_end(s, stage, trajectory, *begin, defaults) : std::nullopt;
 }
 
 }  // namespace domefall
