@@ -54,7 +54,7 @@ class Turn {
     V3d turn(0, 0, 0);
     for (int k = 0; k < steps; ++k) {
       const double at = std::lerp(from_.at_s, to_.at_s, static_cast<double>(k) / kTurnSteps);
-      const int segment = segment_at(show_, at);
+      const int segment = segment_then(at);
       turn = turn_at(at, observer_at(show_, segment, part_at(show_, segment, at)), turn);
       turns.push_back(turn);
     }
@@ -62,6 +62,13 @@ class Turn {
   }
 
  private:
+  // The turn may begin before the segment and end after it; during its dissolves the segment is itself.
+  int segment_then(double t) const {
+    const auto s = static_cast<std::size_t>(segment_);
+    const double begin = segment_times(show_)[s];
+    const bool own = t >= begin && t <= begin + show_.timeline[s].duration_s;
+    return own ? segment_ : segment_at(show_, t);
+  }
   M33d axes(const AttitudeKey& key, double t, const ObserverState& observer) const {
     Camera camera = camera_at(segment_of(show_, segment_), t);
     camera.attitude = key.attitude;

@@ -59,5 +59,28 @@ TEST_F(CameraTurns, OnItsWayFromTheHoleForwardTheCameraComesNearerAllTheTime) {
   EXPECT_NEAR(camera_angle(middle, hole), camera_angle(middle, forward), 1e-12);
 }
 
+// It jumped to the long way round where the next segment's observer would turn the other way.
+TEST_F(CameraTurns, APictureThatVanishesGoesOnTurningAsItsOwnObserverSees) {
+  for (const char* ra : {"0", "60", "120", "180"}) {
+    const Show s = read(
+        std::string("black_hole: {mass_solar: 4e6}\nframes_per_second: 100\n"
+                    "keyframes:\n"
+                    "  - {at_s: 0, camera: {look_at: hole}}\n"
+                    "  - {at_s: 4, camera: {look_at: {ra_deg: ") +
+        ra +
+        ", dec_deg: 10}}}\n"
+        "timeline:\n"
+        "  - {duration_s: 4, trajectory: {type: circular, r: 20, orbits: 0.01}}\n"
+        "  - {duration_s: 4, dissolve_s: 2, trajectory: {type: circular, r: 20, orbits: 4}}\n");
+    const auto axes = [&s](int n) {
+      const FrameState state = frame_state(s, n);
+      return (state.vanishing ? state.vanishing->observer : state.observer).tetrad_from_camera;
+    };
+    for (int n = 1; n < 400; ++n)
+      for (int k = 0; k < 3; ++k)
+        EXPECT_LE((column(axes(n), k) - column(axes(n - 1), k)).length(), 0.05) << ra << " " << n;
+  }
+}
+
 }  // namespace
 }  // namespace domefall
