@@ -155,9 +155,11 @@ V3d in_rain(const V3d& c, double s) {
 struct Plane {
   double gamma, radial, across, s;
 
+  // gamma + c.n = 1/(gamma + |c|) + |c| (1 + cos) does not cancel behind a fast observer.
   double ratio(double angle) const {
-    return (gamma + radial * std::cos(angle) + across * std::sin(angle)) /
-           std::abs(1 + s * std::cos(angle));
+    const double length = std::hypot(radial, across);
+    const double half = std::cos((angle - std::atan2(across, radial)) / 2);
+    return (1 / (gamma + length) + 2 * length * half * half) / std::abs(1 + s * std::cos(angle));
   }
 };
 

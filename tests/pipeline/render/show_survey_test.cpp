@@ -135,6 +135,15 @@ TEST(FrequencyRange, IsThatOfManyLooks) {
   }
 }
 
+// It was 0, and 1 + z infinite.
+TEST(FrequencyRange, BehindTheFastestObserverLightIsRedButThere) {
+  ObserverState o;
+  o.r = 8, o.celerity = {-1e9, 0, 0};
+  const auto range = frequency_range(o, false, false);
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->least * 2e9 * 1.5, 1, 1e-12);  // gamma - gamma v over 1 + s
+}
+
 TEST(FrequencyRange, StraightLightHasNoSilhouette) {
   ObserverState o;
   o.r = 4, o.celerity = resting_celerity(4);
