@@ -108,6 +108,14 @@ std::vector<double> slopes(const std::vector<double>& taus, const std::vector<do
                           " (units of M): " + why);
 }
 
+// Of rates whose squares double precision does not hold well.
+bool is_too_fast(const PathKey& from, const PathKey& to) {
+  constexpr double kFastest = 1e100;
+  const double span = to.tau - from.tau;
+  return !(std::abs(to.r - from.r) < kFastest * span) ||
+         !(std::abs(to.azimuth - from.azimuth) * std::max(from.r, to.r) < kFastest * span);
+}
+
 void check_keys(const std::vector<PathKey>& keys) {
   if (keys.size() < 2) throw std::domain_error("a path must have at least 2 keys");
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -118,6 +126,8 @@ void check_keys(const std::vector<PathKey>& keys) {
       refuse(k + 1, key.tau, "its rates must be finite numbers");
     if (!std::isfinite(key.tau) || (k > 0 && !(key.tau > keys[k - 1].tau)))
       refuse(k + 1, key.tau, "its proper time must exceed that of the key before");
+    if (k > 0 && is_too_fast(keys[k - 1], key))
+      refuse(k + 1, key.tau, "it is too close in proper time to the key before");
   }
 }
 

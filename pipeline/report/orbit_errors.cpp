@@ -113,7 +113,8 @@ std::vector<Real> radii_beyond(const Real& from, double first, double last, int 
 std::vector<Real> radii_to(double from, double to, int states) {
   std::vector<Real> radii;
   radii.reserve(static_cast<std::size_t>(states));
-  for (int k = 1; k <= states; ++k) radii.emplace_back(from * std::pow(to / from, double(k) / states));
+  for (int k = 1; k <= states; ++k)
+    radii.emplace_back(from * std::pow(to / from, double(k) / states));
   return radii;
 }
 

@@ -129,7 +129,7 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
     if (!timing) return std::nullopt;
     return TimedTrajectory{path, *timing, {mirrored}};
   } catch (const std::domain_error& error) {
-    by->fail(error.what());
+    by->fail(std::string("cannot be flown: ") + error.what());
   } catch (const InputError& error) {
     by->fail(std::string("names a table in error: ") + error.what());
   }

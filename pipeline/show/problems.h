@@ -19,6 +19,8 @@ class Problems {
 
   void add(TextPlace at, const std::string& what);
 
+  std::size_t count() const { return problems_.size(); }
+
   // Throws InputError with one line for each problem, in the order of the file:
   // "FILE:LINE:COLUMN: what", counted from 1 and the column in characters, as editors do.
   // Does nothing if there is none.

@@ -162,6 +162,7 @@ class TimelineReader {
   void read_motion(const Item& item, const Section& section, double begin, Segment& segment) {
     const Item* trajectory = section.find("trajectory");
     std::optional<TimedTrajectory> motion;
+    const std::size_t told = item.problems->count();
     Stage stage{show_.mass_solar, axes_before(), segment.duration_s, nullptr};
     if (!so_far_.timeline.empty()) stage.before = &so_far_.timeline.back();
     if (!trajectory && !show_.mass_solar) {
@@ -170,7 +171,12 @@ class TimelineReader {
       section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
       if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
     }
-    if (!motion) return;
+    if (!motion) {
+      // Whatever is wrong with it has been told; a show without its motion must not come about.
+      if (item.problems->count() == told)
+        (trajectory ? *trajectory : item).fail("leads nowhere that a show can follow");
+      return;
+    }
     const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
     if (type) segment.type = type->node.Scalar();
     if (segment.type == "continue") segment.type = so_far_.timeline.back().type;

@@ -157,6 +157,7 @@ TEST(AcceleratedPath, RefusesWhatCannotBeFlown) {
   };
   EXPECT_THAT(refusal({{0, 10, 0}}), HasSubstr("at least 2 keys"));
   EXPECT_THAT(refusal({{0, 10, 0}, {0, 9, 0}}), HasSubstr("key 2, at proper time 0"));
+  EXPECT_THAT(refusal({{0, 10, 0}, {1e-300, 9, 0}}), HasSubstr("too close in proper time"));
   EXPECT_THAT(refusal({{0, 10, 0}, {1, -1, 0}}), HasSubstr("r must exceed 0 (units of M), got -1"));
   EXPECT_THAT(refusal({{0, 10, 0}, {1, std::nan(""), 0}}), HasSubstr("got nan"));
   EXPECT_THAT(refusal({{0, 1.5, 0}, {0.6, 1.0, 0}, {0.7, 1.0, 0}}),

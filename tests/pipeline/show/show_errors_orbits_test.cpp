@@ -105,12 +105,14 @@ TEST_F(ShowErrorsInOrbits, Paths) {
        "3:33: timeline[0].trajectory.keyframes is missing: a list of {at_m, r, azimuth_deg}; or "
        "give file, a table of states"},
       {"Paths2", moving("{type: path, keyframes: [{at_m: 0, r: 5}]}"),
-       "3:57: timeline[0].trajectory.keyframes a path must have at least 2 keys"},
+       "3:57: timeline[0].trajectory.keyframes cannot be flown: a path must have at least 2 keys"},
       {"Paths3", moving("{type: path, keyframes: [{at_m: 0, r: 5}, {at_m: 0, r: 4}]}"),
-       "3:57: timeline[0].trajectory.keyframes key 2, at proper time 0 (units of M): its proper "
+       "3:57: timeline[0].trajectory.keyframes cannot be flown: key 2, at proper time 0 (units of "
+       "M): its proper "
        "time must exceed that of the key before"},
       {"Paths4", moving("{type: path, keyframes: [{at_m: 0, r: 1.5}, {at_m: 10, r: 1.4}]}"),
-       "3:57: timeline[0].trajectory.keyframes key 1, at proper time 0 (units of M): after it, at "
+       "3:57: timeline[0].trajectory.keyframes cannot be flown: key 1, at proper time 0 (units of "
+       "M): after it, at "
        "r = 1.5, the path is faster than light: it must cross r faster, or turn less"},
       {"Paths5",
        moving("{type: path, keyframes: [{at_m: 0, r: 5}, {at_m: 10, r: 4}], to_tau_m: 11}"),
