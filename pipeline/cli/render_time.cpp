@@ -49,17 +49,6 @@ struct Cost {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-FrameState resized_state(const Show& show, int frame, int width) {
-  FrameState state = frame_state(show, frame);
-  state.projection = shrunk(state.projection, width);
-  if (state.vanishing) {
-    auto vanishing = std::make_shared<FrameState>(*state.vanishing);
-    vanishing->projection = shrunk(vanishing->projection, width);
-    state.vanishing = vanishing;
-  }
-  return state;
-}
-
 class Run {
  public:
   Run(const Show& show, Renderer& renderer, const Grader* grader)
@@ -76,7 +65,7 @@ class Run {
     for (int k = 0; k <= kFrames; ++k) {
       const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<HalfFrame>(
-          renderer_.render(resized_state(show_, static_cast<int>(number), width)));
+          renderer_.render(shrunk(frame_state(show_, static_cast<int>(number)), width)));
       if (writing.valid()) writing.get();
       if (k == 0) start = Clock::now(), processor = processor_seconds();
       if (k < kFrames) writing = std::async(std::launch::async, [this, frame] { write(*frame); });

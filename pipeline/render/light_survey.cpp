@@ -78,6 +78,13 @@ Projection shrunk(const Projection& projection, int width) {
   return Domemaster{width};
 }
 
+FrameState shrunk(FrameState state, int width) {
+  state.projection = shrunk(state.projection, width);
+  if (state.vanishing)
+    state.vanishing = std::make_shared<const FrameState>(shrunk(*state.vanishing, width));
+  return state;
+}
+
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
   const int count = frame_count(show);
   const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
@@ -87,13 +94,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   for (int k = 0; k < samples; ++k) {
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
-    FrameState state = frame_state(show, frame);
-    state.projection = shrunk(state.projection, kWidth);
-    if (state.vanishing) {
-      auto vanishing = std::make_shared<FrameState>(*state.vanishing);
-      vanishing->projection = shrunk(vanishing->projection, kWidth);
-      state.vanishing = vanishing;
-    }
+    const FrameState state = shrunk(frame_state(show, frame), kWidth);
     FrameLight light{frame, state.show_time_s, state.segment, state.picture.ev, 0, 0, 0};
     meter.measure(renderer.render(state), state.projection, light);
     lights.push_back(light);

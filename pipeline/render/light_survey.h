@@ -34,5 +34,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
 
 // The same picture about `width` pixels wide (16 at least).
 Projection shrunk(const Projection& projection, int width);
+// And the same frame, a vanishing one with it.
+FrameState shrunk(FrameState state, int width);
 
 }  // namespace domefall

@@ -173,8 +173,8 @@ class TimelineReader {
     }
     if (!motion) {
       // Whatever is wrong with it has been told; a show without its motion must not come about.
-      if (item.problems->count() == told)
-        (trajectory ? *trajectory : item).fail("leads nowhere that a show can follow");
+      if (trajectory && item.problems->count() == told)
+        trajectory->fail("leads nowhere that a show can follow");
       return;
     }
     const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;

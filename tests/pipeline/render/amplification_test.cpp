@@ -22,11 +22,6 @@ struct Scene30 {
   ViewTracer tracer;
 };
 
-V3d random_direction(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return V3d(normal(random), normal(random), normal(random)).normalized();
-}
-
 // [Riazuelo] eq. eq_ampl in the limit of a small image: both forms of the Jacobian.
 TEST(Amplification, OfSmallImagesIsTheInverseOfTheJacobian) {
   std::mt19937 random(11);

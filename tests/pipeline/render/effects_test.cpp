@@ -43,11 +43,6 @@ struct Traced {
   ViewTracer tracer;
 };
 
-V3d random_direction(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return V3d(normal(random), normal(random), normal(random)).normalized();
-}
-
 const Effects kNoAberration{false, true, true, true, Amplification::kStars};
 const Effects kOnlyAberration{true, false, false, true, Amplification::kStars};
 const Effects kOnlyColour{false, true, false, true, Amplification::kStars};

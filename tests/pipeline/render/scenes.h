@@ -73,4 +73,9 @@ inline Show starry(Show show) {
   return show;
 }
 
+inline V3d random_direction(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return V3d(normal(random), normal(random), normal(random)).normalized();
+}
+
 }  // namespace domefall

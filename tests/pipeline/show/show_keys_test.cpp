@@ -1,42 +1,11 @@
 // What each key of a show file means, in inside units, and what is meant where it is left out.
+#include "show_keys.h"
+
 #include <cmath>
 #include <numbers>
 
-#include "show_file.h"
-
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-class ShowKeys : public ShowFile {
- protected:
-  // A show with one segment and further lines.
-  Show with(const std::string& more, const std::string& trajectory = "{type: infall, from_r: 30}",
-            const std::string& hole = "{mass_solar: 4e6}") {
-    return read("black_hole: " + hole +
-                "\ntimeline:\n  - {duration_s: 10, trajectory: " + trajectory + "}\n" + more);
-  }
-  Segment segment(const std::string& trajectory, const std::string& hole = "{mass_solar: 4e6}") {
-    return with("", trajectory, hole).timeline.at(0);
-  }
-  // Of a segment of type `velocity`.
-  V3d celerity(const std::string& keys, const std::string& hole = "{mass_solar: 4e6}") {
-    return std::get<GivenVelocity>(segment("{type: velocity, " + keys + "}", hole).trajectory)
-        .celerity;
-  }
-  std::filesystem::path asset(const std::string& name) { return folder_ / "assets" / name; }
-};
-
-// Products and quotients of a few rounded numbers.
-void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-14) {
-  EXPECT_LE((a - b).length(), tolerance * std::max(1.0, b.length())) << a << " and " << b;
-}
-
-SkyDirection place(double ra_deg, double dec_deg) {
-  const double ra = ra_deg * kDegree, dec = dec_deg * kDegree;
-  return {V3d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec))};
-}
 
 const char* const kSixLines =
     "title: Into the dark\n"
@@ -141,84 +110,6 @@ TEST_F(ShowKeys, WithoutAMassSpaceIsFlatAndASegmentMayRest) {
       EXPECT_EQ(s.timing.tau_end, s.duration_s);  // seconds
     }
   }
-}
-
-// ---- trajectories ----
-
-TEST_F(ShowKeys, AFallEndsAtItsToR) {
-  const Segment s = segment("{type: infall, from_r: 12, to_r: 3}");
-  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).r, 3, 1e-13);
-}
-
-TEST_F(ShowKeys, RatesAreUnitsOfMPerSecondOfShow) {
-  EXPECT_DOUBLE_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").timing.tau_end, 15);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").timing.tau_end, 2.5);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8}").timing.tau_end, 10)
-      << "1 M per second is the default";
-}
-
-TEST_F(ShowKeys, AFallMaySlowDown) {
-  EXPECT_EQ(segment("{type: infall, from_r: 12}").timing.pace, Pace::kSteady);
-  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: steady}").timing.pace, Pace::kSteady);
-  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: slowing}").timing.pace, Pace::kSlowing);
-}
-
-TEST_F(ShowKeys, OrbitsCountRevolutionsInTheSegment) {
-  const Segment s = segment("{type: circular, r: 6, orbits: 1.5}");
-  EXPECT_EQ(std::get<CircularOrbit>(s.trajectory).r, 6);
-  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).azimuth, 3 * std::numbers::pi, 1e-13);
-}
-
-TEST_F(ShowKeys, TimeLapseIsRealSecondsPerSecondOfShow) {
-  // One M of 4e6 suns is 4e6 * 4.925490947e-6 s = 19.701963788 s.
-  EXPECT_NEAR(segment("{type: circular, r: 8, time_lapse: 100}").timing.tau_end,
-              1000 / 19.701963788, 1e-11);
-  EXPECT_NEAR(segment("{type: infall, from_r: 900, time_lapse: 100}").timing.tau_end,
-              1000 / 19.701963788, 1e-11);
-  EXPECT_NEAR(segment("{type: static, r: 8}").timing.tau_end, 10 / 19.701963788, 1e-13);
-}
-
-TEST_F(ShowKeys, AVelocityAgainstTheStaticFrameIsTheDefault) {
-  const double rest = std::sqrt(2.0 / 6);  // gamma v of the static frame at r = 8
-  expect_near(celerity("r: 8, speed: 0"), V3d(rest, 0, 0));
-  // Free fall from rest at infinity moves inward at sqrt(2/r) = 1/2 against the static frame.
-  expect_near(celerity("r: 8, speed: 0.5, direction: inward"), V3d(0, 0, 0));
-  expect_near(celerity("r: 8, speed: 0.5, direction: inward, against: static"), V3d(0, 0, 0));
-}
-
-TEST_F(ShowKeys, DirectionsOfAVelocity) {
-  const double c = 0.75;  // gamma v at v = 0.6
-  const auto along = [&](const std::string& direction) {
-    return celerity("r: 1, against: free_fall, speed: 0.6, direction: " + direction);
-  };
-  expect_near(along("inward"), V3d(-c, 0, 0));
-  expect_near(along("outward"), V3d(c, 0, 0));
-  expect_near(along("forward"), V3d(0, 0, c));
-  expect_near(along("backward"), V3d(0, 0, -c));
-  expect_near(along("north"), V3d(0, -c, 0));
-  expect_near(along("south"), V3d(0, c, 0));
-  expect_near(along("{radial: -3, phi: 4}"), V3d(-0.6, 0, 0.8) * c);
-  expect_near(along("{theta: 2}"), V3d(0, c, 0));
-  expect_near(along("{radial: 1e9, theta: 1e9, phi: 1e9}"), V3d(1, 1, 1) * (c / std::sqrt(3)));
-}
-
-TEST_F(ShowKeys, LorentzFactorsKeepTheirDigitsUpToABillion) {
-  for (const auto& [text, factor] : {std::pair{"1", 1.0}, {"1.25", 1.25}, {"1e9", 1e9}}) {
-    const V3d u = celerity("against: free_fall, r: 5, direction: forward, lorentz_factor: " +
-                           std::string(text));
-    EXPECT_NEAR(u.z / std::max(1.0, factor), std::sqrt((factor - 1) * (factor + 1)) / factor,
-                1e-15);
-  }
-}
-
-TEST_F(ShowKeys, InFlatSpaceAVelocityPointsToAPlaceOnTheSky) {
-  const Show show = with("", "{type: velocity, speed: 0.6, direction: Vega}", "{mass_solar: 0}");
-  const auto v = std::get<GivenVelocity>(show.timeline[0].trajectory);
-  EXPECT_EQ(v.r, kFlatSpace);
-  EXPECT_EQ(show.timeline[0].timing.tau_end, 10);
-  const V3d u = celerity("speed: 0.6, direction: {ra_deg: 279.235, dec_deg: 38.784}", "{}");
-  expect_near(u, v.celerity);
-  EXPECT_NEAR(u.length(), 0.75, 1e-14);
 }
 
 // ---- camera ----
