@@ -12,16 +12,16 @@
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/photometry.h"
 #include "pipeline/render/pixel_light.h"
 #include "pipeline/render/sky_spots.h"
-#include "pipeline/render/star_blobs.h"
+#include "pipeline/render/star_images.h"
+#include "pipeline/render/star_layer.h"
 
 namespace domefall {
 namespace {
 
-// Rows that one task shades, covers with stars and stores, while they are still in its cache.
-constexpr int kBandRows = 16;
-// Stars that one task turns into blobs.
+// Stars whose images one task finds.
 constexpr std::size_t kStarBatch = 256;
 
 using Clock = std::chrono::steady_clock;
@@ -44,26 +44,17 @@ int threads_of(int wanted) {
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
-// Stars in batches, each batch into its own list, the lists in order: the same blobs in the same
+// Stars in batches, each batch into its own list, the lists in order: the same images in the same
 // order for any number of threads.
-void append_blobs(const BlobMaker& maker, const std::vector<SceneStar>& stars,
-                  std::vector<StarBlob>& blobs) {
-  std::vector<std::vector<StarBlob>> batches((stars.size() + kStarBatch - 1) / kStarBatch);
+std::vector<StarImage> images_of(const StarImages& maker, const std::vector<SceneStar>& stars) {
+  std::vector<std::vector<StarImage>> batches((stars.size() + kStarBatch - 1) / kStarBatch);
   tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t b) {
     const std::size_t end = std::min(stars.size(), (b + 1) * kStarBatch);
     for (std::size_t k = b * kStarBatch; k < end; ++k) maker.append(stars[k], batches[b]);
   });
-  for (const auto& batch : batches) blobs.insert(blobs.end(), batch.begin(), batch.end());
-}
-
-// For each band of rows, the blobs that touch it, in order.
-std::vector<std::vector<std::uint32_t>> blobs_by_band(const std::vector<StarBlob>& blobs,
-                                                      int bands) {
-  std::vector<std::vector<std::uint32_t>> by_band(static_cast<std::size_t>(bands));
-  for (std::size_t k = 0; k < blobs.size(); ++k)
-    for (int band = blobs[k].first_row / kBandRows; band <= blobs[k].last_row / kBandRows; ++band)
-      by_band[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
-  return by_band;
+  std::vector<StarImage> images;
+  for (const auto& batch : batches) images.insert(images.end(), batch.begin(), batch.end());
+  return images;
 }
 
 // Of a sky with stars; null in flat space.
@@ -206,34 +197,33 @@ HalfFrame Renderer::render_one(const FrameState& state, StageTimes& t) {
 
   HalfFrame frame(columns(state.projection), rows(state.projection));
   arena_->arena.execute([&] {
-    std::vector<StarBlob> blobs;
+    StarLayer stars(state.projection);
+    const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
     for (const SeenSky which : kEverySky)
       if (plan[which].stars)
-        append_blobs(BlobMaker(show_, state, sky_of(state.picture, which), table_of(optics, which)),
-                     *skies[static_cast<std::size_t>(which)]->stars, blobs);
-    t.images = blobs.size();
+        stars.add(images_of(StarImages(show_, state, sky_of(state.picture, which),
+                                       table_of(optics, which)),
+                            *skies[static_cast<std::size_t>(which)]->stars),
+                  widths);
+    t.images = stars.size();
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
     SkySpots spots = find_sky_spots(show_, state, optics, skies);
-    blobs.insert(blobs.end(), spots.blobs.begin(), spots.blobs.end());
-    const int bands = (frame.height + kBandRows - 1) / kBandRows;
-    const auto by_band = blobs_by_band(blobs, bands);
+    stars.add(spots.blobs);
+    stars.sort_into_bands();
     t.stars_s = lap();
     const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
     const bool background = plan.background();
-    tbb::parallel_for(0, bands, [&](int band) {
-      std::vector<float> rgb(static_cast<std::size_t>(frame.width) * 3);
-      const int end = std::min(frame.height, (band + 1) * kBandRows);
-      for (int row = band * kBandRows; row < end; ++row) {
-        if (background)
-          light.fill_row(row, rgb.data());
-        else
-          std::fill(rgb.begin(), rgb.end(), 0.0f);
-        for (const std::uint32_t k : by_band[static_cast<std::size_t>(band)])
-          if (row >= blobs[k].first_row && row <= blobs[k].last_row)
-            draw_row(blobs[k], state.projection, row, rgb.data());
-        store_row(rgb.data(), row, frame);
-      }
+    const auto stride = static_cast<std::size_t>(frame.width) * 3;
+    tbb::parallel_for(0, (frame.height + kBandRows - 1) / kBandRows, [&](int band) {
+      const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
+      std::vector<float> rgb(stride * kBandRows);
+      if (background)
+        for (int row = first; row < end; ++row)
+          light.fill_row(row, rgb.data() + static_cast<std::size_t>(row - first) * stride);
+      stars.draw_band(band, rgb.data());
+      for (int row = first; row < end; ++row)
+        store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, frame);
     });
     t.pixels_s = lap();
   });

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/colour/blackbody.h"
-#include "pipeline/render/effect_light.h"
+#include "pipeline/colour/colour_space.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/vector_math.h"
 
@@ -14,11 +13,6 @@ namespace domefall {
 namespace {
 
 using std::numbers::pi;
-
-// Images up to this order are always tried, since either side may be the bright one; beyond, the
-// flux falls by exp(-2 pi) with every second order and the first faint one ends the series.
-constexpr int kAlwaysTried = 4, kLastOrder = 24;
-constexpr int kWithoutAmplification = 2;
 
 // The Gaussian at its reach is taken off it, so that it ends at 0.
 const double kCut = std::exp(-kBlobReach * kBlobReach / 2);
@@ -52,13 +46,6 @@ DOMEFALL_SIMD void weigh(const CameraDirection* n, int count, const V3d& middle,
   }
 }
 
-// The part of a star's light that a frame takes.
-double part_taken(const Picture::Sky& sky, double magnitude) {
-  constexpr double kFade = 0.5;  // magnitudes
-  if (!sky.soft_limit) return magnitude <= sky.max_magnitude ? 1 : 0;
-  return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
-}
-
 // Pixels per radian at most, up to an angle `reach` from a direction `theta` off the middle.
 double densest(const Projection& p, double theta, double reach) {
   const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
@@ -69,82 +56,19 @@ double densest(const Projection& p, double theta, double reach) {
 
 }  // namespace
 
-BlobMaker::BlobMaker(const Show& show, const FrameState& state, const Picture::Sky& sky,
-                     const SkyTable* table)
-    : law_(show.blobs),
-      sky_(sky),
-      effects_(show.effects),
-      projection_(state.projection),
-      sky_from_tetrad_(state.observer.sky_from_tetrad),
-      tetrad_from_camera_(state.observer.tetrad_from_camera),
-      vantage_(vantage_of(state.observer, show.effects)),
-      from_tetrad_(-vantage_.celerity),
-      to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
-      from_rest_(vantage_.rest),
-      straight_ratio_(effects_.lensing ? 1 : gravitational_ratio(state.observer.r)),
-      table_(table),
-      scale_(exposure_scale(state.picture)),
-      min_sigma_(std::max(show.blobs.min_sigma * width_factor(projection_),
-                          kLeastSigmaPixels * central_pixel_angle(projection_))),
-      max_sigma_(std::max(show.blobs.max_sigma * width_factor(projection_), min_sigma_)) {}
+BlobWidths::BlobWidths(const StarBlobs& law, const Projection& projection, double exposure_scale)
+    : law_(law),
+      scale_(exposure_scale),
+      least_(std::max(law.min_sigma * width_factor(projection),
+                      kLeastSigmaPixels * central_pixel_angle(projection))),
+      most_(std::max(law.max_sigma * width_factor(projection), least_)) {}
 
-void BlobMaker::append(const SceneStar& catalogued, std::vector<StarBlob>& blobs) const {
-  const double taken = sky_.star_gain * part_taken(sky_, catalogued.magnitude);
-  if (!(taken > 0)) return;
-  SceneStar star = catalogued;
-  star.flux *= taken;
-  const V3d source = apply_transposed(sky_from_tetrad_, star.direction.v);
-  if (table_ == nullptr) {
-    append_image(star, source, 0, blobs);
-    return;
-  }
-  const bool amplified = effects_.amplification != Amplification::kNone;
-  const int orders = amplified ? kLastOrder : kWithoutAmplification;
-  for (int order = 0; order < orders; ++order) {
-    const bool bright = append_image(star, source, order, blobs);
-    if (!bright && order + 1 >= kAlwaysTried) return;
-  }
-}
-
-// In the frame of the tetrad.
-SkyImage BlobMaker::image(const SceneStar& star, const V3d& source, int order) const {
-  if (effects_.lensing) return image_of(table_, source, order, star.angular_radius);
-  const AberratedLight at = from_rest_.to_rest(source);
-  const double ratio = at.frequency_ratio;
-  return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
-}
-
-// Whether the image is bright enough to matter, be it in the picture or not.
-// [Riazuelo] sec. sec_stars_eff: m_obs = m + 10 log10(1+z) - 2.5 log10(f), T_obs = T/(1+z).
-bool BlobMaker::append_image(const SceneStar& star, const V3d& source, int order,
-                             std::vector<StarBlob>& blobs) const {
-  const SkyImage at = image(star, source, order);
-  const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
-  const double doppler = seen.frequency_ratio;
-  double g = at.frequency_ratio * doppler;
-  if (vantage_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
-  double flux = star.flux;
-  if (effects_.amplification != Amplification::kNone)
-    flux *= at.amplification / (doppler * doppler);
-  if (effects_.intensity) flux = flux * g * g * g * g;
-  if (!effects_.doppler_colour) flux = std::min(flux, kSaturated);
-  const WorkingRgb per_flux =
-      blackbody_colours().per_flux(star.temperature * colour_ratio(effects_, g));
-  const double lux = luminance(per_flux) * flux;
-  const double faintest_peak = lux * scale_ / (2 * pi * min_sigma_ * min_sigma_);
-  if (!(faintest_peak > kFaintestPeak)) return false;
+double BlobWidths::of(const StarImage& image) const {
+  const double lux = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / scale_;
   const double magnitude = -2.5 * std::log10(lux / kMagnitudeZeroLux);
-  StarBlob blob;
-  blob.sigma = std::clamp(
-      min_sigma_ * std::pow(10, 0.4 * law_.growth * (law_.reference_magnitude - magnitude)),
-      min_sigma_, max_sigma_);
-  blob.centre = {apply_transposed(tetrad_from_camera_, seen.direction)};
-  const double pixel_flux = flux * scale_;
-  blob.rgb[0] = static_cast<float>(per_flux.r * pixel_flux);
-  blob.rgb[1] = static_cast<float>(per_flux.g * pixel_flux);
-  blob.rgb[2] = static_cast<float>(per_flux.b * pixel_flux);
-  if (place_blob(projection_, blob)) blobs.push_back(blob);
-  return true;
+  return std::clamp(
+      least_ * std::pow(10, 0.4 * law_.growth * (law_.reference_magnitude - magnitude)), least_,
+      most_);
 }
 
 bool place_blob(const Projection& projection, StarBlob& blob) {

@@ -1,13 +1,8 @@
-// Stars as they appear in one frame: every image whose flux matters, as a blob in angle.
+// How the image of a star is drawn: as a blob in angle, whose light does not depend on how large it is.
 #pragma once
 
-#include <vector>
-
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/render/star_image.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
 
 namespace domefall {
 
@@ -16,7 +11,7 @@ namespace domefall {
 struct StarBlob {
   CameraDirection centre;
   double sigma;  // radians
-  float rgb[3];  // pixel value times solid angle: the blob's sum over pixels of value * solid angle
+  float rgb[3];  // as StarImage's
   float norm;    // 1 / (integral of the weight over the sphere)
   int first_row, last_row, first_column, last_column;  // pixels from 0, clipped to the image
 };
@@ -27,43 +22,23 @@ inline constexpr double kBlobReach = 4.5;
 // would twinkle.
 inline constexpr double kLeastSigmaPixels = 0.9;
 
+// The widths of a frame's blobs, by the brightness of their stars.
+class BlobWidths {
+ public:
+  // exposure_scale: pixel value of 1 cd/m^2.
+  BlobWidths(const StarBlobs& law, const Projection& projection, double exposure_scale);
+  double least() const { return least_; }  // sigma, radians; at least 0.9 pixel
+  double most() const { return most_; }
+  double of(const StarImage& image) const;
+
+ private:
+  StarBlobs law_;
+  double scale_, least_, most_;
+};
+
 // Fills norm and the pixels that a blob of given centre and sigma covers; false if none is in the
 // picture.  Its weights' sum is that of a blob in the open: a star at the rim is cut, not dimmed.
 bool place_blob(const Projection& projection, StarBlob& blob);
-
-// An image fainter than this peak pixel value, drawn at its smallest, is left out.
-inline constexpr double kFaintestPeak = 2e-4;
-
-// The observed images of one star, brightest possible orders first, before any blob is made.
-// Appends to `blobs` those that fall into the picture.  `table` is null where light goes straight.
-// Without amplification all of a star's images are equally bright, and there is no end of them: the
-// two whose light does not go once around the hole are drawn.
-class BlobMaker {
- public:
-  // `sky`: what the frame takes of these stars.
-  BlobMaker(const Show& show, const FrameState& state, const Picture::Sky& sky,
-            const SkyTable* table);
-  void append(const SceneStar& catalogued, std::vector<StarBlob>& blobs) const;
-
- private:
-  bool append_image(const SceneStar& star, const V3d& source, int order,
-                    std::vector<StarBlob>& blobs) const;
-
-  SkyImage image(const SceneStar& star, const V3d& source, int order) const;
-
-  const StarBlobs& law_;
-  Picture::Sky sky_;
-  Effects effects_;
-  Projection projection_;
-  M33d sky_from_tetrad_, tetrad_from_camera_;
-  Vantage vantage_;
-  Aberration from_tetrad_, to_measured_, from_rest_;
-  double straight_ratio_;  // of light that goes straight: gravity's part of the frequency ratio
-  const SkyTable* table_;
-  double scale_;      // pixel value per cd/m^2
-  double min_sigma_;  // radians, at least 0.9 pixel
-  double max_sigma_;
-};
 
 // Adds the part of a blob that lies on row `row` (from 0) to rgb[3 * columns].
 void draw_row(const StarBlob& blob, const Projection& projection, int row, float* rgb);

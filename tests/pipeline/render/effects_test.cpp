@@ -7,7 +7,7 @@
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/photometry.h"
-#include "pipeline/render/star_blobs.h"
+#include "pipeline/render/star_images.h"
 #include "pipeline/render/view_tracer.h"
 #include "pipeline/show/attitude.h"
 #include "scenes.h"
@@ -322,15 +322,19 @@ TEST(Effects, WithoutAberrationMotionIsStillAhead) {
 
 // ---- stars ----
 
-std::vector<StarBlob> blobs_of(const Show& show, const V3d& sky) {
+std::vector<StarImage> images_of(const Show& show, const V3d& sky) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
   const bool bent = show.effects.lensing && optics.home_sky;
   const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
-  std::vector<StarBlob> blobs;
-  BlobMaker(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr)
-      .append(star, blobs);
-  return blobs;
+  std::vector<StarImage> images;
+  StarImages(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr)
+      .append(star, images);
+  return images;
+}
+
+V3d centre_of(const StarImage& image, const Projection& projection) {
+  return direction_at(projection, {image.x + 1.0, image.y + 1.0}).v;
 }
 
 // A star stands where the background has its place, and shines as the background's law says.
@@ -348,17 +352,17 @@ TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
         const CameraDirection n{random_direction(random)};
         const Look look = traced.tracer.look(n);
         if (n.v.z < -0.5 || look.sky != SeenSky::kOne || look.bundle.azimuth > 2.5) continue;
-        const auto blobs = blobs_of(show, look.sky_direction);
-        ASSERT_FALSE(blobs.empty());
-        const StarBlob& blob = blobs[0];
-        EXPECT_LT((blob.centre.v - n.v).length(), 1e-8);
+        const auto images = images_of(show, look.sky_direction);
+        ASSERT_FALSE(images.empty());
+        const StarImage& image = images[0];
+        EXPECT_LT((centre_of(image, show.projection) - n.v).length(), 1e-6);
         const double g = look.frequency_ratio;
         double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
         if (effects.intensity) flux *= g * g * g * g;
         if (effects.amplification != Amplification::kNone)
           flux /= look.radial_scale * look.tangential_scale;
         const WorkingRgb c = blackbody_colours().per_flux(effects.doppler_colour ? 6500 * g : 6500);
-        EXPECT_NEAR(blob.rgb[1] / (flux * c.g), 1, 1e-5);
+        EXPECT_NEAR(image.rgb[1] / (flux * c.g), 1, 1e-5);
         ++seen;
       }
       EXPECT_GT(seen, 8);
@@ -370,18 +374,19 @@ TEST(Effects, WithoutAmplificationBothImagesOfAStarAreAsBrightAsTheStar) {
   show.effects = {true, false, false, true, Amplification::kNone};
   const FrameState state = frame_state(show, 0);
   const V3d sky = apply(state.observer.sky_from_tetrad, V3d(-std::cos(0.1), std::sin(0.1), 0));
-  const auto blobs = blobs_of(show, sky);
-  ASSERT_EQ(blobs.size(), 2u);
-  EXPECT_LT(blobs[0]
-                .centre.v.cross(CameraDirection{V3d(0, 0, 1)}.v)
-                .dot(blobs[1].centre.v.cross(V3d(0, 0, 1))),
+  const auto images = images_of(show, sky);
+  ASSERT_EQ(images.size(), 2u);
+  const V3d ahead(0, 0, 1);
+  EXPECT_LT(centre_of(images[0], show.projection)
+                .cross(ahead)
+                .dot(centre_of(images[1], show.projection).cross(ahead)),
             0)
       << "on either side of the hole";
   const double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
-  for (const StarBlob& blob : blobs)
-    EXPECT_NEAR(blob.rgb[1] / (flux * blackbody_colours().per_flux(6500).g), 1, 1e-6);
+  for (const StarImage& image : images)
+    EXPECT_NEAR(image.rgb[1] / (flux * blackbody_colours().per_flux(6500).g), 1, 1e-6);
   show.effects.amplification = Amplification::kStars;
-  EXPECT_GT(blobs_of(show, sky)[0].rgb[1], 1.5 * blobs[0].rgb[1]);
+  EXPECT_GT(images_of(show, sky)[0].rgb[1], 1.5 * images[0].rgb[1]);
 }
 
 // ---- amplification of backgrounds ----

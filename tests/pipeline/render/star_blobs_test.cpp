@@ -4,6 +4,7 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/photometry.h"
+#include "pipeline/render/star_images.h"
 #include "scenes.h"
 
 namespace domefall {
@@ -33,8 +34,21 @@ std::vector<StarBlob> blobs_of(const Show& show, const V3d& camera_direction, do
                         apply(state.observer.tetrad_from_camera, camera_direction));
   const double t = 6500;
   const SceneStar star{{sky}, m, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
+  std::vector<StarImage> images;
+  StarImages(show, state, {1, 1, 40}, nullptr).append(star, images);
+  const BlobWidths widths(show.blobs, state.projection, exposure_scale(state.picture));
   std::vector<StarBlob> blobs;
-  BlobMaker(show, state, {1, 1, 40}, nullptr).append(star, blobs);
+  for (const StarImage& image : images) {
+    StarBlob blob{direction_at(state.projection, {image.x + 1.0, image.y + 1.0}),
+                  widths.of(image),
+                  {image.rgb[0], image.rgb[1], image.rgb[2]},
+                  0,
+                  0,
+                  0,
+                  0,
+                  0};
+    if (place_blob(state.projection, blob)) blobs.push_back(blob);
+  }
   return blobs;
 }
 
