@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/colour/blackbody.h"
 #include "pipeline/render/effect_light.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/vector_math.h"
@@ -36,12 +37,26 @@ double panorama_intensity(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
 }
 
+// A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
+// since g^4 may be far beyond a float where the colour, per unit of light, is as far below it.
+WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
+  const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
+  const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
+  const double radiance = light.radiance * ratio2 * ratio2 * surface_brightness_ratio(effects, g);
+  const auto seen = [radiance](float of) {
+    return static_cast<float>(std::min(of * radiance, kSaturated));
+  };
+  return {seen(c.r), seen(c.g), seen(c.b)};
+}
+
 }  // namespace
 
 WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
                             double footprint, double g, double scale) {
   const Effects& effects = show.effects;
   if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background)) {
+    if ((*map)->kind() == SkyMapKind::kThermal)
+      return thermal_light((*map)->sample_thermal(sky_direction, footprint), effects, g) * scale;
     const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
     return (*map)->sample(sky_direction, footprint) * (shift * scale);
   }

@@ -1,0 +1,42 @@
+// The cube on whose faces sky maps are kept: which face a direction meets, and where on it.
+//
+// Face 2a looks along axis a (x, y, z), face 2a + 1 against it.  With (a, b, c) the axes in cyclic
+// order, u = d_b/|d_a| and v = d_c/|d_a| on both, so that opposite faces are mirror images.  Texel
+// (i, j) of n x n has its centre at u = (2 i + 1)/n - 1, v = (2 j + 1)/n - 1; row j follows row j - 1.
+#pragma once
+
+#include <cmath>
+
+#include "trajectories/directions.h"
+
+namespace domefall {
+
+struct FacePoint {
+  int face;     // 2 * axis, + 1 on the negative side
+  double u, v;  // in [-1, 1], along the next two axes
+};
+
+// Any vector but 0, of any length.  On an edge the earlier axis owns it.
+inline FacePoint face_of(const V3d& d) {
+  const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+  if (x >= y && x >= z) return {d.x < 0 ? 1 : 0, d.y / x, d.z / x};
+  if (y >= z) return {d.y < 0 ? 3 : 2, d.z / y, d.x / y};
+  return {d.z < 0 ? 5 : 4, d.x / z, d.y / z};
+}
+
+// The inverse, also beyond the face's edges.  Not of unit length.
+inline V3d direction_of(const FacePoint& p) {
+  const int axis = p.face / 2;
+  V3d d;
+  d[axis] = p.face % 2 ? -1 : 1;
+  d[(axis + 1) % 3] = p.u;
+  d[(axis + 2) % 3] = p.v;
+  return d;
+}
+
+// The place of texel (i, j), which may be of the border, on a face of n x n.
+inline FacePoint texel_centre(int face, int i, int j, int n) {
+  return {face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1};
+}
+
+}  // namespace domefall
