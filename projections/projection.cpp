@@ -54,7 +54,8 @@ constexpr SeriesRatios kRatios = [] {
   return ratios;
 }();
 
-// direction() up to theta = pi/2, where the series' next term is below 1e-17.
+// direction() up to theta = pi/2, where the series' next term is below 1e-17, and to 1e-14 up to
+// 0.75 pi.
 CameraDirection inside_direction(const Domemaster& d, Centred at) {
   const double scale = pi / d.size;
   const double t = (at.x * at.x + at.y * at.y) * scale * scale;
@@ -134,6 +135,16 @@ void inside_directions(const Projection& p, int row, ColumnRange range, CameraDi
       [&](const auto& q) {
         for (int i = range.first; i <= range.last; ++i)
           *out++ = inside_direction(q, centred(p, {i + 1.0, row + 1.0}));
+      },
+      p);
+}
+
+void directions_along(const Projection& p, PixelPosition first, double step, int count,
+                      CameraDirection* out) {
+  std::visit(
+      [&](const auto& q) {
+        for (int k = 0; k < count; ++k)
+          out[k] = inside_direction(q, centred(p, {first.i + k * step, first.j}));
       },
       p);
 }

@@ -87,6 +87,19 @@ WorkingRgb BlackbodyColours::per_flux(double temperature) const {
   return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
 }
 
+WorkingRgb BlackbodyColours::per_flux_log2(float log2_temperature) const {
+  static const auto coolest = static_cast<float>(std::log2(kCoolest));
+  static const auto per_octave = static_cast<float>(std::numbers::ln2 / node_log());
+  const float at = (log2_temperature - coolest) * per_octave;
+  if (!(at >= 0)) return {0, 0, 0};
+  const auto last = static_cast<float>(table_.size() - 1);
+  if (at >= last) return per_flux(std::exp2(static_cast<double>(log2_temperature)));
+  const auto k = static_cast<std::size_t>(at);
+  const float w = at - static_cast<float>(k);
+  const auto &a = table_[k], &b = table_[k + 1];
+  return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
+}
+
 WorkingRgb BlackbodyColours::surface(double temperature) const {
   const WorkingRgb c = per_flux(temperature);
   const double radiance = blackbody_radiance(temperature);

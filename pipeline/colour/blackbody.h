@@ -31,6 +31,8 @@ class BlackbodyColours {
 
   // Working-space light per unit of bolometric flux: lm/W.
   WorkingRgb per_flux(double temperature) const;
+  // The same of log2(temperature): one multiplication from the table.
+  WorkingRgb per_flux_log2(float log2_temperature) const;
   // Of a surface: cd/m^2.
   WorkingRgb surface(double temperature) const;
 

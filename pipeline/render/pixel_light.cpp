@@ -18,52 +18,20 @@ namespace {
 static_assert(kMostSamples <= LookBatch::kSize);  // a batch holds at least one line of looks
 // A pixel this near (in pixels) to the edge of a sky is sampled finely.
 constexpr double kEdgePixels = 4;
-// So is one whose footprint on the sky is longer than this (radians) and that elongated: blurring it
-// to its length would lose what it still resolves across.  A grid has sharp lines, a panorama's
-// texels are softer.
-constexpr double kLongOnGrid = 0.0005, kLongOnPanorama = 0.01, kElongation = 3;
-
-bool is_grid(const Sky* sky) { return sky && std::holds_alternative<Grid>(sky->background); }
+// On a grid, so is one whose footprint on the sky is longer than this (radians) and that elongated:
+// blurring its sharp lines to that length would lose what it still resolves across.
+constexpr double kLongOnGrid = 0.0005, kElongation = 3;
+// Looks in a line of one of many samples in a pixel: the samples do most of the blurring.
+constexpr int kTapsOfSample = 4;
+// A footprint on a map longer than this is no straight line any more; it is blurred to its length.
+constexpr double kLongestLine = 0.7;
 
 WorkingRgb operator*(const WorkingRgb& c, double k) {
   const auto f = static_cast<float>(k);
   return {c.r * f, c.g * f, c.b * f};
 }
 
-// [Riazuelo] sec. ssec_rgb: what a panorama without spectra does under a frequency ratio
-// g = 1/(1+z): keep its hue and scale by a power for blueshift, by an exponential for redshift.
-double panorama_intensity(const PanoramaShift& shift, double g) {
-  if (g < 1) return exponential(1 - 1 / g);
-  return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
-}
-
-// A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
-// since g^4 may be far beyond a float where the colour, per unit of light, is as far below it.
-WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
-  const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
-  const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
-  const double radiance = light.radiance * ratio2 * ratio2 * surface_brightness_ratio(effects, g);
-  const auto seen = [radiance](float of) {
-    return static_cast<float>(std::min(of * radiance, kSaturated));
-  };
-  return {seen(c.r), seen(c.g), seen(c.b)};
-}
-
 }  // namespace
-
-WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
-                            double footprint, double g, double scale) {
-  const Effects& effects = show.effects;
-  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background)) {
-    if ((*map)->kind() == SkyMapKind::kThermal)
-      return thermal_light((*map)->sample_thermal(sky_direction, footprint), effects, g) * scale;
-    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
-    return (*map)->sample(sky_direction, footprint) * (shift * scale);
-  }
-  if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
-  return grid_light({sky_direction}, footprint, colour_ratio(effects, g)) *
-         (surface_brightness_ratio(effects, g) * scale);
-}
 
 PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOptics& optics,
                        const Skies& skies, AntiAliasing anti_aliasing,
@@ -74,13 +42,23 @@ PixelLight::PixelLight(const Show& show, const FrameState& state, const HoleOpti
       skies_(skies),
       darkened_(std::move(darkened)),
       anti_aliasing_(anti_aliasing),
-      long_footprint_(std::any_of(skies.begin(), skies.end(), is_grid) ? kLongOnGrid
-                                                                       : kLongOnPanorama),
       amplified_(show.effects.amplification == Amplification::kEverything),
       null_time_(state.observer.null_time) {
-  for (const SeenSky sky : kEverySky)
-    scale_[static_cast<std::size_t>(sky)] =
-        exposure_scale(state.picture) * sky_of(state.picture, sky).background_gain;
+  for (const SeenSky sky : kEverySky) {
+    const auto k = static_cast<std::size_t>(sky);
+    scale_[k] = exposure_scale(state.picture) * sky_of(state.picture, sky).background_gain;
+    if (const SkyMap* map = map_of(skies[k])) samplers_[k].emplace(*map);
+  }
+}
+
+const SkySampler* PixelLight::sampler(SeenSky sky) const {
+  const auto& sampler = samplers_[static_cast<std::size_t>(sky)];
+  return sampler ? &*sampler : nullptr;
+}
+
+MapShift PixelLight::shift(SeenSky sky, double frequency_ratio) const {
+  const auto k = static_cast<std::size_t>(sky);
+  return map_shift(samplers_[k]->map(), show_, frequency_ratio, scale_[k]);
 }
 
 // sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
@@ -119,19 +97,83 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
   if (anti_aliasing_.samples == 1) return false;
   if (anti_aliasing_.everywhere || batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const Sky* sky = skies_[static_cast<std::size_t>(batch.sky[k])];
-  if (sky && std::holds_alternative<Rings>(sky->background)) return false;  // blurred exactly
+  if (sky == nullptr || std::holds_alternative<Rings>(sky->background))
+    return false;  // blurred exactly
   const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
   const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-  if (amplified_ && sky && longer > kElongation * shorter) return true;
-  return longer * pixel_angle > long_footprint_ && longer > kElongation * shorter;
+  if (!(longer > kElongation * shorter)) return false;
+  return amplified_ ||
+         (std::holds_alternative<Grid>(sky->background) && longer * pixel_angle > kLongOnGrid);
+}
+
+// The looks on a map, in groups of as many taps each.
+void PixelLight::add_map(SeenSky sky, const LookBatch& batch, const CameraDirection* n, int count,
+                         const double* sample_angle, bool fine, float* rgb) const {
+  const SkySampler& sampler = *this->sampler(sky);
+  const bool few = fine && !anti_aliasing_.everywhere;
+  const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
+  std::array<int, LookBatch::kSize> taps{};  // 0: none
+  for (int k = 0; k < count; ++k) {
+    if (batch.sky[k] != sky || is_darkened(sky, n[k])) continue;
+    const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
+    const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
+    const double wide = longer * sample_angle[k];
+    taps[k] = wide < kLongestLine ? sampler.taps(wide, shorter * sample_angle[k], most) : 1;
+  }
+  SkyPlaces places;
+  std::array<int, LookBatch::kSize> who;
+  std::array<float, 3 * LookBatch::kSize + 1> light;
+  for (int left = count; left > 0;) {
+    int at_once = 0, members = 0;
+    bool minified = false;
+    left = 0;
+    for (int k = 0; k < count; ++k) {
+      if (taps[k] == 0) continue;
+      if (at_once == 0) at_once = taps[k];
+      if (taps[k] != at_once) {
+        ++left;
+        continue;
+      }
+      minified |= put_place(sky, batch, k, sample_angle[k], at_once, places, members);
+      who[members++] = k;
+      taps[k] = 0;
+    }
+    if (members == 0) return;
+    sampler.sample(places, members, at_once, minified, light.data());
+    for (int m = 0; m < members; ++m) std::copy_n(&light[3 * m], 3, rgb + 3 * who[m]);
+  }
+}
+
+bool PixelLight::put_place(SeenSky sky, const LookBatch& batch, int k, double sample_angle,
+                           int taps, SkyPlaces& places, int member) const {
+  const bool radial = batch.radial_scale[k] >= batch.tangential_scale[k];
+  const double wide = sample_angle * (radial ? batch.radial_scale[k] : batch.tangential_scale[k]);
+  const double narrow = sample_angle * (radial ? batch.tangential_scale[k] : batch.radial_scale[k]);
+  const V3d on_sky = batch.sky_direction(k);
+  const V3d along = (radial ? batch.along(k) : batch.along(k).cross(on_sky)) * wide;
+  const MapShift shifted = shift(sky, batch.frequency_ratio[k]);
+  const auto set = [member](SkyPlaces::Column& column, double value) {
+    column[static_cast<std::size_t>(member)] = static_cast<float>(value);
+  };
+  set(places.x, on_sky.x), set(places.y, on_sky.y), set(places.z, on_sky.z);
+  set(places.gain, shifted.gain), set(places.tone, shifted.tone);
+  set(places.wide, wide), set(places.narrow, narrow);
+  set(places.ax, along.x), set(places.ay, along.y), set(places.az, along.z);
+  return this->sampler(sky)->is_minified(taps > 1 ? std::max(narrow, wide / taps) : wide);
 }
 
 void PixelLight::shade(const LookBatch& batch, const CameraDirection* n, int count,
                        const double* sample_angle, bool fine, float* rgb) const {
+  for (const SeenSky sky : kEverySky)
+    if (sampler(sky)) add_map(sky, batch, n, count, sample_angle, fine, rgb);
   for (int k = 0; k < count; ++k, rgb += 3) {
     WorkingRgb c{0, 0, 0};
-    if (darkened_.empty() || !is_darkened(batch.sky[k], n[k]))
-      c = light(batch, k, sample_angle[k], fine);
+    if (!is_darkened(batch.sky[k], n[k])) {
+      if (sampler(batch.sky[k]))
+        c = {rgb[0], rgb[1], rgb[2]};
+      else
+        c = light(batch, k, sample_angle[k], fine);
+    }
     if (amplified_)
       c = c * amplification(n[k], sample_angle[k] * (fine ? anti_aliasing_.samples : 1));
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
@@ -173,9 +215,10 @@ void PixelLight::supersample(int row, const std::vector<int>& pixels, float* rgb
   }
 }
 
-void PixelLight::fill_row(int row, float* rgb) const {
-  const ColumnRange inside = inside_columns(projection_, row);
-  std::fill_n(rgb, 3 * columns(projection_), 0.0f);
+void PixelLight::fill(int row, ColumnRange range, float* rgb) const {
+  const ColumnRange in_picture = inside_columns(projection_, row);
+  const ColumnRange inside{std::max(in_picture.first, range.first),
+                           std::min(in_picture.last, range.last)};
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
   std::array<double, LookBatch::kSize> angle;

@@ -1,17 +1,15 @@
-// The light of the skies in a row of pixels.
+// The light of the skies in pixels, each of which is looked at: exact, and not the quickest.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "pipeline/render/anti_aliasing.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/render/sky_light.h"
+#include "pipeline/render/sky_sampler.h"
 #include "pipeline/render/view_tracer.h"
 
 namespace domefall {
-
-// Light of a sky's background (cd/m^2, times `scale`) at frequency ratio
-// g = 1/(1+z), filtered over `footprint` radians on the sky, with the show's effects but its
-// amplification.  [Riazuelo] sec. ssec_rgb for panoramas, which have no spectrum to shift.
-WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
-                            double footprint, double g, double scale);
 
 // Where one sky is drawn by other means: looks on it within the cap are dark.
 struct DarkenedSpot {
@@ -28,12 +26,25 @@ class PixelLight {
              const Skies& skies, AntiAliasing anti_aliasing = {},
              std::vector<DarkenedSpot> darkened = {});
 
-  // Scene-linear working-space pixel values of row `row` (from 0) into rgb[3 * columns].
-  void fill_row(int row, float* rgb) const;
+  // Scene-linear working-space pixel values of the pixels of row `row` (from 0) that are inside `range`
+  // and the picture, into rgb[3 * columns].  The others are left alone.
+  void fill(int row, ColumnRange range, float* rgb) const;
+
+  const ViewTracer& tracer() const { return tracer_; }
+  bool is_dark(SeenSky sky) const { return skies_[static_cast<std::size_t>(sky)] == nullptr; }
+  // Null for a sky that is no map.
+  const SkySampler* sampler(SeenSky sky) const;
+  // Of the light of a sky that is a map.
+  MapShift shift(SeenSky sky, double frequency_ratio) const;
 
  private:
   void shade(const LookBatch& batch, const CameraDirection* n, int count,
              const double* sample_angle, bool fine, float* rgb) const;
+  void add_map(SeenSky sky, const LookBatch& batch, const CameraDirection* n, int count,
+               const double* sample_angle, bool fine, float* rgb) const;
+  // Whether the look needs more than the finest level.
+  bool put_place(SeenSky sky, const LookBatch& batch, int k, double sample_angle, int taps,
+                 SkyPlaces& places, int member) const;
   bool is_darkened(SeenSky sky, const CameraDirection& n) const;
   WorkingRgb light(const LookBatch& batch, int k, double sample_angle, bool fine) const;
   double amplification(const CameraDirection& n, double pixel_angle) const;
@@ -46,8 +57,8 @@ class PixelLight {
   Skies skies_;
   std::vector<DarkenedSpot> darkened_;
   AntiAliasing anti_aliasing_;
-  double long_footprint_;
-  bool amplified_;                    // see Amplification::kEverything
+  bool amplified_;  // see Amplification::kEverything
+  std::array<std::optional<SkySampler>, kSkies> samplers_;
   std::array<double, kSkies> scale_;  // pixel value per cd/m^2, by SeenSky, with its gain
   double null_time_;
 };

@@ -1,5 +1,6 @@
 #include "pipeline/render/renderer.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -12,11 +13,14 @@
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/half_row.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/pixel_light.h"
+#include "pipeline/render/sky_pass.h"
 #include "pipeline/render/sky_spots.h"
 #include "pipeline/render/star_images.h"
 #include "pipeline/render/star_layer.h"
+#include "pipeline/show/vantage.h"
 
 namespace domefall {
 namespace {
@@ -72,18 +76,30 @@ std::size_t node_count(const HoleOptics& optics) {
 }
 
 void store_row(const float* rgb, int row, HalfFrame& frame) {
-  constexpr float kLargest = 65504;
-  Imath::half* out = frame.row(row);
-  float sum = 0;
-  for (int k = 0; k < 3 * frame.width; ++k) {
-    sum += rgb[k] - rgb[k];  // NaN as soon as one value is not finite
-    out[k] = std::min(rgb[k], kLargest);
-  }
-  if (sum == 0) return;
+  static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
+  if (to_half(rgb, 3 * frame.width, reinterpret_cast<std::uint16_t*>(frame.row(row)))) return;
   for (int k = 0; k < 3 * frame.width; ++k)
     if (!std::isfinite(rgb[k]))
       throw std::runtime_error("pixel (" + std::to_string(k / 3 + 1) + ", " +
                                std::to_string(row + 1) + ") is not a finite number");
+}
+
+// About which a coarse grid of looks may miss what there is: where all light crowds ahead of a fast
+// observer and is spread behind it, and the axis, where the singularity's azimuth is a cube root.
+std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
+                                                const HoleOptics& optics) {
+  constexpr double kFast = 3;
+  const ObserverState& o = state.observer;
+  const V3d celerity = vantage_of(o, show.effects).celerity;
+  std::vector<CameraDirection> special;
+  const auto add = [&](const V3d& in_tetrad) {
+    special.push_back({apply_transposed(o.tetrad_from_camera, in_tetrad)});
+  };
+  if (celerity.length() > kFast) add(celerity.normalized()), add(-celerity.normalized());
+  if (optics.white_hole)
+    for (const double outward : {1.0, -1.0})
+      add(to_observer(celerity, V3d(outward, 0, 0)).direction);
+  return special;
 }
 
 }  // namespace
@@ -130,6 +146,9 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
 
 struct Renderer::Arena {
   tbb::task_arena arena;
+  // Kept from frame to frame: new memory costs more than what is written into it.
+  LookGrid grid{};
+  tbb::enumerable_thread_specific<std::vector<float>> bands{};
 };
 
 Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
@@ -166,20 +185,28 @@ const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan&
 }
 
 HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
-  StageTimes own;
-  HalfFrame frame = render_one(state, own);
-  if (state.vanishing) {
-    StageTimes others;
-    dissolve(frame, render_one(*state.vanishing, others), state.vanishing_part);
-    own.load_s += others.load_s, own.tables_s += others.tables_s;
-    own.stars_s += others.stars_s, own.pixels_s += others.pixels_s;
-    own.table_nodes += others.table_nodes, own.images += others.images;
-  }
-  if (times) *times = own;
+  HalfFrame frame;
+  render(state, frame, times);
   return frame;
 }
 
-HalfFrame Renderer::render_one(const FrameState& state, StageTimes& t) {
+void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
+  StageTimes own;
+  render_one(state, frame, own);
+  if (state.vanishing) {
+    StageTimes others;
+    HalfFrame vanishing;
+    render_one(*state.vanishing, vanishing, others);
+    dissolve(frame, vanishing, state.vanishing_part);
+    own.load_s += others.load_s, own.tables_s += others.tables_s;
+    own.stars_s += others.stars_s, own.pixels_s += others.pixels_s;
+    own.grid_s += others.grid_s, own.exact_part = std::max(own.exact_part, others.exact_part);
+    own.table_nodes += others.table_nodes, own.images += others.images;
+  }
+  if (times) *times = own;
+}
+
+void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes& t) {
   const FramePlan plan = plan_frame(show_, state);
   auto start = Clock::now();
   const auto lap = [&start] {
@@ -195,7 +222,8 @@ HalfFrame Renderer::render_one(const FrameState& state, StageTimes& t) {
   t.table_nodes = node_count(optics);
   t.tables_s = lap();
 
-  HalfFrame frame(columns(state.projection), rows(state.projection));
+  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
+    frame = HalfFrame(columns(state.projection), rows(state.projection));
   arena_->arena.execute([&] {
     StarLayer stars(state.projection);
     const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
@@ -213,21 +241,23 @@ HalfFrame Renderer::render_one(const FrameState& state, StageTimes& t) {
     stars.sort_into_bands();
     t.stars_s = lap();
     const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
+    const SkyPass pass(show_, state, anti_aliasing_, light,
+                       special_directions(show_, state, optics), arena_->grid);
+    t.grid_s = lap();
+    t.exact_part = pass.exact_part();
     const bool background = plan.background();
     const auto stride = static_cast<std::size_t>(frame.width) * 3;
     tbb::parallel_for(0, (frame.height + kBandRows - 1) / kBandRows, [&](int band) {
       const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
-      std::vector<float> rgb(stride * kBandRows);
-      if (background)
-        for (int row = first; row < end; ++row)
-          light.fill_row(row, rgb.data() + static_cast<std::size_t>(row - first) * stride);
+      std::vector<float>& rgb = arena_->bands.local();
+      rgb.assign(stride * kBandRows + 1, 0.0f);
+      if (background) pass.fill_band(band, rgb.data());
       stars.draw_band(band, rgb.data());
       for (int row = first; row < end; ++row)
         store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, frame);
     });
     t.pixels_s = lap();
   });
-  return frame;
 }
 
 std::string describe(const FramePlan& plan, const StageTimes& t) {
@@ -250,7 +280,10 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   text += line;
   std::snprintf(line, sizeof line, "stars   %8.4f s  %zu images\n", t.stars_s, t.images);
   text += line;
-  std::snprintf(line, sizeof line, "pixels  %8.4f s\n", t.pixels_s);
+  std::snprintf(line, sizeof line, "grid    %8.4f s\n", t.grid_s);
+  text += line;
+  std::snprintf(line, sizeof line, "pixels  %8.4f s  %.1f %% looked at one by one\n", t.pixels_s,
+                100 * t.exact_part);
   return text + line;
 }
 

@@ -34,7 +34,8 @@ struct FramePlan {
 FramePlan plan_frame(const Show& show, const FrameState& state);
 
 struct StageTimes {
-  double load_s = 0, tables_s = 0, stars_s = 0, pixels_s = 0;
+  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;
+  double exact_part = 0;  // of the sky's pixels, those looked at one by one
   std::size_t table_nodes = 0, images = 0;
 };
 
@@ -53,6 +54,9 @@ class Renderer {
   // cannot be read, std::runtime_error naming the pixel if a value is not finite.
   // Values beyond the largest half (65504) are recorded as that: the sensor saturates.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
+  // The same into a frame, whose memory is used again if it has the size: a new frame's memory costs
+  // more than the light in it.
+  void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
 
   // Reads a sky's files now instead of at the first frame that shows it.  Throws InputError.
   void load_sky(SeenSky which);
@@ -60,7 +64,7 @@ class Renderer {
   int threads() const;
 
  private:
-  HalfFrame render_one(const FrameState& state, StageTimes& times);
+  void render_one(const FrameState& state, HalfFrame& frame, StageTimes& times);
   const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan);
 
   struct Arena;

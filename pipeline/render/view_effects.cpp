@@ -35,6 +35,8 @@ void ViewTracer::straight_looks(const CameraDirection* n, int count, LookBatch& 
     batch.sky[k] = look.sky;
     batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
     batch.frequency_ratio[k] = look.frequency_ratio;
+    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] =
+        0;  // as good as any: a round footprint
     batch.radial_scale[k] = batch.tangential_scale[k] = look.radial_scale;
     batch.to_edge[k] = look.to_edge;
   }

@@ -56,6 +56,8 @@ DOMEFALL_SIMD void flat_sky(const Frame& frame, const Rain& rain, int count, Loo
     const V3d sky = apply(f.sky_from_tetrad, V3d(rain.x[k], rain.y[k], rain.z[k]));
     batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
     batch.frequency_ratio[k] = rain.inverse_doppler[k];
+    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] =
+        0;  // as good as any: a round footprint
     batch.radial_scale[k] = batch.tangential_scale[k] = rain.inverse_doppler[k];
   }
 }
@@ -105,6 +107,9 @@ DOMEFALL_SIMD void onto_sky(const Frame& frame, const Rain& rain, const double* 
     const V3d sky =
         apply(f.sky_from_tetrad, V3d(phi.cosine, rain.y[k] * across, rain.z[k] * across));
     batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
+    const double back = sine > 0 ? phi.cosine / (sine > 0 ? sine : 1) : 0;
+    const V3d along = apply(f.sky_from_tetrad, V3d(-phi.sine, rain.y[k] * back, rain.z[k] * back));
+    batch.along_x[k] = along.x, batch.along_y[k] = along.y, batch.along_z[k] = along.z;
     batch.radial_scale[k] = slope[k] * rain.inverse_doppler[k];
     batch.tangential_scale[k] = std::abs(across) * rain.inverse_doppler[k];
   }

@@ -36,11 +36,14 @@ struct LookBatch {
   template <class T>
   using Column = std::array<T, kSize>;
   alignas(64) Column<double> sky_x, sky_y, sky_z;
+  // On the sky, at right angles to its direction: where the azimuth grows.  0 for straight light.
+  alignas(64) Column<double> along_x, along_y, along_z;
   alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
   alignas(64) Column<double> emission_time, time_scale;  // only where those times are tabulated
   Column<SeenSky> sky;
 
   V3d sky_direction(int k) const { return {sky_x[k], sky_y[k], sky_z[k]}; }
+  V3d along(int k) const { return {along_x[k], along_y[k], along_z[k]}; }
 };
 
 class ViewTracer {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/sky/cube_face.h"
+#include "pipeline/sky/large_pages.h"
 
 namespace domefall {
 namespace {
@@ -69,13 +70,12 @@ SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, int size)
   const std::vector<int> sizes = level_sizes(size);
   std::size_t total = 0;
   for (const int n : sizes) total += 6 * SkyLevel::face_texels(n);
-  auto memory = std::make_shared<std::vector<SkyTexel>>(total);
-  SkyTexel* next = memory->data();
+  owner = large_pages(total * sizeof(SkyTexel));
+  auto* next = static_cast<SkyTexel*>(owner.get());
   for (const int n : sizes) {
     levels.push_back({n, next});
     next += 6 * SkyLevel::face_texels(n);
   }
-  owner = std::move(memory);
 }
 
 SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, std::vector<Level> in,

@@ -56,7 +56,7 @@ TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerPicture) {
   constexpr int kSize = 48;
   for (const int samples : {2, 3, 5, 16}) {
     const HalfFrame frame = rendered(two_skies(kSize), {samples, true}),
-                    large = rendered(two_skies(kSize * samples), {1, false});
+                    large = rendered(two_skies(kSize * samples), {1, false, true});
     const double scale = largest(frame);
     int seen = 0;
     for (int y = kSize / 4; y < 3 * kSize / 4; ++y)

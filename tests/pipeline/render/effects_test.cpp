@@ -412,7 +412,8 @@ TEST(Effects, AnAmplifiedBackgroundHasASmoothRingAndNoSpecks) {
                          (look.bundle.slope * look.bundle.doppler * pixel);
       if (off > 5) {
         const double expected = 1 / (look.radial_scale * look.tangential_scale);
-        ASSERT_NEAR(ratio / expected, 1, 0.03) << x << ' ' << y;
+        // The two are blurred alike, but by different numbers of looks.
+        ASSERT_NEAR(ratio / expected, 1, 0.04) << x << ' ' << y;
       } else {
         const double degrees = std::atan2(y - 179.5, x - 239.5) / kDegree;
         double& peak = peaks[static_cast<std::size_t>(std::lround(degrees + 360) % 360)];

@@ -1,0 +1,102 @@
+// What a frame sees, on a coarse grid of exact looks between which most pixels are interpolated.
+//
+// Nodes stand every kStep pixels.  Between them sky directions and shifts follow the cubic through four
+// nodes a side, at an error of at most kTolerance pixels, bounded in two ways: an edge of a sky, towards
+// which the azimuth is -ln x, is kEdgeCells cells away at least; and at the nodes around, the cubic
+// through their second next neighbours, 16 times worse, is right to 8 times the tolerance.  A cell that
+// fails has every pixel looked at.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/render/pixel_light.h"
+#include "pipeline/render/sky_sampler.h"
+
+namespace domefall {
+
+class LookGrid {
+ public:
+  static constexpr int kStep = 8;
+  static constexpr double kTolerance = 0.01;
+
+  // Looks at all nodes, on all threads of the arena.  Memory is kept from frame to frame.
+  // special: directions about which a grid may miss what there is.
+  // The cells of skies that are no maps are exact.
+  void make(const Projection& projection, const PixelLight& light,
+            const std::vector<CameraDirection>& special);
+
+  enum class Kind : std::uint8_t {
+    kNothing,  // dark, or out of the picture
+    kSmooth,
+    kExact
+  };
+  struct Cell {
+    Kind kind = Kind::kNothing;
+    SeenSky sky = SeenSky::kFour;
+    std::uint8_t taps = 1;
+    bool minified = false;
+
+    bool operator==(const Cell&) const = default;
+  };
+  int cell_columns() const { return cell_columns_; }
+  int cell_rows() const { return cell_rows_; }
+  const Cell& cell(int row, int column) const {
+    return cells_[static_cast<std::size_t>(row * cell_columns_ + column)];
+  }
+
+  // Of the pixels of all cells but those out of the picture or dark, 0 to 1.
+  double exact_part() const;
+
+  // A row of pixels, interpolated between the node rows.
+  struct Line {
+    std::array<std::vector<float>, 10> quantity;  // by node column
+  };
+  // row: of pixels, 0 to kStep - 1 in the cell row.
+  void line_at(int cell_row, int row, Line& line) const;
+  // Pixels of the cells [first, end) of that line, kStep each; (end - first) kStep <= SkyPlaces::kSize.
+  void places(const Line& line, int first, int end, bool oblong, SkyPlaces& out) const;
+
+ private:
+  enum Quantity {
+    kX,
+    kY,
+    kZ,
+    kGain,
+    kTone,
+    kWide,
+    kNarrow,
+    kAlongX,
+    kAlongY,
+    kAlongZ,
+    kQuantities
+  };
+  static constexpr int kCubics = 5;  // so many of them vary as cubics, the others linearly
+  static constexpr int kMargin = 3;  // nodes beyond the first and the last cell
+
+  void look_at_row(int row);
+  void check_row(int row);
+  void classify_row(int row);
+  bool is_smooth(int row, int column) const;
+  Cell classified(int row, int column) const;
+  void store(std::size_t node, const LookBatch& batch, int k, double pixel);
+  std::size_t at(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(node_columns_) +
+           static_cast<std::size_t>(column);
+  }
+
+  Projection projection_;
+  const PixelLight* light_ = nullptr;
+  int node_columns_ = 0, node_rows_ = 0, cell_columns_ = 0, cell_rows_ = 0;
+  std::array<std::vector<float>, kQuantities> nodes_;
+  std::vector<float> tolerance_;    // radians on the sky
+  std::vector<float> edge_;         // cells to the nearest edge of a sky
+  std::vector<std::uint8_t> sky_;   // SeenSky, or dark, or none to interpolate
+  std::vector<std::uint8_t> run_;   // of eight nodes from here on, if it is one
+  std::vector<std::uint8_t> good_;  // whether the cubics hold at a node
+  std::vector<Cell> cells_;
+  std::vector<PixelPosition> special_;  // pixels from 0
+};
+
+}  // namespace domefall

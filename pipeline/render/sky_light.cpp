@@ -1,0 +1,68 @@
+#include "pipeline/render/sky_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/effect_light.h"
+#include "pipeline/render/vector_math.h"
+#include "pipeline/sky/grid_sky.h"
+
+namespace domefall {
+namespace {
+
+WorkingRgb operator*(const WorkingRgb& c, double k) {
+  const auto f = static_cast<float>(k);
+  return {c.r * f, c.g * f, c.b * f};
+}
+
+// [Riazuelo] sec. ssec_rgb: what a panorama without spectra does under a frequency ratio
+// g = 1/(1+z): keep its hue and scale by a power for blueshift, by an exponential for redshift.
+double panorama_intensity(const PanoramaShift& shift, double g) {
+  if (g < 1) return exponential(1 - 1 / g);
+  return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
+}
+
+// A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
+// since g^4 may be far beyond a float where the colour, per unit of light, is as far below it.
+WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
+  const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
+  const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
+  const double radiance = light.radiance * ratio2 * ratio2 * surface_brightness_ratio(effects, g);
+  const auto seen = [radiance](float of) {
+    return static_cast<float>(std::min(of * radiance, kSaturated));
+  };
+  return {seen(c.r), seen(c.g), seen(c.b)};
+}
+
+}  // namespace
+
+WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
+                            double footprint, double g, double scale) {
+  const Effects& effects = show.effects;
+  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background)) {
+    if ((*map)->kind() == SkyMapKind::kThermal)
+      return thermal_light((*map)->sample_thermal(sky_direction, footprint), effects, g) * scale;
+    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
+    return (*map)->sample(sky_direction, footprint) * (shift * scale);
+  }
+  if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
+  return grid_light({sky_direction}, footprint, colour_ratio(effects, g)) *
+         (surface_brightness_ratio(effects, g) * scale);
+}
+
+MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale) {
+  const Effects& effects = show.effects;
+  // Whatever is as bright is white, and stays finite times a texel and a colour.
+  constexpr double kMostGain = 1e28;
+  if (map.kind() == SkyMapKind::kColour) {
+    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
+    return {static_cast<float>(std::min(map.unit() * shift * scale, kMostGain)), 0};
+  }
+  const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
+  const double gain = ratio2 * ratio2 * surface_brightness_ratio(effects, g);
+  return {static_cast<float>(std::min(map.unit() * gain * scale, kMostGain)),
+          static_cast<float>(std::log2(ratio))};
+}
+
+}  // namespace domefall

@@ -1,0 +1,79 @@
+#include "pipeline/render/sky_pass.h"
+
+#include <algorithm>
+
+namespace domefall {
+namespace {
+
+constexpr int kStep = LookGrid::kStep;
+// A smaller picture is not worth a grid.
+constexpr int kSmallest = 64;
+
+bool has_maps(const PixelLight& light) {
+  return std::any_of(std::begin(kEverySky), std::end(kEverySky),
+                     [&](SeenSky sky) { return light.sampler(sky) != nullptr; });
+}
+
+}  // namespace
+
+SkyPass::SkyPass(const Show& show, const FrameState& state, AntiAliasing anti_aliasing,
+                 const PixelLight& light, const std::vector<CameraDirection>& special,
+                 LookGrid& grid)
+    : projection_(state.projection),
+      light_(light),
+      grid_(grid),
+      interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel && has_maps(light) &&
+                    show.effects.amplification != Amplification::kEverything &&
+                    std::min(columns(projection_), rows(projection_)) >= kSmallest) {
+  if (interpolates_) grid_.make(projection_, light, special);
+}
+
+void SkyPass::fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first,
+                          int end, ColumnRange inside, float* rgb) const {
+  constexpr int kCellsAtOnce = SkyPlaces::kSize / kStep;
+  SkyPlaces places;
+  std::array<float, 3 * SkyPlaces::kSize + 1> light;
+  for (int from = first; from < end; from += kCellsAtOnce) {
+    const int to = std::min(end, from + kCellsAtOnce), pixel = from * kStep;
+    const int left = std::max(pixel, inside.first), right = std::min(to * kStep - 1, inside.last);
+    if (left > right) continue;
+    grid_.places(line, from, to, cell.taps > 1, places);
+    light_.sampler(cell.sky)->sample(places, (to - from) * kStep, cell.taps, cell.minified,
+                                     light.data());
+    std::copy(&light[static_cast<std::size_t>(3 * (left - pixel))],
+              &light[static_cast<std::size_t>(3 * (right + 1 - pixel))], rgb + 3 * left);
+  }
+}
+
+void SkyPass::fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) const {
+  const ColumnRange inside = inside_columns(projection_, cell_row * kStep + row);
+  if (inside.first > inside.last) return;
+  const int last = inside.last / kStep;
+  bool lined = false;
+  for (int first = inside.first / kStep, end = first; first <= last; first = end) {
+    const LookGrid::Cell cell = grid_.cell(cell_row, first);
+    while (end <= last && grid_.cell(cell_row, end) == cell) ++end;
+    if (cell.kind == LookGrid::Kind::kExact)
+      light_.fill(cell_row * kStep + row, {first * kStep, end * kStep - 1}, rgb);
+    if (cell.kind != LookGrid::Kind::kSmooth) continue;
+    if (!lined) grid_.line_at(cell_row, row, line);
+    lined = true;
+    fill_smooth(line, cell, first, end, inside, rgb);
+  }
+}
+
+void SkyPass::fill_band(int band, float* rgb) const {
+  const int width = columns(projection_), height = rows(projection_);
+  LookGrid::Line line;
+  for (int row = 0; row < kStep && band * kStep + row < height; ++row) {
+    float* out = rgb + static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(width);
+    if (interpolates_)
+      fill_row(band, row, line, out);
+    else
+      light_.fill(band * kStep + row, {0, width - 1}, out);
+  }
+}
+
+double SkyPass::exact_part() const { return interpolates_ ? grid_.exact_part() : 1; }
+
+}  // namespace domefall

@@ -1,0 +1,34 @@
+// The skies of a frame, band by band: interpolated from a coarse grid of looks where the view is smooth,
+// looked at pixel by pixel where it is not.
+#pragma once
+
+#include "pipeline/render/look_grid.h"
+#include "pipeline/render/pixel_light.h"
+
+namespace domefall {
+
+class SkyPass {
+ public:
+  // Makes the grid, unless the picture or the settings call for looks at every pixel.  Both must outlive
+  // it.  special: see LookGrid.
+  SkyPass(const Show& show, const FrameState& state, AntiAliasing anti_aliasing,
+          const PixelLight& light, const std::vector<CameraDirection>& special, LookGrid& grid);
+
+  // Pixel values of rows [band kStep, ...) into rgb[rows][3 columns], which is zero, plus one float.
+  void fill_band(int band, float* rgb) const;
+
+  // Pixels that were looked at one by one, of those in the picture: 0 to 1.
+  double exact_part() const;
+
+ private:
+  void fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) const;
+  void fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first, int end,
+                   ColumnRange inside, float* rgb) const;
+
+  Projection projection_;
+  const PixelLight& light_;
+  LookGrid& grid_;
+  bool interpolates_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,48 @@
+// Looks at a sky map, many at a time: the inner loop of the sky.  SkyMap::sample is its oracle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/sky/sky_map.h"
+
+namespace domefall {
+
+// Where pixels that stand side by side look, and what becomes of the light.
+struct SkyPlaces {
+  static constexpr int kSize = 512;
+  using Column = std::array<float, kSize>;
+  alignas(64) Column x, y, z;     // on the sky; of any length near 1
+  alignas(64) Column gain;        // pixel value per unit of the map
+  alignas(64) Column tone;        // log2 of the frequency ratio; thermal maps only
+  alignas(64) Column wide;        // the longer side of the footprint, radians on the sky
+  alignas(64) Column narrow;      // the shorter one; looked at with several taps only
+  alignas(64) Column ax, ay, az;  // along the longer side, as long as it; likewise
+};
+
+class SkySampler {
+ public:
+  // The map must outlive it.
+  explicit SkySampler(const SkyMap& map);
+
+  // How many looks in a line an oblong footprint takes, so that each is as long as it is wide or as
+  // the finest texel: one of a few numbers up to `most`.
+  int taps(double wide, double narrow, int most = kMostTaps) const;
+  static constexpr int kMostTaps = 32;
+
+  // Whether a footprint whose looks are that wide needs coarser levels than the finest.
+  bool is_minified(double blur) const { return blur > texel_; }
+
+  // rgb[3 * count + 1]: the last is overwritten too, with 0 or what it was.
+  // minified: whether any of the looks is.
+  void sample(const SkyPlaces& places, int count, int taps, bool minified, float* rgb) const;
+
+  const SkyMap& map() const { return map_; }
+
+ private:
+  const SkyMap& map_;
+  double texel_;  // radians, of the finest level
+};
+
+}  // namespace domefall
