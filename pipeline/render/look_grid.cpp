@@ -15,14 +15,16 @@ constexpr int kStep = LookGrid::kStep;
 constexpr float kEdgeCells = 6;
 // Farther from any edge than across a cell, what is dark at its corners is dark in it.
 constexpr float kDarkCells = 1.5f;
-// So many cells about the direction of motion and the axis every pixel is looked at.
-constexpr double kSpecialCells = 4;
+// So many cells about the direction of motion and the axis every pixel is looked at: ahead of a fast
+// observer, x pixels from it, the sky lies like 1/x, and the cubic errs by 2300/x^3 pixels.
+constexpr double kSpecialCells = 9;
 // Of interpolated shifts: relative, of gains, and in octaves of temperature.
 constexpr float kGainTolerance = 1e-3f, kToneTolerance = 2e-3f;
 // Pixel value per unit of a map that shows nothing: its texels are below 2^15.
 constexpr float kFaintGain = 1e-12f;
-// The cubic through second next neighbours is 16 times worse: half of that.
-constexpr float kCoarser = 8;
+// The cubic through second next neighbours is 16 times worse: a part of that, since the worst is not at
+// the nodes.
+constexpr float kCoarser = 6;
 
 constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 
@@ -73,6 +75,12 @@ DOMEFALL_SIMD void spread_linear(const float* line, int cells, float* out) {
   }
 }
 
+// Of a panorama: ShiftSides become the shift.
+DOMEFALL_SIMD void choose_side(const float* red, const float* blue, float knee, int count,
+                               float* gain) {
+  for (int k = 0; k < count; ++k) gain[k] = red[k] > knee ? blue[k] : red[k];
+}
+
 // What the cubic through the second next neighbours errs by.
 inline float missed(const float* p, std::ptrdiff_t stride) {
   const float between =
@@ -82,6 +90,7 @@ inline float missed(const float* p, std::ptrdiff_t stride) {
 
 struct Checked {
   const float *x, *y, *z, *gain, *tone, *tolerance;
+  float tone_floor;
 };
 
 // Along a line of nodes, or across it with a stride.  A comparison with NaN is false: not good.
@@ -95,7 +104,8 @@ DOMEFALL_SIMD void check(const Checked& nodes, std::ptrdiff_t stride, int count,
     const bool place = x * x + y * y + z * z <= most * most;
     const bool gain =
         missed(n.gain + k, stride) <= kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
-    const bool tone = missed(n.tone + k, stride) <= kCoarser * kToneTolerance;
+    const bool tone = missed(n.tone + k, stride) <=
+                      kCoarser * (kGainTolerance * std::abs(n.tone[k]) + n.tone_floor);
     good[k] = static_cast<std::uint8_t>(good[k] & (place & gain & tone ? 1 : 0));
   }
 }
@@ -114,6 +124,10 @@ void LookGrid::make(const Projection& projection, const PixelLight& light,
   tolerance_.resize(nodes), edge_.resize(nodes), sky_.resize(nodes), run_.resize(nodes);
   good_.assign(nodes, 1);
   cells_.resize(static_cast<std::size_t>(cell_rows_) * static_cast<std::size_t>(cell_columns_));
+  tone_floor_ = kToneTolerance;
+  for (const SeenSky sky : kEverySky)
+    if (light.sampler(sky) && light.sampler(sky)->map().kind() == SkyMapKind::kColour)
+      tone_floor_ = kFaintGain;
   special_.clear();
   for (const CameraDirection& n : special)
     if (const auto pixel = pixel_of(projection, n))
@@ -157,10 +171,20 @@ void LookGrid::store(std::size_t node, const LookBatch& batch, int k, double pix
   V3d along = batch.along(k);
   if (batch.tangential_scale[k] > batch.radial_scale[k]) along = along.cross(on_sky);
   along *= longer * pixel;
-  const MapShift shift = light_->shift(sky, batch.frequency_ratio[k]);
-  const std::array<double, kQuantities> values{
-      on_sky.x,       on_sky.y,        on_sky.z, shift.gain, shift.tone,
-      longer * pixel, shorter * pixel, along.x,  along.y,    along.z};
+  const double g = batch.frequency_ratio[k];
+  const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
+  const MapShift shift = thermal ? light_->shift(sky, g) : MapShift{};
+  const ShiftSides sides = thermal ? ShiftSides{} : light_->shift_sides(sky, g);
+  const std::array<double, kQuantities> values{on_sky.x,
+                                               on_sky.y,
+                                               on_sky.z,
+                                               thermal ? shift.gain : sides.red,
+                                               thermal ? shift.tone : sides.blue,
+                                               longer * pixel,
+                                               shorter * pixel,
+                                               along.x,
+                                               along.y,
+                                               along.z};
   for (std::size_t q = 0; q < kQuantities; ++q) nodes_[q][node] = static_cast<float>(values[q]);
   constexpr double kNarrowest = 0.1;  // of the longer side: an Einstein ring's is 0
   tolerance_[node] =
@@ -169,8 +193,9 @@ void LookGrid::store(std::size_t node, const LookBatch& batch, int k, double pix
 
 void LookGrid::check_row(int row) {
   const std::size_t first = at(row, kMargin);
-  const Checked nodes{&nodes_[kX][first],    &nodes_[kY][first],    &nodes_[kZ][first],
-                      &nodes_[kGain][first], &nodes_[kTone][first], &tolerance_[first]};
+  const Checked nodes{
+      &nodes_[kX][first],    &nodes_[kY][first], &nodes_[kZ][first], &nodes_[kGain][first],
+      &nodes_[kTone][first], &tolerance_[first], tone_floor_};
   const int count = cell_columns_ + 1;
   check(nodes, 1, count, &good_[first]);
   check(nodes, node_columns_, count, &good_[first]);
@@ -241,7 +266,8 @@ void LookGrid::line_at(int cell_row, int row, Line& line) const {
   }
 }
 
-void LookGrid::places(const Line& line, int first, int end, bool oblong, SkyPlaces& out) const {
+void LookGrid::places(const Line& line, const Cell& cell, int first, int end,
+                      SkyPlaces& out) const {
   const int cells = end - first, from = first + kMargin - 1;
   const auto of = [&](Quantity q) {
     return line.quantity[static_cast<std::size_t>(q)].data() + from;
@@ -251,8 +277,11 @@ void LookGrid::places(const Line& line, int first, int end, bool oblong, SkyPlac
   spread_cubic(of(kZ), cells, out.z.data());
   spread_cubic(of(kGain), cells, out.gain.data());
   spread_cubic(of(kTone), cells, out.tone.data());
-  spread_linear(of(kWide), cells, out.wide.data());
-  if (!oblong) return;
+  if (light_->sampler(cell.sky)->map().kind() == SkyMapKind::kColour)
+    choose_side(out.gain.data(), out.tone.data(), light_->knee(cell.sky), cells * kStep,
+                out.gain.data());
+  if (cell.taps > 1 || cell.minified) spread_linear(of(kWide), cells, out.wide.data());
+  if (cell.taps == 1) return;
   spread_linear(of(kNarrow), cells, out.narrow.data());
   spread_linear(of(kAlongX), cells, out.ax.data());
   spread_linear(of(kAlongY), cells, out.ay.data());

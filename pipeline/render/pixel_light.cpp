@@ -106,6 +106,16 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
          (std::holds_alternative<Grid>(sky->background) && longer * pixel_angle > kLongOnGrid);
 }
 
+ShiftSides PixelLight::shift_sides(SeenSky sky, double frequency_ratio) const {
+  const auto k = static_cast<std::size_t>(sky);
+  return domefall::shift_sides(samplers_[k]->map(), show_, frequency_ratio, scale_[k]);
+}
+
+float PixelLight::knee(SeenSky sky) const {
+  const auto k = static_cast<std::size_t>(sky);
+  return domefall::knee(samplers_[k]->map(), scale_[k]);
+}
+
 // The looks on a map, in groups of as many taps each.
 void PixelLight::add_map(SeenSky sky, const LookBatch& batch, const CameraDirection* n, int count,
                          const double* sample_angle, bool fine, float* rgb) const {

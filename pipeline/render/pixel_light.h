@@ -36,6 +36,8 @@ class PixelLight {
   const SkySampler* sampler(SeenSky sky) const;
   // Of the light of a sky that is a map.
   MapShift shift(SeenSky sky, double frequency_ratio) const;
+  ShiftSides shift_sides(SeenSky sky, double frequency_ratio) const;
+  float knee(SeenSky sky) const;
 
  private:
   void shade(const LookBatch& batch, const CameraDirection* n, int count,

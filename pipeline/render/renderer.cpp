@@ -20,7 +20,6 @@
 #include "pipeline/render/sky_spots.h"
 #include "pipeline/render/star_images.h"
 #include "pipeline/render/star_layer.h"
-#include "pipeline/show/vantage.h"
 
 namespace domefall {
 namespace {
@@ -82,24 +81,6 @@ void store_row(const float* rgb, int row, HalfFrame& frame) {
     if (!std::isfinite(rgb[k]))
       throw std::runtime_error("pixel (" + std::to_string(k / 3 + 1) + ", " +
                                std::to_string(row + 1) + ") is not a finite number");
-}
-
-// About which a coarse grid of looks may miss what there is: where all light crowds ahead of a fast
-// observer and is spread behind it, and the axis, where the singularity's azimuth is a cube root.
-std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
-                                                const HoleOptics& optics) {
-  constexpr double kFast = 3;
-  const ObserverState& o = state.observer;
-  const V3d celerity = vantage_of(o, show.effects).celerity;
-  std::vector<CameraDirection> special;
-  const auto add = [&](const V3d& in_tetrad) {
-    special.push_back({apply_transposed(o.tetrad_from_camera, in_tetrad)});
-  };
-  if (celerity.length() > kFast) add(celerity.normalized()), add(-celerity.normalized());
-  if (optics.white_hole)
-    for (const double outward : {1.0, -1.0})
-      add(to_observer(celerity, V3d(outward, 0, 0)).direction);
-  return special;
 }
 
 }  // namespace
@@ -241,8 +222,7 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     stars.sort_into_bands();
     t.stars_s = lap();
     const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
-    const SkyPass pass(show_, state, anti_aliasing_, light,
-                       special_directions(show_, state, optics), arena_->grid);
+    const SkyPass pass(show_, state, optics, anti_aliasing_, light, arena_->grid);
     t.grid_s = lap();
     t.exact_part = pass.exact_part();
     const bool background = plan.background();

@@ -17,10 +17,19 @@ WorkingRgb operator*(const WorkingRgb& c, double k) {
 }
 
 // [Riazuelo] sec. ssec_rgb: what a panorama without spectra does under a frequency ratio
-// g = 1/(1+z): keep its hue and scale by a power for blueshift, by an exponential for redshift.
-double panorama_intensity(const PanoramaShift& shift, double g) {
-  if (g < 1) return exponential(1 - 1 / g);
+// g = 1/(1+z): keep its hue and scale by an exponential for redshift, by a power for blueshift.
+double redshifted(double g) { return exponential(1 - 1 / g); }
+double blueshifted(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
+}
+double panorama_intensity(const PanoramaShift& shift, double g) {
+  return g < 1 ? redshifted(g) : blueshifted(shift, g);
+}
+
+// Whatever is as bright is white, and stays finite times a texel and a colour.
+constexpr double kMostGain = 1e28;
+float gain_of(const SkyMap& map, double shift, double scale) {
+  return static_cast<float>(std::min(map.unit() * shift * scale, kMostGain));
 }
 
 // A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
@@ -53,16 +62,18 @@ WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_dir
 
 MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale) {
   const Effects& effects = show.effects;
-  // Whatever is as bright is white, and stays finite times a texel and a colour.
-  constexpr double kMostGain = 1e28;
-  if (map.kind() == SkyMapKind::kColour) {
-    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
-    return {static_cast<float>(std::min(map.unit() * shift * scale, kMostGain)), 0};
-  }
+  if (map.kind() == SkyMapKind::kColour)
+    return {gain_of(map, effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1, scale),
+            0};
   const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
-  const double gain = ratio2 * ratio2 * surface_brightness_ratio(effects, g);
-  return {static_cast<float>(std::min(map.unit() * gain * scale, kMostGain)),
+  return {gain_of(map, ratio2 * ratio2 * surface_brightness_ratio(effects, g), scale),
           static_cast<float>(std::log2(ratio))};
+}
+
+ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale) {
+  if (!show.effects.intensity) return {gain_of(map, 1, scale), gain_of(map, 1, scale)};
+  return {gain_of(map, redshifted(g), scale),
+          gain_of(map, blueshifted(show.panorama_shift, g), scale)};
 }
 
 }  // namespace domefall

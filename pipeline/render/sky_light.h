@@ -18,6 +18,16 @@ struct MapShift {
 };
 MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale);
 
+// A panorama's law has a knee at g = 1.  Its two sides for any g, each smooth: for interpolation.
+// `red` is above knee(map, scale) where g > 1, and there `blue` holds.
+struct ShiftSides {
+  float red, blue;
+};
+ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale);
+inline float knee(const SkyMap& map, double scale) {
+  return static_cast<float>(map.unit() * scale);
+}
+
 // Null unless the background is a map.
 inline const SkyMap* map_of(const Sky* sky) {
   if (sky == nullptr) return nullptr;

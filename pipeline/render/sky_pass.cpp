@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "pipeline/optics/aberration.h"
+#include "pipeline/show/vantage.h"
+
 namespace domefall {
 namespace {
 
@@ -16,16 +19,31 @@ bool has_maps(const PixelLight& light) {
 
 }  // namespace
 
-SkyPass::SkyPass(const Show& show, const FrameState& state, AntiAliasing anti_aliasing,
-                 const PixelLight& light, const std::vector<CameraDirection>& special,
-                 LookGrid& grid)
+std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
+                                                const HoleOptics& optics) {
+  constexpr double kFast = 3;
+  const ObserverState& o = state.observer;
+  const V3d celerity = vantage_of(o, show.effects).celerity;
+  std::vector<CameraDirection> special;
+  const auto add = [&](const V3d& in_tetrad) {
+    special.push_back({apply_transposed(o.tetrad_from_camera, in_tetrad)});
+  };
+  if (celerity.length() > kFast) add(celerity.normalized()), add(-celerity.normalized());
+  if (optics.white_hole)
+    for (const double outward : {1.0, -1.0})
+      add(to_observer(celerity, V3d(outward, 0, 0)).direction);
+  return special;
+}
+
+SkyPass::SkyPass(const Show& show, const FrameState& state, const HoleOptics& optics,
+                 AntiAliasing anti_aliasing, const PixelLight& light, LookGrid& grid)
     : projection_(state.projection),
       light_(light),
       grid_(grid),
       interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel && has_maps(light) &&
                     show.effects.amplification != Amplification::kEverything &&
                     std::min(columns(projection_), rows(projection_)) >= kSmallest) {
-  if (interpolates_) grid_.make(projection_, light, special);
+  if (interpolates_) grid_.make(projection_, light, special_directions(show, state, optics));
 }
 
 void SkyPass::fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first,
@@ -37,7 +55,7 @@ void SkyPass::fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell
     const int to = std::min(end, from + kCellsAtOnce), pixel = from * kStep;
     const int left = std::max(pixel, inside.first), right = std::min(to * kStep - 1, inside.last);
     if (left > right) continue;
-    grid_.places(line, from, to, cell.taps > 1, places);
+    grid_.places(line, cell, from, to, places);
     light_.sampler(cell.sky)->sample(places, (to - from) * kStep, cell.taps, cell.minified,
                                      light.data());
     std::copy(&light[static_cast<std::size_t>(3 * (left - pixel))],

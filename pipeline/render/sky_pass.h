@@ -7,12 +7,17 @@
 
 namespace domefall {
 
+// About which a coarse grid of looks may miss what there is: where all light crowds ahead of a fast
+// observer and is spread behind it, and the axis, where the singularity's azimuth is a cube root.
+std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
+                                                const HoleOptics& optics);
+
 class SkyPass {
  public:
-  // Makes the grid, unless the picture or the settings call for looks at every pixel.  Both must outlive
-  // it.  special: see LookGrid.
-  SkyPass(const Show& show, const FrameState& state, AntiAliasing anti_aliasing,
-          const PixelLight& light, const std::vector<CameraDirection>& special, LookGrid& grid);
+  // Makes the grid, unless the picture or the settings call for looks at every pixel.  Light and grid must
+  // outlive it.
+  SkyPass(const Show& show, const FrameState& state, const HoleOptics& optics,
+          AntiAliasing anti_aliasing, const PixelLight& light, LookGrid& grid);
 
   // Pixel values of rows [band kStep, ...) into rgb[rows][3 columns], which is zero, plus one float.
   void fill_band(int band, float* rgb) const;

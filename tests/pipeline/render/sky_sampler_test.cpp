@@ -1,0 +1,146 @@
+#include "pipeline/render/sky_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/half_row.h"
+#include "scenes.h"
+
+namespace domefall {
+namespace {
+
+FloatImage noise(int width) {
+  FloatImage image(width, width / 2);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> u(0.2f, 1.0f);
+  for (float& value : image.pixels) value = u(random);
+  return image;
+}
+
+SkyPlaces random_places(std::mt19937& random, double unit) {
+  std::uniform_real_distribution<double> octave(-14, 1);
+  SkyPlaces places{};
+  for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+    const V3d d = random_direction(random);
+    places.x[k] = static_cast<float>(d.x), places.y[k] = static_cast<float>(d.y);
+    places.z[k] = static_cast<float>(d.z);
+    places.gain[k] = static_cast<float>(unit);
+    places.wide[k] = places.narrow[k] = static_cast<float>(std::exp2(octave(random)));
+    const V3d along = d.cross(random_direction(random)).normalized() * places.wide[k];
+    places.ax[k] = static_cast<float>(along.x), places.ay[k] = static_cast<float>(along.y);
+    places.az[k] = static_cast<float>(along.z);
+  }
+  return places;
+}
+
+TEST(SkySampler, SeesWhatOneLookAtTheMapSees) {
+  const SkyMap map(noise(512));
+  const SkySampler sampler(map);
+  std::mt19937 random(1);
+  std::array<float, 3 * SkyPlaces::kSize + 1> rgb;
+  for (int round = 0; round < 20; ++round) {
+    const SkyPlaces places = random_places(random, map.unit());
+    for (const bool minified : {true, false}) {
+      sampler.sample(places, SkyPlaces::kSize, 1, minified, rgb.data());
+      for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+        const V3d d(places.x[k], places.y[k], places.z[k]);
+        const WorkingRgb c = map.sample(d, minified ? places.wide[k] : 0);
+        // A place in floats is off by 1e-4 of a texel; noise changes by all of itself from one to the next.
+        ASSERT_NEAR(rgb[3 * k + 1], c.g, 1e-3 * c.g) << d << " " << places.wide[k];
+        ASSERT_NEAR(rgb[3 * k + 2], c.b, 1e-3 * c.b);
+      }
+    }
+  }
+}
+
+// A line of looks is the mean of as many looks; between the levels, on the average over many.
+TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
+  const SkyMap map(noise(512));
+  const SkySampler sampler(map);
+  std::mt19937 random(2);
+  std::array<float, 3 * SkyPlaces::kSize + 1> rgb;
+  for (const int taps : {2, 3, 8, 32}) {
+    SkyPlaces places = random_places(random, map.unit());
+    for (float& narrow : places.narrow) narrow *= 0.01f;
+    sampler.sample(places, SkyPlaces::kSize, taps, true, rgb.data());
+    double worst = 0;
+    for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+      double sum = 0;
+      for (int tap = 0; tap < taps; ++tap) {
+        const double t = (tap + 0.5) / taps - 0.5;
+        const V3d d(places.x[k] + t * places.ax[k], places.y[k] + t * places.ay[k],
+                    places.z[k] + t * places.az[k]);
+        sum +=
+            map.sample(d, places.wide[k] / static_cast<float>(taps)).g / static_cast<float>(taps);
+      }
+      worst = std::max(worst, std::abs(rgb[3 * k + 1] / sum - 1));
+    }
+    EXPECT_LT(worst, taps < 4 ? 1e-3 : 0.12) << taps;
+  }
+}
+
+TEST(SkySampler, TakesSoManyLooksThatEachIsAsLongAsItIsWide) {
+  const SkyMap map(noise(512));  // texels of pi/2/256
+  const SkySampler sampler(map);
+  const double texel = 1.5708 / 256;
+  EXPECT_EQ(sampler.taps(texel, texel / 100), 1);
+  EXPECT_EQ(sampler.taps(3.9 * texel, texel / 100), 4);
+  EXPECT_EQ(sampler.taps(30 * texel, 10 * texel), 3);
+  EXPECT_EQ(sampler.taps(300 * texel, 300 * texel), 1);
+  EXPECT_EQ(sampler.taps(1, 1e-9), SkySampler::kMostTaps);
+  EXPECT_EQ(sampler.taps(1, 1e-9, 4), 4);
+}
+
+// Blackbody light, shifted: what a look at the map and the exact colours give.
+TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
+  SkyTexel texel{};
+  texel.channel[0] = 0x5000;  // 32
+  texel.channel[1] = 0x5c40;  // 272: theta = 8.5
+  std::vector<std::vector<SkyTexel>> memory;
+  std::vector<SkyLevel> levels;
+  for (int size = 8; size >= 1; size /= 2) {
+    memory.emplace_back(6 * SkyLevel::face_texels(size), texel);
+    levels.push_back({size, memory.back().data()});
+  }
+  const double unit = 1e-9, t = kThermalBase * std::exp2(8.5);
+  const SkyMap map(SkyMapKind::kThermal, unit, levels, nullptr);
+  const SkySampler sampler(map);
+  std::mt19937 random(4);
+  std::array<float, 3 * SkyPlaces::kSize + 1> rgb;
+  for (const double g : {0.005, 0.02, 0.3, 1.0, 5.0, 1e3, 1e6}) {
+    SkyPlaces places = random_places(random, unit * g * g * g * g);
+    places.tone.fill(static_cast<float>(std::log2(g)));
+    sampler.sample(places, SkyPlaces::kSize, 1, true, rgb.data());
+    const WorkingRgb c = blackbody_colours().per_flux(t * g);
+    const double light = 32 * unit * g * g * g * g;
+    ASSERT_NEAR(rgb[300], c.r * light, 2e-3 * c.r * light) << g;
+    ASSERT_NEAR(rgb[302], c.b * light, 4e-3 * c.b * light) << g;
+  }
+}
+
+TEST(HalfRow, RoundsAsHalfFloatsDo) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::uint32_t> bits(0, 0x477fe000);  // 0 to 65504
+  std::vector<float> values{
+      0, 1e-9f, 0x1p-24f, 0x1p-25f, 0x1.8p-24f, 0x1p-14f, 0.99999f * 0x1p-14f, 65504, 65519, 1e30f};
+  while (values.size() < 100000) values.push_back(std::bit_cast<float>(bits(random)));
+  std::vector<std::uint16_t> out(values.size());
+  ASSERT_TRUE(to_half(values.data(), static_cast<int>(values.size()), out.data()));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    ASSERT_EQ(out[k], Imath::half(std::min(values[k], 65504.0f)).bits()) << values[k];
+}
+
+TEST(HalfRow, TellsWhatIsNotFinite) {
+  std::uint16_t out[64];
+  for (const float bad : {NAN, INFINITY, -INFINITY})
+    for (int at : {0, 17, 63}) {
+      std::vector<float> values(64, 1.0f);
+      values[static_cast<std::size_t>(at)] = bad;
+      EXPECT_FALSE(to_half(values.data(), 64, out));
+    }
+}
+
+}  // namespace
+}  // namespace domefall
