@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <future>
 #include <optional>
@@ -21,6 +22,16 @@
 namespace domefall {
 namespace {
 
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 class Run {
  public:
   explicit Run(const FrameRun& run)
@@ -28,8 +39,7 @@ class Run {
         grader_(grader_of(run.show)),
         keys_(run.show, grader_ ? grader_->transform_id() : std::string()) {
     name_ = run.show.file.stem().string();
-    set_file_threads(run.threads > 0 ? run.threads
-                                     : static_cast<int>(std::thread::hardware_concurrency()));
+    set_file_threads(file_threads());
     catch_interruptions();
     make_folder(run.folder / "linear");
     if (grades()) make_folder(run.folder / "graded");
@@ -37,13 +47,13 @@ class Run {
 
   void all() {
     Progress progress(run_.frames.size());
-    // One frame is graded and written while the next is rendered.
+    // One frame is graded and written while the next is rendered, into the memory of the one before.
     std::future<void> writing;
+    auto frame = std::make_shared<HalfFrame>(), written = std::make_shared<HalfFrame>();
     for (const int number : run_.frames) {
       stop_if_interrupted();
       const FrameState state = frame_state(run_.show, number);
       const std::string key = keys_.scene(state);
-      auto frame = std::make_shared<std::optional<HalfFrame>>();
       const bool linear_good = is_linear_good(state, key);
       const bool graded_good = is_graded_good(state, key);
       if (linear_good && graded_good) {
@@ -53,18 +63,12 @@ class Run {
       if (linear_good)
         *frame = read_frame(linear_path(number)).first;
       else
-        *frame = rendered(state);
+        render(state, *frame);
       if (writing.valid()) writing.get(), progress.made();
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
-        // Packing pixels is most of the work, so the two files are made side by side.
-        std::future<void> linear;
-        if (!linear_good)
-          linear = std::async(std::launch::async, [&] {
-            write_frame(linear_path(state.frame), **frame, info(state, key));
-          });
-        if (!graded_good) write_graded_frame(state, key, **frame);
-        if (linear.valid()) linear.get();
+        write(state, key, *frame, !linear_good, !graded_good);
       });
+      std::swap(frame, written);
     }
     if (writing.valid()) writing.get(), progress.made();
     std::fprintf(stderr, "%zu frames made, %zu already there, in %.1f s: %s\n",
@@ -109,7 +113,7 @@ class Run {
                           rows(state.projection)) == FrameCondition::kGood;
   }
 
-  HalfFrame rendered(const FrameState& state) {
+  void render(const FrameState& state, HalfFrame& frame) {
     if (!run_.render)
       throw InputError(
           linear_path(state.frame).string() +
@@ -118,8 +122,8 @@ class Run {
       renderer_.emplace(run_.show, run_.threads);
       // All that the run will need: a damaged file is told before the first frame, not in the middle.
       for (const SeenSky sky : kEverySky)
-        if (std::any_of(run_.frames.begin(), run_.frames.end(), [this, sky](int frame) {
-              const FrameState other = frame_state(run_.show, frame);
+        if (std::any_of(run_.frames.begin(), run_.frames.end(), [this, sky](int number) {
+              const FrameState other = frame_state(run_.show, number);
               return plan_frame(run_.show, other)[sky].lit() ||
                      (other.vanishing && plan_frame(run_.show, *other.vanishing)[sky].lit());
             }))
@@ -127,12 +131,11 @@ class Run {
     }
     StageTimes times;
     try {
-      HalfFrame frame = renderer_->render(state, &times);
+      renderer_->render(state, frame, &times);
       if (run_.explain)
         std::fprintf(stderr, "frame %d: region %s, r = %.9g M\n%s", state.frame,
                      region_name(state.observer.region), state.observer.r,
                      describe(plan_frame(run_.show, state), times).c_str());
-      return frame;
     } catch (const std::runtime_error& error) {
       if (dynamic_cast<const InputError*>(&error)) throw;
       throw std::runtime_error("frame " + std::to_string(state.frame) + ": " + error.what());
@@ -154,8 +157,45 @@ class Run {
     return info;
   }
 
-  void write_graded_frame(const FrameState& state, const std::string& key,
-                          const HalfFrame& frame) const {
+  // Packing pixels is most of the work, so the two files are made side by side.
+  void write(const FrameState& state, const std::string& key, const HalfFrame& frame, bool linear,
+             bool graded) const {
+    double linear_s = 0, grade_s = 0, graded_s = 0;
+    std::future<void> other;
+    if (linear)
+      other = std::async(std::launch::async, [&] {
+        const Stopwatch watch;
+        write_frame(linear_path(state.frame), frame, info(state, key));
+        linear_s = watch.seconds();
+      });
+    if (graded) {
+      const Stopwatch watch;
+      const GradedFrame picture = graded_frame(frame);
+      grade_s = watch.seconds();
+      write_graded(graded_path(state.frame), picture, graded_info(state, key));
+      graded_s = watch.seconds() - grade_s;
+    }
+    if (other.valid()) other.get();
+    if (run_.explain)
+      std::fprintf(stderr, "frame %d: linear file %.3f s, grade %.3f s, graded file %.3f s\n",
+                   state.frame, linear_s, grade_s, graded_s);
+  }
+
+  // Each thread a part of the rows.
+  GradedFrame graded_frame(const HalfFrame& frame) const {
+    GradedFrame out(frame.width, frame.height);
+    const int parts = file_threads();
+    std::vector<std::future<void>> others;
+    for (int part = 0; part < parts; ++part)
+      others.push_back(std::async(std::launch::async, [&, part] {
+        grader_->grade_rows(frame, out, frame.height * part / parts,
+                            frame.height * (part + 1) / parts);
+      }));
+    for (auto& other : others) other.get();
+    return out;
+  }
+
+  GradedInfo graded_info(const FrameState& state, const std::string& key) const {
     GradedInfo info;
     info.key = keys_.graded(key);
     info.title = run_.show.title;
@@ -163,7 +203,12 @@ class Run {
     info.display = grader_->display();
     info.view = grader_->view();
     info.software = kSoftware;
-    write_graded(graded_path(state.frame), grader_->grade(frame), info);
+    return info;
+  }
+
+  int file_threads() const {
+    return run_.threads > 0 ? run_.threads
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
 
   const FrameRun& run_;
