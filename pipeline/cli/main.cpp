@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   domefall::add_probe(app);
   domefall::add_trace(app);
   domefall::add_report(app);
+  domefall::add_stars(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

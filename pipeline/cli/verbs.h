@@ -14,5 +14,6 @@ void add_states(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);
 void add_report(CLI::App& app);
+void add_stars(CLI::App& app);
 
 }  // namespace domefall

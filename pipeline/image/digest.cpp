@@ -59,4 +59,6 @@ std::string Digest::hex() const {
   return text.data();
 }
 
+std::uint64_t checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
 }  // namespace domefall

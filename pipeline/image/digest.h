@@ -2,6 +2,7 @@
 // those of another.  XXH3, 128 bits: against accident, not malice.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,5 +30,8 @@ class Digest {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// XXH3, 64 bits, of bytes alone: what a file's parts are checked with.
+std::uint64_t checksum(std::string_view bytes);
 
 }  // namespace domefall

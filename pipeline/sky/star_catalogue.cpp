@@ -4,9 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/sky/mapped_stars.h"
+#include "pipeline/sky/star_record.h"
 
 namespace domefall {
 namespace {
@@ -23,7 +24,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 }
 
 struct Columns {
-  std::size_t ra, dec, v, b_v, name, designation, count;
+  std::size_t ra, dec, v, b_v, name, designation, pm_ra, pm_dec, count;
 };
 
 constexpr std::size_t kAbsent = static_cast<std::size_t>(-1);
@@ -73,17 +74,13 @@ Columns read_header(Reader& reader) {
     const auto at = std::find(names.begin(), names.end(), name);
     return at == names.end() ? kAbsent : static_cast<std::size_t>(at - names.begin());
   };
-  const Columns c{find("ra_deg"), find("dec_deg"),     find("v_mag"), find("b_v"),
-                  find("name"),   find("designation"), names.size()};
+  const Columns c{find("ra_deg"),       find("dec_deg"),       find("v_mag"),
+                  find("b_v"),          find("name"),          find("designation"),
+                  find("pm_ra_mas_yr"), find("pm_dec_mas_yr"), names.size()};
   for (const auto& [at, name] :
        {std::pair{c.ra, "ra_deg"}, {c.dec, "dec_deg"}, {c.v, "v_mag"}, {c.b_v, "b_v"}})
     if (at == kAbsent) reader.fail(std::string("the star catalogue has no column ") + name);
   return c;
-}
-
-SkyDirection direction_of(double ra_deg, double dec_deg) {
-  const double ra = ra_deg * std::numbers::pi / 180, dec = dec_deg * std::numbers::pi / 180;
-  return {V3d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec))};
 }
 
 // Lower case without blanks, so that "Alpha Cen" and "alphacen" are one name.
@@ -110,14 +107,22 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-}  // namespace
-
-double temperature_from_b_v(double b_v) {
-  const double c = 0.92 * std::clamp(b_v, -0.4, 2.0);
-  return 4600 * (1 / (c + 1.7) + 1 / (c + 0.62));
+// Where the row's star stands in that year.
+SkyDirection place_of(const Reader& reader, const Columns& column,
+                      const std::vector<std::string_view>& cell, double epoch) {
+  const double ra = reader.number(cell[column.ra], "ra_deg", 0, 360);
+  const double dec = reader.number(cell[column.dec], "dec_deg", -90, 90);
+  const auto motion = [&](std::size_t at, const char* name) {
+    return at == kAbsent || cell[at].empty() ? 0 : reader.number(cell[at], name, -1e5, 1e5);
+  };
+  const double pm_ra = motion(column.pm_ra, "pm_ra_mas_yr");
+  const double pm_dec = motion(column.pm_dec, "pm_dec_mas_yr");
+  const SkyDirection direction = star_direction(ra, dec);
+  if (epoch == kCatalogueEpoch || (pm_ra == 0 && pm_dec == 0)) return direction;
+  return moved(direction, pm_ra, pm_dec, epoch - kCatalogueEpoch);
 }
 
-StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude) {
+StarCatalogue read_csv(const std::filesystem::path& file, double max_magnitude, double epoch) {
   Reader reader(file);
   const Columns column = read_header(reader);
   StarCatalogue catalogue;
@@ -126,12 +131,11 @@ StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_
     if (cell.size() != column.count)
       reader.fail("expected " + std::to_string(column.count) + " columns, got " +
                   std::to_string(cell.size()));
-    const double ra = reader.number(cell[column.ra], "ra_deg", 0, 360);
-    const double dec = reader.number(cell[column.dec], "dec_deg", -90, 90);
-    const double v = reader.number(cell[column.v], "v_mag", -30, 40);
-    const double b_v =
-        cell[column.b_v].empty() ? 0.6 : reader.number(cell[column.b_v], "b_v", -2, 10);
-    const SkyDirection direction = direction_of(ra, dec);
+    const SkyDirection direction = place_of(reader, column, cell, epoch);
+    const double v = reader.number(cell[column.v], "v_mag", kBrightestV, kFaintestV);
+    const double b_v = cell[column.b_v].empty()
+                           ? kAssumedColour
+                           : reader.number(cell[column.b_v], "b_v", kBluest, kReddest);
     for (const std::size_t at : {column.name, column.designation})
       if (at != kAbsent && !cell[at].empty())
         catalogue.names.push_back({std::string(cell[at]), direction});
@@ -142,6 +146,26 @@ StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_
   std::stable_sort(catalogue.stars.begin(), catalogue.stars.end(),
                    [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; });
   return catalogue;
+}
+
+// Directories and unreadable files are told by the reader of tables, as ever.
+bool begins_as_star_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string start(8, '\0');
+  return in.read(start.data(), static_cast<std::streamsize>(start.size())) && is_star_file(start);
+}
+
+}  // namespace
+
+double temperature_from_b_v(double b_v) {
+  const double c = 0.92 * std::clamp(b_v, -0.4, 2.0);
+  return 4600 * (1 / (c + 1.7) + 1 / (c + 0.62));
+}
+
+StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
+                                  double epoch) {
+  if (begins_as_star_file(file)) return stars_of(StarFile(file), max_magnitude, epoch);
+  return read_csv(file, max_magnitude, epoch);
 }
 
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name) {

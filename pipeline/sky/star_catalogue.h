@@ -31,10 +31,21 @@ struct StarCatalogue {
 // Domain clamped to -0.4 <= B-V <= 2.0 (22,000 K to 3,170 K).
 double temperature_from_b_v(double b_v);
 
-// Reads a CSV with the columns ra_deg, dec_deg, v_mag, b_v, name and designation (others ignored;
-// '#' lines are comments; an empty b_v is taken as 0.6).  Keeps stars with V <= max_magnitude.
-// Throws InputError with file and line where a row is damaged.
-StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude);
+// Julian year for which positions are given unless a catalogue says otherwise.
+inline constexpr double kCatalogueEpoch = 2000;
+
+// Reads the stars of V <= max_magnitude, where they stand in the Julian year `epoch` (proper motion as
+// `moved`, star_record.h).  The file is one of two kinds, told apart by how it begins:
+//
+// - a *.stars file (star_file.h), of which only the stars wanted and their names are read: all 2.5 million
+//   of Tycho-2 in 0.1 s of CPU time.  Throws InputError with file and byte where it is damaged;
+// - a CSV with the columns ra_deg, dec_deg (J2000), v_mag and b_v, and perhaps name, designation,
+//   pm_ra_mas_yr (times cos Dec) and pm_dec_mas_yr; others and '#' lines are ignored; the names of all its
+//   stars are kept.  Throws InputError with file and line where a row is damaged.
+//
+// A star without colour is taken to have B-V = 0.6.
+StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
+                                  double epoch = kCatalogueEpoch);
 
 // By proper name or designation, ignoring case and spaces.
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name);

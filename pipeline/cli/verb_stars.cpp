@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+#include "pipeline/cli/star_page.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/sky/hipparcos_repair.h"
+#include "pipeline/sky/import_text.h"
+#include "pipeline/sky/importers.h"
+#include "pipeline/sky/star_file.h"
+
+namespace domefall {
+namespace {
+
+struct Options {
+  std::string format, out, hipparcos;
+  std::vector<std::string> inputs;
+  double faintest = kFaintestV;
+};
+
+std::string format_names() {
+  std::string names;
+  for (const Importer& each : importers()) names += std::string(each.name) + ", ";
+  return names + "auto";
+}
+
+const Importer& importer_for(const std::string& format, const Paths& inputs) {
+  if (format == "auto") {
+    if (const Importer* guessed = guess_importer(inputs)) return *guessed;
+    throw InputError(inputs.front().string() +
+                     ": not known by how it begins; name the format: " + format_names());
+  }
+  for (const Importer& each : importers())
+    if (each.name == format) return each;
+  throw InputError("format " + format + ": must be one of " + format_names());
+}
+
+void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+void repair(RawCatalogue& catalogue, const std::string& file) {
+  const ImportedCatalogue hipparcos = import_d3_celestial({file});
+  const HipparcosRepair done = repair_by_hipparcos(catalogue, hipparcos.catalogue);
+  say(file + ": V of " + counted(done.stars, "star") + ", colour of " + with_commas(done.colours) +
+      " that had none, " + counted(done.added, "star") + " added");
+  catalogue.text.source += "; V and colours by " + hipparcos.catalogue.text.source;
+  catalogue.text.licence += "; " + hipparcos.catalogue.text.licence;
+}
+
+std::size_t without_colour(const std::vector<CatalogueStar>& stars) {
+  return static_cast<std::size_t>(std::count_if(
+      stars.begin(), stars.end(), [](const CatalogueStar& s) { return s.colour == kNoColour; }));
+}
+
+void tell_result(const RawCatalogue& catalogue, const std::string& out) {
+  char range[64];
+  std::snprintf(range, sizeof range, "V %.2f to %.2f", catalogue.stars.front().v,
+                catalogue.stars.back().v);
+  say(out + ": " + counted(catalogue.stars.size(), "star") + ", " + range + ", " +
+      counted(catalogue.names.size(), "name") + ", " +
+      with_commas(without_colour(catalogue.stars)) + " without colour, drawn as B-V 0.6");
+}
+
+void import(const Options& o) {
+  const Paths inputs(o.inputs.begin(), o.inputs.end());
+  const Importer& importer = importer_for(o.format, inputs);
+  if (o.format == "auto") say("taken as " + std::string(importer.title));
+  ImportedCatalogue imported = importer.import(inputs);
+  RawCatalogue& catalogue = imported.catalogue;
+  say(std::string(importer.title) + ": " + counted(catalogue.stars.size(), "star"));
+  for (const std::string& note : imported.notes) say(note);
+  if (!o.hipparcos.empty()) repair(catalogue, o.hipparcos);
+  keep_brighter(catalogue, o.faintest);
+  if (catalogue.stars.empty()) throw InputError(o.inputs.front() + ": no star is left to write");
+  sort_by_brightness(catalogue);
+  catalogue.text.made = "domefall " DOMEFALL_VERSION " stars import " + std::string(importer.name) +
+                        (o.hipparcos.empty() ? "" : " --hipparcos");
+  write_star_file(o.out, catalogue);
+  tell_result(catalogue, o.out);
+}
+
+void add_import(CLI::App& stars) {
+  auto* verb = stars.add_subcommand("import", "Make a .stars catalogue from one of another format");
+  auto o = std::make_shared<Options>();
+  verb->add_option("format", o->format, format_names())->required();
+  verb->add_option("input", o->inputs, "files, or the folder they are in")->required();
+  verb->add_option("--out", o->out, "the .stars file to write")->required();
+  verb->add_option("--faintest", o->faintest, "leave out fainter stars than this V")
+      ->check(CLI::Range(kBrightestV, kFaintestV));
+  verb->add_option("--hipparcos", o->hipparcos,
+                   "V, colours and missing stars from d3-celestial's stars.N.json");
+  verb->callback([o] { import(*o); });
+}
+
+void add_info(CLI::App& stars) {
+  auto* verb = stars.add_subcommand("info", "Say what a .stars catalogue holds");
+  auto file = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
+  verb->add_option("file", *file, ".stars file")->required();
+  verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
+  verb->callback([file, json] {
+    const StarFile stars_file(*file);
+    const std::string text = *json ? star_json(stars_file) : star_page(stars_file);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  });
+}
+
+}  // namespace
+
+void add_stars(CLI::App& app) {
+  auto* stars = app.add_subcommand("stars", "Import star catalogues and look into them");
+  stars->require_subcommand(1);
+  add_import(*stars);
+  add_info(*stars);
+}
+
+}  // namespace domefall

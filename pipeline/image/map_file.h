@@ -1,0 +1,34 @@
+// A file's bytes where the operating system keeps them: pages are read from the disk when they are
+// first touched, and shared by all who map the same file.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace domefall {
+
+class MappedFile {
+ public:
+  // Throws InputError for what is missing, unreadable or no regular file, TemporaryError where the
+  // system failed; both name the file.
+  //
+  // A file that another program shortens while it is mapped ends the process (SIGBUS).  Files written
+  // by write_atomically are replaced, never shortened.
+  explicit MappedFile(const std::filesystem::path& file);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile(MappedFile&&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  MappedFile& operator=(MappedFile&&) = delete;
+
+  // They begin on a page's boundary.
+  std::string_view bytes() const { return {data_, size_}; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  const char* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace domefall
