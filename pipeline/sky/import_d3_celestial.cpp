@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint32_t kLastHip = 120404;
+constexpr std::uint32_t kLastHip = 120416;
 
 // One of the features, and where it is for a message.
 class Feature {

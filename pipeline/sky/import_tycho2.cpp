@@ -28,9 +28,9 @@ struct Photometry {
   NumberColumn bt, vt, hip;
 };
 constexpr Photometry kMain{
-    {111, 116, "BTmag", -5, 20}, {124, 129, "VTmag", -5, 20}, {143, 148, "HIP", 1, 120404}};
+    {111, 116, "BTmag", -5, 20}, {124, 129, "VTmag", -5, 20}, {143, 148, "HIP", 1, 120416}};
 constexpr Photometry kSupplement{
-    {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, 120404}};
+    {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, 120416}};
 
 // False where neither band was measured.
 bool read_photometry(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {

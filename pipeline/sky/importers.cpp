@@ -11,10 +11,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<Importer, 2> kImporters{{
-    {"tycho2", "Tycho-2 (I/259)", import_tycho2},
-    {"d3-celestial", "d3-celestial's GeoJSON", import_d3_celestial},
-}};
+constexpr std::array kImporters{
+    Importer{"tycho2", "Tycho-2 (I/259)", import_tycho2},
+    Importer{"ascc", "ASCC-2.5 (I/280B)", import_ascc},
+    Importer{"hd", "Henry Draper Catalogue (III/135A)", import_henry_draper},
+    Importer{"hyg", "HYG database", import_hyg},
+    Importer{"stellarium", "Stellarium's catalogues", import_stellarium},
+    Importer{"d3-celestial", "d3-celestial's GeoJSON", import_d3_celestial},
+    Importer{"csv", "Domefall's CSV", import_table},
+};
 
 const Importer* named(std::string_view name) {
   const auto found = std::find_if(kImporters.begin(), kImporters.end(),

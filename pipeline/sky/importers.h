@@ -1,6 +1,7 @@
 // Star catalogues of other formats, read into one form.  Each reads whole files, throws InputError with
 // file and line (or byte) for whatever is damaged, cut short or of another kind, and takes nothing for
-// granted: a file of any bytes gives stars within the ranges of star_record.h or that error.
+// granted: a file of any bytes gives stars within the ranges of star_record.h or that error.  Stars without
+// a magnitude come with kNoMagnitude.
 #pragma once
 
 #include <filesystem>
@@ -38,8 +39,9 @@ ImportedCatalogue import_tycho2(const Paths& inputs);
 // d3-celestial's stars.N.json: GeoJSON points with the Hipparcos number as id.  No proper motion.
 ImportedCatalogue import_d3_celestial(const Paths& inputs);
 
-// Henry Draper Catalogue and Extension, CDS III/135A: catalog.dat.  Positions of B1900, to 1.5 arcminutes, turned to
-// J2000; photovisual magnitudes; temperatures from spectral types (spectral_type.h).
+// Henry Draper Catalogue and Extension, CDS III/135A: catalog.dat.  Positions of B1900, to 1.5 arcminutes,
+// turned to J2000; photovisual magnitudes, or photographic ones less the colour; colours from spectral types
+// (spectral_type.h).  Deleted and repeated entries, nebulae and clusters are left out.
 ImportedCatalogue import_henry_draper(const Paths& inputs);
 
 // ASCC-2.5, CDS I/280B: its cc*.dat files.  Positions of J1991.25 moved to J2000.

@@ -20,6 +20,10 @@ inline bool is_temperature(float colour) { return colour >= kColdest; }
 // Fainter and brighter than any star: beyond them a number is a mistake.
 inline constexpr double kBrightestV = -30, kFaintestV = 40;
 
+// Of a star whose catalogue gives no magnitude: beyond every limit, so that it is left out unless a
+// correction gives one.
+inline constexpr float kNoMagnitude = 99;
+
 struct CatalogueStar {
   SkyDirection direction;       // at the catalogue's epoch
   float pm_ra = 0, pm_dec = 0;  // proper motion, mas a year; of right ascension, times cos Dec
