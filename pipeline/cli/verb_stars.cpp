@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <limits>
-#include <map>
 
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
@@ -10,13 +7,15 @@
 #include "pipeline/sky/hipparcos_repair.h"
 #include "pipeline/sky/import_text.h"
 #include "pipeline/sky/importers.h"
+#include "pipeline/sky/star_corrections.h"
 #include "pipeline/sky/star_file.h"
+#include "pipeline/sky/star_names.h"
 
 namespace domefall {
 namespace {
 
 struct Options {
-  std::string format, out, hipparcos;
+  std::string format, out, hipparcos, names, corrections;
   std::vector<std::string> inputs;
   double faintest = kFaintestV;
 };
@@ -72,11 +71,16 @@ void import(const Options& o) {
   say(std::string(importer.title) + ": " + counted(catalogue.stars.size(), "star"));
   for (const std::string& note : imported.notes) say(note);
   if (!o.hipparcos.empty()) repair(catalogue, o.hipparcos);
+  if (!o.names.empty()) add_names(catalogue, o.names);
+  if (!o.corrections.empty())
+    say(o.corrections + ": " + counted(apply_corrections(catalogue, o.corrections), "correction"));
   keep_brighter(catalogue, o.faintest);
   if (catalogue.stars.empty()) throw InputError(o.inputs.front() + ": no star is left to write");
   sort_by_brightness(catalogue);
   catalogue.text.made = "domefall " DOMEFALL_VERSION " stars import " + std::string(importer.name) +
-                        (o.hipparcos.empty() ? "" : " --hipparcos");
+                        (o.hipparcos.empty() ? "" : " --hipparcos") +
+                        (o.names.empty() ? "" : " --names") +
+                        (o.corrections.empty() ? "" : " --corrections");
   write_star_file(o.out, catalogue);
   tell_result(catalogue, o.out);
 }
@@ -91,6 +95,8 @@ void add_import(CLI::App& stars) {
       ->check(CLI::Range(kBrightestV, kFaintestV));
   verb->add_option("--hipparcos", o->hipparcos,
                    "V, colours and missing stars from d3-celestial's stars.N.json");
+  verb->add_option("--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json");
+  verb->add_option("--corrections", o->corrections, "CSV of corrections made by hand");
   verb->callback([o] { import(*o); });
 }
 

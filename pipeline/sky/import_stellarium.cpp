@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <unordered_map>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
 #include "pipeline/sky/import_text.h"
 #include "pipeline/sky/importers.h"
+#include "pipeline/sky/quoted_table.h"
 #include "pipeline/sky/stellarium_zones.h"
 
 namespace domefall {
@@ -21,8 +23,9 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 
-// A star within its zone: place in units of its largest value, motion in 0.1 mas a year, both along the
-// zone's axes.
+// A star within its zone: place in units of its largest value along the zone's axes; motion in 0.1 mas a
+// year, stretched as the zone's plane is there, to the star's own east and north (found by comparison with
+// Hipparcos' motions over 100 mas a year: half of them agree to 5 % in zones of level 0, 1.4 % at 1, 0.4 % at 2).
 struct Packed {
   double x0, x1, motion0, motion1;
   int colour, magnitude;
@@ -128,17 +131,17 @@ class Reader {
   }
 
   CatalogueStar star(const StellariumZones& grid, std::size_t zone, std::size_t at) const {
-    constexpr double kMillimagnitude = 1e-3, kColourSteps = 127, kColourRange = 4,
-                     kBluestStep = -0.5;
+    constexpr double kMasPerUnit = 0.1, kMillimagnitude = 1e-3, kColourSteps = 127,
+                     kColourRange = 4, kBluestStep = -0.5;
     const char* place = bytes().data() + at;
     const Packed packed = head_.type == 0 ? unpack_full(place) : unpack_short(place);
     if (packed.colour > kColourSteps || packed.magnitude > head_.mag_steps)
       fail(at, "this star's colour or magnitude is beyond the table's range");
     CatalogueStar out;
-    const StellariumZones::Place found =
-        grid.place(zone, packed.x0, packed.x1, packed.motion0, packed.motion1);
+    const StellariumZones::Place found = grid.place(zone, packed.x0, packed.x1);
     out.direction = found.direction;
-    out.pm_ra = static_cast<float>(found.pm_ra), out.pm_dec = static_cast<float>(found.pm_dec);
+    out.pm_ra = static_cast<float>(kMasPerUnit * packed.motion0 / found.stretch);
+    out.pm_dec = static_cast<float>(kMasPerUnit * packed.motion1 / found.stretch);
     out.v = static_cast<float>(kMillimagnitude *
                                (head_.mag_min + static_cast<double>(packed.magnitude) *
                                                     head_.mag_range / head_.mag_steps));
@@ -164,6 +167,20 @@ Paths catalogues_in(const fs::path& folder) {
   return files;
 }
 
+// The motions of the brighter stars, beside their catalogues: Hipparcos' own, without the errors above.
+void take_motions(const fs::path& file, std::vector<CatalogueStar>& stars) {
+  std::unordered_map<std::uint32_t, std::pair<float, float>> motions;
+  QuotedTable row(file, {"hip", "pm_ra", "pm_dec"}, '\t', {"hip", "pm_ra", "pm_dec"});
+  constexpr double kLastHip = 120416, kFastest = 1e5;
+  while (row.next())
+    motions[static_cast<std::uint32_t>(row.required("hip", 1, kLastHip))] = {
+        static_cast<float>(row.required("pm_ra", -kFastest, kFastest)),
+        static_cast<float>(row.required("pm_dec", -kFastest, kFastest))};
+  for (CatalogueStar& star : stars)
+    if (const auto found = motions.find(star.hip); star.hip != 0 && found != motions.end())
+      star.pm_ra = found->second.first, star.pm_dec = found->second.second;
+}
+
 }  // namespace
 
 ImportedCatalogue import_stellarium(const Paths& inputs) {
@@ -172,6 +189,8 @@ ImportedCatalogue import_stellarium(const Paths& inputs) {
     std::error_code ignored;
     const Paths files = fs::is_directory(input, ignored) ? catalogues_in(input) : Paths{input};
     for (const fs::path& file : files) Reader(file).read(out.catalogue.stars);
+    if (const fs::path motions = input / "hip_pm.dat"; fs::is_regular_file(motions, ignored))
+      take_motions(motions, out.catalogue.stars);
   }
   name_by_hipparcos(out.catalogue.stars);
   out.catalogue.text = {"Stellarium's star catalogues, from Hipparcos, Tycho-2 and NOMAD",

@@ -50,7 +50,8 @@ ImportedCatalogue import_ascc(const Paths& inputs);
 // The HYG database, versions 3 and 4: a CSV with quotes.
 ImportedCatalogue import_hyg(const Paths& inputs);
 
-// Stellarium's stars_*.cat of format 12, of types 0 and 1, or the folder they are in.
+// Stellarium's stars_*.cat as of versions 0.13 to 23, of types 0 and 1, or the folder they are in, whose hip_pm.dat
+// gives the better proper motions.
 ImportedCatalogue import_stellarium(const Paths& inputs);
 
 // Domefall's own CSV (star_catalogue.h), its identifiers in the columns hip or hd if there are such.

@@ -9,10 +9,15 @@
 namespace domefall {
 
 QuotedTable::QuotedTable(const std::filesystem::path& file,
-                         const std::vector<std::string_view>& needed)
-    : file_(file), rest_(file_.bytes()) {
+                         const std::vector<std::string_view>& needed, char separator,
+                         const std::vector<std::string_view>& columns)
+    : file_(file),
+      separator_(separator),
+      rest_(file_.bytes()),
+      columns_(columns.begin(), columns.end()) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  if (!columns_.empty()) return;
   std::string_view header;
   if (!next_line(header)) throw InputError(file.string() + ": the file is empty");
   columns_ = cells_of(header);
@@ -46,7 +51,7 @@ std::vector<std::string> QuotedTable::cells_of(std::string_view line) const {
       cells.back() += line[i++];
     else if (line[i] == '"')
       quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
+    else if (line[i] == separator_ && !quoted)
       cells.emplace_back();
     else
       cells.back() += line[i];

@@ -1,4 +1,4 @@
-// Comma-separated tables with a header line and, perhaps, quotes around their cells ("" for a quote within).
+// Tables separated by commas (or tabs) with a header line and, perhaps, quotes around their cells ("" for a quote within).
 // A cell does not run over a line's end.
 #pragma once
 
@@ -14,8 +14,10 @@ namespace domefall {
 
 class QuotedTable {
  public:
-  // Throws InputError where there is no header, or it lacks one of the `needed` columns.
-  QuotedTable(const std::filesystem::path& file, const std::vector<std::string_view>& needed);
+  // Throws InputError where there is no header, or it lacks one of the `needed` columns.  Where `columns` are
+  // given the file has no header.
+  QuotedTable(const std::filesystem::path& file, const std::vector<std::string_view>& needed,
+              char separator = ',', const std::vector<std::string_view>& columns = {});
 
   // False at the end.  Throws InputError, with the line, for a row not as long as the header or with a quote
   // left open.
@@ -34,6 +36,7 @@ class QuotedTable {
   std::vector<std::string> cells_of(std::string_view line) const;
 
   MappedFile file_;
+  char separator_;
   std::string_view rest_;
   std::size_t number_ = 0;  // of the line
   std::vector<std::string> columns_, cells_;

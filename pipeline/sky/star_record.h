@@ -25,7 +25,7 @@ inline constexpr double kBrightestV = -30, kFaintestV = 40;
 inline constexpr float kNoMagnitude = 99;
 
 struct CatalogueStar {
-  SkyDirection direction;       // at the catalogue's epoch
+  SkyDirection direction{V3d(1, 0, 0)};  // at the catalogue's epoch
   float pm_ra = 0, pm_dec = 0;  // proper motion, mas a year; of right ascension, times cos Dec
   float v = 0;                  // Johnson V
   float colour = kNoColour;

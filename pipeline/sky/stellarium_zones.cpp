@@ -64,19 +64,10 @@ StellariumZones::StellariumZones(int level) {
   }
 }
 
-StellariumZones::Place StellariumZones::place(std::size_t zone, double x0, double x1,
-                                              double motion0, double motion1) const {
-  constexpr double kMasPerUnit = 0.1;
+StellariumZones::Place StellariumZones::place(std::size_t zone, double x0, double x1) const {
   const Zone& z = zones_[zone];
   const V3d p = z.centre + (z.east * x0 + z.north * x1) * scale_;
-  const double length = std::sqrt(p.dot(p));
-  const V3d d = p / length;
-  // The motion's part across the line of sight.
-  const V3d motion = (z.east * motion0 + z.north * motion1) * (kMasPerUnit / length);
-  const double rho = std::sqrt(d.x * d.x + d.y * d.y);
-  if (rho == 0) return {{d}, motion.y, -motion.x * d.z};
-  const V3d east(-d.y / rho, d.x / rho, 0), north = d.cross(east);
-  return {{d}, motion.dot(east), motion.dot(north)};
+  return {{unit(p)}, p.dot(p)};
 }
 
 }  // namespace domefall

@@ -22,11 +22,11 @@ class StellariumZones {
 
   struct Place {
     SkyDirection direction;
-    double pm_ra, pm_dec;  // mas a year, of right ascension times cos Dec
+    double
+        stretch;  // of a small motion there, square of the distance of the zone's plane: at least 1
   };
-  // x0, x1: -1 to 1 along the zone's axes, east and north; motions in 0.1 mas a year along the same, at the
-  // zone's centre.
-  Place place(std::size_t zone, double x0, double x1, double motion0, double motion1) const;
+  // x0, x1: -1 to 1 along the zone's axes, east and north.
+  Place place(std::size_t zone, double x0, double x1) const;
 
  private:
   struct Zone {
