@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/sky/star_catalogue.h"
 
 namespace domefall {
 namespace {
@@ -14,7 +15,12 @@ void add_sky(Digest& digest, const RegionSky& sky) {
     digest.add_file(panorama->image);
   if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
   digest.add(sky.stars ? "stars" : "no stars");
-  if (sky.stars) digest.add_file(sky.stars->catalogue);
+  if (!sky.stars) return;
+  // A binary catalogue says by its header what the rest of it is; megabytes need not be read.
+  if (const auto print = star_file_fingerprint(sky.stars->catalogue))
+    digest.add(*print);
+  else
+    digest.add_file(sky.stars->catalogue);
 }
 
 // Of unit vectors, to 1e-12: what is 0 on one processor is 1e-17 on another.
@@ -69,6 +75,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);
   common.add(show.panorama_shift.blueshift_power);
   add_effects(common, show.effects);
+  if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky_three);

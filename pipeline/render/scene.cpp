@@ -82,7 +82,9 @@ Sky Scene::load(SeenSky which) const {
     sky.background = std::make_shared<const SkyMap>(read_panorama(panorama->image));
   if (sky.stars) return sky;
   std::vector<SceneStar> stars;
-  if (own.stars) stars = scene_stars(read_star_catalogue(own.stars->catalogue, limit_of(which)));
+  if (own.stars)
+    stars =
+        scene_stars(read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch));
   sky.stars = std::make_shared<const std::vector<SceneStar>>(std::move(stars));
   return sky;
 }

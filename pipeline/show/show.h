@@ -172,6 +172,8 @@ struct Show {
   RegionSky sky_one, sky_three;  // skies of regions I and III
   // The past singularity, as a sphere seen by azimuth alone, without stars or redshift.
   RegionSky sky_four{BlackSky{}, 1, std::nullopt, 1};
+  // Julian year: stars of catalogues that know their proper motion stand where they stand then.
+  double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
   Effects effects;
   StarBlobs blobs;

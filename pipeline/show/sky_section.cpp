@@ -14,6 +14,8 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   return std::nullopt;
 }
 
+// Beyond, motion in a straight line says nothing any more.
+constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
 
 // Of the words the last is only for the past singularity.
@@ -44,8 +46,8 @@ std::optional<std::filesystem::path> read_catalogue(const Item& item, const Look
   if (*text == kWords[0]) return lookup.shipped(item, kNakedEyeStars);
   const bool looks_like_file = text->find_first_of("./") != std::string::npos;
   if (looks_like_file || lookup.find(*text)) return lookup.file(item, *text);
-  item.fail("must be naked_eye, none or a star catalogue (.csv), got '" + shown(*text) + "'" +
-            did_you_mean(*text, kWords));
+  item.fail("must be naked_eye, none or a star catalogue (.stars, .csv), got '" + shown(*text) +
+            "'" + did_you_mean(*text, kWords));
   return std::nullopt;
 }
 
@@ -103,8 +105,8 @@ void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
 }  // namespace
 
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
-  const Section sky =
-      subsection(section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power"});
+  const Section sky = subsection(
+      section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
   const Section one = subsection(sky, "region_I", {"background", "gain", "stars"});
   const Section three = subsection(sky, "region_III", {"background", "gain", "stars"});
   // The shipped files are asked for only where the show does not name others.
@@ -118,6 +120,7 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   if (const Item* four = sky.find("region_IV")) read_region_four(*four, lookup, show.sky_four);
   show.panorama_shift.blueshift_power =
       sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);
+  show.star_epoch = sky.number("epoch", kEpochs, show.star_epoch);
 }
 
 }  // namespace domefall

@@ -168,6 +168,11 @@ StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_
   return read_csv(file, max_magnitude, epoch);
 }
 
+std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file) {
+  if (!begins_as_star_file(file)) return std::nullopt;
+  return StarFile(file).fingerprint();
+}
+
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name) {
   const std::string wanted = folded(name);
   for (const NamedStar& star : catalogue.names)

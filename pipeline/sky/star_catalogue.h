@@ -47,6 +47,10 @@ inline constexpr double kCatalogueEpoch = 2000;
 StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
                                   double epoch = kCatalogueEpoch);
 
+// What tells a *.stars file from every other one, from its header alone; nothing for other files.  Throws
+// InputError as read_star_catalogue.
+std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file);
+
 // By proper name or designation, ignoring case and spaces.
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name);
 

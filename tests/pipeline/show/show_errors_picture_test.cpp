@@ -112,7 +112,7 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:37: sky.region_I.stars.catalogue names the file 'hip.csv', which is neither beside the "
        "show nor in the working folder"},
       {"CatalogueMisspelt", kShow + "sky: {region_I: {stars: naked_eyes}}\n",
-       "3:25: sky.region_I.stars must be naked_eye, none or a star catalogue (.csv), got "
+       "3:25: sky.region_I.stars must be naked_eye, none or a star catalogue (.stars, .csv), got "
        "'naked_eyes'; did you mean naked_eye?"},
       {"NegativeGain", kShow + "sky: {region_I: {gain: -0.5}}\n",
        "3:24: sky.region_I.gain must be at least 0, got -0.5"},
@@ -131,6 +131,8 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "got 'gird'; did you mean grid?"},
       {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
        "3:20: sky.region_III.period_m is an unknown key; known here: background, gain or stars"},
+      {"EpochTooLate", kShow + "sky: {epoch: 30001}\n",
+       "3:14: sky.epoch must be at most 30000 Julian years, got 30001"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",
        "3:24: sky.blueshift_power must be at most 10, got 11"},
       {"MaxSigmaBelowMin", kShow + "stars: {min_sigma_deg: 0.5, max_sigma_deg: 0.2}\n",

@@ -54,6 +54,7 @@ const char* const kGoodShows[] = {
     "  region_I: {background: grid, gain: 2, stars: {max_magnitude: 5, gain: 0.5}}\n"
     "  region_III: {background: black, stars: none}\n"
     "  blueshift_power: 3\n"
+    "  epoch: 2026.5\n"
     "effects: {lensing: false, doppler_colour: false, amplification: none}\n"
     "stars: {min_sigma_deg: 0.1, growth: 0.1, reference_magnitude: 4, max_sigma_deg: 0.5}\n"
     "exposure: {ev: 2}\n"
@@ -133,6 +134,7 @@ void expect_finite_numbers(const Show& show) {
                               show.heading,
                               show.mass_solar.value_or(1),
                               show.panorama_shift.blueshift_power,
+                              show.star_epoch,
                               show.blobs.min_sigma,
                               show.blobs.growth,
                               show.blobs.reference_magnitude,

@@ -46,6 +46,7 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
     EXPECT_EQ(sky.star_gain, 1);
   }
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
+  EXPECT_EQ(show.star_epoch, 2000);
   EXPECT_DOUBLE_EQ(show.blobs.min_sigma, 0.05 * kDegree);
   EXPECT_EQ(show.blobs.growth, 0.2);
   EXPECT_EQ(show.blobs.reference_magnitude, 5);
@@ -169,7 +170,8 @@ TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
       "  region_I: {background: art/sky.png, gain: 2,"
       " stars: {catalogue: art/stars.csv, max_magnitude: 9, gain: 3}}\n"
       "  region_III: {background: grid, stars: {max_magnitude: 4}}\n"
-      "  blueshift_power: 3.5\n");
+      "  blueshift_power: 3.5\n"
+      "  epoch: 2026.5\n");
   EXPECT_EQ(std::get<PanoramaSky>(show.sky_one.background).image, folder_ / "art/sky.png");
   EXPECT_EQ(show.sky_one.background_gain, 2);
   EXPECT_EQ(show.sky_one.stars->catalogue, folder_ / "art/stars.csv");
@@ -181,6 +183,7 @@ TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   EXPECT_EQ(show.sky_three.stars->max_magnitude, 4);
   EXPECT_EQ(show.sky_three.star_gain, 3);
   EXPECT_EQ(show.panorama_shift.blueshift_power, 3.5);
+  EXPECT_EQ(show.star_epoch, 2026.5);
 }
 
 TEST_F(ShowKeys, SkiesMayBeBlackAndStarless) {

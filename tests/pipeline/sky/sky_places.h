@@ -1,0 +1,28 @@
+// Places on the sky for the tests of catalogues.
+#pragma once
+
+#include <cmath>
+
+#include "pipeline/sky/importers.h"
+
+namespace domefall {
+
+// Arcseconds from a place in J2000 degrees.
+inline double arcseconds_from(const SkyDirection& star, double ra_deg, double dec_deg) {
+  const V3d place = star_direction(ra_deg, dec_deg).v;
+  return std::atan2(star.v.cross(place).length(), star.v.dot(place)) *
+         (180 * 3600 / 3.14159265358979);
+}
+
+// The star of that identifier; one without a magnitude where there is none.
+inline CatalogueStar star_of(const RawCatalogue& catalogue, std::string_view id) {
+  for (const CatalogueStar& star : catalogue.stars)
+    if (star_id_name(star.id) == id) return star;
+  CatalogueStar none;
+  none.v = -1000;
+  return none;
+}
+
+inline const std::filesystem::path kRows = std::filesystem::path(DOMEFALL_TEST_DATA) / "stars";
+
+}  // namespace domefall
