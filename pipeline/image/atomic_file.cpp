@@ -32,20 +32,6 @@ std::string host_name() {
   return host;
 }
 
-// Unique among the writers of this process and, by host and process number, among all; the random
-// part tells this process from one of an earlier boot with the same number.
-fs::path temporary_for(const fs::path& path) {
-  static const unsigned start = std::random_device{}();
-  static std::atomic<unsigned> count{0};
-  const std::string tail = "." + host_name() + "." + std::to_string(getpid()) + "." +
-                           std::to_string(start) + "-" + std::to_string(count++) +
-                           std::string(kSuffix);
-  // The file's own name is cut where the whole would pass the file systems' 255 bytes.
-  std::string name = path.filename().string();
-  if (name.size() + tail.size() > 250) name.resize(250 - tail.size());
-  return path.parent_path() / ("." + name + tail);
-}
-
 class Descriptor {
  public:
   // Failures are told under the name that the user knows.
@@ -121,6 +107,26 @@ bool is_abandoned(const fs::directory_entry& entry, const Owner& owner) {
 
 }  // namespace
 
+// Unique among the writers of this process and, by host and process number, among all; the random
+// part tells this process from one of an earlier boot with the same number.
+fs::path temporary_for(const fs::path& path) {
+  static const unsigned start = std::random_device{}();
+  static std::atomic<unsigned> count{0};
+  const std::string tail = "." + host_name() + "." + std::to_string(getpid()) + "." +
+                           std::to_string(start) + "-" + std::to_string(count++) +
+                           std::string(kSuffix);
+  // The file's own name is cut where the whole would pass the file systems' 255 bytes.
+  std::string name = path.filename().string();
+  if (name.size() + tail.size() > 250) name.resize(250 - tail.size());
+  return path.parent_path() / ("." + name + tail);
+}
+
+void put_in_place(const fs::path& temporary, const fs::path& path) {
+  const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  if (rename(temporary.c_str(), path.c_str()) != 0) throw_file_error(path, errno);
+  Descriptor(folder, O_RDONLY | O_DIRECTORY, folder).flush();
+}
+
 void throw_file_error(const fs::path& path, int error) {
   const std::string what = path.string() + ": " + std::strerror(error);
   switch (error) {
@@ -139,18 +145,16 @@ void throw_file_error(const fs::path& path, int error) {
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {
-  const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
   const fs::path temporary = temporary_for(path);
   const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL, path);
   try {
     file.write(contents);
     file.flush();
-    if (rename(temporary.c_str(), path.c_str()) != 0) throw_file_error(path, errno);
+    put_in_place(temporary, path);
   } catch (...) {
     unlink(temporary.c_str());
     throw;
   }
-  Descriptor(folder, O_RDONLY | O_DIRECTORY, folder).flush();
 }
 
 int sweep_temporaries(const fs::path& folder) {

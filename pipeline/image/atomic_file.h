@@ -16,6 +16,12 @@ namespace domefall {
 // disk that is full, a quota or a file server; both name the path and the reason.
 void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
+// The temporary name, new at every call, under which a file that shall become `path` is written.
+std::filesystem::path temporary_for(const std::filesystem::path& path);
+
+// Gives a temporary, written and flushed, its final name and flushes the folder.  Throws as above.
+void put_in_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
 // Removes from a folder (not from those below it) the temporaries of writers that are dead: of this
 // host and with a process number that is not in use, or of any host and older than a day.  Returns
 // how many were removed.  A folder that cannot be read has none; nothing is thrown.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/sky/read_sky.h"
 #include "pipeline/sky/star_catalogue.h"
 
 namespace domefall {
@@ -12,7 +13,7 @@ namespace {
 void add_sky(Digest& digest, const RegionSky& sky) {
   digest.add(static_cast<double>(sky.background.index()));
   if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
-    digest.add_file(panorama->image);
+    digest.add(sky_digest(panorama->image));
   if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
   digest.add(sky.stars ? "stars" : "no stars");
   if (!sky.stars) return;

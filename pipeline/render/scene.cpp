@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/image/errors.h"
-#include "pipeline/image/read_image.h"
+#include "pipeline/sky/read_sky.h"
 #include "pipeline/sky/star_catalogue.h"
 
 namespace domefall {
@@ -22,15 +21,6 @@ std::vector<SceneStar> scene_stars(const StarCatalogue& catalogue) {
     stars.push_back({s.direction, s.v_magnitude, flux, t, radius});
   }
   return stars;
-}
-
-FloatImage read_panorama(const std::filesystem::path& file) {
-  FloatImage image = read_image(file);
-  if (image.width < 4 || image.height < 2 || image.width != 2 * image.height)
-    throw InputError(
-        file.string() + ": a panorama is twice as wide as high, at least 4 x 2 pixels; " +
-        "this one is " + std::to_string(image.width) + " x " + std::to_string(image.height));
-  return image;
 }
 
 bool same_background(const RegionSky& a, const RegionSky& b) {
@@ -79,7 +69,7 @@ Sky Scene::load(SeenSky which) const {
   }
   const auto* panorama = std::get_if<PanoramaSky>(&own.background);
   if (panorama && std::holds_alternative<Black>(sky.background))
-    sky.background = std::make_shared<const SkyMap>(read_panorama(panorama->image));
+    sky.background = read_sky(panorama->image);
   if (sky.stars) return sky;
   std::vector<SceneStar> stars;
   if (own.stars)

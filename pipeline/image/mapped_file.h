@@ -1,0 +1,55 @@
+// Files as memory: what is looked at is read, what is not stays on the disk.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace domefall {
+
+// A file to read.  It must not become shorter while it is mapped: a look beyond its end then ends the
+// process (put_in_place, which gives a name to a new file, never does that to an old one).
+class MappedFile {
+ public:
+  // Throws InputError or TemporaryError, with the path.  An empty file has size 0 and no data.
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile(MappedFile&&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  MappedFile& operator=(MappedFile&&) = delete;
+
+  const std::byte* data() const { return data_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  const std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+// A file in the making, zeroed, that appears under its name when it is whole.
+class NewMappedFile {
+ public:
+  // The disk's space is taken at once, so that a full disk is told here (TemporaryError) and not by a
+  // signal later.  Throws InputError for a folder that may not be written to.
+  NewMappedFile(const std::filesystem::path& path, std::size_t size);
+  // Removes what was not committed.
+  ~NewMappedFile();
+  NewMappedFile(const NewMappedFile&) = delete;
+  NewMappedFile(NewMappedFile&&) = delete;
+  NewMappedFile& operator=(const NewMappedFile&) = delete;
+  NewMappedFile& operator=(NewMappedFile&&) = delete;
+
+  std::byte* data() { return data_; }
+  std::size_t size() const { return size_; }
+
+  // Flushes the file to the disk and gives it its name, once.
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+  bool committed_ = false;
+};
+
+}  // namespace domefall

@@ -1,0 +1,32 @@
+#include "pipeline/sky/read_sky.h"
+
+#include "pipeline/image/digest.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/read_image.h"
+#include "pipeline/sky/sky_file.h"
+
+namespace domefall {
+namespace {
+
+FloatImage read_panorama(const std::filesystem::path& file) {
+  FloatImage image = read_image(file);
+  if (image.width < 4 || image.height < 2 || image.width != 2 * image.height)
+    throw InputError(
+        file.string() + ": a panorama is twice as wide as high, at least 4 x 2 pixels; " +
+        "this one is " + std::to_string(image.width) + " x " + std::to_string(image.height));
+  return image;
+}
+
+}  // namespace
+
+std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file) {
+  if (is_sky_file(file)) return std::make_shared<const SkyMap>(open_sky_file(file).map);
+  return std::make_shared<const SkyMap>(read_panorama(file));
+}
+
+std::string sky_digest(const std::filesystem::path& file) {
+  if (is_sky_file(file)) return "sky " + sky_file_digest(file);
+  return Digest().add_file(file).hex();
+}
+
+}  // namespace domefall
