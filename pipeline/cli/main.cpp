@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   domefall::add_trace(app);
   domefall::add_report(app);
   domefall::add_stars(app);
+  domefall::add_sky(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

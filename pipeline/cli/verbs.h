@@ -15,5 +15,6 @@ void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);
 void add_report(CLI::App& app);
 void add_stars(CLI::App& app);
+void add_sky(CLI::App& app);
 
 }  // namespace domefall

@@ -3,7 +3,10 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "pipeline/sky/cube_face.h"
@@ -14,6 +17,7 @@ namespace {
 
 constexpr std::uint16_t kSmallestNormal = 0x0400;  // 2^-14
 constexpr int kGreatestExponent = 14;
+constexpr unsigned kMostThreads = 64;
 
 // Of four texels that become one.
 SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
@@ -22,6 +26,37 @@ SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const Sky
     out.channel[k] = half_bits((half_value(a.channel[k]) + half_value(b.channel[k]) +
                                 half_value(c.channel[k]) + half_value(d.channel[k])) /
                                4);
+  return out;
+}
+
+// Between which two inner texels a place is, and how far from the first: 0 to 1.
+struct Between {
+  int first, second;
+  float part;
+};
+
+Between between(double u, int n) {
+  const double x = std::clamp((u + 1) / 2 * n - 0.5, 0.0, n - 1.0);
+  const int first = static_cast<int>(x);
+  return {first, std::min(first + 1, n - 1), static_cast<float>(x - first)};
+}
+
+// What the neighbouring face has where a texel of the border looks, between its inner texels.
+SkyTexel looked_across(const SkyPyramid::Level& level, int face, int i, int j) {
+  const int n = level.size;
+  const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
+  const Between x = between(at.u, n), y = between(at.v, n);
+  const SkyTexel &a = level.at(at.face, x.first, y.first),
+                 &b = level.at(at.face, x.second, y.first),
+                 &c = level.at(at.face, x.first, y.second),
+                 &d = level.at(at.face, x.second, y.second);
+  SkyTexel out{};
+  for (int k = 0; k < 4; ++k) {
+    const auto mix = [](float from, float to, float part) { return from + part * (to - from); };
+    out.channel[k] =
+        half_bits(mix(mix(half_value(a.channel[k]), half_value(b.channel[k]), x.part),
+                      mix(half_value(c.channel[k]), half_value(d.channel[k]), x.part), y.part));
+  }
   return out;
 }
 
@@ -34,6 +69,24 @@ void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
       for (int i = 0; i < coarse.size; ++i, a += 2, b += 2) out[i] = mean(a[0], a[1], b[0], b[1]);
     }
   fill_border(coarse);
+}
+
+// Row j - 1 of face k, where `row` counts all rows of all faces.
+void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painter, int looks) {
+  const int n = level.size, fine = n * looks, face = row / (n + 2), j = row % (n + 2) - 1;
+  for (int i = -1; i <= n; ++i) {
+    std::array<float, 4> sum{};
+    for (int y = 0; y < looks; ++y)
+      for (int x = 0; x < looks; ++x) {
+        std::array<float, 4> channel{};
+        painter(direction_of(texel_centre(face, i * looks + x, j * looks + y, fine)),
+                channel.data());
+        for (int k = 0; k < 4; ++k) sum[k] += channel[k];
+      }
+    SkyTexel& texel = level.at(face, i, j);
+    for (int k = 0; k < 4; ++k)
+      texel.channel[k] = half_bits(sum[k] / static_cast<float>(looks * looks));
+  }
 }
 
 }  // namespace
@@ -95,31 +148,25 @@ SkyMap SkyPyramid::map() const {
 
 void fill_border(const SkyPyramid::Level& level) {
   const int n = level.size;
-  const auto look_across = [&level, n](int face, int i, int j) {
-    const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
-    const int x = std::clamp(static_cast<int>((at.u + 1) / 2 * n), 0, n - 1);
-    const int y = std::clamp(static_cast<int>((at.v + 1) / 2 * n), 0, n - 1);
-    level.at(face, i, j) = level.at(at.face, x, y);
-  };
   for (int face = 0; face < 6; ++face)
     for (int k = -1; k <= n; ++k) {
-      look_across(face, k, -1);
-      look_across(face, k, n);
-      look_across(face, -1, k);
-      look_across(face, n, k);
+      level.at(face, k, -1) = looked_across(level, face, k, -1);
+      level.at(face, k, n) = looked_across(level, face, k, n);
+      level.at(face, -1, k) = looked_across(level, face, -1, k);
+      level.at(face, n, k) = looked_across(level, face, n, k);
     }
 }
 
-void paint(const SkyPyramid::Level& level, const SkyPainter& painter) {
-  const int n = level.size;
-  for (int face = 0; face < 6; ++face)
-    for (int j = -1; j <= n; ++j)
-      for (int i = -1; i <= n; ++i) {
-        float channel[4] = {0, 0, 0, 0};
-        painter(direction_of(texel_centre(face, i, j, n)), channel);
-        SkyTexel& texel = level.at(face, i, j);
-        for (int k = 0; k < 4; ++k) texel.channel[k] = half_bits(channel[k]);
-      }
+void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks) {
+  const int rows = 6 * (level.size + 2);
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int row = next++; row < rows; row = next++) paint_row(level, row, painter, looks);
+  };
+  std::vector<std::jthread> others;
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  for (unsigned k = 1; k < threads; ++k) others.emplace_back(work);
+  work();
 }
 
 }  // namespace domefall

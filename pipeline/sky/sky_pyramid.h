@@ -46,12 +46,14 @@ struct SkyPyramid {
 
 inline constexpr int kLargestFace = 8192;
 
-// Each border texel looks across the edge, at the face that owns its direction.
+// Each border texel looks across the edge, at the face that owns its direction, and is what a look
+// there sees between that face's inner texels.
 void fill_border(const SkyPyramid::Level& level);
 
-// Channels (in units of the map) at a place of the sphere, which need not have unit length.
+// Channels (in units of the map) at a place of the sphere, which need not have unit length.  Called
+// from several threads.
 using SkyPainter = std::function<void(const V3d& direction, float channel[4])>;
-// Sets the finest level, border and all, texel by texel.
-void paint(const SkyPyramid::Level& level, const SkyPainter& painter);
+// Sets the finest level, border and all; each texel is the mean of looks x looks places.
+void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks = 1);
 
 }  // namespace domefall
