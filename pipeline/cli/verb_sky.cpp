@@ -4,9 +4,12 @@
 #include <numbers>
 #include <string>
 
+#include "pipeline/cli/sky_check_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/show/assets.h"
+#include "pipeline/sky/import_sky.h"
+#include "pipeline/sky/read_sky.h"
 #include "pipeline/sky/sky_file.h"
 #include "pipeline/sky/starlight_map.h"
 
@@ -89,7 +92,8 @@ void info(const std::string& path, bool verify) {
               thermal ? "thermal: radiance and temperature" : "colour: working-space RGB");
   std::printf("unit         %.9g %s\n", file.map.unit(), thermal ? "W/m^2/sr" : "cd/m^2");
   std::printf("faces        6 of %d x %d, %zu levels, %.1f MB\n", file.map.levels()[0].size,
-              file.map.levels()[0].size, file.map.levels().size(), static_cast<double>(file.map.bytes()) / 1e6);
+              file.map.levels()[0].size, file.map.levels().size(),
+              static_cast<double>(file.map.bytes()) / 1e6);
   std::printf("picture      %s\n",
               file.origin.picture ? told(*file.origin.picture).c_str() : "none");
   std::fputs(file.origin.text.c_str(), stdout);
@@ -107,12 +111,130 @@ void add_info(CLI::App& sky) {
   verb->callback([file, verify] { info(*file, *verify); });
 }
 
+// Against the naked-eye stars that come with Domefall, unless others are named.
+StarCatalogue check_stars(const std::string& file) {
+  return read_star_catalogue(file.empty() ? shipped_asset(kNakedEyeStars).string() : file,
+                             kEveryStar);
+}
+
+void check_map(const std::string& path, const std::string& stars) {
+  Orientation stated;
+  if (is_sky_file(path)) stated = open_sky_file(path).origin.picture.value_or(stated);
+  const auto map = read_sky(path);
+  const StarCatalogue catalogue = check_stars(stars);
+  const SkyCheck check = check_orientation(*map, stated, catalogue);
+  print_check(check, known_places(*map, catalogue));
+  if (check.verdict == SkyVerdict::kOther) throw InputError(path + ": " + told(check));
+  std::printf("\n%s\n", told(check).c_str());
+}
+
+void add_check_of_sky(CLI::App& sky) {
+  CLI::App* verb = sky.add_subcommand(
+      "check", "Tell by stars and Milky Way whether a map lies on the sky as it is said to");
+  auto file = std::make_shared<std::string>(), stars = std::make_shared<std::string>();
+  verb->add_option("FILE", *file, "a .sky file, or a panorama as shows take it")->required();
+  verb->add_option("--stars", *stars, "a catalogue [the naked-eye stars]");
+  verb->callback([file, stars] { check_map(*file, *stars); });
+}
+
+struct ImportOptions {
+  SkyImport import;
+  std::string image, out, projection = "auto", frame, licence, stars;
+  bool left = false, right = false, linear = false, srgb = false, cmb = false;
+  double unit = 0;
+  CmbLook look;
+};
+
+SkyImport import_of(const ImportOptions& o) {
+  SkyImport import = o.import;
+  import.image = o.image, import.out = o.out;
+  check_size(import.size, kLargestFace);
+  if (o.projection == "equirectangular") import.projection = SkyProjection::kEquirectangular;
+  if (o.projection == "healpix") import.projection = SkyProjection::kHealpix;
+  import.frame_given = !o.frame.empty();
+  if (o.frame == "galactic") import.orientation.frame = SkyFrame::kGalactic;
+  import.orientation.longitude_right = o.right;
+  if (o.linear) import.encoding = PixelEncoding::kLinear;
+  if (o.srgb) import.encoding = PixelEncoding::kSrgb;
+  if (o.unit > 0) import.unit = o.unit;
+  if (o.cmb) import.cmb = o.look;
+  if (!o.licence.empty()) import.text = "licence: " + o.licence + "\n";
+  return import;
+}
+
+void import_map(const ImportOptions& o) {
+  const SkyImport import = import_of(o);
+  const Orientation stated = import_sky(import);
+  std::fprintf(stderr, "%s: %s\n", o.out.c_str(), told(stated).c_str());
+  const StarCatalogue catalogue = check_stars(o.stars);
+  const SkyCheck check = check_orientation(open_sky_file(o.out).map, stated, catalogue);
+  std::fprintf(stderr, "%s%s\n", check.verdict == SkyVerdict::kOther ? "warning: " : "",
+               told(check).c_str());
+}
+
+void add_orientation(CLI::App& verb, ImportOptions& o) {
+  verb.add_option("--frame", o.frame,
+                  "equatorial (J2000) or galactic [equatorial; HEALPix: what the file says]")
+      ->check(CLI::IsMember({"equatorial", "galactic"}));
+  CLI::Option* left = verb.add_flag(
+      "--ra-left", o.left, "longitude grows to the left, as seen from inside [so it does]");
+  verb.add_flag("--ra-right,--flip", o.right, "longitude grows to the right")->excludes(left);
+  verb.add_flag("--south-up", o.import.orientation.south_up, "the top row is the south pole");
+  verb.add_option("--centre-ra,--centre-longitude", o.import.orientation.centre_deg,
+                  "longitude of the middle column, degrees")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+}
+
+void add_cmb(CLI::App& verb, ImportOptions& o) {
+  CLI::Option* cmb = verb.add_flag(
+      "--cmb", o.cmb, "the map holds fluctuations of the microwave background's temperature");
+  verb.add_option("--cmb-redshift", o.look.redshift, "it is shown as it was at this redshift")
+      ->check(CLI::Range(250.0, 1e5))
+      ->needs(cmb)
+      ->capture_default_str();
+  verb.add_option("--cmb-contrast", o.look.contrast, "factor on the fluctuations")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(cmb)
+      ->capture_default_str();
+  verb.add_option("--cmb-luminance", o.look.luminance, "cd/m^2, of its mean temperature")
+      ->check(CLI::Range(1e-9, 1e3))
+      ->needs(cmb)
+      ->capture_default_str();
+}
+
+void add_import(CLI::App& sky) {
+  CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
+  auto o = std::make_shared<ImportOptions>();
+  verb->add_option("IMAGE", o->image, "any picture OpenImageIO reads, or a HEALPix map in FITS")
+      ->required();
+  verb->add_option("--out", o->out, "the .sky file to write")->required();
+  verb->add_option("--projection", o->projection)
+      ->check(CLI::IsMember({"auto", "equirectangular", "healpix"}))
+      ->capture_default_str();
+  add_orientation(*verb, *o);
+  verb->add_option("--unit", o->unit,
+                   "cd/m^2 of a value of 1 [1e-4]; with --cmb: kelvin [what the file says]")
+      ->check(CLI::Range(1e-12, 1e12));
+  CLI::Option* linear = verb->add_flag("--linear", o->linear, "values are linear light");
+  verb->add_flag("--srgb", o->srgb, "values are sRGB-encoded [integers are]")->excludes(linear);
+  verb->add_option("--size", o->import.size,
+                   "texels along a cube face, a power of two [as fine as the picture]");
+  verb->add_option("--column", o->import.column, "of a HEALPix file")->capture_default_str();
+  add_cmb(*verb, *o);
+  verb->add_option("--licence", o->licence, "a line to keep in the file: credit and terms");
+  verb->add_option("--stars", o->stars, "the catalogue to check with [the naked-eye stars]");
+  verb->callback([o] { import_map(*o); });
+}
+
 }  // namespace
 
 void add_sky(CLI::App& app) {
   CLI::App* sky = app.add_subcommand("sky", "Import, build, check and describe sky maps");
   sky->require_subcommand(1);
+  add_import(*sky);
   add_build(*sky);
+  add_check_of_sky(*sky);
   add_info(*sky);
 }
 

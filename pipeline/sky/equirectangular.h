@@ -2,11 +2,26 @@
 #pragma once
 
 #include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/light_image.h"
+#include "pipeline/sky/orientation.h"
 #include "pipeline/sky/sky_map.h"
+#include "pipeline/sky/sky_pyramid.h"
 
 namespace domefall {
 
 // A map from an image as SkyMap's constructor takes it.
 SkyMap map_of_panorama(const FloatImage& equirectangular);
+
+// Texels along a face that keep the detail of an image of this width: half as fine as its pixels,
+// so that bilinear looks between texels stay smooth.  At most 4096.
+int panorama_face(int width);
+
+// The unit for a colour map of the image, linear Rec.709, whose value 1 is this luminance (cd/m^2).
+double panorama_unit(const LightImage& image, double luminance);
+
+// The finest level of a colour map, border and all; a level coarser than panorama_face() has the
+// means of finer looks.
+void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
+                    const SkyPyramid& pyramid);
 
 }  // namespace domefall

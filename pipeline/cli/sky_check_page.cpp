@@ -1,0 +1,45 @@
+#include "pipeline/cli/sky_check_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kOthersShown = 4;
+
+void print_fit(const char* what, const OrientationFit& fit) {
+  std::printf("%-7s %5.0f %%  %6.3f   %s\n", what, 100 * fit.stars, fit.band,
+              told(fit.orientation).c_str());
+}
+
+}  // namespace
+
+std::string told(const SkyCheck& check) {
+  const std::string by = check.by_stars ? "by its stars" : "by its Milky Way";
+  if (check.verdict == SkyVerdict::kAgrees)
+    return "it lies on the sky as stated, " + by + ": " + told(check.stated.orientation);
+  if (check.verdict == SkyVerdict::kOther)
+    return "stated as " + told(check.stated.orientation) + ", but, " + by + ", it fits better as " +
+           told(check.others[0].orientation);
+  return "it shows neither stars nor a Milky Way clear enough to tell its orientation by";
+}
+
+void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places) {
+  std::puts("place                      RA deg  Dec deg  light over its surroundings");
+  for (const KnownPlace& p : places) {
+    const V3d& d = p.direction.v;
+    double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
+    if (ra < 0) ra += 360;
+    std::printf("%-25s %7.2f  %7.2f  %.3g\n", p.name.c_str(), ra,
+                std::asin(d.z) * 180 / std::numbers::pi, p.contrast);
+  }
+  std::puts("\n        stars    band     orientation");
+  print_fit("stated", check.stated);
+  for (std::size_t k = 0; k < std::min(kOthersShown, check.others.size()); ++k)
+    print_fit("other", check.others[k]);
+}
+
+}  // namespace domefall

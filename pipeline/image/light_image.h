@@ -1,0 +1,28 @@
+// Large pictures, held as half floats: a panorama of 16384 x 8192 takes 0.8 GB.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipeline/image/frame_buffer.h"
+
+namespace domefall {
+
+enum class PixelEncoding {
+  kOfFile,  // integers are sRGB, floats are linear
+  kLinear,
+  kSrgb,  // IEC 61966-2-1
+};
+
+// Linear RGB: a pixel's value is `unit` times its half.
+struct LightImage {
+  ImageRgb<Imath::half> pixels;
+  double unit = 1;
+};
+
+// A file of any format OpenImageIO reads, by bands of rows or tiles.  Grey is spread to RGB, further
+// channels are dropped, what is negative becomes 0.  Throws InputError naming the file if it cannot
+// be read to its end, is too large (over 32768 pixels a side) or holds a pixel that is not finite.
+LightImage read_light_image(const std::filesystem::path& file, PixelEncoding encoding);
+
+}  // namespace domefall

@@ -1,0 +1,21 @@
+// All-sky maps in the HEALPix pixelisation (Gorski et al. 2005, ApJ 622, 759), from FITS files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace domefall {
+
+struct HealpixFile {
+  int nside = 1;                   // a power of two
+  bool nested = false;             // else RING
+  std::string coordinates, units;  // COORDSYS and TUNITn, as written; empty where there are none
+  std::vector<float> values;       // 12 nside^2; bad pixels are NaN
+};
+
+// Of the first binary table that is a HEALPix map of the whole sky, column `column` (from 1), of
+// floats or integers, a pixel or many a row.  Throws InputError naming the file.
+HealpixFile read_healpix(const std::filesystem::path& file, int column);
+
+}  // namespace domefall
