@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kOthersShown = 4;
 
 void print_fit(const char* what, const OrientationFit& fit) {
-  std::printf("%-7s %5.0f %%  %6.3f   %s\n", what, 100 * fit.stars, fit.band,
-              told(fit.orientation).c_str());
+  std::printf("%-7s %5.0f %%  %5.0f %%  %6.3f   %s\n", what, 100 * fit.stars, 100 * fit.clouds,
+              fit.band, told(fit.orientation).c_str());
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ std::string told(const SkyCheck& check) {
   if (check.verdict == SkyVerdict::kOther)
     return "stated as " + told(check.stated.orientation) + ", but, " + by + ", it fits better as " +
            told(check.others[0].orientation);
-  return "it shows neither stars nor a Milky Way clear enough to tell its orientation by";
+  return "neither its stars nor its Milky Way are clear enough to tell its orientation by";
 }
 
 void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places) {
@@ -36,7 +36,7 @@ void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places) {
     std::printf("%-25s %7.2f  %7.2f  %.3g\n", p.name.c_str(), ra,
                 std::asin(d.z) * 180 / std::numbers::pi, p.contrast);
   }
-  std::puts("\n        stars    band     orientation");
+  std::puts("\n         stars   clouds  band     orientation");
   print_fit("stated", check.stated);
   for (std::size_t k = 0; k < std::min(kOthersShown, check.others.size()); ++k)
     print_fit("other", check.others[k]);

@@ -14,9 +14,11 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kBrightest = 150, kDensest = 40'000;
 constexpr double kStandsOut = 1.3;  // a point over its surroundings
+constexpr double kCloudStandsOut = 1.15;
 constexpr double kStarsEnough = 0.5, kStarsMargin = 0.15, kBandEnough = 0.3, kBandMargin = 0.1;
 constexpr int kBandFace = 16;
 constexpr double kBandBlur = 5 * kDegree;
+constexpr double kKernelEnd = 8;  // as an exponent
 constexpr int kNamedStars = 10;
 
 double light(const SkyMap& map, const V3d& direction, double footprint) {
@@ -43,6 +45,37 @@ double ratio(double inside, double around) {
   return around > 0 ? inside / around : HUGE_VAL;
 }
 
+struct NamedPlace {
+  const char* name;
+  double ra_deg, dec_deg, radius_deg;
+  bool dark = false;
+
+  V3d direction() const {
+    const double ra = ra_deg * kDegree, dec = dec_deg * kDegree;
+    return {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+  }
+  double radius() const { return radius_deg * kDegree; }
+  bool stands_out(double contrast) const {
+    return dark ? contrast < 1 / kCloudStandsOut : contrast > kCloudStandsOut;
+  }
+};
+
+// NED and SIMBAD, J2000; the radius is what stands out of the surroundings.
+constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -69.8, 2.5},
+                                             {"Small Magellanic Cloud", 13.2, -72.8, 1.2},
+                                             {"M 31", 10.68, 41.27, 0.5},
+                                             {"Carina Nebula", 161.3, -59.7, 0.8},
+                                             {"Large Sagittarius Cloud", 271, -28.5, 2},
+                                             {"Small Sagittarius Cloud", 274.2, -18.5, 0.8},
+                                             {"Scutum Cloud", 281.3, -6.5, 1.5},
+                                             {"Coalsack (dark)", 192.5, -62.9, 1.5, true}}};
+
+// Of a disc to the median of a ring around it.
+double contrast(const SkyMap& map, const V3d& d, double radius) {
+  const std::vector<double> around = ring(map, d, 2.5 * radius, radius);
+  return ratio(light(map, d, radius), around[around.size() / 2]);
+}
+
 // Whether there is a point of light at a place, give or take a texel or a tenth of a degree.
 bool stands_out(const SkyMap& map, const V3d& d) {
   const double texel = std::numbers::pi / 2 / map.levels()[0].size;
@@ -66,40 +99,47 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return rank;
 }
 
-// Spearman's: Pearson's of the ranks, equal values sharing theirs.  0 if either is all the same.
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::vector<double> x = ranks(a), y = ranks(b);
-  const double mean = static_cast<double>(x.size() - 1) / 2;
+// Pearson's.  0 if either is all the same.
+double correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto mean = [](const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  };
+  const double x0 = mean(x), y0 = mean(y);
   double xx = 0, yy = 0, xy = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    xx += (x[k] - mean) * (x[k] - mean);
-    yy += (y[k] - mean) * (y[k] - mean);
-    xy += (x[k] - mean) * (y[k] - mean);
+    xx += (x[k] - x0) * (x[k] - x0);
+    yy += (y[k] - y0) * (y[k] - y0);
+    xy += (x[k] - x0) * (y[k] - y0);
   }
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
-// Places all over the sky, and how densely the stars stand there.
+// Places all over the sky, and how densely the stars stand there, by rank.
 struct Band {
   std::vector<V3d> places;
   std::vector<double> density;
 };
 
+double density_at(const V3d& d, const StarCatalogue& catalogue) {
+  const std::size_t count = std::min(catalogue.stars.size(), kDensest);
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = (1 - d.dot(catalogue.stars[k].direction.v)) / (kBandBlur * kBandBlur);
+    if (x < kKernelEnd) sum += std::exp(-x);
+  }
+  return sum;
+}
+
 Band band_of(const StarCatalogue& catalogue) {
   Band band;
-  const std::size_t count = std::min(catalogue.stars.size(), kDensest);
   for (int face = 0; face < 6; ++face)
     for (int j = 0; j < kBandFace; ++j)
       for (int i = 0; i < kBandFace; ++i) {
         const V3d d = direction_of(texel_centre(face, i, j, kBandFace)).normalized();
-        double sum = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-          const double x = (1 - d.dot(catalogue.stars[k].direction.v)) / (kBandBlur * kBandBlur);
-          if (x < 8) sum += std::exp(-x);
-        }
         band.places.push_back(d);
-        band.density.push_back(sum);
+        band.density.push_back(density_at(d, catalogue));
       }
+  band.density = ranks(band.density);
   return band;
 }
 
@@ -121,9 +161,13 @@ class Judge {
     for (std::size_t k = 0; k < count; ++k)
       found += stands_out(map_, in_map(catalogue_.stars[k].direction.v));
     std::vector<double> seen;
+    seen.reserve(band_.places.size());
     for (const V3d& d : band_.places) seen.push_back(light(map_, in_map(d), 2 * kBandBlur));
+    int clouds = 0;
+    for (const NamedPlace& cloud : kClouds)
+      clouds += cloud.stands_out(contrast(map_, in_map(cloud.direction()), cloud.radius()));
     return {orientation, count ? found / static_cast<double>(count) : 0,
-            rank_correlation(seen, band_.density)};
+            correlation(ranks(seen), band_.density), clouds / static_cast<double>(kClouds.size())};
   }
 
  private:
@@ -147,23 +191,9 @@ std::vector<Orientation> alternatives(const Orientation& stated) {
   return all;
 }
 
-struct NamedPlace {
-  const char* name;
-  double ra_deg, dec_deg, radius_deg;
-};
-
-// NED and SIMBAD, J2000; the radius is what stands out of the surroundings.
-constexpr std::array<NamedPlace, 6> kClouds{{{"Large Magellanic Cloud", 80.9, -69.8, 2.5},
-                                             {"Small Magellanic Cloud", 13.2, -72.8, 1.2},
-                                             {"M 31", 10.68, 41.27, 0.5},
-                                             {"Carina Nebula", 161.3, -59.7, 0.8},
-                                             {"Large Sagittarius Cloud", 271, -28.5, 2},
-                                             {"Coalsack (dark)", 192.5, -62.9, 1.5}}};
-
 KnownPlace place_at(const SkyMap& map, const std::string& name, const SkyDirection& at,
                     double radius) {
-  const std::vector<double> around = ring(map, at.v, 2.5 * radius, radius);
-  return {name, at, radius, ratio(light(map, at.v, radius), around[around.size() / 2])};
+  return {name, at, radius, contrast(map, at.v, radius)};
 }
 
 }  // namespace
@@ -179,7 +209,7 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
     most = std::max(most, f.stars), least = std::min(least, f.stars);
   check.by_stars = most >= kStarsEnough && most - least >= 2 * kStarsMargin;
   const auto score = [&check](const OrientationFit& f) {
-    return check.by_stars ? f.stars : f.band;
+    return check.by_stars ? f.stars : (f.band + f.clouds) / 2;
   };
   std::stable_sort(check.others.begin(), check.others.end(),
                    [&](const auto& a, const auto& b) { return score(a) > score(b); });
@@ -206,11 +236,8 @@ std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& cat
       places.push_back(
           place_at(map, name->name, star.direction, std::max(1.5 * texel, 0.1 * kDegree)));
   }
-  for (const NamedPlace& p : kClouds) {
-    const double ra = p.ra_deg * kDegree, dec = p.dec_deg * kDegree;
-    const V3d d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec));
-    places.push_back(place_at(map, p.name, {d}, p.radius_deg * kDegree));
-  }
+  for (const NamedPlace& p : kClouds)
+    places.push_back(place_at(map, p.name, {p.direction()}, p.radius()));
   return places;
 }
 

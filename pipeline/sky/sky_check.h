@@ -14,7 +14,9 @@ namespace domefall {
 struct OrientationFit {
   Orientation orientation;
   double stars;  // part of the brightest stars at whose places a point stands out, 0 to 1
-  double band;   // rank correlation of its light with the density of the catalogue's stars, -1 to 1
+  // Rank correlation of its light with the density of the catalogue's stars, -1 to 1.
+  double band;
+  double clouds;  // part of eight known clouds and galaxies that stand out, 0 to 1
 };
 
 enum class SkyVerdict {
@@ -33,8 +35,9 @@ struct SkyCheck {
 // Compares the orientation that a map was made with to the 31 others with the frame, the direction of
 // longitude, the top and the middle (by quarter turns) changed.  Points of light at the places of the
 // 150 brightest stars decide, where there are any: half of them at least, and at least 0.15 more than
-// elsewhere.  A picture without stars is judged by the density of the catalogue's 40,000 brightest
-// stars: a correlation of 0.3 at least, and 0.1 more than otherwise.
+// elsewhere.  A picture without stars is judged by its Milky Way, which the density of the catalogue's
+// 40,000 brightest stars tells to be there, and by its clouds, which tell it from its mirror images:
+// the mean of `band` and `clouds` must be 0.3 at least, and 0.1 more than otherwise.
 SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
                            const StarCatalogue& catalogue);
 
