@@ -9,9 +9,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/map_file.h"
 
 namespace domefall {
 namespace {
@@ -60,8 +62,8 @@ std::size_t file_bytes(int size, std::size_t text) {
 }
 
 // Of a header as it lies in memory.
-std::uint64_t header_checksum(const std::byte* header, std::size_t bytes) {
-  std::vector<std::byte> copy(header, header + bytes);
+std::uint64_t header_checksum(std::string_view header) {
+  std::string copy(header);
   std::memset(copy.data() + offsetof(Header, checksum), 0, sizeof Header::checksum);
   return XXH3_64bits(copy.data(), copy.size());
 }
@@ -99,7 +101,7 @@ std::optional<Orientation> picture_of(const Header& h) {
 }
 
 // The fixed part, checked as far as it can be by itself.
-Header read_header(const std::filesystem::path& path, const MappedFile& file) {
+Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
   if (file.size() < sizeof h) fail(path, file.size(), "the file ends within its header");
   std::memcpy(&h, file.data(), sizeof h);
@@ -111,7 +113,7 @@ Header read_header(const std::filesystem::path& path, const MappedFile& file) {
   if (h.header_bytes < sizeof h || h.header_bytes > kMostHeader || h.header_bytes % kPage)
     fail(path, offsetof(Header, header_bytes), "the header is damaged: its size makes no sense");
   if (file.size() < h.header_bytes) fail(path, file.size(), "the file ends within its header");
-  if (header_checksum(file.data(), h.header_bytes) != h.checksum)
+  if (header_checksum(file.substr(0, h.header_bytes)) != h.checksum)
     fail(path, offsetof(Header, checksum), "the header is damaged: its checksum is off");
   if (file.size() != h.file_bytes)
     fail(path, std::min(file.size(), static_cast<std::size_t>(h.file_bytes)),
@@ -135,7 +137,7 @@ void check_sense(const std::filesystem::path& path, const Header& h) {
 }
 
 std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const Header& h,
-                                     const MappedFile& file) {
+                                     std::string_view file) {
   std::vector<LevelEntry> entries(h.levels);
   std::memcpy(entries.data(), file.data() + sizeof h, h.levels * sizeof(LevelEntry));
   std::size_t offset = h.header_bytes;
@@ -158,15 +160,15 @@ struct OpenFile {
 
 OpenFile open_file(const std::filesystem::path& path) {
   OpenFile open{std::make_shared<const MappedFile>(path), {}, {}};
-  open.header = read_header(path, *open.file);
+  open.header = read_header(path, open.file->bytes());
   check_sense(path, open.header);
-  open.entries = read_entries(path, open.header, *open.file);
+  open.entries = read_entries(path, open.header, open.file->bytes());
   return open;
 }
 
 SkyLevel level_of(const OpenFile& open, const LevelEntry& e) {
   return {static_cast<int>(e.size),
-          reinterpret_cast<const SkyTexel*>(open.file->data() + e.offset)};
+          reinterpret_cast<const SkyTexel*>(open.file->bytes().data() + e.offset)};
 }
 
 Header header_of(const SkyMap& map, const SkyOrigin& origin) {
@@ -214,7 +216,7 @@ void NewSkyFile::finish() {
   }
   std::memcpy(at, origin_.text.data(), origin_.text.size());
   std::memcpy(file_->data(), &h, sizeof h);
-  h.checksum = header_checksum(file_->data(), h.header_bytes);
+  h.checksum = header_checksum({reinterpret_cast<const char*>(file_->data()), h.header_bytes});
   std::memcpy(file_->data(), &h, sizeof h);
   file_->commit();
 }
@@ -230,11 +232,11 @@ SkyFile open_sky_file(const std::filesystem::path& path) {
   std::vector<SkyLevel> levels;
   levels.reserve(open.entries.size());
   for (const LevelEntry& e : open.entries) levels.push_back(level_of(open, e));
-  const auto* text = reinterpret_cast<const char*>(open.file->data()) + sizeof(Header) +
-                     open.entries.size() * sizeof(LevelEntry);
+  const std::string_view text = open.file->bytes().substr(
+      sizeof(Header) + open.entries.size() * sizeof(LevelEntry), open.header.text_bytes);
   return {SkyMap(static_cast<SkyMapKind>(open.header.kind), open.header.unit, std::move(levels),
                  open.file),
-          {std::string(text, open.header.text_bytes), picture_of(open.header)}};
+          {std::string(text), picture_of(open.header)}};
 }
 
 std::string sky_file_digest(const std::filesystem::path& path) {
@@ -250,8 +252,8 @@ void verify_sky_file(const std::filesystem::path& path) {
     for (int face = 0; face < 6; ++face) {
       const SkyLevel level = level_of(open, e);
       if (face_checksum(level, face) == e.checksum[static_cast<std::size_t>(face)]) continue;
-      const auto* start = reinterpret_cast<const std::byte*>(level.face(face));
-      fail(path, static_cast<std::size_t>(start - open.file->data()),
+      const auto* start = reinterpret_cast<const char*>(level.face(face));
+      fail(path, static_cast<std::size_t>(start - open.file->bytes().data()),
            "face " + std::to_string(face) + " of the level of size " + std::to_string(level.size) +
                " is damaged: its checksum is off");
     }

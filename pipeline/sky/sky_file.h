@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/image/mapped_file.h"
+#include "pipeline/image/new_mapped_file.h"
 #include "pipeline/sky/orientation.h"
 #include "pipeline/sky/sky_map.h"
 #include "pipeline/sky/sky_pyramid.h"

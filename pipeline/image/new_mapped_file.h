@@ -1,30 +1,10 @@
-// Files as memory: what is looked at is read, what is not stays on the disk.
+// Files that are written as memory, for what is larger than memory may be (map_file.h reads them).
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 
 namespace domefall {
-
-// A file to read.  It must not become shorter while it is mapped: a look beyond its end then ends the
-// process (put_in_place, which gives a name to a new file, never does that to an old one).
-class MappedFile {
- public:
-  // Throws InputError or TemporaryError, with the path.  An empty file has size 0 and no data.
-  explicit MappedFile(const std::filesystem::path& path);
-  ~MappedFile();
-  MappedFile(const MappedFile&) = delete;
-  MappedFile(MappedFile&&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-  MappedFile& operator=(MappedFile&&) = delete;
-
-  const std::byte* data() const { return data_; }
-  std::size_t size() const { return size_; }
-
- private:
-  const std::byte* data_ = nullptr;
-  std::size_t size_ = 0;
-};
 
 // A file in the making, zeroed, that appears under its name when it is whole.
 class NewMappedFile {

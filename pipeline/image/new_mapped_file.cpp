@@ -1,8 +1,7 @@
-#include "pipeline/image/mapped_file.h"
+#include "pipeline/image/new_mapped_file.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,28 +21,6 @@ constexpr unsigned kNewFileMode = 0666;
 }
 
 }  // namespace
-
-MappedFile::MappedFile(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) throw_file_error(path, errno);
-  struct stat about {};
-  if (fstat(file, &about) != 0) fail(path, file);
-  if (S_ISDIR(about.st_mode)) {
-    errno = EISDIR;
-    fail(path, file);
-  }
-  size_ = static_cast<std::size_t>(about.st_size);
-  if (size_ > 0) {
-    void* memory = mmap(nullptr, size_, PROT_READ, MAP_SHARED, file, 0);
-    if (memory == MAP_FAILED) fail(path, file);
-    data_ = static_cast<const std::byte*>(memory);
-  }
-  close(file);
-}
-
-MappedFile::~MappedFile() {
-  if (data_) munmap(const_cast<std::byte*>(data_), size_);
-}
 
 NewMappedFile::NewMappedFile(const std::filesystem::path& path, std::size_t size)
     : path_(path), temporary_(temporary_for(path)), size_(size) {
