@@ -23,7 +23,7 @@ constexpr double kEveryStar = 30;
 
 struct BuildOptions {
   std::string stars, out;
-  double fainter_than = 6.5, blur_deg = 0.7, gain = 1;
+  double fainter_than = 6.5, blur_deg = 0.7, smooth_to = 10, gain = 1;
   int size = 0;
 };
 
@@ -48,12 +48,14 @@ void build(const BuildOptions& o) {
   const std::vector<FaintStar> stars = fainter_stars(catalogue, o.fainter_than);
   if (stars.empty())
     throw InputError(o.stars + ": no star is fainter than V = " + std::to_string(o.fainter_than));
-  const StarlightMap light(stars, blur, size);
+  StarlightMap light(size);
+  for (const BlurClass& spread : blur_classes(stars, blur, o.smooth_to))
+    light.add(spread.stars, spread.blur);
   char about[256];
-  std::snprintf(
-      about, sizeof about,
-      "made by: domefall sky build, %zu stars fainter than V = %g, blur %g deg, gain %g\n",
-      stars.size(), o.fainter_than, o.blur_deg, o.gain);
+  std::snprintf(about, sizeof about,
+                "made by: domefall sky build, %zu stars fainter than V = %g, blur %g deg, "
+                "smooth to V = %g, gain %g\n",
+                stars.size(), o.fainter_than, o.blur_deg, o.smooth_to, o.gain);
   NewSkyFile file(o.out, SkyMapKind::kThermal, sky_unit(o.gain * light.greatest()), size,
                   {about + ("source: " + std::filesystem::path(o.stars).filename().string()) + "\n",
                    std::nullopt});
@@ -77,6 +79,10 @@ void add_build(CLI::App& sky) {
       ->capture_default_str();
   verb->add_option("--blur", o->blur_deg, "degrees; standard deviation of a star's light")
       ->check(CLI::Range(kNarrowestBlur / kDegree, kWidestBlur / kDegree))
+      ->capture_default_str();
+  verb->add_option("--smooth-to", o->smooth_to,
+                   "stars brighter than this V are spread wider, so that none stands out")
+      ->check(CLI::Range(-30.0, kEveryStar))
       ->capture_default_str();
   verb->add_option("--size", o->size, "texels along a cube face, a power of two [by the blur]");
   verb->add_option("--gain", o->gain, "factor on the light")

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kCut = 4;  // standard deviations
 constexpr int kKernelSteps = 4096;
+constexpr double kBlurStep = 1.5;  // between classes
 
 // Stars that stand close together.
 struct Cell {
@@ -98,13 +99,28 @@ double texel_solid_angle(int size, double u, double v) {
 
 std::vector<FaintStar> fainter_stars(const StarCatalogue& catalogue, double v_magnitude) {
   std::vector<FaintStar> stars;
-  for (const Star& s : catalogue.stars)
-    if (s.v_magnitude > v_magnitude)
-      stars.push_back(
-          {s.direction.v,
-           std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(s.temperature),
-           s.temperature});
+  for (const Star& s : catalogue.stars) {
+    if (!(s.v_magnitude > v_magnitude)) continue;
+    const double flux =
+        std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(s.temperature);
+    stars.push_back({s.direction.v, flux, s.temperature, s.v_magnitude});
+  }
   return stars;
+}
+
+std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double blur,
+                                    double smooth_to) {
+  const auto most = static_cast<std::size_t>(std::log(kWidestBlur / blur) / std::log(kBlurStep));
+  std::vector<BlurClass> classes;
+  for (std::size_t k = 0; k <= most; ++k)
+    classes.push_back({blur * std::pow(kBlurStep, static_cast<double>(k)), {}});
+  for (const FaintStar& star : stars) {
+    // The peak is flux over blur squared.
+    const double wider = std::pow(10, 0.2 * std::max(smooth_to - star.v_magnitude, 0.0));
+    const auto k = static_cast<std::size_t>(std::lround(std::log(wider) / std::log(kBlurStep)));
+    classes[std::min(k, most)].stars.push_back(star);
+  }
+  return classes;
 }
 
 int starlight_face(double blur) {
@@ -113,7 +129,7 @@ int starlight_face(double blur) {
   return size;
 }
 
-StarlightMap::StarlightMap(const std::vector<FaintStar>& stars, double blur, int size)
+StarlightMap::StarlightMap(int size)
     : size_(size), inverse_length_(flat(size, 0, size)), light_(6 * flat(size, 0, size)) {
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
@@ -127,7 +143,11 @@ StarlightMap::StarlightMap(const std::vector<FaintStar>& stars, double blur, int
     kernel_.push_back(static_cast<float>(std::exp(-kCut * kCut / 2 * k / kKernelSteps) - end));
   kernel_.back() = 0;
   kernel_.push_back(0);
-  for (const Cell& cell : gather(stars, cell_grid(blur, size)))
+}
+
+void StarlightMap::add(const std::vector<FaintStar>& stars, double blur) {
+  if (stars.empty()) return;
+  for (const Cell& cell : gather(stars, cell_grid(blur, size_)))
     if (cell.flux > 0) spread(cell.direction.normalized(), cell.flux, cell.weighted, blur);
 }
 

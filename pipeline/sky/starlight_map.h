@@ -12,6 +12,7 @@ namespace domefall {
 struct FaintStar {
   V3d direction;  // unit
   double flux, temperature;
+  double v_magnitude;
 };
 
 // Those of a catalogue that are fainter than a magnitude.
@@ -21,19 +22,32 @@ std::vector<FaintStar> fainter_stars(const StarCatalogue& catalogue, double v_ma
 // on less than half the sphere, the narrowest is 1.5 texels of the largest face.
 inline constexpr double kNarrowestBlur = 5e-4, kWidestBlur = 0.15;
 
+// Stars that are spread alike.
+struct BlurClass {
+  double blur;
+  std::vector<FaintStar> stars;
+};
+// The few bright stars of a catalogue would stand out of the many faint ones as spots.  A star brighter
+// than `smooth_to` (V) has a blur as much wider as takes its peak down to that of a star of smooth_to:
+// in steps of 1.5, up to kWidestBlur.
+std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double blur,
+                                    double smooth_to);
+
 // Texels along a face that show a blur smoothly: at least three for its standard deviation, as far as
 // `kLargestStarlightFace` allows.
 inline constexpr int kLargestStarlightFace = 4096;
 int starlight_face(double blur);
 
-// Radiance, and radiance times theta (SkyMapKind::kThermal), of the stars' light, each spread by a
+// Radiance, and radiance times theta (SkyMapKind::kThermal), of stars' light, each spread by a
 // Gaussian of standard deviation `blur` on the sphere, cut smoothly at 4 of them.  Each star's light
 // over the texels sums up to its flux (to single precision), wherever it stands on the cube.  Stars
 // closer to each other than two thirds of the blur are spread together, about their common centre.
 class StarlightMap {
  public:
-  // `size`: of a face, a power of two; one texel is at most 1.5 `blur`.
-  StarlightMap(const std::vector<FaintStar>& stars, double blur, int size);
+  // Dark.  `size`: of a face, a power of two.
+  explicit StarlightMap(int size);
+  // One texel is at most 1.5 `blur`.
+  void add(const std::vector<FaintStar>& stars, double blur);
 
   // Of any texel, W/m^2/sr, also of radiance times theta: for sky_unit().
   double greatest() const;

@@ -14,8 +14,14 @@ namespace {
 
 using std::numbers::pi;
 
+StarlightMap light_of(const std::vector<FaintStar>& stars, double blur, int size) {
+  StarlightMap light(size);
+  light.add(stars, blur);
+  return light;
+}
+
 SkyMap map_of(const std::vector<FaintStar>& stars, double blur, int size, double gain = 1) {
-  const StarlightMap light(stars, blur, size);
+  const StarlightMap light = light_of(stars, blur, size);
   const SkyPyramid pyramid(SkyMapKind::kThermal, sky_unit(gain * light.greatest()), size);
   light.write(pyramid, gain);
   pyramid.finish();
@@ -42,7 +48,7 @@ std::vector<FaintStar> random_stars(int count) {
   std::vector<FaintStar> stars;
   for (int k = 0; k < count; ++k) {
     const V3d d = V3d(normal(random), normal(random), normal(random)).normalized();
-    stars.push_back({d, 1e-12 * std::exp(3 * uniform(random)), 3000 + 9000 * uniform(random)});
+    stars.push_back({d, 1e-12 * std::exp(3 * uniform(random)), 3000 + 9000 * uniform(random), 9});
   }
   return stars;
 }
@@ -51,7 +57,7 @@ TEST(Starlight, TheLightOfTheMapIsThatOfTheStars) {
   const std::vector<FaintStar> stars = random_stars(3000);
   double total = 0;
   for (const FaintStar& s : stars) total += s.flux;
-  EXPECT_NEAR(StarlightMap(stars, 0.03, 128).flux(), total, 1e-4 * total);
+  EXPECT_NEAR(light_of(stars, 0.03, 128).flux(), total, 1e-4 * total);
   EXPECT_NEAR(flux_of(map_of(stars, 0.03, 128)), total, 1e-3 * total);
   EXPECT_NEAR(flux_of(map_of(stars, 0.03, 128, 2.5)), 2.5 * total, 2.5e-3 * total);
 }
@@ -62,7 +68,7 @@ TEST(Starlight, AStarIsAsRoundAndAsBrightAnywhereOnTheCube) {
   const double blur = 0.03, flux = 1e-10;
   for (const V3d& raw : {V3d(1, 0, 0), V3d(1, 1, 1), V3d(-1, 1, 0), V3d(0.3, -1, 0.98)}) {
     const V3d d = raw.normalized();
-    const SkyMap map = map_of({{d, flux, 5000}}, blur, 256);
+    const SkyMap map = map_of({{d, flux, 5000, 9}}, blur, 256);
     const V3d aside = d.cross(V3d(0.1, 0.2, 0.9)).normalized(), across = d.cross(aside);
     const double peak = map.sample_thermal(d, 0).radiance;
     // The Gaussian less its value at 4 sigma, which takes the factor away from its integral.
@@ -86,7 +92,7 @@ TEST(Starlight, APatchHasTheColourAndTheLightOfItsStars) {
   for (int j = -100; j <= 100; ++j)
     for (int i = -100; i <= 100; ++i)
       stars.push_back({V3d(1, 0.002 * i, 0.002 * j).normalized(),
-                       std::pow(10, -0.4 * v) * bolometric_flux_at_v_zero(t), t});
+                       std::pow(10, -0.4 * v) * bolometric_flux_at_v_zero(t), t, v});
   const SkyMap map = map_of(stars, 0.02, 256);
   const ThermalLight light = map.sample_thermal({1, 0, 0}, 0);
   const double radiance = stars[0].flux / (0.002 * 0.002);
@@ -99,7 +105,7 @@ TEST(Starlight, APatchHasTheColourAndTheLightOfItsStars) {
 
 TEST(Starlight, OfTwoKindsOfStarsIsTheirMeanLogTemperature) {
   const V3d d(0, 0, 1);
-  const SkyMap map = map_of({{d, 3e-10, 3000}, {d, 1e-10, 12000}}, 0.05, 128);
+  const SkyMap map = map_of({{d, 3e-10, 3000, 8}, {d, 1e-10, 12000, 9}}, 0.05, 128);
   EXPECT_NEAR(map.sample_thermal(d, 0).temperature, 3000 * std::sqrt(2), 4e-3 * 3000);
 }
 
@@ -110,6 +116,26 @@ TEST(Starlight, KeepsTheStarsBelowTheLimitOnly) {
   const auto stars = fainter_stars(catalogue, 6.5);
   ASSERT_EQ(stars.size(), 2u);
   EXPECT_NEAR(stars[0].flux / stars[1].flux, std::pow(10, 0.4 * 2.4), 1e-4);
+}
+
+TEST(Starlight, BrightStarsAreSpreadUntilNoneStandsOut) {
+  std::vector<FaintStar> stars;
+  for (const double v : {5.0, 6.0, 7.5, 9.0, 10.0, 11.5})
+    stars.push_back({{1, 0, 0}, std::pow(10, -0.4 * v), 5800, v});
+  std::size_t count = 0;
+  for (const BlurClass& spread : blur_classes(stars, 0.01, 9.5)) {
+    EXPECT_LE(spread.blur, kWidestBlur);
+    count += spread.stars.size();
+    for (const FaintStar& star : spread.stars) {
+      const double peak = star.flux / (spread.blur * spread.blur);
+      const double limit = std::pow(10, -0.4 * 9.5) / (0.01 * 0.01);
+      EXPECT_LT(peak, 1.51 * limit) << "half a step of 1.5, squared; V " << star.v_magnitude;
+      if (star.v_magnitude < 9.5) {
+        EXPECT_GT(peak, limit / 1.51) << star.v_magnitude;
+      }
+    }
+  }
+  EXPECT_EQ(count, stars.size());
 }
 
 TEST(Starlight, TheTexelsOfACubeMakeASphere) {
