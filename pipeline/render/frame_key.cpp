@@ -68,7 +68,7 @@ void add_picture(Digest& digest, const Picture::Sky& sky) {
 // Raised with every change that alters a pixel, so that frames from before it are made again.
 constexpr int kPictures = 3;
 
-FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(grade)) {
+FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
   Digest common;
   common.add(DOMEFALL_VERSION).add(kPictures).add(show.title).add(show.frames_per_second);
   add_sky(common, show.sky_one);
@@ -89,6 +89,17 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : grade_(std::move(gra
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
+  if (!(show_.exposure.shutter > 0)) return instant(state);
+  // Three instants stand for all while the shutter is open.
+  Digest digest;
+  for (FrameState& exposed : exposure_states(show_, state.frame, 3)) {
+    take_size(state, exposed);
+    digest.add(instant(exposed));
+  }
+  return digest.add(steady(show_.exposure.shutter)).hex();
+}
+
+std::string FrameKeys::instant(const FrameState& state) const {
   const ObserverState& o = state.observer;
   Digest digest;
   digest.add(common_)
@@ -107,7 +118,7 @@ std::string FrameKeys::scene(const FrameState& state) const {
     digest.add(sky_three_), add_picture(digest, state.picture.sky_three);
   if (!is_flat(o)) digest.add(sky_four_), add_picture(digest, state.picture.sky_four);
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
-  if (state.vanishing) digest.add(scene(*state.vanishing)).add(steady(state.vanishing_part));
+  if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();
 }
 

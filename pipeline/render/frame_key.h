@@ -14,7 +14,7 @@ double steady(double value);
 
 class FrameKeys {
  public:
-  // Reads the show's assets once.  Throws InputError if one is unreadable.  `grade`: what names the
+  // Reads the show's assets once; the show must outlive it.  Throws InputError if one is unreadable.  `grade`: what names the
   // grading of frames (Grader::transform_id); empty where frames are not graded.
   explicit FrameKeys(const Show& show, std::string grade = {});
 
@@ -26,6 +26,10 @@ class FrameKeys {
   std::string graded(const std::string& scene_key) const;
 
  private:
+  // Of what is seen at one instant.
+  std::string instant(const FrameState& state) const;
+
+  const Show& show_;
   std::string common_;                // digest of the settings that all frames share
   std::string sky_three_, sky_four_;  // only frames that can see them depend on them
   bool rings_ = false;                // region IV shows time

@@ -16,6 +16,7 @@
 #include "pipeline/render/half_row.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/pixel_light.h"
+#include "pipeline/render/shutter.h"
 #include "pipeline/render/sky_pass.h"
 #include "pipeline/render/sky_spots.h"
 #include "pipeline/render/star_images.h"
@@ -171,20 +172,57 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
   return frame;
 }
 
+namespace {
+
+void add_times(const StageTimes& more, StageTimes& sum) {
+  sum.load_s += more.load_s, sum.tables_s += more.tables_s;
+  sum.stars_s += more.stars_s, sum.grid_s += more.grid_s, sum.pixels_s += more.pixels_s;
+  sum.exact_part = std::max(sum.exact_part, more.exact_part);
+  sum.table_nodes = std::max(sum.table_nodes, more.table_nodes);
+  sum.images += more.images;
+}
+
+}  // namespace
+
+// Of the whole time for which the shutter is open: the middles of its halves are half of it apart.
+int Renderer::pictures_for(const FrameState& state) {
+  std::vector<FrameState> halves = exposure_states(show_, state.frame, 2);
+  for (FrameState& half : halves) take_size(state, half);
+  const HoleOptics first = optics_for(halves[0], plan_frame(show_, halves[0]));
+  const HoleOptics& second = optics_for(halves[1], plan_frame(show_, halves[1]));
+  const double motion = motion_in_pixels(halves[0], ViewTracer(halves[0], first, show_.effects),
+                                         halves[1], ViewTracer(halves[1], second, show_.effects));
+  return pictures_of(2 * motion);
+}
+
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
-  StageTimes own;
-  render_one(state, frame, own);
-  if (state.vanishing) {
-    StageTimes others;
-    HalfFrame vanishing;
-    render_one(*state.vanishing, vanishing, others);
-    dissolve(frame, vanishing, state.vanishing_part);
-    own.load_s += others.load_s, own.tables_s += others.tables_s;
-    own.stars_s += others.stars_s, own.pixels_s += others.pixels_s;
-    own.grid_s += others.grid_s, own.exact_part = std::max(own.exact_part, others.exact_part);
-    own.table_nodes += others.table_nodes, own.images += others.images;
+  StageTimes sum;
+  const int pictures = show_.exposure.shutter > 0 ? pictures_for(state) : 1;
+  if (pictures == 1) {
+    render_instant(state, frame, sum);
+  } else {
+    MeanFrame mean;
+    for (FrameState& exposed : exposure_states(show_, state.frame, pictures)) {
+      take_size(state, exposed);
+      StageTimes own;
+      render_instant(exposed, frame, own);
+      arena_->arena.execute([&] { mean.add(frame); });
+      add_times(own, sum);
+    }
+    arena_->arena.execute([&] { mean.store(frame); });
   }
-  if (times) *times = own;
+  sum.pictures = pictures;
+  if (times) *times = sum;
+}
+
+void Renderer::render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times) {
+  render_one(state, frame, times);
+  if (!state.vanishing) return;
+  StageTimes others;
+  HalfFrame vanishing;
+  render_one(*state.vanishing, vanishing, others);
+  dissolve(frame, vanishing, state.vanishing_part);
+  add_times(others, times);
 }
 
 void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes& t) {
@@ -260,6 +298,10 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   text += line;
   std::snprintf(line, sizeof line, "stars   %8.4f s  %zu images\n", t.stars_s, t.images);
   text += line;
+  if (t.pictures > 1) {
+    std::snprintf(line, sizeof line, "shutter open: the mean of %d instants\n", t.pictures);
+    text += line;
+  }
   std::snprintf(line, sizeof line, "grid    %8.4f s\n", t.grid_s);
   text += line;
   std::snprintf(line, sizeof line, "pixels  %8.4f s  %.1f %% looked at one by one\n", t.pixels_s,

@@ -42,13 +42,12 @@ Picture picture_at(const Show& show, const Segment& s, double t) {
   return picture;
 }
 
-FrameState state_in(const Show& show, int segment, int frame) {
+FrameState state_in(const Show& show, int segment, int frame, double t) {
   const Segment& s = segment_of(show, segment);
   FrameState state;
   state.frame = frame;
-  state.show_time_s = frame / show.frames_per_second;
+  state.show_time_s = t;
   state.segment = segment;
-  const double t = state.show_time_s;
   state.projection = show.projection;
   if (auto* flat = std::get_if<Stereographic>(&state.projection))
     flat->fov = value_of(s, Channel::kFov, t, flat->fov);
@@ -59,18 +58,48 @@ FrameState state_in(const Show& show, int segment, int frame) {
   return state;
 }
 
+// `segment`: the frame's.
+FrameState state_at(const Show& show, int segment, int frame, double t) {
+  FrameState state = state_in(show, segment, frame, t);
+  const double dissolve = segment_of(show, segment).dissolve_s;
+  const double faded = t - segment_times(show)[static_cast<std::size_t>(segment)];
+  if (segment == 0 || !(faded < dissolve)) return state;
+  state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
+  state.vanishing_part = 1 - smooth_step(faded / dissolve);
+  return state;
+}
+
 }  // namespace
 
 FrameState frame_state(const Show& show, int frame) {
   const double t = frame / show.frames_per_second;
+  return state_at(show, segment_at(show, t), frame, t);
+}
+
+std::vector<FrameState> exposure_states(const Show& show, int frame, int count) {
+  const double t = frame / show.frames_per_second;
+  const double half = show.exposure.shutter / show.frames_per_second / 2;
   const int segment = segment_at(show, t);
-  FrameState state = state_in(show, segment, frame);
-  const double dissolve = segment_of(show, segment).dissolve_s;
-  const double faded = t - segment_times(show)[static_cast<std::size_t>(segment)];
-  if (segment == 0 || !(faded < dissolve)) return state;
-  state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame));
-  state.vanishing_part = 1 - smooth_step(faded / dissolve);
-  return state;
+  const double begin = segment_times(show)[static_cast<std::size_t>(segment)];
+  const double opened = std::max(t - half, begin),
+               closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
+  std::vector<FrameState> states;
+  for (int k = 0; k < count; ++k)
+    states.push_back(
+        state_at(show, segment, frame, opened + (closed - opened) * (k + 0.5) / count));
+  return states;
+}
+
+void take_size(const FrameState& state, FrameState& other) {
+  const auto* flat = std::get_if<Stereographic>(&other.projection);
+  const std::optional<double> fov = flat ? std::optional(flat->fov) : std::nullopt;
+  other.projection = state.projection;
+  if (auto* sized = std::get_if<Stereographic>(&other.projection))
+    sized->fov = fov.value_or(sized->fov);
+  if (!other.vanishing) return;
+  auto vanishing = std::make_shared<FrameState>(*other.vanishing);
+  take_size(state, *vanishing);
+  other.vanishing = std::move(vanishing);
 }
 
 }  // namespace domefall

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "pipeline/show/show.h"
 #include "trajectories/observer_state.h"
@@ -35,5 +36,13 @@ struct FrameState {
 
 // frame in [0, frame_count(show)).  Frame n shows the instant n / frames_per_second.
 FrameState frame_state(const Show& show, int frame);
+
+// The states in the middles of `count` (>= 1) equal parts of the time for which a frame's shutter is open.
+// That time ends where the frame's segment does: a cut is not blurred.
+std::vector<FrameState> exposure_states(const Show& show, int frame, int count);
+
+// Gives `other` the columns and rows of `state`'s picture, which a caller may have changed, but not its
+// field of view.
+void take_size(const FrameState& state, FrameState& other);
 
 }  // namespace domefall

@@ -43,8 +43,10 @@ StarBlobs read_star_blobs(const Section& show) {
 }
 
 Exposure read_exposure(const Section& show) {
-  const Section s = subsection(show, "exposure", {"ev"});
-  return {s.number("ev", kStops, 0)};
+  const Section s = subsection(show, "exposure", {"ev", "shutter_deg"});
+  constexpr double kWholeTurn = 360;  // of a film camera's shutter: from one frame to the next
+  return {s.number("ev", kStops, 0),
+          s.number("shutter_deg", kDegrees.within(0, kWholeTurn), 0) / kWholeTurn};
 }
 
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {

@@ -129,6 +129,9 @@ struct StarBlobs {
 
 struct Exposure {
   double ev = 0;  // stops: pixel value 1 is kReferenceLuminance / 2^ev
+  // Part of the time between two frames for which the shutter is open, about each frame's instant: the
+  // frame is the mean of what is seen meanwhile.  0: the instant alone.
+  double shutter = 0;
 };
 
 // ---- the physics ----

@@ -1,0 +1,109 @@
+#include "pipeline/render/shutter.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/render/frame_key.h"
+#include "scenes.h"
+
+namespace domefall {
+namespace {
+
+// The camera turns about its axis of view, `degrees` a frame; 30 frames.
+Show turning(double degrees, const Projection& projection) {
+  Show show = show_of(StaticObserver{kFlatSpace}, projection);
+  show.sky_one.stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.timeline[0].camera.elevation = 0;
+  show.timeline[0].curves[static_cast<std::size_t>(Channel::kRoll)] =
+      Curve{{{0, 0, Ease::kLinear}, {1, 30 * degrees * kDegree, Ease::kLinear}}};
+  return show;
+}
+
+double light(const HalfFrame& frame, const Projection& p) {
+  double sum = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x)
+      sum += frame.row(y)[3 * x + 1] * pixel_solid_angle(p, {x + 1.0, y + 1.0});
+  return sum;
+}
+
+double brightest(const HalfFrame& frame) {
+  return *std::max_element(frame.pixels.begin(), frame.pixels.end());
+}
+
+HalfFrame frame_of(const Show& show, int frame, StageTimes* times = nullptr) {
+  return Renderer(show, 2).render(frame_state(show, frame), times);
+}
+
+TEST(Shutter, StreaksWithoutLosingLight) {
+  const Projection p = Domemaster{512};
+  Show show = turning(8, p);
+  const HalfFrame still = frame_of(show, 10);
+  show.exposure.shutter = 0.5;
+  StageTimes times;
+  const HalfFrame streaked = frame_of(show, 10, &times);
+  // 4 degrees about the axis at the rim, 256 pixels from it: 17.9 pixels.
+  EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerPicture, 2);
+  EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 3e-3);
+  EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
+}
+
+// The mean of many more pictures than it takes.
+TEST(Shutter, TakesAsManyPicturesAsTheMotionNeeds) {
+  const Projection p = Domemaster{256};
+  Show show = turning(6, p);
+  show.exposure.shutter = 1;
+  const HalfFrame streaked = frame_of(show, 10);
+  Show instant = show;
+  instant.exposure.shutter = 0;
+  Renderer renderer(instant, 2);
+  MeanFrame mean;
+  for (FrameState& state : exposure_states(show, 10, 200)) mean.add(renderer.render(state));
+  HalfFrame reference(256, 256);
+  mean.store(reference);
+  const double peak = brightest(reference);
+  for (std::size_t k = 0; k < reference.pixels.size(); ++k)
+    ASSERT_NEAR(streaked.pixels[k], reference.pixels[k], 0.01 * peak)
+        << k / 3 % 256 << " " << k / 768;
+}
+
+TEST(Shutter, OfAStillPictureTakesOne) {
+  Show show = turning(0, Domemaster{256});
+  const HalfFrame closed = frame_of(show, 3);
+  show.exposure.shutter = 1;
+  StageTimes times;
+  const HalfFrame open = frame_of(show, 3, &times);
+  EXPECT_EQ(times.pictures, 1);
+  EXPECT_TRUE(std::equal(open.pixels.begin(), open.pixels.end(), closed.pixels.begin()));
+}
+
+TEST(Shutter, IsOpenAboutTheInstantAndNotAcrossACut) {
+  Show show = turning(1, Domemaster{64});
+  show.timeline.push_back(show.timeline[0]);
+  show.exposure.shutter = 0.5;
+  const auto states = exposure_states(show, 10, 4);
+  ASSERT_EQ(states.size(), 4u);
+  const double frame = 1 / 30.0;
+  for (int k = 0; k < 4; ++k)
+    EXPECT_NEAR(states[static_cast<std::size_t>(k)].show_time_s,
+                10 * frame + (k - 1.5) / 4 * 0.5 * frame, 1e-12);
+  for (const FrameState& state : exposure_states(show, 30, 8)) {
+    EXPECT_EQ(state.segment, 1);
+    EXPECT_GE(state.show_time_s, 1.0);
+  }
+  for (const FrameState& state : exposure_states(show, 59, 8)) EXPECT_LE(state.show_time_s, 2.0);
+}
+
+TEST(Shutter, EntersTheKeysOfFrames) {
+  Show show = turning(1, Domemaster{64}), faster = turning(2, Domemaster{64});
+  const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
+  // At its first instant the camera stands the same.
+  EXPECT_EQ(key(show), key(faster));
+  show.exposure.shutter = faster.exposure.shutter = 0.5;
+  EXPECT_NE(key(show), key(faster));
+  const std::string half = key(show);
+  show.exposure.shutter = 0.25;
+  EXPECT_NE(key(show), half);
+}
+
+}  // namespace
+}  // namespace domefall
