@@ -52,6 +52,7 @@ const Importer* guess_csv(std::string_view line) {
   std::string plain(line);
   std::erase(plain, '"');
   if (plain.starts_with("id,hip,hd,hr,gl,bf,proper,ra,dec")) return named("hyg");
+  if (plain.starts_with("star,")) return nullptr;  // corrections
   if (plain.find("ra_deg") != std::string::npos && plain.find("v_mag") != std::string::npos)
     return named("csv");
   return nullptr;

@@ -132,7 +132,7 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
       {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
        "3:20: sky.region_III.period_m is an unknown key; known here: background, gain or stars"},
       {"EpochTooLate", kShow + "sky: {epoch: 30001}\n",
-       "3:14: sky.epoch must be at most 30000 Julian years, got 30001"},
+       "3:14: sky.epoch must be at most 30000 (Julian years), got 30001"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",
        "3:24: sky.blueshift_power must be at most 10, got 11"},
       {"MaxSigmaBelowMin", kShow + "stars: {min_sigma_deg: 0.5, max_sigma_deg: 0.2}\n",
