@@ -117,7 +117,7 @@ SkyDirection place_of(const Reader& reader, const Columns& column,
   };
   const double pm_ra = motion(column.pm_ra, "pm_ra_mas_yr");
   const double pm_dec = motion(column.pm_dec, "pm_dec_mas_yr");
-  const SkyDirection direction = star_direction(ra, dec);
+  SkyDirection direction = star_direction(ra, dec);
   if (epoch == kCatalogueEpoch || (pm_ra == 0 && pm_dec == 0)) return direction;
   return moved(direction, pm_ra, pm_dec, epoch - kCatalogueEpoch);
 }

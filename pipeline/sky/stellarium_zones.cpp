@@ -21,6 +21,7 @@ std::vector<Triangle> icosahedron() {
        {6, 8, 3},  {11, 10, 7}, {7, 3, 11}, {3, 2, 11}, {2, 3, 8},  {10, 11, 4}, {2, 4, 11},
        {5, 4, 2},  {2, 8, 5},   {4, 1, 10}, {4, 5, 1},  {5, 9, 1},  {8, 9, 5}}};
   std::vector<Triangle> triangles;
+  triangles.reserve(kFaces.size());
   for (const auto& face : kFaces)
     triangles.push_back({corners[static_cast<std::size_t>(face[0])],
                          corners[static_cast<std::size_t>(face[1])],
