@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Sky maps as a user makes them: a starless Milky Way from the shipped catalogue, imports of pictures,
+# what their checks say, files that are damaged, and a show with a .sky file behind it.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+stars=$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv
+panorama=$DOMEFALL_SOURCE/shows/assets/milky_way.exr
+
+# A sky of stars: all their light is in it, and it lies as it should.
+exits 0 "$DOMEFALL" sky build --stars "$stars" --blur 2 --size 64 --out starlight.sky
+says '^32537 stars, 1\.42395e-06 W/m\^2 of light; the map has 1\.4239[0-9]e-06 W/m\^2'
+exits 0 "$DOMEFALL" sky info starlight.sky --verify
+grep -q '^kind  *thermal' stdout || fail "the map of starlight is not thermal"
+grep -q '^made by: .*32537 stars' stdout || fail "the file does not say what it is made of"
+exits 0 "$DOMEFALL" sky check starlight.sky
+grep -q 'lies on the sky as stated, by its Milky Way' stdout || fail "$(tail -1 stdout)"
+exits 2 "$DOMEFALL" sky build --stars "$stars" --fainter-than 8.5 --out none.sky
+says 'no star is fainter'
+exits 2 "$DOMEFALL" sky build --stars "$stars" --blur 0.5 --size 64 --out coarse.sky
+says 'too coarse for a blur'
+[ ! -e none.sky ] && [ ! -e coarse.sky ] || fail "a failed build left a file"
+
+# A picture as it lies, and mirrored by mistake.
+exits 0 "$DOMEFALL" sky import "$panorama" --size 128 --licence 'free with credit' --out as_it_is.sky
+says '^as_it_is.sky: equatorial, RA 0 deg in the middle, growing to the left, north up$'
+says '^it lies on the sky as stated'
+exits 0 "$DOMEFALL" sky import "$panorama" --size 128 --ra-right --out mirrored.sky
+says '^warning: .*fits better as equatorial, RA 0 deg in the middle, growing to the left, north up$'
+exits 2 "$DOMEFALL" sky check mirrored.sky
+says 'fits better as equatorial, RA 0 deg in the middle, growing to the left, north up'
+exits 0 "$DOMEFALL" sky info as_it_is.sky
+grep -q '^licence: free with credit$' stdout || fail "the licence is not in the file"
+exits 0 "$DOMEFALL" sky check "$panorama"
+
+# What cannot be read is told by name, and where.
+exits 2 "$DOMEFALL" sky import nowhere.png --out x.sky
+says '^nowhere.png: '
+exits 2 "$DOMEFALL" sky import "$stars" --projection healpix --out x.sky
+says 'not a FITS file'
+head -c 100000 as_it_is.sky >short.sky
+exits 2 "$DOMEFALL" sky info short.sky
+says '^short.sky: byte 100000: the file has 100000 bytes instead of'
+cp as_it_is.sky damaged.sky
+printf 'x' | dd of=damaged.sky bs=1 seek=200000 conv=notrunc status=none
+exits 0 "$DOMEFALL" sky info damaged.sky
+exits 2 "$DOMEFALL" sky info damaged.sky --verify
+says '^damaged.sky: byte [0-9]+: face 1 of the level of size 128 is damaged'
+
+# A show finds its sky; the picture is that of the panorama, to what 128 texels lose.
+show() {
+  cat >"$1.yaml" <<END
+title: $1
+size: 64
+frames_per_second: 1
+sky: {region_I: {background: $2, stars: none}}
+timeline: [{duration_s: 1, trajectory: {type: static}, camera: {look_at: {ra_deg: 266, dec_deg: -29}}}]
+END
+}
+show mapped ./as_it_is.sky
+show pictured "$panorama"
+show thermal ./starlight.sky
+for name in mapped pictured thermal; do
+  exits 0 "$DOMEFALL" render "$name.yaml" --frames 0 --out "$name"
+done
+show broken ./short.sky
+exits 2 "$DOMEFALL" render broken.yaml --frames 0 --out broken
+says 'short.sky: byte 100000'
+mapped=$(find mapped -name '*.exr') pictured=$(find pictured -name '*.exr')
+oiiotool --fail 0.003 --hardfail 0.01 "$mapped" "$pictured" --diff >compared 2>&1 ||
+  fail "the mapped sky is not the panorama: $(cat compared)"
+# Frames are known by what the .sky file holds.
+exits 0 "$DOMEFALL" render mapped.yaml --frames 0 --out mapped
+says '0 frames made'
+cp mirrored.sky as_it_is.sky
+exits 0 "$DOMEFALL" render mapped.yaml --frames 0 --out mapped
+says '1 frames? made'
