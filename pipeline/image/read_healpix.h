@@ -16,6 +16,6 @@ struct HealpixFile {
 
 // Of the first binary table that is a HEALPix map of the whole sky, column `column` (from 1), of
 // floats or integers, a pixel or many a row.  Throws InputError naming the file.
-HealpixFile read_healpix(const std::filesystem::path& file, int column);
+HealpixFile read_healpix(const std::filesystem::path& path, int column);
 
 }  // namespace domefall

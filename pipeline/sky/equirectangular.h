@@ -10,7 +10,7 @@
 namespace domefall {
 
 // A map from an image as SkyMap's constructor takes it.
-SkyMap map_of_panorama(const FloatImage& equirectangular);
+SkyMap map_of_panorama(const FloatImage& image);
 
 // Texels along a face that keep the detail of an image of this width: half as fine as its pixels,
 // so that bilinear looks between texels stay smooth.  At most 4096.

@@ -58,12 +58,12 @@ HealpixMap::HealpixMap(HealpixFile file, float missing) : file_(std::move(file))
 // 4 nside and are shifted every other time.
 HealpixMap::Ring HealpixMap::ring(long number) const {
   const long n = file_.nside, north = std::min(number, 4 * n - number);
-  const double nn = static_cast<double>(n);
+  const auto nn = static_cast<double>(n);
   if (north >= n)
     return {2 * n * (n - 1) + (number - n) * 4 * n, 4 * n,
             std::acos(static_cast<double>(2 * n - number) * 2 / (3 * nn)),
             (number - n) % 2 == 0 ? 0.5 : 0.0};
-  const double k = static_cast<double>(north);
+  const auto k = static_cast<double>(north);
   // 1 - z = k^2 / (3 n^2), as twice a sine squared: exact near the pole.
   const double theta = 2 * std::asin(k / (nn * std::sqrt(6.0)));
   if (number == north) return {2 * north * (north - 1), 4 * north, theta, 0.5};
@@ -88,7 +88,7 @@ double HealpixMap::pole(std::size_t first) const {
 long HealpixMap::ring_above(double z, double across) const {
   const double n = file_.nside, from_pole = across * across / (1 + std::abs(z));
   if (std::abs(z) <= 2.0 / 3) return static_cast<long>(n * (2 - 1.5 * z));
-  const long north = static_cast<long>(n * std::sqrt(3 * from_pole));
+  const auto north = static_cast<long>(n * std::sqrt(3 * from_pole));
   return z > 0 ? north : 4L * file_.nside - north - 1;
 }
 

@@ -34,6 +34,7 @@ V3d beside(const V3d& d, double angle, double turn) {
 std::vector<double> ring(const SkyMap& map, const V3d& d, double angle, double footprint) {
   constexpr int kPlaces = 12;
   std::vector<double> around;
+  around.reserve(kPlaces);
   for (int k = 0; k < kPlaces; ++k)
     around.push_back(light(map, beside(d, angle, 2 * std::numbers::pi * k / kPlaces), footprint));
   std::sort(around.begin(), around.end());

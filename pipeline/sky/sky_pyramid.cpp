@@ -113,9 +113,9 @@ std::vector<int> level_sizes(int size) {
   return sizes;
 }
 
-SkyTexel& SkyPyramid::Level::at(int k, int i, int j) const {
-  return face(k)[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(size + 2) +
-                 static_cast<std::size_t>(i + 1)];
+SkyTexel& SkyPyramid::Level::at(int face_number, int i, int j) const {
+  return face(face_number)[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(size + 2) +
+                           static_cast<std::size_t>(i + 1)];
 }
 
 SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, int size)

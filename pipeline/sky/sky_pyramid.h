@@ -26,7 +26,7 @@ struct SkyPyramid {
     SkyTexel* face(int k) const {
       return texels + static_cast<std::size_t>(k) * SkyLevel::face_texels(size);
     }
-    SkyTexel& at(int face, int i, int j) const;  // -1 <= i, j <= size
+    SkyTexel& at(int face_number, int i, int j) const;  // -1 <= i, j <= size
   };
 
   SkyMapKind kind;
@@ -35,9 +35,10 @@ struct SkyPyramid {
   std::shared_ptr<void> owner;
 
   // In memory of its own, zeroed.  `size` is a power of two, at most kLargestFace.
-  SkyPyramid(SkyMapKind kind, double unit, int size);
-  // In memory that `owner` keeps alive.
-  SkyPyramid(SkyMapKind kind, double unit, std::vector<Level> levels, std::shared_ptr<void> owner);
+  SkyPyramid(SkyMapKind of_kind, double in_unit, int size);
+  // In memory that `of_owner` keeps alive.
+  SkyPyramid(SkyMapKind of_kind, double in_unit, std::vector<Level> in,
+             std::shared_ptr<void> of_owner);
 
   // The coarser levels from the finest, whose border is set already; then `this` is a map.
   void finish() const;
