@@ -25,8 +25,8 @@
 namespace domefall {
 namespace {
 
-// Stars whose images one task finds.
-constexpr std::size_t kStarBatch = 256;
+// Whose images one task finds.
+constexpr std::size_t kStarsPerTask = 16 * kStarBatch;
 
 using Clock = std::chrono::steady_clock;
 
@@ -48,17 +48,17 @@ int threads_of(int wanted) {
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
-// Stars in batches, each batch into its own list, the lists in order: the same images in the same
-// order for any number of threads.
-std::vector<StarImage> images_of(const StarImages& maker, const std::vector<SceneStar>& stars) {
-  std::vector<std::vector<StarImage>> batches((stars.size() + kStarBatch - 1) / kStarBatch);
-  tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t b) {
-    const std::size_t end = std::min(stars.size(), (b + 1) * kStarBatch);
-    for (std::size_t k = b * kStarBatch; k < end; ++k) maker.append(stars[k], batches[b]);
+// Each task's stars into a list of its own, the lists in the catalogue's order: the same images in the
+// same order for any number of threads.
+std::vector<std::vector<StarImage>> images_of(const StarImages& maker, const SceneStars& stars) {
+  const std::size_t count = maker.count(stars);
+  std::vector<std::vector<StarImage>> lists((count + kStarsPerTask - 1) / kStarsPerTask);
+  tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t task) {
+    const std::size_t first = task * kStarsPerTask, end = std::min(count, first + kStarsPerTask);
+    lists[task].reserve(end - first);
+    for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, lists[task]);
   });
-  std::vector<StarImage> images;
-  for (const auto& batch : batches) images.insert(images.end(), batch.begin(), batch.end());
-  return images;
+  return lists;
 }
 
 // Of a sky with stars; null in flat space.
@@ -248,10 +248,10 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
     for (const SeenSky which : kEverySky)
       if (plan[which].stars)
-        stars.add(images_of(StarImages(show_, state, sky_of(state.picture, which),
-                                       table_of(optics, which)),
-                            *skies[static_cast<std::size_t>(which)]->stars),
-                  widths);
+        for (const auto& list : images_of(
+                 StarImages(show_, state, sky_of(state.picture, which), table_of(optics, which)),
+                 *skies[static_cast<std::size_t>(which)]->stars))
+          stars.add(list, widths);
     t.images = stars.size();
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;

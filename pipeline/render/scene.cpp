@@ -1,27 +1,12 @@
 #include "pipeline/render/scene.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 
-#include "pipeline/colour/blackbody.h"
 #include "pipeline/sky/read_sky.h"
 #include "pipeline/sky/star_catalogue.h"
 
 namespace domefall {
 namespace {
-
-std::vector<SceneStar> scene_stars(const StarCatalogue& catalogue) {
-  std::vector<SceneStar> stars;
-  stars.reserve(catalogue.stars.size());
-  for (const Star& s : catalogue.stars) {
-    const double t = s.temperature;
-    const double flux = std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(t);
-    // flux = surface radiance * pi rho^2
-    const double radius = std::sqrt(flux / (blackbody_radiance(t) * std::numbers::pi));
-    stars.push_back({s.direction, s.v_magnitude, flux, t, radius});
-  }
-  return stars;
-}
 
 bool same_background(const RegionSky& a, const RegionSky& b) {
   const auto *p = std::get_if<PanoramaSky>(&a.background),
@@ -71,11 +56,11 @@ Sky Scene::load(SeenSky which) const {
   if (panorama && std::holds_alternative<Black>(sky.background))
     sky.background = read_sky(panorama->image);
   if (sky.stars) return sky;
-  std::vector<SceneStar> stars;
-  if (own.stars)
-    stars =
-        scene_stars(read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch));
-  sky.stars = std::make_shared<const std::vector<SceneStar>>(std::move(stars));
+  sky.stars =
+      own.stars
+          ? std::make_shared<const SceneStars>(
+                read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch).stars)
+          : std::make_shared<const SceneStars>();
   return sky;
 }
 

@@ -5,22 +5,13 @@
 #include <memory>
 #include <mutex>
 #include <variant>
-#include <vector>
 
+#include "pipeline/render/scene_stars.h"
 #include "pipeline/render/seen_sky.h"
 #include "pipeline/show/show.h"
 #include "pipeline/sky/sky_map.h"
 
 namespace domefall {
-
-// A star ready to be shifted: bolometric flux (W/m^2) and temperature at no redshift.
-struct SceneStar {
-  SkyDirection direction;
-  double magnitude;  // V
-  double flux;
-  double temperature;
-  double angular_radius;  // radians, of a blackbody of this flux and temperature
-};
 
 struct Grid {};
 struct Black {};
@@ -29,7 +20,7 @@ using Rings = RingsSky;
 // The sky of one region.
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
-  std::shared_ptr<const std::vector<SceneStar>> stars;  // never null; empty if there are none
+  std::shared_ptr<const SceneStars> stars;  // never null; empty if there are none
 };
 
 class Scene {

@@ -1,30 +1,35 @@
 #include "pipeline/render/star_images.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/effect_light.h"
 #include "pipeline/render/photometry.h"
-#include "pipeline/render/vector_math.h"
+#include "pipeline/render/star_arcs.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-// Images up to this order are always tried, since either side may be the bright one; beyond, the
-// flux falls by exp(-2 pi) with every second order and the first faint one ends the series.
-constexpr int kAlwaysTried = 4, kLastOrder = 24;
+// Where an effect is left out, images up to this order are always tried, since either side may be the
+// bright one; beyond, the flux falls by exp(-2 pi) with every second order and the first faint one
+// ends the series.
+constexpr int kAlwaysTried = 4;
 constexpr int kWithoutAmplification = 2;
+
+constexpr double kFade = 0.5;  // magnitudes
 
 // The part of a star's light that a frame takes.
 double part_taken(const Picture::Sky& sky, double magnitude) {
-  constexpr double kFade = 0.5;  // magnitudes
   if (!sky.soft_limit) return magnitude <= sky.max_magnitude ? 1 : 0;
   return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
+}
+
+double peak_per_lux(double scale, const BlobWidths& widths) {
+  return scale / (2 * pi * widths.least() * widths.least());
 }
 
 }  // namespace
@@ -43,24 +48,63 @@ StarImages::StarImages(const Show& show, const FrameState& state, const Picture:
       straight_ratio_(effects_.lensing ? 1 : gravitational_ratio(state.observer.r)),
       table_(table),
       scale_(exposure_scale(state.picture)),
-      widths_(show.blobs, projection_, scale_) {}
+      widths_(show.blobs, projection_, scale_),
+      peak_per_lux_(peak_per_lux(scale_, widths_)),
+      stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
+      disc_(widths_.least() / stretch_),
+      plain_((effects_.lensing || is_flat(state.observer)) && effects_.intensity &&
+             effects_.doppler_colour && effects_.amplification != Amplification::kNone &&
+             !vantage_.measured),
+      plane_(projection_, kBlobReach * widths_.most()) {
+  plain_ = plain_ && plane_.usable();
+  if (plain_) prepare_batches();
+}
+
+// ---- one star at a time ----
+
+std::optional<SceneStar> StarImages::taken(const SceneStar& catalogued) const {
+  const double part = sky_.star_gain * part_taken(sky_, catalogued.magnitude);
+  if (!(part > 0)) return std::nullopt;
+  SceneStar star = catalogued;
+  star.flux *= part;
+  return star;
+}
 
 void StarImages::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
-  const double taken = sky_.star_gain * part_taken(sky_, catalogued.magnitude);
-  if (!(taken > 0)) return;
-  SceneStar star = catalogued;
-  star.flux *= taken;
-  const V3d source = apply_transposed(sky_from_tetrad_, star.direction.v);
+  const auto star = taken(catalogued);
+  if (star)
+    append_orders(*star, apply_transposed(sky_from_tetrad_, star->direction.v), 0, kLastOrder,
+                  images);
+}
+
+// Orders first to before end.
+void StarImages::append_orders(const SceneStar& star, const V3d& source, int first, int end,
+                               std::vector<StarImage>& images) const {
   if (table_ == nullptr) {
-    append_image(star, source, 0, images);
+    append_order(star, source, 0, images);
     return;
   }
-  const bool amplified = effects_.amplification != Amplification::kNone;
-  const int orders = amplified ? kLastOrder : kWithoutAmplification;
-  for (int order = 0; order < orders; ++order) {
-    const bool bright = append_image(star, source, order, images);
-    if (!bright && order + 1 >= kAlwaysTried) return;
+  const double sine = std::hypot(source.y, source.z);
+  if (effects_.amplification == Amplification::kNone) end = std::min(end, kWithoutAmplification);
+  for (int order = first; order < end; ++order) {
+    if (plain_ && !may_be_seen(star, sine, order)) return;
+    const bool bright = append_order(star, source, order, images);
+    if (!plain_ && !bright && order + 1 >= kAlwaysTried) return;
   }
+}
+
+// A disc's amplification is that of its points in the mean, and the mean of 1/(their distance from the
+// axis) is at most 2/radius.
+bool StarImages::may_be_seen(const SceneStar& star, double sine, int order) const {
+  const double radius = std::max(disc_, star.angular_radius);
+  const double least = sine < kNearAxis * radius ? radius / 2 : sine;
+  return star.flux * bound_[static_cast<std::size_t>(order)] > least;
+}
+
+bool StarImages::is_arc(const V3d& source, int order) const {
+  const double near = kNearAxis * disc_;
+  return table_ != nullptr && effects_.lensing && effects_.amplification != Amplification::kNone &&
+         source.y * source.y + source.z * source.z < near * near && on_caustic(source, order);
 }
 
 // In the frame of the tetrad.
@@ -71,11 +115,8 @@ SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) 
   return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
 }
 
-// Whether the image is bright enough to matter, be it in the picture or not.
 // [Riazuelo] sec. sec_stars_eff: m_obs = m + 10 log10(1+z) - 2.5 log10(f), T_obs = T/(1+z).
-bool StarImages::append_image(const SceneStar& star, const V3d& source, int order,
-                              std::vector<StarImage>& images) const {
-  const SkyImage at = image(star, source, order);
+StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& at) const {
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
   double g = at.frequency_ratio * doppler;
@@ -87,18 +128,45 @@ bool StarImages::append_image(const SceneStar& star, const V3d& source, int orde
   if (!effects_.doppler_colour) flux = std::min(flux, kSaturated);
   const WorkingRgb per_flux =
       blackbody_colours().per_flux(star.temperature * colour_ratio(effects_, g));
-  const double lux = luminance(per_flux) * flux;
-  const double faintest_peak = lux * scale_ / (2 * pi * widths_.least() * widths_.least());
-  if (!(faintest_peak > kFaintestPeak)) return false;
   const auto pixel = pixel_of(projection_, {apply_transposed(tetrad_from_camera_, seen.direction)});
-  if (!pixel) return true;
   const double pixel_flux = flux * scale_;
-  images.push_back(
-      {static_cast<float>(pixel->i - 1),
-       static_cast<float>(pixel->j - 1),
-       {static_cast<float>(per_flux.r * pixel_flux), static_cast<float>(per_flux.g * pixel_flux),
-        static_cast<float>(per_flux.b * pixel_flux)}});
+  Received received{{0, 0, {}}, luminance(per_flux) * flux * peak_per_lux_, pixel.has_value()};
+  if (!pixel) return received;
+  received.image = {
+      static_cast<float>(pixel->i - 1),
+      static_cast<float>(pixel->j - 1),
+      {static_cast<float>(per_flux.r * pixel_flux), static_cast<float>(per_flux.g * pixel_flux),
+       static_cast<float>(per_flux.b * pixel_flux)}};
+  return received;
+}
+
+// Whether the image is bright enough to matter, be it in the picture or not.
+bool StarImages::append_order(const SceneStar& star, const V3d& source, int order,
+                              std::vector<StarImage>& images) const {
+  if (is_arc(source, order)) return append_arc(star, source, order, images);
+  const Received received = receive(star, image(star, source, order));
+  if (!(received.peak > kFaintestPeak)) return false;
+  if (received.placed) images.push_back(received.image);
   return true;
+}
+
+bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
+                            std::vector<StarImage>& images) const {
+  // A blob's sigma, as wide as it was before the boost.
+  const auto spacing = [&](const V3d& direction) {
+    return widths_.least() * from_tetrad_.to_rest(direction).frequency_ratio;
+  };
+  const std::size_t before = images.size();
+  double peak = 0;
+  for (const SkyImage& piece :
+       arc_of(*table_, source, order, std::max(disc_, star.angular_radius), spacing)) {
+    const Received received = receive(star, piece);
+    peak += received.peak;
+    if (received.placed) images.push_back(received.image);
+  }
+  if (peak > kFaintestPeak) return true;
+  images.resize(before);
+  return false;
 }
 
 }  // namespace domefall
