@@ -20,15 +20,18 @@ constexpr double kAtRim = 1.5;  // radii from the axis up to which that is so
 // The disc in polar coordinates about the axis, which is small enough to be flat.
 class Disc {
  public:
-  Disc(double from_axis, double radius) : from_axis_(from_axis), radius_(radius) {}
+  Disc(double from_axis, double radius)
+      : from_axis_(from_axis),
+        radius_(radius),
+        gathered_(std::clamp((kPoint - from_axis / radius) / (kPoint - 1), 0.0, 1.0)) {}
 
   bool is_ring() const { return from_axis_ < radius_; }
   bool is_at_rim() const { return from_axis_ < kAtRim * radius_; }
-  // The angle about the axis that the disc takes, at most.
-  double extent() const { return is_ring() ? 2 * pi : pi * radius_ / from_axis_; }
+  // The angle about the axis that its image takes, at most.
+  double extent() const { return gathered_ * (is_ring() ? 2 * pi : pi * radius_ / from_axis_); }
 
   struct Chord {
-    double azimuth;    // about the axis, from the disc's middle
+    double azimuth;    // about the axis, from the disc's middle, where it is drawn
     double near, far;  // distances from the axis
     double width;      // of azimuth
   };
@@ -43,12 +46,14 @@ class Disc {
     }
     const double tau = pi * share - pi / 2, s = radius_ / from_axis_ * std::sin(tau);
     const double c = std::sqrt((1 - s) * (1 + s)), half = radius_ * std::cos(tau);
-    return {std::asin(s), std::max(0.0, from_axis_ * c - half), from_axis_ * c + half,
+    return {gathered_ * std::asin(s), std::max(0.0, from_axis_ * c - half), from_axis_ * c + half,
             radius_ / from_axis_ * std::cos(tau) / c * pi / count};
   }
 
  private:
-  double from_axis_, radius_;
+  static constexpr double kPoint = 3;  // radii from the axis where arcs are points
+
+  double from_axis_, radius_, gathered_;
 };
 
 // The images of one order of what lies about the axis, on the source's side of the observer.

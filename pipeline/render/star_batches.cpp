@@ -10,7 +10,7 @@ namespace domefall {
 namespace {
 
 // Of the orders 0 and 1, of 2 and 3, and so on, whose images change only near the edge.
-constexpr int kIntervals[] = {1024, 128, 64, 64};
+constexpr int kIntervals[] = {512, 64, 64, 64};
 // What may be wrong: pixels, and parts of the light.
 constexpr double kPositionError = 0.01, kFluxError = 1e-4;
 // A batch goes no nearer to the axis, where the azimuth of a source is lost in rounding.
@@ -28,7 +28,7 @@ void copy_source(const StarSources& from, int k, StarSources& to, int at) {
 
 struct StarImages::Batch {
   std::size_t first;  // of the catalogue
-  double most_flux;
+  int count;
   StarSources sources;
   StarColumn<int> open;  // sources that are not on the axis
   int open_count = 0;
@@ -84,8 +84,7 @@ void StarImages::append(const SceneStars& stars, std::size_t first, std::size_t 
   }
   Batch batch;
   batch.first = first;
-  batch.most_flux = stars.most_flux_from(first) * sky_.star_gain;
-  const int count = static_cast<int>(end - first);
+  const int count = batch.count = static_cast<int>(end - first);
   find_sources(batch_frame_, stars, first, count, batch.sources);
   if (table_ == nullptr) {
     StarViews views;
@@ -93,50 +92,71 @@ void StarImages::append(const SceneStars& stars, std::size_t first, std::size_t 
     append_views(views, count, images);
     return;
   }
+  leave_axis(batch);
+  for (int order = 0; order < 2 * kCurves && batch.open_count > 0; ++order) {
+    keep_bright(batch, order);
+    append_curved(batch, order, images);
+  }
+  leave_orders_beyond(batch);
+  append_exact(stars, batch, images);
+}
+
+void StarImages::leave_axis(Batch& batch) const {
   const double near = std::max(kNearAxis * disc_, kOnAxis);
-  for (int k = 0; k < count; ++k) {
+  for (int k = 0; k < batch.count; ++k) {
     batch.open[static_cast<std::size_t>(batch.open_count)] = k;
     if (batch.sources.sine[static_cast<std::size_t>(k)] < near)
       batch.left.push_back({k, 0, kLastOrder});
     else
       ++batch.open_count;
   }
-  for (int order = 0; order < 2 * kCurves; ++order)
-    if (batch.most_flux * bound_[static_cast<std::size_t>(order)] > near)
-      append_curved(batch, order, images);
-  leave_orders_beyond(batch, near);
-  append_exact(stars, batch, images);
+}
+
+// Of the open sources those that may be seen in this order or a later one.
+void StarImages::keep_bright(Batch& batch, int order) const {
+  const double bound = bound_[static_cast<std::size_t>(order)];
+  int kept = 0;
+  for (int n = 0; n < batch.open_count; ++n) {
+    const int source = batch.open[static_cast<std::size_t>(n)];
+    const auto k = static_cast<std::size_t>(source);
+    batch.open[static_cast<std::size_t>(kept)] = source;
+    kept += batch.sources.flux[k] * bound > batch.sources.sine[k] ? 1 : 0;
+  }
+  batch.open_count = kept;
 }
 
 // The images of the batch that one order has, by its curve.
 void StarImages::append_curved(Batch& batch, int order, std::vector<StarImage>& images) const {
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   const double side = order % 2 == 0 ? 1 : -1;
-  StarSources picked;
+  const float* bounds = curve.bound();
+  StarColumn<int> picked;
   int count = 0;
   for (int n = 0; n < batch.open_count; ++n) {
     const int source = batch.open[static_cast<std::size_t>(n)];
     const auto k = static_cast<std::size_t>(source);
-    const double flux = batch.sources.flux[k] * per_flux_, sine = batch.sources.sine[k];
-    const float bound = curve.bound()[curve.interval_of(side * batch.sources.v[k])];
-    copy_source(batch.sources, source, picked, count);
-    count += flux * bound > sine ? 1 : 0;
+    const float bound = bounds[curve.interval_of(side * batch.sources.v[k])];
+    picked[static_cast<std::size_t>(count)] = source;
+    count += batch.sources.flux[k] * per_flux_ * bound > batch.sources.sine[k] ? 1 : 0;
     if (bound < 0) batch.left.push_back({source, order, order + 1});
   }
+  if (count == 0) return;
   StarViews views;
-  bend(batch_frame_, curve, side, picked, count, views);
+  if (count == batch.count) {
+    bend(batch_frame_, curve, side, batch.sources, count, views);
+  } else {
+    StarSources copied;
+    for (int n = 0; n < count; ++n)
+      copy_source(batch.sources, picked[static_cast<std::size_t>(n)], copied, n);
+    bend(batch_frame_, curve, side, copied, count, views);
+  }
   append_views(views, count, images);
 }
 
-void StarImages::leave_orders_beyond(Batch& batch, double near) const {
-  constexpr int kFirst = 2 * kCurves;
-  if (!(batch.most_flux * bound_[kFirst] > near)) return;
-  for (int n = 0; n < batch.open_count; ++n) {
-    const int source = batch.open[static_cast<std::size_t>(n)];
-    const auto k = static_cast<std::size_t>(source);
-    if (batch.sources.flux[k] * bound_[kFirst] > batch.sources.sine[k])
-      batch.left.push_back({source, kFirst, kLastOrder});
-  }
+void StarImages::leave_orders_beyond(Batch& batch) const {
+  keep_bright(batch, 2 * kCurves);
+  for (int n = 0; n < batch.open_count; ++n)
+    batch.left.push_back({batch.open[static_cast<std::size_t>(n)], 2 * kCurves, kLastOrder});
 }
 
 void StarImages::append_exact(const SceneStars& stars, const Batch& batch,

@@ -22,6 +22,9 @@ constexpr int kWithoutAmplification = 2;
 
 constexpr double kFade = 0.5;  // magnitudes
 
+// Pieces of an arc are so many sigma apart: its light is even to 2 exp(-2 pi^2/1.5^2), 3e-4.
+constexpr double kPieceSigmas = 1.5;
+
 // The part of a star's light that a frame takes.
 double part_taken(const Picture::Sky& sky, double magnitude) {
   if (!sky.soft_limit) return magnitude <= sky.max_magnitude ? 1 : 0;
@@ -152,19 +155,20 @@ bool StarImages::append_order(const SceneStar& star, const V3d& source, int orde
 
 bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
                             std::vector<StarImage>& images) const {
-  // A blob's sigma, as wide as it was before the boost.
+  // As wide as it was before the boost.
   const auto spacing = [&](const V3d& direction) {
-    return widths_.least() * from_tetrad_.to_rest(direction).frequency_ratio;
+    return kPieceSigmas * widths_.least() * from_tetrad_.to_rest(direction).frequency_ratio;
   };
   const std::size_t before = images.size();
   double peak = 0;
   for (const SkyImage& piece :
        arc_of(*table_, source, order, std::max(disc_, star.angular_radius), spacing)) {
     const Received received = receive(star, piece);
-    peak += received.peak;
+    peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);
   }
-  if (peak > kFaintestPeak) return true;
+  const double neighbours = images.size() > before + 1 ? std::sqrt(2 * pi) / kPieceSigmas : 1;
+  if (peak * neighbours > kFaintestPeak) return true;
   images.resize(before);
   return false;
 }

@@ -65,7 +65,9 @@ class StarImages {
 
   void prepare_batches();
   void append_curved(Batch& batch, int order, std::vector<StarImage>& images) const;
-  void leave_orders_beyond(Batch& batch, double near) const;
+  void leave_axis(Batch& batch) const;
+  void keep_bright(Batch& batch, int order) const;
+  void leave_orders_beyond(Batch& batch) const;
   void append_views(StarViews& views, int count, std::vector<StarImage>& images) const;
   void append_exact(const SceneStars& stars, const Batch& batch,
                     std::vector<StarImage>& images) const;
