@@ -19,7 +19,7 @@ class StarColours {
   // blackbody_colours(), interpolated once more.  Measured: within 1e-4 of it above 3000 K, 4e-4 above
   // 1000 K.  Any temperature >= 0.
   Light operator()(double temperature) const {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(temperature);
+    const auto bits = std::bit_cast<std::uint64_t>(temperature);
     const std::uint64_t key = bits >> kShift;
     if (key - first_ >= table_.size() - 1) return outside(temperature);
     const Light &a = table_[key - first_], &c = table_[key - first_ + 1];
