@@ -248,10 +248,10 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
     for (const SeenSky which : kEverySky)
       if (plan[which].stars)
-        for (const auto& list : images_of(
-                 StarImages(show_, state, sky_of(state.picture, which), table_of(optics, which)),
-                 *skies[static_cast<std::size_t>(which)]->stars))
-          stars.add(list, widths);
+        stars.add(images_of(StarImages(show_, state, sky_of(state.picture, which),
+                                       table_of(optics, which)),
+                            *skies[static_cast<std::size_t>(which)]->stars),
+                  widths);
     t.images = stars.size();
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;

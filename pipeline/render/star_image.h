@@ -12,4 +12,6 @@ struct StarImage {
   float rgb[3];
 };
 
+static_assert(sizeof(StarImage) == 20);  // millions of them in a frame
+
 }  // namespace domefall

@@ -14,6 +14,10 @@ void StarLayer::add(const std::vector<StarImage>& images, const BlobWidths& widt
   }
 }
 
+void StarLayer::add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths) {
+  for (const auto& images : lists) add(images, widths);
+}
+
 void StarLayer::add(const std::vector<StarBlob>& blobs) {
   blobs_.insert(blobs_.end(), blobs.begin(), blobs.end());
 }

@@ -17,6 +17,7 @@ class StarLayer {
 
   // In the order in which they are to be drawn.
   void add(const std::vector<StarImage>& images, const BlobWidths& widths);
+  void add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths);
   void add(const std::vector<StarBlob>& blobs);
   // Once all are there.
   void sort_into_bands();
