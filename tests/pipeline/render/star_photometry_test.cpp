@@ -27,6 +27,7 @@ constexpr double kTolerance = 0.04, kNoise = 0.02;
 constexpr int kStars = 1'000'000, kSize = 1024;
 constexpr double kTolerance = 0.01, kNoise = 0.005;
 #endif
+constexpr int kDrawn = kStars / 3;  // in a picture
 constexpr double kMagnitude = 8, kColour = 0.6;
 // Stops: so that what is left out as too faint, millions of ghosts, is no part of the light to speak of.
 // (At 0 stops it is 4 per cent of that within 50 degrees of the hole at 6 M.)
@@ -94,8 +95,8 @@ void compare(const Bins& stars, const Bins& sky) {
   }
 }
 
-// The radiance of kStars stars of this flux each, all over the sky.
-double radiance_of(double flux) { return kStars * flux / (4 * pi); }
+// Of stars of this flux each, all over the sky.
+double radiance_of(double flux, int stars) { return stars * flux / (4 * pi); }
 
 struct Place {
   const char* name;
@@ -130,7 +131,7 @@ TEST(StarPhotometry, StarsAreAsBrightAsTheSkyTheyMakeUp) {
           bins.add(angle_between(direction_at(scene.state.projection, at).v, hole), light(image));
       }
     }
-    compare(bins, even_sky(scene, radiance_of(flux), temperature, place.limits));
+    compare(bins, even_sky(scene, radiance_of(flux, kStars), temperature, place.limits));
   }
 }
 
@@ -142,7 +143,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
   std::FILE* out = std::fopen(file.c_str(), "w");
   ASSERT_NE(out, nullptr);
   std::fputs("ra_deg,dec_deg,v_mag,b_v\n", out);
-  for (int k = 0; k < kStars; ++k) {
+  for (int k = 0; k < kDrawn; ++k) {
     const V3d n = random_direction(random);
     std::fprintf(out, "%.5f,%.5f,8,0.6\n", std::atan2(n.y, n.x) / kDegree + 180,
                  std::asin(n.z) / kDegree);
@@ -160,7 +161,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
   const std::vector<double> limits{50, 75, 100};
   const double temperature = temperature_from_b_v(kColour);
   const double flux = std::pow(10, -0.4 * kMagnitude) * bolometric_flux_at_v_zero(temperature);
-  const Bins sky = even_sky(scene, radiance_of(flux), temperature, limits);
+  const Bins sky = even_sky(scene, radiance_of(flux, kDrawn), temperature, limits);
   const V3d hole = hole_of(scene.state);
   Bins drawn(limits);
   for (int row = 0; row < kSize; ++row)
