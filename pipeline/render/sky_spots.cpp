@@ -41,7 +41,7 @@ class SpotFinder {
     if (!look.known || look.sky != name) return;
     if (!(std::max(look.radial_scale, look.tangential_scale) * pixel_ > kCrowded)) return;
     const DarkenedSpot spot{name, centre, reach2};
-    StarBlob blob;
+    StarBlob blob{};
     if (!integrate(sky, table, spot, blob)) return;
     found.darkened.push_back(spot);
     found.blobs.push_back(blob);
@@ -85,8 +85,10 @@ class SpotFinder {
     }
     if (!(middle.length() > 0)) return false;
     for (int c = 0; c < 3; ++c) blob.rgb[c] = static_cast<float>(rgb[c]);
-    blob.centre = {middle.normalized()};
-    blob.sigma = kLeastSigmaPixels * pixel_;
+    const auto at = pixel_of(projection_, {middle.normalized()});
+    if (!at) return false;
+    blob.x = static_cast<float>(at->i - 1), blob.y = static_cast<float>(at->j - 1);
+    blob.sigma = static_cast<float>(kLeastSigmaPixels * pixel_);
     return place_blob(projection_, blob);
   }
 

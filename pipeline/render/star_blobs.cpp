@@ -7,43 +7,22 @@
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/render/photometry.h"
-#include "pipeline/render/vector_math.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-// The Gaussian at its reach is taken off it, so that it ends at 0.
-const double kCut = std::exp(-kBlobReach * kBlobReach / 2);
+// A halo fainter than this peak value is left to the star's middle.
+constexpr double kFaintestHalo = 0.004;
+// Its two parts: a wide one makes it fall off like a wing, not like a Gaussian.
+constexpr double kWingSigma = 3, kWingShare = 0.3;
 
 // Blob widths are given for a dome, 180 degrees across the picture.  A flat picture of another
 // opening angle keeps the blob's share of its width.
 double width_factor(const Projection& p) {
   const auto* flat = std::get_if<Stereographic>(&p);
   return flat ? flat->fov / pi : 1;
-}
-
-// Integral of the weights over the sphere, where a solid angle is 2 pi times chord times its
-// differential.  With sigma >= 0.9 pixel the sum over pixel centres differs from it by
-// 4 exp(-2 pi^2 0.9^2) = 5e-7 at most, wherever between them the centre lies.
-double weight_integral(double sigma) {
-  const double reach2 = kBlobReach * kBlobReach / 2;
-  return 2 * pi * sigma * sigma * (1 - kCut - kCut * reach2);
-}
-
-constexpr int kChunk = 64;
-
-DOMEFALL_SIMD void weigh(const CameraDirection* n, int count, const V3d& middle,
-                         double inverse_two_sigma2, float* weight) {
-  const double cut = kCut;
-  const double x = middle.x, y = middle.y, z = middle.z;
-  for (int k = 0; k < count; ++k) {
-    const double dx = n[k].v.x - x, dy = n[k].v.y - y, dz = n[k].v.z - z;
-    const double q = (dx * dx + dy * dy + dz * dz) * inverse_two_sigma2;
-    const double w = exponential(-q) - cut;
-    weight[k] = static_cast<float>(w > 0 ? w : 0);
-  }
 }
 
 // Pixels per radian at most, up to an angle `reach` from a direction `theta` off the middle.
@@ -54,65 +33,240 @@ double densest(const Projection& p, double theta, double reach) {
   return centre / (c * c);
 }
 
+bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
+
+double unit_of(const Projection& p) { return central_pixel_angle(p) / (is_dome(p) ? 1 : 2); }
+
+// Beyond the half sphere the shape is that at its edge; it matters for the pixel's blur only.
+BlobShape shape_of(const Projection& p, double cx, double cy, double sigma) {
+  const double unit = unit_of(p);
+  if (!is_dome(p)) return blob_shape<false>(unit, cx, cy, sigma);
+  const double shrink = std::min(1.0, 1.7 / (unit * std::hypot(cx, cy) + 1e-300));
+  return blob_shape<true>(unit, cx * shrink, cy * shrink, sigma);
+}
+
+double brightest(const StarBlob& b) { return std::max({b.rgb[0], b.rgb[1], b.rgb[2]}); }
+
+// ---- one row ----
+
+constexpr int kTerms = 7;
+
+// In units of the picture's `unit`: sinc theta and cos theta about the centre, as series in the growth
+// of theta^2, so that nothing cancels and float suffices.
+struct Series {
+  std::array<float, kTerms> sinc, cosine;  // sinc[0] is the value itself; cosine[0] is left out
+};
+
+Series series_about(double t) {
+  std::array<double, kTerms> sinc{};
+  double reciprocal = 1, power[16];  // +-1 / (2n + 1)!
+  for (int n = 0; n < 16; ++n) {
+    if (n > 0) reciprocal /= -(2.0 * n) * (2.0 * n + 1);
+    power[n] = reciprocal;
+  }
+  for (int k = 0; k < kTerms; ++k) {
+    double sum = 0, binomial = 1, t_power = 1;
+    for (int n = k; n < 16; ++n) {
+      sum += power[n] * binomial * t_power;
+      binomial *= (n + 1.0) / (n + 1 - k), t_power *= t;
+    }
+    sinc[static_cast<std::size_t>(k)] = sum;
+  }
+  Series s;
+  for (std::size_t k = 0; k < kTerms; ++k) {
+    s.sinc[k] = static_cast<float>(sinc[k]);
+    s.cosine[k] = k > 0 ? static_cast<float>(-sinc[k - 1] / (2.0 * static_cast<double>(k))) : 0;
+  }
+  return s;
+}
+
+// A blob ready to be drawn.
+struct Brush {
+  bool dome;
+  Series series;
+  float cx, cy, unit, unit2;  // the centre from the picture's middle
+  float one_plus_w2;          // flat: 1 + tan^2(theta/2) at the centre
+  float chord;                // chord^2 to q
+  float xx, xy, yy;           // the pixel's blur: what it adds to q, per pixel^2
+  float slope, dent, end;     // FlatGaussian, and its value at the cut
+  float paling;               // times v: 1 where the colour is half way to white
+  std::array<float, 3> colour, pale;
+};
+
+Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float middle_y) {
+  const double cx = b.x - middle_x, cy = b.y - middle_y, unit = unit_of(p), sigma = b.sigma;
+  const BlobShape s = shape_of(p, cx, cy, sigma);
+  const BlobScale scale = blob_scale(s, brightest(b));
+  const FlatGaussian flat(s.flat);
+  const double t = unit * unit * (cx * cx + cy * cy);
+  Brush brush{};
+  brush.dome = is_dome(p);
+  if (brush.dome) brush.series = series_about(t);
+  brush.cx = static_cast<float>(cx), brush.cy = static_cast<float>(cy);
+  brush.unit = static_cast<float>(unit), brush.unit2 = static_cast<float>(unit * unit);
+  brush.one_plus_w2 = static_cast<float>(1 + t);
+  brush.chord =
+      static_cast<float>((brush.dome ? 0.5 : 2 / (1 + t)) * unit * unit / (sigma * sigma));
+  brush.xx = static_cast<float>((s.xx - s.bare_xx) / 2);
+  brush.xy = static_cast<float>(s.xy - s.bare_xy);
+  brush.yy = static_cast<float>((s.yy - s.bare_yy) / 2);
+  brush.slope = static_cast<float>(flat.slope), brush.dent = static_cast<float>(flat.dent);
+  brush.end = static_cast<float>(flat(scale.cut));
+  const double light = luminance({b.rgb[0], b.rgb[1], b.rgb[2]});
+  // Bounded so that its square is finite.
+  brush.paling = static_cast<float>(std::min(1e9, light * scale.peak_per_flux * b.paling));
+  for (std::size_t c = 0; c < 3; ++c) {
+    brush.colour[c] = static_cast<float>(b.rgb[c] * scale.peak_per_flux);
+    brush.pale[c] =
+        b.paling > 0 ? static_cast<float>((light - b.rgb[c]) * scale.peak_per_flux) : 0.0f;
+  }
+  return brush;
+}
+
+// exp(x) for -80 <= x <= 0, e^-80 below.
+[[gnu::always_inline]] inline float falling_exponential(float x) {
+  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
+  const float bounded = x > -80.0f ? x : -80.0f;
+  const float shifted = bounded * 1.44269504f + kRound;
+  const float y = bounded - (shifted - kRound) * 0.693147181f;
+  float p = 1.0f / 720;
+  p = p * y + 1.0f / 120;
+  p = p * y + 1.0f / 24;
+  p = p * y + 1.0f / 6;
+  p = p * y + 0.5f;
+  p = p * y + 1.0f;
+  p = p * y + 1.0f;
+  return p * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
+}
+
+// chord^2 / unit^2 (on a flat picture times (1 + w0^2)/4) to a pixel (dx, dy) from the centre.
+template <bool kDome>
+[[gnu::always_inline]] inline float chord2(const Brush& b, float dx, float dy) {
+  const float growth = b.unit2 * ((dx + 2 * b.cx) * dx + (dy + 2 * b.cy) * dy);
+  if constexpr (!kDome) return (dx * dx + dy * dy) / (b.one_plus_w2 + growth);
+  float sinc = b.series.sinc[kTerms - 1], cosine = b.series.cosine[kTerms - 1];
+  for (std::size_t k = kTerms - 1; k-- > 1;)
+    sinc = sinc * growth + b.series.sinc[k], cosine = cosine * growth + b.series.cosine[k];
+  sinc *= growth, cosine *= growth;
+  const float x = b.series.sinc[0] * dx + sinc * (b.cx + dx);
+  const float y = b.series.sinc[0] * dy + sinc * (b.cy + dy), z = cosine / b.unit;
+  return x * x + y * y + z * z;
+}
+
+constexpr int kChunk = 64;
+
+template <bool kDome>
+[[gnu::always_inline]] inline void add_chunk(const Brush& b, float dx0, float dy, int count,
+                                             float* __restrict out) {
+  alignas(64) std::array<float, kChunk> weight, pale;
+  for (int k = 0; k < kChunk; ++k) {
+    const float dx = dx0 + static_cast<float>(k);
+    const float q =
+        b.chord * chord2<kDome>(b, dx, dy) + ((b.xx * dx + b.xy * dy) * dx + b.yy * dy * dy);
+    const float w = falling_exponential(q > 0 ? -q : 0.0f);
+    const float v = w * (b.slope - b.dent * w) - b.end, positive = v > 0 ? v : 0.0f;
+    const float bright = b.paling * positive, square = bright * bright;
+    weight[static_cast<std::size_t>(k)] = positive;
+    pale[static_cast<std::size_t>(k)] = positive * (square / (1 + square));
+  }
+  for (int k = 0; k < count; ++k) {
+    const float v = weight[static_cast<std::size_t>(k)], g = pale[static_cast<std::size_t>(k)];
+    out[3 * k] += b.colour[0] * v + b.pale[0] * g;
+    out[3 * k + 1] += b.colour[1] * v + b.pale[1] * g;
+    out[3 * k + 2] += b.colour[2] * v + b.pale[2] * g;
+  }
+}
+
+DOMEFALL_SIMD void add_span(const Brush& b, float dx, float dy, int count, float* out) {
+  for (; count > 0; count -= kChunk, dx += kChunk, out += 3 * kChunk) {
+    if (b.dome)
+      add_chunk<true>(b, dx, dy, std::min(count, kChunk), out);
+    else
+      add_chunk<false>(b, dx, dy, std::min(count, kChunk), out);
+  }
+}
+
 }  // namespace
+
+// ---- laws ----
 
 BlobWidths::BlobWidths(const StarBlobs& law, const Projection& projection, double exposure_scale)
     : law_(law),
-      scale_(exposure_scale),
       least_(std::max(law.min_sigma * width_factor(projection),
                       kLeastSigmaPixels * central_pixel_angle(projection))),
-      most_(std::max(law.max_sigma * width_factor(projection), least_)) {}
+      most_(std::max(law.max_sigma * width_factor(projection), least_)),
+      reference_(kMagnitudeZeroLux * exposure_scale *
+                 exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
+      halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
+      paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
 double BlobWidths::of(const StarImage& image) const {
-  const double lux = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / scale_;
-  const double magnitude = -2.5 * std::log10(lux / kMagnitudeZeroLux);
-  return std::clamp(
-      least_ * std::pow(10, 0.4 * law_.growth * (law_.reference_magnitude - magnitude)), least_,
-      most_);
+  if (law_.halo > 0) return least_;
+  const double brightness = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / reference_;
+  if (!(brightness > 1)) return least_;
+  return std::min(least_ * exponential(law_.growth * logarithm(brightness)), most_);
 }
+
+BlobParts BlobWidths::parts(const StarImage& image) const {
+  BlobParts parts{image, of(image), {}};
+  if (!(law_.halo > 0)) return parts;
+  const double light = std::max({image.rgb[0], image.rgb[1], image.rgb[2]});
+  double left = 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
+    const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
+    // It grows from nothing, so that none appears at once.
+    const double seen = 1 - kFaintestHalo * 2 * pi * sigma * sigma / (share * light);
+    if (!(seen > 0)) continue;
+    parts.halo[k] = {sigma, share * seen};
+    left -= share * seen;
+  }
+  for (float& c : parts.image.rgb) c *= static_cast<float>(left);
+  return parts;
+}
+
+// ---- blobs ----
 
 bool place_blob(const Projection& projection, StarBlob& blob) {
   blob.first_row = blob.first_column = 0;
   blob.last_row = blob.last_column = -1;
-  const auto at = pixel_of(projection, blob.centre);
-  if (!at) return false;
-  const double reach = kBlobReach * blob.sigma;
-  const double theta = std::acos(std::clamp(blob.centre.v.z, -1.0, 1.0));
-  const bool dome = std::holds_alternative<Domemaster>(projection);
-  if (theta - reach > (dome ? pi / 2 : 0.999 * pi) || (!dome && theta + reach > 0.999 * pi))
-    return false;
-  const double half = reach * densest(projection, theta, reach) + 1;
   const double width = columns(projection), height = rows(projection);
-  if (at->i + half < 0.5 || at->j + half < 0.5 || at->i - half > width + 0.5 ||
-      at->j - half > height + 0.5)
+  const double cx = blob.x - (width - 1) / 2, cy = blob.y - (height - 1) / 2;
+  const double from_middle = std::hypot(cx, cy) * unit_of(projection);
+  const bool dome = is_dome(projection);
+  const double theta = dome ? from_middle : 2 * std::atan(from_middle);
+  const BlobScale scale = blob_scale(shape_of(projection, cx, cy, blob.sigma), brightest(blob));
+  const double q = std::sqrt(-2 * logarithm(scale.cut)), chord = q * blob.sigma;
+  const double reach = 2 * std::asin(std::min(1.0, chord / 2));
+  if (theta - reach > (dome ? pi / 2 + 2 * unit_of(projection) : 0.999 * pi) ||
+      (!dome && theta + reach > 0.999 * pi))
     return false;
-  const int i0 = static_cast<int>(std::ceil(at->i - half)),
-            i1 = static_cast<int>(std::floor(at->i + half));
-  const int j0 = static_cast<int>(std::ceil(at->j - half)),
-            j1 = static_cast<int>(std::floor(at->j + half));
-  blob.norm = static_cast<float>(1 / weight_integral(blob.sigma));
-  blob.first_row = std::max(j0 - 1, 0), blob.last_row = std::min(j1, static_cast<int>(height)) - 1;
-  blob.first_column = std::max(i0 - 1, 0),
-  blob.last_column = std::min(i1, static_cast<int>(width)) - 1;
-  return blob.first_row <= blob.last_row && blob.first_column <= blob.last_column;
+  const double half = reach * densest(projection, theta, reach) + q * std::sqrt(1.0 / 12) + 1;
+  if (!(blob.x + half >= 0 && blob.y + half >= 0 && blob.x - half <= width - 1 &&
+        blob.y - half <= height - 1))
+    return false;
+  const auto within = [](double v, double last) {
+    return static_cast<int>(std::clamp(v, 0.0, last));
+  };
+  blob.first_row = within(std::ceil(blob.y - half), height - 1);
+  blob.last_row = within(std::floor(blob.y + half), height - 1);
+  blob.first_column = within(std::ceil(blob.x - half), width - 1);
+  blob.last_column = within(std::floor(blob.x + half), width - 1);
+  return true;
 }
 
-void draw_row(const StarBlob& blob, const Projection& projection, int row, float* rgb) {
-  const double inverse = 1 / (2 * blob.sigma * blob.sigma);
-  const ColumnRange inside = inside_columns(projection, row);
-  const int last_column = std::min(blob.last_column, inside.last);
-  const float scale[3] = {blob.rgb[0] * blob.norm, blob.rgb[1] * blob.norm,
-                          blob.rgb[2] * blob.norm};
-  std::array<CameraDirection, kChunk> n;
-  std::array<float, kChunk> weight;
-  for (int first = std::max(blob.first_column, inside.first); first <= last_column;
-       first += kChunk) {
-    const int last = std::min(last_column, first + kChunk - 1), count = last - first + 1;
-    inside_directions(projection, row, {first, last}, n.data());
-    weigh(n.data(), count, blob.centre.v, inverse, weight.data());
-    float* out = rgb + 3 * first;
-    for (int k = 0; k < count; ++k, out += 3)
-      for (int c = 0; c < 3; ++c) out[c] += scale[c] * weight[static_cast<std::size_t>(k)];
+void draw_blob(const StarBlob& blob, const Projection& projection, const Canvas& canvas) {
+  const int first = std::max(blob.first_row, canvas.first_row);
+  const int last = std::min(blob.last_row, canvas.first_row + canvas.rows - 1);
+  if (first > last) return;
+  const Brush brush = brush_of(blob, projection, static_cast<float>(columns(projection) - 1) / 2,
+                               static_cast<float>(rows(projection) - 1) / 2);
+  for (int row = first; row <= last; ++row) {
+    const ColumnRange inside = canvas.columns[row - canvas.first_row];
+    const int left = std::max(blob.first_column, inside.first);
+    const int right = std::min(blob.last_column, inside.last);
+    add_span(brush, static_cast<float>(left) - blob.x, static_cast<float>(row) - blob.y,
+             right - left + 1, canvas.at(row, left));
   }
 }
 

@@ -1,26 +1,44 @@
 // How the image of a star is drawn: as a blob in angle, whose light does not depend on how large it is.
 #pragma once
 
-#include "pipeline/render/star_image.h"
+#include <vector>
+
+#include "pipeline/render/small_blobs.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
 
-// A truncated Gaussian in angle about a direction: weight exp(-q) - exp(-q_max), q = c^2/(2 sigma^2),
-// c the chord to the centre, out to kBlobReach sigma; zero and continuous at its end.
+// The peak of a narrower blob would change by half as it drifts across pixels: stars would twinkle.
+inline constexpr double kLeastSigmaPixels = 0.9;
+
+// A blob of any size: W = exp(-c^2 / (2 sigma^2)), c the chord to the centre, over the square of each
+// pixel and cut as blob_shape.h says.  Its sum over a picture without edges, each pixel times its solid
+// angle, is rgb to 1e-3 wherever the centre lies.
 struct StarBlob {
-  CameraDirection centre;
-  double sigma;  // radians
+  float x, y;    // as StarImage's
+  float sigma;   // radians
   float rgb[3];  // as StarImage's
-  float norm;    // 1 / (integral of the weight over the sphere)
-  int first_row, last_row, first_column, last_column;  // pixels from 0, clipped to the image
+  // Where this times the blob's luminance (as a pixel value) passes 1, its colour pales to white; its
+  // luminance stays.  0: nowhere.
+  float paling;
+  int first_row, last_row, first_column, last_column;  // what it covers, clipped to the picture
 };
 
-inline constexpr double kBlobReach = 4.5;
+// Fills the rows and columns; false if there are none.
+bool place_blob(const Projection& projection, StarBlob& blob);
 
-// The peak of a narrower blob would change by a third or more as it drifts across pixels: stars
-// would twinkle.
-inline constexpr double kLeastSigmaPixels = 0.9;
+// Adds the part of a blob that lies on the canvas.
+void draw_blob(const StarBlob& blob, const Projection& projection, const Canvas& canvas);
+
+// A star as the blobs that its law makes of it.
+struct BlobParts {
+  StarImage image;  // the middle, with what light the halo leaves it
+  double sigma;     // radians
+  struct Halo {
+    double sigma, share;  // share: of the star's light; 0: unseen
+  };
+  std::array<Halo, 2> halo;
+};
 
 // The widths of a frame's blobs, by the brightness of their stars.
 class BlobWidths {
@@ -30,17 +48,14 @@ class BlobWidths {
   double least() const { return least_; }  // sigma, radians; at least 0.9 pixel
   double most() const { return most_; }
   double of(const StarImage& image) const;
+  BlobParts parts(const StarImage& image) const;
+  float paling() const { return paling_; }
 
  private:
   StarBlobs law_;
-  double scale_, least_, most_;
+  double least_, most_, reference_;  // reference_: luminance of rgb from which blobs grow
+  double halo_sigma_;
+  float paling_;
 };
-
-// Fills norm and the pixels that a blob of given centre and sigma covers; false if none is in the
-// picture.  Its weights' sum is that of a blob in the open: a star at the rim is cut, not dimmed.
-bool place_blob(const Projection& projection, StarBlob& blob);
-
-// Adds the part of a blob that lies on row `row` (from 0) to rgb[3 * columns].
-void draw_row(const StarBlob& blob, const Projection& projection, int row, float* rgb);
 
 }  // namespace domefall

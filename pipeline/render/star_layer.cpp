@@ -1,41 +1,149 @@
 #include "pipeline/render/star_layer.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 
 namespace domefall {
+namespace {
 
-void StarLayer::add(const std::vector<StarImage>& images, const BlobWidths& widths) {
-  for (const StarImage& image : images) {
-    StarBlob blob;
-    blob.centre = direction_at(projection_, {image.x + 1.0, image.y + 1.0});
-    blob.sigma = widths.of(image);
-    std::copy_n(image.rgb, 3, blob.rgb);
-    if (place_blob(projection_, blob)) blobs_.push_back(blob);
+// Images that one task places; however many threads there are.
+constexpr std::size_t kTask = 32768, kStep = 256;
+
+// A blob brighter than this part of where stars turn white may show it: 1/256 of its colour.
+constexpr double kPalingSeen = 1.0 / 16;
+
+// Of bands, that a small blob may touch.
+constexpr int kMostBands = (kSmallBlobPixels + 2 * kBandRows - 2) / kBandRows;
+
+}  // namespace
+
+StarLayer::StarLayer(const Projection& projection)
+    : projection_(projection),
+      bands_(static_cast<std::size_t>((rows(projection) + kBandRows - 1) / kBandRows)) {}
+
+void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidths& widths,
+                      Batch& batch) const {
+  const double most_peak = widths.paling() > 0 ? kPalingSeen / widths.paling() : HUGE_VAL;
+  std::array<StarImage, kStep> middle;
+  std::array<double, kStep> sigma;
+  std::array<SmallBlob, kStep> blobs;
+  std::array<int, kStep> first_row;
+  std::array<Placed, kStep> placed;
+  const auto add_wide = [&](const StarImage& image, double width, double share) {
+    const auto part = static_cast<float>(share);
+    StarBlob blob{image.x,
+                  image.y,
+                  static_cast<float>(width),
+                  {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part},
+                  widths.paling(),
+                  0,
+                  0,
+                  0,
+                  0};
+    const bool seen = place_blob(projection_, blob);
+    if (seen) batch.wide.push_back(blob);
+    return seen;
+  };
+  for (std::size_t begin = 0; begin < count; begin += kStep) {
+    const std::size_t n = std::min(kStep, count - begin);
+    for (std::size_t k = 0; k < n; ++k) {
+      const BlobParts parts = widths.parts(images[begin + k]);
+      middle[k] = parts.image, sigma[k] = parts.sigma;
+      for (const BlobParts::Halo& halo : parts.halo)
+        if (halo.share > 0) add_wide(images[begin + k], halo.sigma, halo.share);
+    }
+    place_small_blobs(projection_, middle.data(), sigma.data(), n, most_peak, blobs.data(),
+                      first_row.data(), placed.data());
+    for (std::size_t k = 0; k < n; ++k) {
+      if (placed[k] == Placed::kNowhere) continue;
+      if (placed[k] == Placed::kWide) {
+        batch.size += add_wide(middle[k], sigma[k], 1);
+        continue;
+      }
+      ++batch.size;
+      batch.small.push_back(blobs[k]);
+      batch.band.push_back(static_cast<std::uint16_t>(std::max(first_row[k], 0) / kBandRows));
+    }
   }
 }
 
 void StarLayer::add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths) {
-  for (const auto& images : lists) add(images, widths);
+  const std::size_t before = batches_.size();
+  batches_.resize(before + lists.size());
+  tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t k) {
+    place(lists[k].data(), lists[k].size(), widths, batches_[before + k]);
+  });
+  for (std::size_t t = before; t < batches_.size(); ++t) size_ += batches_[t].size;
+}
+
+void StarLayer::add(const std::vector<StarImage>& images, const BlobWidths& widths) {
+  const std::size_t before = batches_.size(), tasks = (images.size() + kTask - 1) / kTask;
+  batches_.resize(before + tasks);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t t) {
+    const std::size_t first = t * kTask;
+    place(images.data() + first, std::min(kTask, images.size() - first), widths,
+          batches_[before + t]);
+  });
+  for (std::size_t t = before; t < batches_.size(); ++t) size_ += batches_[t].size;
 }
 
 void StarLayer::add(const std::vector<StarBlob>& blobs) {
-  blobs_.insert(blobs_.end(), blobs.begin(), blobs.end());
+  Batch batch;
+  batch.wide = blobs;
+  size_ += blobs.size();
+  batches_.push_back(std::move(batch));
+}
+
+// A counting sort by band that keeps the order within a band, each task's blobs in its own turn.
+void StarLayer::sort_small() {
+  std::vector<std::vector<std::size_t>> next(batches_.size(), std::vector<std::size_t>(bands_));
+  tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
+    for (const std::uint16_t band : batches_[t].band) ++next[t][band];
+  });
+  first_small_.assign(bands_ + 1, 0);
+  std::size_t sum = 0;
+  for (std::size_t band = 0; band < bands_; ++band) {
+    first_small_[band] = sum;
+    for (auto& of_task : next) {
+      const std::size_t count = of_task[band];
+      of_task[band] = sum;
+      sum += count;
+    }
+  }
+  first_small_[bands_] = sum;
+  small_.resize(sum);
+  tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
+    const Batch& batch = batches_[t];
+    for (std::size_t k = 0; k < batch.small.size(); ++k)
+      small_[next[t][batch.band[k]]++] = batch.small[k];
+  });
 }
 
 void StarLayer::sort_into_bands() {
-  by_band_.assign(static_cast<std::size_t>((rows(projection_) + kBandRows - 1) / kBandRows), {});
-  for (std::size_t k = 0; k < blobs_.size(); ++k)
-    for (int band = blobs_[k].first_row / kBandRows; band <= blobs_[k].last_row / kBandRows; ++band)
-      by_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
+  sort_small();
+  for (const Batch& batch : batches_)
+    wide_.insert(wide_.end(), batch.wide.begin(), batch.wide.end());
+  batches_.clear();
+  wide_of_band_.assign(bands_, {});
+  for (std::size_t k = 0; k < wide_.size(); ++k)
+    for (int band = wide_[k].first_row / kBandRows; band <= wide_[k].last_row / kBandRows; ++band)
+      wide_of_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
 }
 
 void StarLayer::draw_band(int band, float* rgb) const {
-  const int first = band * kBandRows, end = std::min(first + kBandRows, rows(projection_));
-  const auto stride = static_cast<std::size_t>(columns(projection_)) * 3;
-  for (const std::uint32_t k : by_band_[static_cast<std::size_t>(band)])
-    for (int row = std::max(first, blobs_[k].first_row); row < end && row <= blobs_[k].last_row;
-         ++row)
-      draw_row(blobs_[k], projection_, row, rgb + static_cast<std::size_t>(row - first) * stride);
+  const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
+  std::array<ColumnRange, kBandRows> inside;
+  for (int k = 0; k < count; ++k)
+    inside[static_cast<std::size_t>(k)] = inside_columns(projection_, first + k);
+  const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};
+  const std::size_t from =
+      first_small_[static_cast<std::size_t>(std::max(0, band - kMostBands + 1))];
+  const std::size_t end = first_small_[static_cast<std::size_t>(band) + 1];
+  draw_small_blobs(small_.data() + from, end - from, canvas);
+  for (const std::uint32_t k : wide_of_band_[static_cast<std::size_t>(band)])
+    draw_blob(wide_[k], projection_, canvas);
 }
 
 }  // namespace domefall

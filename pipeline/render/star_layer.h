@@ -10,27 +10,46 @@ namespace domefall {
 
 // Rows that one task shades, covers with stars and stores, while they are still in its cache.
 inline constexpr int kBandRows = 8;
+static_assert(kBandRows <= kMostCanvasRows);
 
+// The same sums for any number of threads: small blobs first, by the band in which they begin, then
+// wide ones, each in the order in which they came.
 class StarLayer {
  public:
-  explicit StarLayer(const Projection& projection) : projection_(projection) {}
+  explicit StarLayer(const Projection& projection);
 
-  // In the order in which they are to be drawn.
   void add(const std::vector<StarImage>& images, const BlobWidths& widths);
   void add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths);
   void add(const std::vector<StarBlob>& blobs);
   // Once all are there.
   void sort_into_bands();
 
-  std::size_t size() const { return blobs_.size(); }
+  // Images of which something is in the picture.
+  std::size_t size() const { return size_; }
 
   // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.
   void draw_band(int band, float* rgb) const;
 
  private:
+  // What one task places.
+  struct Batch {
+    std::vector<SmallBlob> small;
+    std::vector<std::uint16_t> band;  // in which small[k] begins
+    std::vector<StarBlob> wide;
+    std::size_t size = 0;
+  };
+  void place(const StarImage* images, std::size_t count, const BlobWidths& widths,
+             Batch& batch) const;
+  void sort_small();
+
   Projection projection_;
-  std::vector<StarBlob> blobs_;
-  std::vector<std::vector<std::uint32_t>> by_band_;
+  std::size_t bands_;
+  std::vector<Batch> batches_;
+  std::size_t size_ = 0;
+  std::vector<SmallBlob> small_;          // by band
+  std::vector<std::size_t> first_small_;  // of each band, and the end
+  std::vector<StarBlob> wide_;
+  std::vector<std::vector<std::uint32_t>> wide_of_band_;
 };
 
 }  // namespace domefall

@@ -118,13 +118,17 @@ struct PanoramaShift {
   double blueshift_power = 2;
 };
 
-// A star is a truncated Gaussian in angle.  Its width grows with its (observed) brightness:
-// sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
+// A star is a truncated Gaussian in angle.  Without a halo its width grows with its (observed)
+// brightness: sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
+// With one, every star is of the width min_sigma, and bright ones show the halo.
 struct StarBlobs {
   double min_sigma = 0;            // radians; the renderer never goes below 0.9 pixel
   double growth = 0.2;             // 0: every star the same size; 0.5: every star the same peak
   double reference_magnitude = 5;  // up to here min_sigma
   double max_sigma = 0;            // radians
+  double halo = 0;                 // the part of a star's light that is in its halo
+  double halo_sigma = 0;           // radians
+  double white_core = 0;           // pixel value at which a blob's colour is half white; 0: none
 };
 
 struct Exposure {
