@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "drawn_blobs.h"
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/star_images.h"
@@ -10,25 +11,8 @@
 namespace domefall {
 namespace {
 
-// Sum over the picture of pixel value times solid angle: what the blob brings.
-double drawn_flux(const StarBlob& blob, const Projection& p, bool whole_disc_only) {
-  std::vector<float> row(static_cast<std::size_t>(columns(p)) * 3);
-  double sum = 0;
-  for (int y = blob.first_row; y <= blob.last_row; ++y) {
-    std::fill(row.begin(), row.end(), 0.0f);
-    draw_row(blob, p, y, row.data());
-    for (int x = 0; x < columns(p); ++x) {
-      const PixelPosition pixel{x + 1.0, y + 1.0};
-      if (row[3 * static_cast<std::size_t>(x)] > 0 && !is_inside(p, pixel) && whole_disc_only)
-        ADD_FAILURE() << "light outside the dome";
-      sum += row[3 * static_cast<std::size_t>(x)] * pixel_solid_angle(p, pixel);
-    }
-  }
-  return sum;
-}
-
 // One star of magnitude `m` in flat space, seen in a camera direction.
-std::vector<StarBlob> blobs_of(const Show& show, const V3d& camera_direction, double m) {
+StarImage image_of_star(const Show& show, const V3d& camera_direction, double m) {
   const FrameState state = frame_state(show, 0);
   const V3d sky = apply(state.observer.sky_from_tetrad,
                         apply(state.observer.tetrad_from_camera, camera_direction));
@@ -36,20 +20,11 @@ std::vector<StarBlob> blobs_of(const Show& show, const V3d& camera_direction, do
   const SceneStar star{{sky}, m, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
   std::vector<StarImage> images;
   StarImages(show, state, {1, 1, 40}, nullptr).append(star, images);
-  const BlobWidths widths(show.blobs, state.projection, exposure_scale(state.picture));
-  std::vector<StarBlob> blobs;
-  for (const StarImage& image : images) {
-    StarBlob blob{direction_at(state.projection, {image.x + 1.0, image.y + 1.0}),
-                  widths.of(image),
-                  {image.rgb[0], image.rgb[1], image.rgb[2]},
-                  0,
-                  0,
-                  0,
-                  0,
-                  0};
-    if (place_blob(state.projection, blob)) blobs.push_back(blob);
-  }
-  return blobs;
+  return images.at(0);
+}
+
+BlobWidths widths_of(const Show& show) {
+  return {show.blobs, frame_state(show, 0).projection, exposure_scale(Picture{})};
 }
 
 V3d dome_direction(double theta, double azimuth) {
@@ -69,10 +44,8 @@ TEST(StarBlobs, BringTheSameFluxWhereverTheyLieBetweenPixels) {
       const V3d n =
           dome_direction((dome ? 86 : 25) * kDegree * u(random), 2 * std::numbers::pi * u(random));
       const double m = 6 - 7 * u(random);
-      for (const StarBlob& blob : blobs_of(show, n, m)) {
-        const double flux = drawn_flux(blob, p, true);
-        EXPECT_NEAR(flux / blob.rgb[0], 1, 1e-3) << n << " " << m;
-      }
+      const StarImage image = image_of_star(show, n, m);
+      EXPECT_NEAR(brought(image, p, widths_of(show)).flux / image.rgb[0], 1, 1e-3) << n << " " << m;
     }
   }
 }
@@ -81,58 +54,131 @@ TEST(StarBlobs, BringTheSameFluxWhereverTheyLieBetweenPixels) {
 TEST(StarBlobs, AtTheRimAreCutNotDimmed) {
   const Projection p = Domemaster{1024};
   const Show show = show_of(StaticObserver{}, p);
-  for (double azimuth : {0.0, 0.3, 1.57, 4.0}) {
-    const double off = 0.07 * kDegree;
-    double sum = 0, each = 0;
-    for (double theta : {90 * kDegree - off, 90 * kDegree + off})
-      for (const StarBlob& blob : blobs_of(show, dome_direction(theta, azimuth), 4)) {
-        sum += drawn_flux(blob, p, true);
-        each = blob.rgb[0];
+  for (const double m : {4.0, 10.0})
+    for (double azimuth : {0.0, 0.3, 1.57, 4.0}) {
+      const double off = 0.07 * kDegree;
+      double sum = 0;
+      for (double theta : {90 * kDegree - off, 90 * kDegree + off}) {
+        const StarImage image = image_of_star(show, dome_direction(theta, azimuth), m);
+        sum += brought(image, p, widths_of(show)).flux / image.rgb[0];
       }
-    // The rim's pixels are in or out as a whole: a staircase across the blob.
-    EXPECT_NEAR(sum / each, 1, 0.1) << azimuth;
-  }
+      // The rim's pixels are in or out as a whole: a staircase across the blob.
+      EXPECT_NEAR(sum, 1, 0.1) << azimuth << " " << m;
+    }
 }
 
 TEST(StarBlobs, AreRoundOnTheDome) {
   const Projection p = Domemaster{2048};
-  const Show show = show_of(StaticObserver{}, p);
-  const auto blobs = blobs_of(show, dome_direction(80 * kDegree, 0), 0);
-  ASSERT_EQ(blobs.size(), 1u);
-  const StarBlob& blob = blobs[0];
-  double along = 0, across = 0, sum = 0;
-  std::vector<float> row(2048 * 3);
-  for (int y = blob.first_row; y <= blob.last_row; ++y) {
-    std::fill(row.begin(), row.end(), 0.0f);
-    draw_row(blob, p, y, row.data());
-    for (int x = blob.first_column; x <= blob.last_column; ++x) {
-      const PixelPosition pixel{x + 1.0, y + 1.0};
-      const double w = row[3 * static_cast<std::size_t>(x)] * pixel_solid_angle(p, pixel);
-      const V3d d = direction_at(p, pixel).v - blob.centre.v;
-      const V3d up = dome_direction(170 * kDegree, 0);  // towards the rim
-      along += w * d.dot(up) * d.dot(up), across += w * d.y * d.y, sum += w;
-    }
+  Show show = show_of(StaticObserver{}, p);
+  show.blobs.min_sigma = 0.15 * kDegree;
+  for (const double m : {10.0, 0.0}) {
+    const StarImage image = image_of_star(show, dome_direction(80 * kDegree, 0), m);
+    const V3d centre = direction_at(p, {image.x + 1.0, image.y + 1.0}).v;
+    const DrawnBlobs picture = drawn({image}, p, widths_of(show));
+    double along = 0, across = 0, sum = 0;
+    for (int y = 924; y < 1124; ++y)
+      for (int x = 1800; x < 2048; ++x) {
+        const PixelPosition pixel{x + 1.0, y + 1.0};
+        const double w = picture.at(y, x) * pixel_solid_angle(p, pixel);
+        const V3d d = direction_at(p, pixel).v - centre;
+        const V3d up = dome_direction(170 * kDegree, 0);  // towards the rim
+        along += w * d.dot(up) * d.dot(up), across += w * d.y * d.y, sum += w;
+      }
+    // A pixel is 1 by 0.7 pixel in angle there: so much less it blurs across.
+    const double pixel = central_pixel_angle(p);
+    along -= sum * pixel * pixel / 12, across -= sum * pixel * pixel * 0.705 * 0.705 / 12;
+    EXPECT_NEAR(std::sqrt(along / across), 1, 2e-3) << m;
+    // Cut at 3.5 sigma and lowered to 0 there, the Gaussian is 1 % narrower.
+    const double sigma = widths_of(show).of(image);
+    EXPECT_NEAR(std::sqrt(across / sum) / sigma, 1, 0.03) << m;
   }
-  EXPECT_NEAR(std::sqrt(along / across), 1, 2e-3);
-  // Cut at 4.5 sigma and lowered to 0 there, the Gaussian is 0.1 % narrower.
-  EXPECT_NEAR(std::sqrt(across / sum) / blob.sigma, 1, 3e-3);
 }
 
 TEST(StarBlobs, GrowWithBrightnessByTheLawOfTheShow) {
   const Show show = show_of(StaticObserver{}, Domemaster{8192});
   const auto sigma = [&show](double m) {
-    return blobs_of(show, dome_direction(0.5, 1), m).at(0).sigma;
+    return widths_of(show).of(image_of_star(show, dome_direction(0.5, 1), m));
   };
   EXPECT_NEAR(sigma(6), 0.05 * kDegree, 1e-12);
   EXPECT_NEAR(sigma(1) / sigma(2), std::pow(10, 0.4 * show.blobs.growth), 1e-3);
   EXPECT_NEAR(sigma(-20), 0.3 * kDegree, 1e-12);
 }
 
+// The law with a halo: one width for all, and what the halo takes the middle gives.
+TEST(StarBlobs, WithAHaloKeepTheirLight) {
+  const Projection p = Domemaster{1024};
+  Show show = show_of(StaticObserver{}, p);
+  show.blobs.halo = 0.2, show.blobs.halo_sigma = 0.5 * kDegree;
+  double before = 0;
+  for (double m = 12; m > -6; m -= 0.25) {
+    const StarImage image = image_of_star(show, dome_direction(0.5, 1), m);
+    const BlobParts parts = widths_of(show).parts(image);
+    EXPECT_EQ(parts.sigma, widths_of(show).least());
+    EXPECT_NEAR(brought(image, p, widths_of(show), 120).flux / image.rgb[0], 1, 1e-3) << m;
+    const double share = parts.halo[0].share + parts.halo[1].share;
+    EXPECT_NEAR(parts.image.rgb[0] / image.rgb[0], 1 - share, 1e-6);
+    EXPECT_GE(share, before) << m;
+    before = share;
+  }
+  EXPECT_NEAR(before, 0.2, 1e-3);
+}
+
+// [Riazuelo] sec. sec_stars_eff: the centre of a bright blob is less saturated than its edge.
+TEST(StarBlobs, PaleInTheirMiddleOnly) {
+  const Projection p = Domemaster{1024};
+  StarBlobs law{0.003, 0, 40, 0.003};
+  law.white_core = 10;
+  const BlobWidths widths(law, p, 1e3);
+  const auto flux = static_cast<float>(flux_of_peak(widths, 1000));
+  const StarImage image{500, 500, {0.3f * flux, 0.6f * flux, flux}};
+  const DrawnBlobs picture = drawn({image}, p, widths);
+  const auto blue = [&](int x) { return picture.at(500, x, 2) / picture.at(500, x, 0); };
+  EXPECT_NEAR(blue(500), 1, 0.01);
+  const auto edge = [&](int x) { return picture.at(500, x, 1) > 0.01f; };
+  int x = 500;
+  while (edge(x + 1)) ++x;
+  EXPECT_GT(x, 503);
+  EXPECT_NEAR(blue(x), 1 / 0.3, 0.01);
+  // Its luminance is that of a blob that keeps its colour.
+  law.white_core = 0;
+  const DrawnBlobs own = drawn({image}, p, BlobWidths(law, p, 1e3));
+  for (int at = 490; at < 511; ++at) {
+    const auto light = [at](const DrawnBlobs& d) {
+      return luminance({d.at(500, at, 0), d.at(500, at, 1), d.at(500, at, 2)});
+    };
+    EXPECT_NEAR(light(picture), light(own), 1e-4 * light(own) + 1e-6) << at;
+  }
+}
+
+// Sizes are angles: a picture of twice the size, averaged over 2 by 2 pixels, shows the same star.
+TEST(StarBlobs, OfTwiceThePictureAreTheSame) {
+  Show show = show_of(StaticObserver{}, Domemaster{1024});
+  show.blobs.min_sigma = 0.3 * kDegree, show.blobs.max_sigma = 0.6 * kDegree;
+  const Projection coarse = Domemaster{1024}, fine = Domemaster{2048};
+  for (const double m : {9.0, 1.0}) {
+    const StarImage image = image_of_star(show, dome_direction(1.1, 2), m);
+    StarImage twice = image;
+    twice.x = 2 * image.x + 0.5f, twice.y = 2 * image.y + 0.5f;
+    const double scale = exposure_scale(Picture{});
+    const DrawnBlobs one = drawn({image}, coarse, BlobWidths(show.blobs, coarse, scale)),
+                     other = drawn({twice}, fine, BlobWidths(show.blobs, fine, scale));
+    const int y = static_cast<int>(image.y), x = static_cast<int>(image.x);
+    const float peak = one.at(y, x);
+    for (int j = y - 8; j < y + 8; ++j)
+      for (int i = x - 8; i < x + 8; ++i) {
+        const float mean = (other.at(2 * j, 2 * i) + other.at(2 * j, 2 * i + 1) +
+                            other.at(2 * j + 1, 2 * i) + other.at(2 * j + 1, 2 * i + 1)) /
+                           4;
+        EXPECT_NEAR(one.at(j, i) / peak, mean / peak, 0.005) << m << " " << i << " " << j;
+      }
+  }
+}
+
 // A star of V = 0 brings 2.63e-6 lux at about 5800 K.
 TEST(StarBlobs, OfMagnitudeZeroBringTheIlluminanceOfTheMagnitudeScale) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
-  const auto blobs = blobs_of(show, dome_direction(0.5, 1), 0);
-  const WorkingRgb c{blobs.at(0).rgb[0], blobs[0].rgb[1], blobs[0].rgb[2]};
+  const StarImage image = image_of_star(show, dome_direction(0.5, 1), 0);
+  const WorkingRgb c{image.rgb[0], image.rgb[1], image.rgb[2]};
   EXPECT_NEAR(luminance(c) / exposure_scale(Picture{}), kMagnitudeZeroLux,
               0.02 * kMagnitudeZeroLux);
 }
