@@ -11,8 +11,8 @@ namespace {
 // Images that one task places; however many threads there are.
 constexpr std::size_t kTask = 32768, kStep = 256;
 
-// A blob brighter than this part of where stars turn white may show it: 1/256 of its colour.
-constexpr double kPalingSeen = 1.0 / 16;
+// A blob brighter than this part of where stars turn white may show it: in its middle 1/65 of its colour.
+constexpr double kPalingSeen = 1.0 / 8;
 
 // Of bands, that a small blob may touch.
 constexpr int kMostBands = (kSmallBlobPixels + 2 * kBandRows - 2) / kBandRows;

@@ -1,5 +1,9 @@
 #include "pipeline/show/picture_sections.h"
 
+#include <array>
+#include <span>
+#include <string>
+
 #include "pipeline/show/assets.h"
 #include "pipeline/show/values_section.h"
 
@@ -7,6 +11,10 @@ namespace domefall {
 namespace {
 
 constexpr double kMinSigmaDeg = 0.05, kMaxSigmaDeg = 0.3;
+constexpr double kHalo = 0.15, kHaloSigmaDeg = 0.2, kWhiteCore = 10;
+constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
+                                                      "max_sigma_deg"};
+constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
 
 // One number for all channels, or a list of red, green and blue.
 void read_channels(const Section& cdl, std::string_view key, const Range& range,
@@ -25,12 +33,20 @@ void read_channels(const Section& cdl, std::string_view key, const Range& range,
 
 StarBlobs read_star_blobs(const Section& show) {
   const Section s = subsection(show, "stars",
-                               {"min_sigma_deg", "growth", "reference_magnitude", "max_sigma_deg"});
+                               {"law", "min_sigma_deg", "growth", "reference_magnitude",
+                                "max_sigma_deg", "halo", "halo_sigma_deg", "white_core"});
+  const bool psf = s.choice("law", {"size", "psf"}).value_or(0) == 1;
+  const auto keys_of_other_law =
+      psf ? std::span<const std::string_view>(kKeysOfSize) : std::span(kKeysOfPsf);
+  for (const std::string_view key : keys_of_other_law)
+    if (const Item* item = s.find(key))
+      item->fail(std::string("belongs to stars.law: ") +
+                 (psf ? "size, but the law is psf" : "psf, but the law is size"));
   const Range sigma = kDegrees.above(0).at_most(10);
   StarBlobs blobs;
   const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
   const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
-  if (most < least)
+  if (!psf && most < least)
     s.find("max_sigma_deg")
         ->fail("must be at least min_sigma_deg = " + short_number(least) + " (degrees), got " +
                short_number(most));
@@ -39,6 +55,11 @@ StarBlobs read_star_blobs(const Section& show) {
   blobs.growth = s.number("growth", kPureNumber.within(0, 0.5), blobs.growth);
   blobs.reference_magnitude = s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40),
                                        blobs.reference_magnitude);
+  blobs.white_core = s.number("white_core", kPureNumber.within(0, 1e6), kWhiteCore);
+  if (!psf) return blobs;
+  blobs.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
+  blobs.halo_sigma =
+      radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
   return blobs;
 }
 

@@ -50,8 +50,8 @@ inline Brought brought(const StarImage& image, const Projection& p, const BlobWi
   const int bands = (rows(p) + kBandRows - 1) / kBandRows, width = columns(p);
   std::vector<float> rgb(static_cast<std::size_t>(width) * 3 * kBandRows);
   Brought sum;
-  const int first = std::max(0, static_cast<int>(image.y - reach) / kBandRows);
-  const int last = std::min(bands - 1, static_cast<int>(image.y + reach) / kBandRows);
+  const int first = std::max(0, (static_cast<int>(image.y) - reach) / kBandRows);
+  const int last = std::min(bands - 1, (static_cast<int>(image.y) + reach) / kBandRows);
   for (int band = first; band <= last; ++band) {
     std::fill(rgb.begin(), rgb.end(), 0.0f);
     layer.draw_band(band, rgb.data());

@@ -48,12 +48,12 @@ TEST(SmallBlobs, AreTheIntegralOverEachPixel) {
   const double unit = pi / 4096;
   for (const double azimuth : {0.0, 0.4, 0.785}) {
     const double x = 2047 * std::cos(azimuth), y = 2047 * std::sin(azimuth);
-    EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, x, y, 0.9 * unit)), 4e-4) << azimuth;
-    EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, x, y, 1.14 * unit)), 2e-4) << azimuth;
+    EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, x, y, 0.9 * unit)), 7e-4) << azimuth;
+    EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, x, y, 1.14 * unit)), 3e-4) << azimuth;
   }
-  EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, 0, 0, 0.9 * unit)), 4e-4);
+  EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, 0, 0, 0.9 * unit)), 5e-4);
   EXPECT_LT(worst_over_pixels(blob_shape<true>(unit, 0, 0, 1.14 * unit)), 2e-4);
-  EXPECT_LT(worst_over_pixels(blob_shape<false>(unit, 0, 0, 1.8 * unit)), 4e-4);
+  EXPECT_LT(worst_over_pixels(blob_shape<false>(unit, 0, 0, 1.8 * unit)), 5e-4);
 }
 
 struct Law {
