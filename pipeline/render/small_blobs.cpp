@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <cstring>
 
+#include "pipeline/render/lanes.h"
+
 namespace domefall {
 namespace {
 
-constexpr int kPixels = kSmallBlobPixels, kFloats = 3 * kPixels, kLanes = 8,
-              kBlocks = kFloats / kLanes;
+// A blob is drawn in parts of so many columns.
+constexpr int kPixels = 16, kFloats = 3 * kPixels, kBlocks = kFloats / kLanes;
 constexpr std::size_t kBatch = 128;
 
 // ---- placing ----
@@ -44,7 +46,7 @@ template <bool kDome>
     const bool outside = (p.x[k] + half_x < 0) | (p.y[k] + half_y < 0) |
                          (p.x[k] - half_x > f.width - 1) | (p.y[k] - half_y > f.height - 1);
     const double half = half_x > half_y ? half_x : half_y;
-    const bool wide = far | (s.bend > kMostBend) | (2 * half > kPixels - 1) |
+    const bool wide = far | (s.bend > kMostBend) | (2 * half > kSmallBlobPixels - 1) |
                       (brightest * scale.peak_per_flux > f.most_peak);
     const int placed = static_cast<int>(Placed::kNowhere), drawn = wide ? 2 : 1;
     p.what[k] = far | !outside ? drawn : placed;
@@ -81,21 +83,6 @@ void place_batch(const Frame& f, bool dome, const StarImage* images, const doubl
 
 // ---- drawing ----
 
-// exp(x) for -80 <= x <= 80, e^-80 below.  Measured: relative error below 3e-6.
-[[gnu::always_inline]] inline float exponential(float x) {
-  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
-  const float bounded = x > -80.0f ? x : -80.0f;
-  const float shifted = bounded * 1.44269504f + kRound;
-  const float y = bounded - (shifted - kRound) * 0.693147181f;
-  float p = 1.0f / 120;
-  p = p * y + 1.0f / 24;
-  p = p * y + 1.0f / 6;
-  p = p * y + 0.5f;
-  p = p * y + 1.0f;
-  p = p * y + 1.0f;
-  return p * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
-}
-
 // -ln x, or up to 0.06 more: the mantissa is taken for its logarithm.
 [[gnu::always_inline]] inline float about_minus_log(float x) {
   const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x)) * 0x1p-23f;
@@ -106,7 +93,7 @@ void place_batch(const Frame& f, bool dome, const StarImage* images, const doubl
 struct Batch {
   alignas(64) std::array<float, kBatch> dx, dy;  // from the centre to the box's first pixel
   alignas(64) std::array<float, kBatch> xx, xy, yy, slope, dent, end;
-  alignas(64) std::array<int, kBatch> column, blocks, first, last;  // rows within the canvas
+  alignas(64) std::array<int, kBatch> column, columns, first, last;  // rows within the canvas
 };
 
 [[gnu::always_inline]] inline void prepare(const SmallBlob* blobs, std::size_t count,
@@ -125,34 +112,16 @@ struct Batch {
     const int right = static_cast<int>(b.x + half_x + kMargin) - kMargin;
     const int top = static_cast<int>(b.y - half_y + kMargin) - (kMargin - 1);
     const int bottom = static_cast<int>(b.y + half_y + kMargin) - kMargin;
-    const int wanted = (3 * (right - left + 1) + kLanes - 1) / kLanes;
     const int first = top > first_row ? top : first_row;
     const float flat = (b.xx * b.xx + b.yy * b.yy) * static_cast<float>(1.0 / 5760);
     const float slope = 1 + 7.5f * flat, dent = 13.5f * flat;
     batch.column[k] = left;
-    batch.blocks[k] = wanted < kBlocks ? wanted : kBlocks;
+    batch.columns[k] = right - left + 1;
     batch.first[k] = first;
     batch.last[k] = bottom < end_row ? bottom : end_row;
     batch.dx[k] = static_cast<float>(left) - b.x, batch.dy[k] = static_cast<float>(first) - b.y;
     batch.xx[k] = -0.5f * b.xx, batch.xy[k] = -b.xy, batch.yy[k] = -0.5f * b.yy;
     batch.slope[k] = slope, batch.dent[k] = dent, batch.end[k] = cut * (slope - dent * cut);
-  }
-}
-
-// Eight floats, in one register or in two.  A plain loop over floats in threes would not stay in
-// registers.
-typedef float Lanes __attribute__((vector_size(4 * kLanes)));
-
-// Each pixel's value for its three channels.
-template <int kCount>
-[[gnu::always_inline]] inline void spread(const float* pixels, Lanes* floats) {
-  for (int half = 0; 3 * half < kCount; ++half) {
-    Lanes p;
-    std::memcpy(&p, pixels + half * kLanes, sizeof p);
-    Lanes* out = floats + 3 * half;
-    out[0] = __builtin_shufflevector(p, p, 0, 0, 0, 1, 1, 1, 2, 2);
-    out[1] = __builtin_shufflevector(p, p, 2, 3, 3, 3, 4, 4, 4, 5);
-    out[2] = __builtin_shufflevector(p, p, 5, 5, 6, 6, 6, 7, 7, 7);
   }
 }
 
@@ -163,8 +132,8 @@ template <int kCount>
                                             std::size_t k, const float* exponentials,
                                             float* __restrict out, std::ptrdiff_t stride) {
   Lanes weight[kBlocks], step[kBlocks], scale[3], all;
-  spread<kCount>(exponentials, weight);
-  spread<kCount>(exponentials + kPixels, step);
+  in_threes<kCount>(exponentials, weight);
+  in_threes<kCount>(exponentials + kPixels, step);
   const float* rows = exponentials + 2 * kPixels;
   static_assert(sizeof blob == sizeof all && offsetof(SmallBlob, rgb) == 5 * sizeof(float));
   std::memcpy(&all, &blob, sizeof all);
@@ -187,36 +156,39 @@ template <int kCount>
   }
 }
 
-[[gnu::always_inline]] inline void add_box(const SmallBlob& blob, const Batch& batch, std::size_t k,
-                                           float* out, std::ptrdiff_t stride) {
+// The part of a blob from its column `part` on; out is where its first pixel is.
+[[gnu::always_inline]] inline void add_part(const SmallBlob& blob, const Batch& batch,
+                                            std::size_t k, int part, float* out,
+                                            std::ptrdiff_t stride) {
   alignas(64) float e[2 * kPixels + 2 * kMostCanvasRows];
-  const float x0 = batch.dx[k], y0 = batch.dy[k], xx = batch.xx[k], xy = batch.xy[k],
-              yy = batch.yy[k], along = xy * y0;
+  const float x0 = batch.dx[k] + static_cast<float>(part), y0 = batch.dy[k], xx = batch.xx[k],
+              xy = batch.xy[k], yy = batch.yy[k], along = xy * y0;
   for (int m = 0; m < kPixels; ++m) {
     const float dx = x0 + static_cast<float>(m), dy = y0 + static_cast<float>(m);
-    e[m] = exponential((xx * dx + along) * dx);
-    e[kPixels + m] = exponential(xy * dx);
-    e[2 * kPixels + m] = exponential(yy * dy * dy);
+    e[m] = exponential_of_float((xx * dx + along) * dx);
+    e[kPixels + m] = exponential_of_float(xy * dx);
+    e[2 * kPixels + m] = exponential_of_float(yy * dy * dy);
   }
-  switch (batch.blocks[k]) {
-    case 5:
-      return add_rows<5>(blob, batch, k, e, out, stride);
-    case 6:
-      return add_rows<6>(blob, batch, k, e, out, stride);
-    default:
-      return add_rows<4>(blob, batch, k, e, out, stride);
-  }
+  const int blocks = (3 * (batch.columns[k] - part) + kLanes - 1) / kLanes;
+  if (blocks <= 4)
+    add_rows<4>(blob, batch, k, e, out, stride);
+  else if (blocks == 5)
+    add_rows<5>(blob, batch, k, e, out, stride);
+  else
+    add_rows<6>(blob, batch, k, e, out, stride);
 }
 
-// Where some of the box is outside: drawn aside, and what is inside copied.
+// Where some of the part is outside: drawn aside, and what is inside copied.
 [[gnu::always_inline]] inline void add_clipped(const SmallBlob& blob, const Batch& batch,
-                                               std::size_t k, const Canvas& canvas) {
+                                               std::size_t k, int part, const Canvas& canvas) {
   float aside[kMostCanvasRows * kFloats] = {};
-  add_box(blob, batch, k, aside, kFloats);
+  add_part(blob, batch, k, part, aside, kFloats);
+  const int column = batch.column[k] + part;
   for (int row = batch.first[k]; row <= batch.last[k]; ++row) {
     const ColumnRange inside = canvas.columns[row - canvas.first_row];
-    const int column = batch.column[k], left = std::max(column, inside.first);
+    const int left = std::max(column, inside.first);
     const int right = std::min(column + kPixels - 1, inside.last);
+    if (left > right) continue;
     const float* from = aside + (row - batch.first[k]) * kFloats + 3 * (left - column);
     float* out = canvas.at(row, left);
     for (int m = 0; m < 3 * (right - left + 1); ++m) out[m] += from[m];
@@ -252,11 +224,13 @@ DOMEFALL_SIMD void draw_small_blobs(const SmallBlob* blobs, std::size_t count,
     prepare(blobs + begin, n, canvas, batch);
     for (std::size_t k = 0; k < n; ++k) {
       if (batch.first[k] > batch.last[k]) continue;
-      const int column = batch.column[k];
-      if (column >= least && column + kPixels - 1 <= most)
-        add_box(blobs[begin + k], batch, k, canvas.at(batch.first[k], column), stride);
-      else
-        add_clipped(blobs[begin + k], batch, k, canvas);
+      for (int part = 0; part < batch.columns[k]; part += kPixels) {
+        const int column = batch.column[k] + part;
+        if (column >= least && column + kPixels - 1 <= most)
+          add_part(blobs[begin + k], batch, k, part, canvas.at(batch.first[k], column), stride);
+        else
+          add_clipped(blobs[begin + k], batch, k, part, canvas);
+      }
     }
   }
 }

@@ -17,7 +17,7 @@ struct SmallBlob {
 static_assert(sizeof(SmallBlob) == 32);
 
 // Pixels along each axis that a small blob covers at most.
-inline constexpr int kSmallBlobPixels = 16;
+inline constexpr int kSmallBlobPixels = 32;
 
 // Places images as small blobs.  kind[k] says what became of images[k], whose blob is blobs[k].
 enum class Placed : unsigned char { kNowhere, kSmall, kWide };

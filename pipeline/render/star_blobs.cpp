@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/render/lanes.h"
 #include "pipeline/render/photometry.h"
 
 namespace domefall {
@@ -14,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 // A halo fainter than this peak value is left to the star's middle.
-constexpr double kFaintestHalo = 0.004;
+constexpr double kFaintestHalo = 0.02;
 // Its two parts: a wide one makes it fall off like a wing, not like a Gaussian.
 constexpr double kWingSigma = 3, kWingShare = 0.3;
 
@@ -49,7 +51,10 @@ double brightest(const StarBlob& b) { return std::max({b.rgb[0], b.rgb[1], b.rgb
 
 // ---- one row ----
 
-constexpr int kTerms = 7;
+// Powers of the growth: all of them, and what a blob needs that reaches less than kNear (radians),
+// where the next term is below 1e-9.
+constexpr int kTerms = 7, kNearTerms = 4;
+constexpr double kNear = 0.1;
 
 // In units of the picture's `unit`: sinc theta and cos theta about the centre, as series in the growth
 // of theta^2, so that nothing cancels and float suffices.
@@ -57,21 +62,28 @@ struct Series {
   std::array<float, kTerms> sinc, cosine;  // sinc[0] is the value itself; cosine[0] is left out
 };
 
+// sinc(sqrt t) = sum over n of (-t)^n / (2n + 1)!; its k-th derivative over k! has the coefficients
+// kSinc[k][m] of t^m.
+constexpr int kPowers = 15;
+constexpr auto kSinc = [] {
+  std::array<std::array<double, kPowers>, kTerms> table{};
+  for (int k = 0; k < kTerms; ++k) {
+    double reciprocal = 1, binomial = 1;  // +-1 / (2n + 1)!; n over k
+    for (int n = 1; n <= k; ++n) reciprocal /= -(2.0 * n) * (2.0 * n + 1);
+    for (int m = 0; m < kPowers; ++m) {
+      const int n = k + m;
+      table[static_cast<std::size_t>(k)][static_cast<std::size_t>(m)] = reciprocal * binomial;
+      reciprocal /= -(2.0 * n + 2) * (2.0 * n + 3);
+      binomial *= (n + 1.0) / (m + 1);
+    }
+  }
+  return table;
+}();
+
 Series series_about(double t) {
   std::array<double, kTerms> sinc{};
-  double reciprocal = 1, power[16];  // +-1 / (2n + 1)!
-  for (int n = 0; n < 16; ++n) {
-    if (n > 0) reciprocal /= -(2.0 * n) * (2.0 * n + 1);
-    power[n] = reciprocal;
-  }
-  for (int k = 0; k < kTerms; ++k) {
-    double sum = 0, binomial = 1, t_power = 1;
-    for (int n = k; n < 16; ++n) {
-      sum += power[n] * binomial * t_power;
-      binomial *= (n + 1.0) / (n + 1 - k), t_power *= t;
-    }
-    sinc[static_cast<std::size_t>(k)] = sum;
-  }
+  for (std::size_t m = kPowers; m-- > 0;)
+    for (std::size_t k = 0; k < kTerms; ++k) sinc[k] = sinc[k] * t + kSinc[k][m];
   Series s;
   for (std::size_t k = 0; k < kTerms; ++k) {
     s.sinc[k] = static_cast<float>(sinc[k]);
@@ -82,7 +94,7 @@ Series series_about(double t) {
 
 // A blob ready to be drawn.
 struct Brush {
-  bool dome;
+  bool dome, near;
   Series series;
   float cx, cy, unit, unit2;  // the centre from the picture's middle
   float one_plus_w2;          // flat: 1 + tan^2(theta/2) at the centre
@@ -91,6 +103,7 @@ struct Brush {
   float slope, dent, end;     // FlatGaussian, and its value at the cut
   float paling;               // times v: 1 where the colour is half way to white
   std::array<float, 3> colour, pale;
+  std::array<float, 24> colours, pales;  // eight times
 };
 
 Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float middle_y) {
@@ -100,7 +113,7 @@ Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float mid
   const FlatGaussian flat(s.flat);
   const double t = unit * unit * (cx * cx + cy * cy);
   Brush brush{};
-  brush.dome = is_dome(p);
+  brush.dome = is_dome(p), brush.near = b.reach * unit < kNear;
   if (brush.dome) brush.series = series_about(t);
   brush.cx = static_cast<float>(cx), brush.cy = static_cast<float>(cy);
   brush.unit = static_cast<float>(unit), brush.unit2 = static_cast<float>(unit * unit);
@@ -120,32 +133,18 @@ Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float mid
     brush.pale[c] =
         b.paling > 0 ? static_cast<float>((light - b.rgb[c]) * scale.peak_per_flux) : 0.0f;
   }
+  for (std::size_t k = 0; k < 24; ++k)
+    brush.colours[k] = brush.colour[k % 3], brush.pales[k] = brush.pale[k % 3];
   return brush;
 }
 
-// exp(x) for -80 <= x <= 0, e^-80 below.
-[[gnu::always_inline]] inline float falling_exponential(float x) {
-  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
-  const float bounded = x > -80.0f ? x : -80.0f;
-  const float shifted = bounded * 1.44269504f + kRound;
-  const float y = bounded - (shifted - kRound) * 0.693147181f;
-  float p = 1.0f / 720;
-  p = p * y + 1.0f / 120;
-  p = p * y + 1.0f / 24;
-  p = p * y + 1.0f / 6;
-  p = p * y + 0.5f;
-  p = p * y + 1.0f;
-  p = p * y + 1.0f;
-  return p * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
-}
-
 // chord^2 / unit^2 (on a flat picture times (1 + w0^2)/4) to a pixel (dx, dy) from the centre.
-template <bool kDome>
+template <bool kDome, int kCount>
 [[gnu::always_inline]] inline float chord2(const Brush& b, float dx, float dy) {
   const float growth = b.unit2 * ((dx + 2 * b.cx) * dx + (dy + 2 * b.cy) * dy);
   if constexpr (!kDome) return (dx * dx + dy * dy) / (b.one_plus_w2 + growth);
-  float sinc = b.series.sinc[kTerms - 1], cosine = b.series.cosine[kTerms - 1];
-  for (std::size_t k = kTerms - 1; k-- > 1;)
+  float sinc = b.series.sinc[kCount - 1], cosine = b.series.cosine[kCount - 1];
+  for (std::size_t k = kCount - 1; k-- > 1;)
     sinc = sinc * growth + b.series.sinc[k], cosine = cosine * growth + b.series.cosine[k];
   sinc *= growth, cosine *= growth;
   const float x = b.series.sinc[0] * dx + sinc * (b.cx + dx);
@@ -153,36 +152,53 @@ template <bool kDome>
   return x * x + y * y + z * z;
 }
 
-constexpr int kChunk = 64;
+constexpr int kChunk = 16;
 
-template <bool kDome>
+template <bool kDome, int kCount>
 [[gnu::always_inline]] inline void add_chunk(const Brush& b, float dx0, float dy, int count,
                                              float* __restrict out) {
   alignas(64) std::array<float, kChunk> weight, pale;
   for (int k = 0; k < kChunk; ++k) {
     const float dx = dx0 + static_cast<float>(k);
-    const float q =
-        b.chord * chord2<kDome>(b, dx, dy) + ((b.xx * dx + b.xy * dy) * dx + b.yy * dy * dy);
-    const float w = falling_exponential(q > 0 ? -q : 0.0f);
+    const float q = b.chord * chord2<kDome, kCount>(b, dx, dy) +
+                    ((b.xx * dx + b.xy * dy) * dx + b.yy * dy * dy);
+    const float w = exponential_of_float(q > 0 ? -q : 0.0f);
     const float v = w * (b.slope - b.dent * w) - b.end, positive = v > 0 ? v : 0.0f;
     const float bright = b.paling * positive, square = bright * bright;
     weight[static_cast<std::size_t>(k)] = positive;
     pale[static_cast<std::size_t>(k)] = positive * (square / (1 + square));
   }
-  for (int k = 0; k < count; ++k) {
-    const float v = weight[static_cast<std::size_t>(k)], g = pale[static_cast<std::size_t>(k)];
-    out[3 * k] += b.colour[0] * v + b.pale[0] * g;
-    out[3 * k + 1] += b.colour[1] * v + b.pale[1] * g;
-    out[3 * k + 2] += b.colour[2] * v + b.pale[2] * g;
+  if (count < kChunk) {
+    for (int k = 0; k < count; ++k) {
+      const float v = weight[static_cast<std::size_t>(k)], g = pale[static_cast<std::size_t>(k)];
+      for (std::size_t c = 0; c < 3; ++c)
+        out[3 * k + static_cast<int>(c)] += b.colour[c] * v + b.pale[c] * g;
+    }
+    return;
+  }
+  Lanes v[6], g[6];
+  in_threes<6>(weight.data(), v);
+  in_threes<6>(pale.data(), g);
+  for (int m = 0; m < 6; ++m) {
+    Lanes sum, colour, white;
+    std::memcpy(&sum, out + m * kLanes, sizeof sum);
+    std::memcpy(&colour, b.colours.data() + 8 * (m % 3), sizeof colour);
+    std::memcpy(&white, b.pales.data() + 8 * (m % 3), sizeof white);
+    sum += colour * v[m] + white * g[m];
+    std::memcpy(out + m * kLanes, &sum, sizeof sum);
   }
 }
 
-DOMEFALL_SIMD void add_span(const Brush& b, float dx, float dy, int count, float* out) {
-  for (; count > 0; count -= kChunk, dx += kChunk, out += 3 * kChunk) {
-    if (b.dome)
-      add_chunk<true>(b, dx, dy, std::min(count, kChunk), out);
+// `room`: pixels from out on that may be touched; beyond the blob they get 0.
+DOMEFALL_SIMD void add_span(const Brush& b, float dx, float dy, int count, int room, float* out) {
+  for (; count > 0; count -= kChunk, room -= kChunk, dx += kChunk, out += 3 * kChunk) {
+    const int pixels = std::min(room, kChunk);
+    if (!b.dome)
+      add_chunk<false, 0>(b, dx, dy, pixels, out);
+    else if (b.near)
+      add_chunk<true, kNearTerms>(b, dx, dy, pixels, out);
     else
-      add_chunk<false>(b, dx, dy, std::min(count, kChunk), out);
+      add_chunk<true, kTerms>(b, dx, dy, pixels, out);
   }
 }
 
@@ -248,6 +264,7 @@ bool place_blob(const Projection& projection, StarBlob& blob) {
   const auto within = [](double v, double last) {
     return static_cast<int>(std::clamp(v, 0.0, last));
   };
+  blob.reach = static_cast<float>(half);
   blob.first_row = within(std::ceil(blob.y - half), height - 1);
   blob.last_row = within(std::floor(blob.y + half), height - 1);
   blob.first_column = within(std::ceil(blob.x - half), width - 1);
@@ -263,10 +280,14 @@ void draw_blob(const StarBlob& blob, const Projection& projection, const Canvas&
                                static_cast<float>(rows(projection) - 1) / 2);
   for (int row = first; row <= last; ++row) {
     const ColumnRange inside = canvas.columns[row - canvas.first_row];
-    const int left = std::max(blob.first_column, inside.first);
-    const int right = std::min(blob.last_column, inside.last);
-    add_span(brush, static_cast<float>(left) - blob.x, static_cast<float>(row) - blob.y,
-             right - left + 1, canvas.at(row, left));
+    const float dy = static_cast<float>(row) - blob.y;
+    const float half = std::sqrt(std::max(0.0f, blob.reach * blob.reach - dy * dy)) + 1;
+    const int left = std::max({blob.first_column, inside.first, static_cast<int>(blob.x - half)});
+    const int right =
+        std::min({blob.last_column, inside.last, static_cast<int>(blob.x + half) + 1});
+    if (left > right) continue;
+    add_span(brush, static_cast<float>(left) - blob.x, dy, right - left + 1, inside.last - left + 1,
+             canvas.at(row, left));
   }
 }
 

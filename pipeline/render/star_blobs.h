@@ -21,10 +21,12 @@ struct StarBlob {
   // Where this times the blob's luminance (as a pixel value) passes 1, its colour pales to white; its
   // luminance stays.  0: nowhere.
   float paling;
-  int first_row, last_row, first_column, last_column;  // what it covers, clipped to the picture
+  // What it covers: a disc of this radius (pixels), and clipped to the picture.
+  float reach;
+  int first_row, last_row, first_column, last_column;
 };
 
-// Fills the rows and columns; false if there are none.
+// Fills the last five; false if there are none.
 bool place_blob(const Projection& projection, StarBlob& blob);
 
 // Adds the part of a blob that lies on the canvas.

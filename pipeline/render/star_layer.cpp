@@ -41,6 +41,7 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
                   0,
                   0,
                   0,
+                  0,
                   0};
     const bool seen = place_blob(projection_, blob);
     if (seen) batch.wide.push_back(blob);

@@ -52,7 +52,8 @@ std::vector<StarImage> stars(const Projection& p, std::size_t count, double with
                  phi = 2 * pi * u(random);
     const auto at = pixel_of(
         p, {{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}});
-    const double lux = kMagnitudeZeroLux * std::pow(10, -0.4 * magnitude_of(2.0 * (k + 1)));
+    const double lux =
+        kMagnitudeZeroLux * std::pow(10, -0.4 * magnitude_of(2.0 * static_cast<double>(k + 1)));
     const double flux = gain * lux * exposure_scale(Picture{});
     images[k] = {static_cast<float>(at->i - 1),
                  static_cast<float>(at->j - 1),
