@@ -37,6 +37,13 @@ void add_projection(Digest& digest, const Projection& p) {
   if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(steady(flat->fov));
 }
 
+// Keys of the law `size` without more are as they were before there were others.
+void add_blobs(Digest& digest, const StarBlobs& b) {
+  for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) digest.add(v);
+  if (b.halo > 0) digest.add("halo").add(b.halo).add(b.halo_sigma);
+  if (b.white_core != kWhiteCore) digest.add("core").add(b.white_core);
+}
+
 // Frames of shows that say nothing of effects keep the keys they had before there were any.
 void add_effects(Digest& digest, const Effects& e) {
   if (e == Effects{}) return;
@@ -72,8 +79,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   Digest common;
   common.add(DOMEFALL_VERSION).add(kPictures).add(show.title).add(show.frames_per_second);
   add_sky(common, show.sky_one);
-  const StarBlobs& b = show.blobs;
-  for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) common.add(v);
+  add_blobs(common, show.blobs);
   common.add(show.panorama_shift.blueshift_power);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);

@@ -35,6 +35,11 @@ double densest(const Projection& p, double theta, double reach) {
   return centre / (c * c);
 }
 
+// A star's light (brightest channel) from which such a part of it is seen as a halo.
+double least_halo_light(double share, double sigma) {
+  return kFaintestHalo * 2 * pi * sigma * sigma / share;
+}
+
 bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
 
 double unit_of(const Projection& p) { return central_pixel_angle(p) / (is_dome(p) ? 1 : 2); }
@@ -214,6 +219,7 @@ BlobWidths::BlobWidths(const StarBlobs& law, const Projection& projection, doubl
       reference_(kMagnitudeZeroLux * exposure_scale *
                  exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
       halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
+      plain_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
       paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
 double BlobWidths::of(const StarImage& image) const {
@@ -232,7 +238,7 @@ BlobParts BlobWidths::parts(const StarImage& image) const {
     const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
     const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
     // It grows from nothing, so that none appears at once.
-    const double seen = 1 - kFaintestHalo * 2 * pi * sigma * sigma / (share * light);
+    const double seen = 1 - least_halo_light(share, sigma) / light;
     if (!(seen > 0)) continue;
     parts.halo[k] = {sigma, share * seen};
     left -= share * seen;

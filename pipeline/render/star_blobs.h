@@ -51,12 +51,14 @@ class BlobWidths {
   double most() const { return most_; }
   double of(const StarImage& image) const;
   BlobParts parts(const StarImage& image) const;
+  // An image whose brightest channel is no more than this is one blob of the least width.
+  double plain() const { return plain_; }
   float paling() const { return paling_; }
 
  private:
   StarBlobs law_;
   double least_, most_, reference_;  // reference_: luminance of rgb from which blobs grow
-  double halo_sigma_;
+  double halo_sigma_, plain_;
   float paling_;
 };
 

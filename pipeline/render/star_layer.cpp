@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "pipeline/render/blob_crowds.h"
+
 namespace domefall {
 namespace {
 
@@ -47,13 +49,17 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
     if (seen) batch.wide.push_back(blob);
     return seen;
   };
+  batch.small.reserve(count), batch.band.reserve(count);
   for (std::size_t begin = 0; begin < count; begin += kStep) {
     const std::size_t n = std::min(kStep, count - begin);
     for (std::size_t k = 0; k < n; ++k) {
-      const BlobParts parts = widths.parts(images[begin + k]);
+      const StarImage& image = images[begin + k];
+      middle[k] = image, sigma[k] = widths.least();
+      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.plain()) continue;
+      const BlobParts parts = widths.parts(image);
       middle[k] = parts.image, sigma[k] = parts.sigma;
       for (const BlobParts::Halo& halo : parts.halo)
-        if (halo.share > 0) add_wide(images[begin + k], halo.sigma, halo.share);
+        if (halo.share > 0) add_wide(image, halo.sigma, halo.share);
     }
     place_small_blobs(projection_, middle.data(), sigma.data(), n, most_peak, blobs.data(),
                       first_row.data(), placed.data());
@@ -114,7 +120,7 @@ void StarLayer::sort_small() {
     }
   }
   first_small_[bands_] = sum;
-  small_.resize(sum);
+  small_ = std::make_unique_for_overwrite<SmallBlob[]>(sum);
   tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
     const Batch& batch = batches_[t];
     for (std::size_t k = 0; k < batch.small.size(); ++k)
@@ -127,6 +133,7 @@ void StarLayer::sort_into_bands() {
   for (const Batch& batch : batches_)
     wide_.insert(wide_.end(), batch.wide.begin(), batch.wide.end());
   batches_.clear();
+  merge_crowds(projection_, wide_);
   wide_of_band_.assign(bands_, {});
   for (std::size_t k = 0; k < wide_.size(); ++k)
     for (int band = wide_[k].first_row / kBandRows; band <= wide_[k].last_row / kBandRows; ++band)
@@ -142,7 +149,7 @@ void StarLayer::draw_band(int band, float* rgb) const {
   const std::size_t from =
       first_small_[static_cast<std::size_t>(std::max(0, band - kMostBands + 1))];
   const std::size_t end = first_small_[static_cast<std::size_t>(band) + 1];
-  draw_small_blobs(small_.data() + from, end - from, canvas);
+  draw_small_blobs(small_.get() + from, end - from, canvas);
   for (const std::uint32_t k : wide_of_band_[static_cast<std::size_t>(band)])
     draw_blob(wide_[k], projection_, canvas);
 }

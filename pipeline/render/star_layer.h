@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "pipeline/render/star_blobs.h"
@@ -46,7 +47,7 @@ class StarLayer {
   std::size_t bands_;
   std::vector<Batch> batches_;
   std::size_t size_ = 0;
-  std::vector<SmallBlob> small_;          // by band
+  std::unique_ptr<SmallBlob[]> small_;    // by band
   std::vector<std::size_t> first_small_;  // of each band, and the end
   std::vector<StarBlob> wide_;
   std::vector<std::vector<std::uint32_t>> wide_of_band_;

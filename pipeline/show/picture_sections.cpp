@@ -11,7 +11,7 @@ namespace domefall {
 namespace {
 
 constexpr double kMinSigmaDeg = 0.05, kMaxSigmaDeg = 0.3;
-constexpr double kHalo = 0.15, kHaloSigmaDeg = 0.2, kWhiteCore = 10;
+constexpr double kHalo = 0.15, kHaloSigmaDeg = 0.2;
 constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};

@@ -121,6 +121,7 @@ struct PanoramaShift {
 // A star is a truncated Gaussian in angle.  Without a halo its width grows with its (observed)
 // brightness: sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
 // With one, every star is of the width min_sigma, and bright ones show the halo.
+inline constexpr double kWhiteCore = 10;
 struct StarBlobs {
   double min_sigma = 0;            // radians; the renderer never goes below 0.9 pixel
   double growth = 0.2;             // 0: every star the same size; 0.5: every star the same peak
@@ -128,7 +129,8 @@ struct StarBlobs {
   double max_sigma = 0;            // radians
   double halo = 0;                 // the part of a star's light that is in its halo
   double halo_sigma = 0;           // radians
-  double white_core = 0;           // pixel value at which a blob's colour is half white; 0: none
+  double white_core = 0;           // pixel value at which a blob's colour is half white; 0: none;
+                                   // a show's default is kWhiteCore
 };
 
 struct Exposure {

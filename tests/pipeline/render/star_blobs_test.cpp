@@ -4,6 +4,7 @@
 
 #include "drawn_blobs.h"
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/render/blob_crowds.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/star_images.h"
 #include "scenes.h"
@@ -148,6 +149,34 @@ TEST(StarBlobs, PaleInTheirMiddleOnly) {
     };
     EXPECT_NEAR(light(picture), light(own), 3e-4 * light(own) + 1e-6) << at;
   }
+}
+
+// What bounds the cost where the sky shrinks to a spot: the sums stay, and so does the picture.
+TEST(StarBlobs, InACrowdAreDrawnTogether) {
+  const Projection p = Domemaster{512};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> u(-1.5f, 1.5f);
+  std::vector<StarBlob> blobs;
+  for (int k = 0; k < 4000; ++k) {
+    StarBlob blob{300 + u(random), 200 + u(random), 0.04f, {1, 2, 3}, 0, 0, 0, 0, 0, 0};
+    ASSERT_TRUE(place_blob(p, blob));
+    blobs.push_back(blob);
+  }
+  std::vector<StarBlob> merged = blobs;
+  merge_crowds(p, merged);
+  EXPECT_LT(merged.size(), 16u);
+  const auto picture = [&p](const std::vector<StarBlob>& some) {
+    std::vector<float> rgb(512 * 512 * 3);
+    const std::vector<ColumnRange> inside(8, {0, 511});
+    for (int row = 0; row < 512; row += 8)
+      for (const StarBlob& b : some)
+        draw_blob(b, p, {rgb.data() + row * 512 * 3, 512, row, 8, inside.data()});
+    return rgb;
+  };
+  const auto each = picture(blobs), together = picture(merged);
+  const float peak = *std::max_element(each.begin(), each.end());
+  for (std::size_t k = 0; k < each.size(); ++k)
+    ASSERT_NEAR(each[k] / peak, together[k] / peak, 0.01) << k;
 }
 
 // Sizes are angles: a picture of twice the size, averaged over 2 by 2 pixels, shows the same star.

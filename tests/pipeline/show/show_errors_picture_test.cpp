@@ -139,6 +139,18 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:44: stars.max_sigma_deg must be at least min_sigma_deg = 0.5 (degrees), got 0.2"},
       {"GrowthTooLarge", kShow + "stars: {growth: 0.6}\n",
        "3:17: stars.growth must be at most 0.5, got 0.6"},
+      {"LawMisspelt", kShow + "stars: {law: pfs}\n",
+       "3:14: stars.law must be size or psf, got 'pfs'; did you mean psf?"},
+      {"HaloOfTheOtherLaw", kShow + "stars: {halo: 0.2}\n",
+       "3:15: stars.halo belongs to stars.law: psf, but the law is size"},
+      {"GrowthOfTheOtherLaw", kShow + "stars: {law: psf, growth: 0.2}\n",
+       "3:27: stars.growth belongs to stars.law: size, but the law is psf"},
+      {"HaloTooStrong", kShow + "stars: {law: psf, halo: 1}\n",
+       "3:25: stars.halo must be at most 0.9, got 1"},
+      {"HaloTooWide", kShow + "stars: {law: psf, halo_sigma_deg: 4}\n",
+       "3:35: stars.halo_sigma_deg must be at most 3 (degrees), got 4"},
+      {"NegativeCore", kShow + "stars: {white_core: -1}\n",
+       "3:21: stars.white_core must be at least 0, got -1"},
   });
 }
 

@@ -139,6 +139,9 @@ void expect_finite_numbers(const Show& show) {
                               show.blobs.growth,
                               show.blobs.reference_magnitude,
                               show.blobs.max_sigma,
+                              show.blobs.halo,
+                              show.blobs.halo_sigma,
+                              show.blobs.white_core,
                               show.exposure.ev,
                               show.grade.saturation};
   for (const auto& channels : {show.grade.slope, show.grade.offset, show.grade.power})

@@ -51,6 +51,8 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
   EXPECT_EQ(show.blobs.growth, 0.2);
   EXPECT_EQ(show.blobs.reference_magnitude, 5);
   EXPECT_DOUBLE_EQ(show.blobs.max_sigma, 0.3 * kDegree);
+  EXPECT_EQ(show.blobs.halo, 0);
+  EXPECT_EQ(show.blobs.white_core, 10);
   EXPECT_EQ(show.exposure.ev, 0);
   EXPECT_EQ(show.grade.config, asset("dome.ocio"));
   EXPECT_EQ(show.grade.display, "");
@@ -255,6 +257,19 @@ TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
   EXPECT_FALSE(with(straight, "{type: velocity, region: III, r: 4, speed: 0.5, direction: inward}")
                    .effects.lensing);
   EXPECT_FALSE(with(straight, "{type: static}", "{mass_solar: 0}").effects.lensing);
+}
+
+TEST_F(ShowKeys, StarsWithAHalo) {
+  const StarBlobs own = with("stars: {law: psf}\n").blobs;
+  EXPECT_EQ(own.halo, 0.15);
+  EXPECT_DOUBLE_EQ(own.halo_sigma, 0.2 * kDegree);
+  const StarBlobs given =
+      with("stars: {law: psf, min_sigma_deg: 0.06, halo: 0.3, halo_sigma_deg: 1, white_core: 0}\n")
+          .blobs;
+  EXPECT_DOUBLE_EQ(given.min_sigma, 0.06 * kDegree);
+  EXPECT_EQ(given.halo, 0.3);
+  EXPECT_DOUBLE_EQ(given.halo_sigma, kDegree);
+  EXPECT_EQ(given.white_core, 0);
 }
 
 TEST_F(ShowKeys, StarsExposureAndGrade) {
