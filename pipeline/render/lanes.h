@@ -11,7 +11,7 @@ inline constexpr int kLanes = 8;
 
 // Eight floats, in one register or in two.  GCC and Clang both know it; no processor's own.  A plain
 // loop over floats in threes would not stay in registers.
-typedef float Lanes __attribute__((vector_size(4 * kLanes)));
+using Lanes = float __attribute__((vector_size(4 * kLanes)));
 
 // Each pixel's value for its three channels: floats[0..kCount) from pixels[0..16).
 template <int kCount>

@@ -19,6 +19,9 @@ constexpr std::size_t kBatch = 128;
 
 // ---- placing ----
 
+constexpr int kNowhere = static_cast<int>(Placed::kNowhere),
+              kSmall = static_cast<int>(Placed::kSmall), kWide = static_cast<int>(Placed::kWide);
+
 struct Frame {
   double unit, middle_x, middle_y, width, height, most_peak;
 };
@@ -43,13 +46,18 @@ template <bool kDome>
     // Drawing takes a logarithm that is up to 1 % larger.
     const double q = -2.02 * logarithm(scale.cut);
     const double half_x = std::sqrt(q * s.spread_x), half_y = std::sqrt(q * s.spread_y);
-    const bool outside = (p.x[k] + half_x < 0) | (p.y[k] + half_y < 0) |
-                         (p.x[k] - half_x > f.width - 1) | (p.y[k] - half_y > f.height - 1);
+    // Selections, which become SIMD code, not branches.
     const double half = half_x > half_y ? half_x : half_y;
-    const bool wide = far | (s.bend > kMostBend) | (2 * half > kSmallBlobPixels - 1) |
-                      (brightest * scale.peak_per_flux > f.most_peak);
-    const int placed = static_cast<int>(Placed::kNowhere), drawn = wide ? 2 : 1;
-    p.what[k] = far | !outside ? drawn : placed;
+    const double from_left = p.x[k] + half_x, from_top = p.y[k] + half_y;
+    const double to_right = f.width - 1 - (p.x[k] - half_x);
+    const double to_bottom = f.height - 1 - (p.y[k] - half_y);
+    const double across = from_left < to_right ? from_left : to_right;
+    const double down = from_top < to_bottom ? from_top : to_bottom;
+    int what = brightest * scale.peak_per_flux > f.most_peak ? kWide : kSmall;
+    what = s.bend > kMostBend ? kWide : what;
+    what = 2 * half > kSmallBlobPixels - 1 ? kWide : what;
+    what = (across < down ? across : down) < 0 ? kNowhere : what;
+    p.what[k] = far ? kWide : what;
     p.first_row[k] = static_cast<int>(p.y[k] - half_y + 64) - 64;  // rounded down
     p.xx[k] = static_cast<float>(s.xx), p.xy[k] = static_cast<float>(s.xy);
     p.yy[k] = static_cast<float>(s.yy);

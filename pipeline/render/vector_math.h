@@ -75,11 +75,11 @@ inline double logarithm(double x) {
   constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcd, kMantissa = 0x000fffffffffffff;
   const auto bits = std::bit_cast<std::uint64_t>(x) - kRootHalf;
   // The exponent as a number: it stands in the lowest bits of kRounding plus itself.
-  const auto shifted = std::bit_cast<double>(((bits >> 52) + 1024) +
-                                             std::bit_cast<std::uint64_t>(kRounding));
+  const auto shifted =
+      std::bit_cast<double>(((bits >> 52) + 1024) + std::bit_cast<std::uint64_t>(kRounding));
   const double n = shifted - kRounding;
   const double exponent = n > 2047 + 512 ? n - 4096 - 1024 : n - 1024;
-  const double m = std::bit_cast<double>((bits & kMantissa) + kRootHalf);
+  const auto m = std::bit_cast<double>((bits & kMantissa) + kRootHalf);
   const double s = (m - 1) / (m + 1), t = s * s;
   constexpr std::array<double, 10> kOdd{1.0 / 3,  1.0 / 5,  1.0 / 7,  1.0 / 9,  1.0 / 11,
                                         1.0 / 13, 1.0 / 15, 1.0 / 17, 1.0 / 19, 1.0 / 21};

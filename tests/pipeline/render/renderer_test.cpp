@@ -177,6 +177,23 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   EXPECT_EQ(FrameKeys(show).scene(later), FrameKeys(show).scene(frame_state(show, 0)));
 }
 
+TEST(FrameKeys, KnowHowStarsAreDrawn) {
+  Show show = show_of(StaticObserver{10}, Domemaster{64});
+  show.blobs.white_core = kWhiteCore;
+  const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
+  Show other = show;
+  other.blobs.white_core = 0;
+  EXPECT_NE(key(other), key(show));
+  other = show;
+  other.blobs.halo_sigma = 0.01;  // of no halo
+  EXPECT_EQ(key(other), key(show));
+  other.blobs.halo = 0.1;
+  EXPECT_NE(key(other), key(show));
+  Show wider = other;
+  wider.blobs.halo_sigma = 0.02;
+  EXPECT_NE(key(wider), key(other));
+}
+
 TEST(FrameKeys, AreOfAllThatAFrameDependsOnAndNothingElse) {
   const Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
   const FrameState state = frame_state(show, 0);

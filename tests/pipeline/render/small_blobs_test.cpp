@@ -107,7 +107,7 @@ TEST(SmallBlobs, KeepTheirLightWhileTheyDrift) {
 }
 
 // What docs/show-format.md says of the brightest pixel: at the floor it swings by a third, at 4k with
-// the default width by a fifth.
+// the default width by a fifth, at 8k by a twentieth.
 TEST(SmallBlobs, HaveABrightestPixelThatSwingsBySoMuch) {
   const auto swing = [](const Law& law) {
     const BlobWidths widths = widths_of(law);
@@ -125,6 +125,7 @@ TEST(SmallBlobs, HaveABrightestPixelThatSwingsBySoMuch) {
   };
   EXPECT_NEAR(swing(kLaws[1]), 1.32, 0.01);
   EXPECT_NEAR(swing(kLaws[2]), 1.20, 0.01);
+  EXPECT_NEAR(swing({"8k", Domemaster{8192}, 0.05, 1}), 1.05, 0.01);
 }
 
 // Both ways of drawing the same blob, where the first gives way to the second.
