@@ -140,6 +140,7 @@ void StarLayer::sort_into_bands() {
       wide_of_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
 }
 
+// rgb is drawn on by way of the canvas.  NOLINTNEXTLINE(readability-non-const-parameter)
 void StarLayer::draw_band(int band, float* rgb) const {
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
   std::array<ColumnRange, kBandRows> inside;
