@@ -222,6 +222,11 @@ BlobWidths::BlobWidths(const StarBlobs& law, const Projection& projection, doubl
       plain_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
       paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
+double BlobWidths::reach() const {
+  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in widths
+  return farthest * std::max(most_, law_.halo > 0 ? kWingSigma * halo_sigma_ : 0.0);
+}
+
 double BlobWidths::of(const StarImage& image) const {
   if (law_.halo > 0) return least_;
   const double brightness = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / reference_;

@@ -49,6 +49,8 @@ class BlobWidths {
   BlobWidths(const StarBlobs& law, const Projection& projection, double exposure_scale);
   double least() const { return least_; }  // sigma, radians; at least 0.9 pixel
   double most() const { return most_; }
+  // No blob or halo reaches farther from its middle (radians).
+  double reach() const;
   double of(const StarImage& image) const;
   BlobParts parts(const StarImage& image) const;
   // An image whose brightest channel is no more than this is one blob of the least width.

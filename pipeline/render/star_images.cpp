@@ -58,7 +58,7 @@ StarImages::StarImages(const Show& show, const FrameState& state, const Picture:
       plain_((effects_.lensing || is_flat(state.observer)) && effects_.intensity &&
              effects_.doppler_colour && effects_.amplification != Amplification::kNone &&
              !vantage_.measured),
-      plane_(projection_, kBlobReach * widths_.most()) {
+      plane_(projection_, widths_.reach()) {
   plain_ = plain_ && plane_.usable();
   if (plain_) prepare_batches();
 }

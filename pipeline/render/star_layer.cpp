@@ -76,11 +76,15 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
   }
 }
 
+// Short lists, many to a task: sorting takes memory for each task and band.
 void StarLayer::add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths) {
-  const std::size_t before = batches_.size();
-  batches_.resize(before + lists.size());
-  tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t k) {
-    place(lists[k].data(), lists[k].size(), widths, batches_[before + k]);
+  constexpr std::size_t kLists = 64;
+  const std::size_t before = batches_.size(), tasks = (lists.size() + kLists - 1) / kLists;
+  batches_.resize(before + tasks);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t t) {
+    const std::size_t end = std::min(lists.size(), (t + 1) * kLists);
+    for (std::size_t k = t * kLists; k < end; ++k)
+      place(lists[k].data(), lists[k].size(), widths, batches_[before + t]);
   });
   for (std::size_t t = before; t < batches_.size(); ++t) size_ += batches_[t].size;
 }
