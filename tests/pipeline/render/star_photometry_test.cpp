@@ -31,7 +31,7 @@ constexpr int kDrawn = kStars / 3;  // in a picture
 constexpr double kMagnitude = 8, kColour = 0.6;
 // Stops: so that what is left out as too faint, millions of ghosts, is no part of the light to speak of.
 // (At 0 stops it is 4 per cent of that within 50 degrees of the hole at 6 M.)
-constexpr double kExposure = 4;
+constexpr double kExposure = kSize < 1024 ? 8 : 4;
 
 // Light by the angle from the hole, or from the axis of the boost: lux times the pixel value of 1 cd/m^2.
 struct Bins {
