@@ -50,6 +50,7 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
     return seen;
   };
   batch.small.reserve(count), batch.band.reserve(count);
+  batch.last_band.assign(bands_, 0);
   for (std::size_t begin = 0; begin < count; begin += kStep) {
     const std::size_t n = std::min(kStep, count - begin);
     for (std::size_t k = 0; k < n; ++k) {
@@ -71,7 +72,12 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
       }
       ++batch.size;
       batch.small.push_back(blobs[k]);
-      batch.band.push_back(static_cast<std::uint16_t>(std::max(first_row[k], 0) / kBandRows));
+      const int band = std::max(first_row[k], 0) / kBandRows;
+      batch.band.push_back(static_cast<std::uint16_t>(band));
+      // As far below the middle as above, and a row for rounding.
+      const auto last_row = static_cast<int>(2 * blobs[k].y) - first_row[k] + 2;
+      int& last = batch.last_band[static_cast<std::size_t>(band)];
+      last = std::max(last, last_row / kBandRows);
     }
   }
 }
@@ -113,7 +119,10 @@ void StarLayer::sort_small() {
   tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
     for (const std::uint16_t band : batches_[t].band) ++next[t][band];
   });
-  first_small_.assign(bands_ + 1, 0);
+  first_small_.assign(bands_ + 1, 0), last_small_.assign(bands_, 0);
+  for (const Batch& batch : batches_)
+    for (std::size_t band = 0; band < batch.last_band.size(); ++band)
+      last_small_[band] = std::max(last_small_[band], batch.last_band[band]);
   std::size_t sum = 0;
   for (std::size_t band = 0; band < bands_; ++band) {
     first_small_[band] = sum;
@@ -151,8 +160,10 @@ void StarLayer::draw_band(int band, float* rgb) const {
   for (int k = 0; k < count; ++k)
     inside[static_cast<std::size_t>(k)] = inside_columns(projection_, first + k);
   const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};
-  const std::size_t from =
-      first_small_[static_cast<std::size_t>(std::max(0, band - kMostBands + 1))];
+  const auto own = static_cast<std::size_t>(band);
+  auto begin = static_cast<std::size_t>(std::max(0, band - kMostBands + 1));
+  while (begin < own && last_small_[begin] < band) ++begin;
+  const std::size_t from = first_small_[begin];
   const std::size_t end = first_small_[static_cast<std::size_t>(band) + 1];
   draw_small_blobs(small_.get() + from, end - from, canvas);
   for (const std::uint32_t k : wide_of_band_[static_cast<std::size_t>(band)])

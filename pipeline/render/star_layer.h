@@ -36,6 +36,7 @@ class StarLayer {
   struct Batch {
     std::vector<SmallBlob> small;
     std::vector<std::uint16_t> band;  // in which small[k] begins
+    std::vector<int> last_band;       // that blobs which begin in a band reach
     std::vector<StarBlob> wide;
     std::size_t size = 0;
   };
@@ -49,6 +50,7 @@ class StarLayer {
   std::size_t size_ = 0;
   std::unique_ptr<SmallBlob[]> small_;    // by band
   std::vector<std::size_t> first_small_;  // of each band, and the end
+  std::vector<int> last_small_;           // the last band that those of a band reach
   std::vector<StarBlob> wide_;
   std::vector<std::vector<std::uint32_t>> wide_of_band_;
 };

@@ -44,8 +44,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-bool is_in_picture(const Projection& projection, const BlobWidths& widths,
-                   const StarImage& image) {
+bool is_in_picture(const Projection& projection, const BlobWidths& widths, const StarImage& image) {
   StarBlob blob{};
   blob.x = image.x, blob.y = image.y;
   blob.sigma = static_cast<float>(widths.of(image));
