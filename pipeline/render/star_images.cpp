@@ -12,6 +12,9 @@
 namespace domefall {
 namespace {
 
+// A blob is blurred by the pixels' squares, and a rim's pixels lie partly beyond it.
+constexpr double kBlurPixels = 4;
+
 using std::numbers::pi;
 
 // Where an effect is left out, images up to this order are always tried, since either side may be the
@@ -58,7 +61,7 @@ StarImages::StarImages(const Show& show, const FrameState& state, const Picture:
       plain_((effects_.lensing || is_flat(state.observer)) && effects_.intensity &&
              effects_.doppler_colour && effects_.amplification != Amplification::kNone &&
              !vantage_.measured),
-      plane_(projection_, widths_.reach()) {
+      plane_(projection_, widths_.reach() + kBlurPixels * central_pixel_angle(projection_)) {
   plain_ = plain_ && plane_.usable();
   if (plain_) prepare_batches();
 }

@@ -8,11 +8,11 @@
 namespace domefall {
 namespace {
 
-// The camera turns about its axis of view, `degrees` a frame; 30 frames.
+// The dome turns about its zenith, `degrees` a frame; 30 frames.
 Show turning(double degrees, const Projection& projection) {
   Show show = show_of(StaticObserver{kFlatSpace}, projection);
   show.sky_one.stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
-  show.timeline[0].camera.elevation = 0;
+  show.timeline[0].camera.elevation = 90 * kDegree;
   show.timeline[0].curves[static_cast<std::size_t>(Channel::kRoll)] =
       Curve{{{0, 0, Ease::kLinear}, {1, 30 * degrees * kDegree, Ease::kLinear}}};
   return show;
@@ -41,7 +41,7 @@ TEST(Shutter, StreaksWithoutLosingLight) {
   show.exposure.shutter = 0.5;
   StageTimes times;
   const HalfFrame streaked = frame_of(show, 10, &times);
-  // 4 degrees about the axis at the rim, 256 pixels from it: 17.9 pixels.
+  // 4 degrees at the rim, 256 pixels from the zenith: 17.9 pixels.
   EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerPicture, 2);
   EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 3e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
