@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStep = LookGrid::kStep;
 // At a distance of x pixels from an edge, -ln x interpolated every 8 pixels errs by 570/x^3 pixels.
-constexpr float kEdgeCells = 6;
+constexpr float kEdgeCells = 5;
 // Farther from any edge than across a cell, what is dark at its corners is dark in it.
 constexpr float kDarkCells = 1.5f;
 // So many cells about the direction of motion and the axis every pixel is looked at: ahead of a fast
@@ -106,7 +106,7 @@ DOMEFALL_SIMD void check(const Checked& nodes, std::ptrdiff_t stride, int count,
         missed(n.gain + k, stride) <= kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
     const bool tone = missed(n.tone + k, stride) <=
                       kCoarser * (kGainTolerance * std::abs(n.tone[k]) + n.tone_floor);
-    good[k] = static_cast<std::uint8_t>(good[k] & (place & gain & tone ? 1 : 0));
+    good[k] = static_cast<std::uint8_t>(good[k] & ((place & gain & tone) ? 1 : 0));
   }
 }
 
@@ -137,12 +137,24 @@ void LookGrid::make(const Projection& projection, const PixelLight& light,
   tbb::parallel_for(0, cell_rows_, [this](int row) { classify_row(row); });
 }
 
+// The nodes of a row that cells with pixels in the picture ask for; of a dome, those about its disc.
+std::pair<int, int> LookGrid::needed_nodes(int row) const {
+  if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
+  const double middle = (columns(projection_) - 1) / 2.0;
+  const double y =
+      std::max(std::abs((row - kMargin) * kStep - middle) - (kMargin + 1) * kStep, 0.0);
+  const double half = std::sqrt(std::max(middle * middle - y * y, 0.0)) + (kMargin + 2) * kStep;
+  return {std::clamp(static_cast<int>((middle - half) / kStep) + kMargin, 0, node_columns_),
+          std::clamp(static_cast<int>((middle + half) / kStep) + kMargin + 1, 0, node_columns_)};
+}
+
 void LookGrid::look_at_row(int row) {
   const double j = (row - kMargin) * kStep + 1.0;
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
-  for (int first = 0; first < node_columns_; first += LookBatch::kSize) {
-    const int count = std::min(LookBatch::kSize, node_columns_ - first);
+  const auto [from, to] = needed_nodes(row);
+  for (int first = from; first < to; first += LookBatch::kSize) {
+    const int count = std::min(LookBatch::kSize, to - first);
     directions_along(projection_, {(first - kMargin) * kStep + 1.0, j}, kStep, count, n.data());
     light_->tracer().look(n.data(), count, batch);
     for (int k = 0; k < count; ++k)
@@ -212,8 +224,19 @@ bool LookGrid::is_smooth(int row, int column) const {
   });
 }
 
+// Whether any of a cell's pixels is in the picture.
+bool LookGrid::in_picture(int row, int column) const {
+  if (!std::holds_alternative<Domemaster>(projection_)) return true;
+  const double middle = (columns(projection_) - 1) / 2.0;
+  const auto away = [middle](int cell) {
+    return std::max({cell * kStep - middle, middle - (cell * kStep + kStep - 1), 0.0});
+  };
+  return std::hypot(away(row), away(column)) <= columns(projection_) / 2.0;
+}
+
 LookGrid::Cell LookGrid::classified(int row, int column) const {
   Cell cell;
+  if (!in_picture(row, column)) return cell;
   const std::array<std::size_t, 4> corners{
       at(row + kMargin, column + kMargin), at(row + kMargin, column + kMargin + 1),
       at(row + kMargin + 1, column + kMargin), at(row + kMargin + 1, column + kMargin + 1)};
@@ -225,16 +248,11 @@ LookGrid::Cell LookGrid::classified(int row, int column) const {
   cell.kind = Kind::kSmooth;
   cell.sky = static_cast<SeenSky>(sky_[corners[0]]);
   const SkySampler& sampler = *light_->sampler(cell.sky);
-  float widest = 0;
-  for (const std::size_t n : corners) {
-    const float wide = nodes_[kWide][n], narrow = nodes_[kNarrow][n];
-    cell.taps = std::max(cell.taps, static_cast<std::uint8_t>(sampler.taps(wide, narrow)));
-  }
-  for (const std::size_t n : corners) {
-    const float each = nodes_[kWide][n] / static_cast<float>(cell.taps);
-    widest = std::max(widest, cell.taps > 1 ? std::max(each, nodes_[kNarrow][n]) : each);
-  }
-  cell.minified = sampler.is_minified(widest);
+  for (const std::size_t n : corners)
+    cell.taps = std::max(
+        cell.taps, static_cast<std::uint8_t>(sampler.taps(nodes_[kWide][n], nodes_[kNarrow][n])));
+  for (const std::size_t n : corners)
+    cell.minified |= sampler.is_minified(nodes_[kWide][n], nodes_[kNarrow][n], cell.taps);
   return cell;
 }
 

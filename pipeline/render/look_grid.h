@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "pipeline/render/pixel_light.h"
@@ -77,9 +78,11 @@ class LookGrid {
   static constexpr int kCubics = 5;  // so many of them vary as cubics, the others linearly
   static constexpr int kMargin = 3;  // nodes beyond the first and the last cell
 
+  std::pair<int, int> needed_nodes(int row) const;  // first, end
   void look_at_row(int row);
   void check_row(int row);
   void classify_row(int row);
+  bool in_picture(int row, int column) const;
   bool is_smooth(int row, int column) const;
   Cell classified(int row, int column) const;
   void store(std::size_t node, const LookBatch& batch, int k, double pixel);

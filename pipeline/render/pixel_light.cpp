@@ -169,7 +169,7 @@ bool PixelLight::put_place(SeenSky sky, const LookBatch& batch, int k, double sa
   set(places.gain, shifted.gain), set(places.tone, shifted.tone);
   set(places.wide, wide), set(places.narrow, narrow);
   set(places.ax, along.x), set(places.ay, along.y), set(places.az, along.z);
-  return this->sampler(sky)->is_minified(taps > 1 ? std::max(narrow, wide / taps) : wide);
+  return this->sampler(sky)->is_minified(wide, narrow, taps);
 }
 
 void PixelLight::shade(const LookBatch& batch, const CameraDirection* n, int count,

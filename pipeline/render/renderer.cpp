@@ -75,9 +75,18 @@ std::size_t node_count(const HoleOptics& optics) {
          (optics.emission_times ? optics.emission_times->node_count() : 0);
 }
 
-void store_row(const float* rgb, int row, HalfFrame& frame) {
+// Only pixels inside are lit.
+void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) {
   static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
-  if (to_half(rgb, 3 * frame.width, reinterpret_cast<std::uint16_t*>(frame.row(row)))) return;
+  auto* out = reinterpret_cast<std::uint16_t*>(frame.row(row));
+  const int first = 3 * inside.first, end = 3 * (inside.last + 1);
+  if (first >= end) {
+    std::fill_n(out, 3 * frame.width, std::uint16_t{0});
+    return;
+  }
+  std::fill(out, out + first, std::uint16_t{0});
+  std::fill(out + end, out + 3 * frame.width, std::uint16_t{0});
+  if (to_half(rgb + first, end - first, out + first)) return;
   for (int k = 0; k < 3 * frame.width; ++k)
     if (!std::isfinite(rgb[k]))
       throw std::runtime_error("pixel (" + std::to_string(k / 3 + 1) + ", " +
@@ -272,7 +281,8 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
       if (background) pass.fill_band(band, rgb.data());
       stars.draw_band(band, rgb.data());
       for (int row = first; row < end; ++row)
-        store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, frame);
+        store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
+                  inside_columns(state.projection, row), frame);
     });
     t.pixels_s = lap();
   });

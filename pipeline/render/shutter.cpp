@@ -33,9 +33,10 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       if (!a.known || !b.known || a.sky != b.sky) continue;
       const double longer = std::max(a.radial_scale, a.tangential_scale);
       const double shorter = std::min(a.radial_scale, a.tangential_scale);
-      motions.push_back(
-          (a.sky_direction - b.sky_direction).length() /
-          (pixel_angle(from.projection, pixel) * std::max(shorter, kNarrowest * longer)));
+      const double side = pixel_angle(from.projection, pixel),
+                   other = pixel_solid_angle(from.projection, pixel) / side;
+      motions.push_back((a.sky_direction - b.sky_direction).length() /
+                        (std::min(side, other) * std::max(shorter, kNarrowest * longer)));
     }
   if (motions.empty()) return 0;
   const auto exceeded =

@@ -56,8 +56,11 @@ void SkyPass::fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell
     const int left = std::max(pixel, inside.first), right = std::min(to * kStep - 1, inside.last);
     if (left > right) continue;
     grid_.places(line, cell, from, to, places);
-    light_.sampler(cell.sky)->sample(places, (to - from) * kStep, cell.taps, cell.minified,
-                                     light.data());
+    // Straight into the row where nothing beside it is touched but what comes next.
+    const bool whole = left == pixel && right == to * kStep - 1;
+    float* out = whole ? rgb + 3 * pixel : light.data();
+    light_.sampler(cell.sky)->sample(places, (to - from) * kStep, cell.taps, cell.minified, out);
+    if (whole) continue;
     std::copy(&light[static_cast<std::size_t>(3 * (left - pixel))],
               &light[static_cast<std::size_t>(3 * (right + 1 - pixel))], rgb + 3 * left);
   }

@@ -219,7 +219,7 @@ DOMEFALL_SIMD void step_along(const SkyPlaces& p, float along, int count, float*
 DOMEFALL_SIMD void look_widths(const SkyPlaces& p, float share, int count, float* blur) {
   for (int k = 0; k < count; ++k) {
     const float each = p.wide[k] * share;
-    blur[k] = share < 1 && p.narrow[k] > each ? p.narrow[k] : each;
+    blur[k] = p.narrow[k] > each ? p.narrow[k] : each;
   }
 }
 
@@ -245,7 +245,7 @@ int SkySampler::taps(double wide, double narrow, int most) const {
   if (!(wanted > kRound)) return 1;
   static constexpr std::array<int, 9> kTaps{2, 3, 4, 6, 8, 12, 16, 24, kMostTaps};
   for (const int taps : kTaps)
-    if (taps >= wanted || taps >= most) return taps;
+    if (taps * kSpacing >= wanted || taps >= most) return taps;
   return kMostTaps;
 }
 
@@ -264,7 +264,9 @@ void SkySampler::sample(const SkyPlaces& places, int count, int taps, bool minif
   alignas(64) std::array<Four, kChunk> sum;
   std::fill_n(sum.begin(), count, Four{0, 0, 0, 0});
   SkyPlaces::Column x, y, z, blur;
-  if (minified) look_widths(places, share, count, blur.data());
+  if (minified && taps == 1) std::copy_n(places.wide.begin(), count, blur.begin());
+  if (minified && taps > 1)
+    look_widths(places, share / static_cast<float>(kSpacing), count, blur.data());
   const auto per_texel = static_cast<float>(1 / texel_);
   for (int tap = 0; tap < taps; ++tap) {
     Directions d{places.x.data(), places.y.data(), places.z.data()};

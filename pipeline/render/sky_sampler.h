@@ -1,6 +1,7 @@
 // Looks at a sky map, many at a time: the inner loop of the sky.  SkyMap::sample is its oracle.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,13 +27,16 @@ class SkySampler {
   // The map must outlive it.
   explicit SkySampler(const SkyMap& map);
 
-  // How many looks in a line an oblong footprint takes, so that each is as long as it is wide or as
-  // the finest texel: one of a few numbers up to `most`.
+  // How many looks in a line an oblong footprint takes, so that they stand no farther apart than 1.5
+  // times its width or the finest texel's (what a look between texels gathers is 2 wide): one of a few
+  // numbers up to `most`.
   int taps(double wide, double narrow, int most = kMostTaps) const;
   static constexpr int kMostTaps = 32;
 
-  // Whether a footprint whose looks are that wide needs coarser levels than the finest.
-  bool is_minified(double blur) const { return blur > texel_; }
+  // Whether the looks of a footprint need coarser levels than the finest.
+  bool is_minified(double wide, double narrow, int taps) const {
+    return blur(wide, narrow, taps) > texel_;
+  }
 
   // rgb[3 * count + 1]: the last is overwritten too, with 0 or what it was.
   // minified: whether any of the looks is.
@@ -41,6 +45,12 @@ class SkySampler {
   const SkyMap& map() const { return map_; }
 
  private:
+  static constexpr double kSpacing = 1.5;
+  // How wide each of its looks is.
+  static double blur(double wide, double narrow, int taps) {
+    return taps == 1 ? wide : std::max(narrow, wide / (taps * kSpacing));
+  }
+
   const SkyMap& map_;
   double texel_;  // radians, of the finest level
 };

@@ -50,7 +50,7 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
     return seen;
   };
   batch.small.reserve(count), batch.band.reserve(count);
-  batch.last_band.assign(bands_, 0);
+  batch.last_band.resize(bands_, 0);
   for (std::size_t begin = 0; begin < count; begin += kStep) {
     const std::size_t n = std::min(kStep, count - begin);
     for (std::size_t k = 0; k < n; ++k) {

@@ -74,8 +74,8 @@ DOMEFALL_SIMD void distances(const SkyEdge& sky_edge, const Rain& rain, int coun
 }
 
 // The swept azimuth and its slope, where the table reaches.
-DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* distance, int count,
-                          double* azimuth, double* slope) {
+DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* __restrict distance,
+                          int count, double* __restrict azimuth, double* __restrict slope) {
   const SkyTable::Lookup table = lookup;
   for (int k = 0; k < count; ++k) {
     const SkyTable::Sweep sweep = table(distance[k]);
@@ -85,7 +85,8 @@ DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* distance
 }
 
 DOMEFALL_SIMD void sweeps(const WhiteHoleTable::Lookup& lookup, const Rain& rain, int count,
-                          double* place, double* azimuth, double* slope) {
+                          double* __restrict place, double* __restrict azimuth,
+                          double* __restrict slope) {
   const WhiteHoleTable::Lookup table = lookup;
   for (int k = 0; k < count; ++k) {
     double rate = 0;

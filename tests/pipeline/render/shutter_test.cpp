@@ -43,7 +43,8 @@ TEST(Shutter, StreaksWithoutLosingLight) {
   const HalfFrame streaked = frame_of(show, 10, &times);
   // 4 degrees at the rim, 256 pixels from the zenith: 17.9 pixels.
   EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerPicture, 2);
-  EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 3e-3);
+  // Blobs on the rim end at its staircase of pixels, another one at each instant.
+  EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 6e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
 }
 

@@ -72,8 +72,8 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
         const double t = (tap + 0.5) / taps - 0.5;
         const V3d d(places.x[k] + t * places.ax[k], places.y[k] + t * places.ay[k],
                     places.z[k] + t * places.az[k]);
-        sum +=
-            map.sample(d, places.wide[k] / static_cast<float>(taps)).g / static_cast<float>(taps);
+        sum += map.sample(d, places.wide[k] / (1.5f * static_cast<float>(taps))).g /
+               static_cast<float>(taps);
       }
       worst = std::max(worst, std::abs(rgb[3 * k + 1] / sum - 1));
     }
@@ -81,13 +81,14 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
   }
 }
 
-TEST(SkySampler, TakesSoManyLooksThatEachIsAsLongAsItIsWide) {
+TEST(SkySampler, TakesSoManyLooksThatTheyStandNoFartherApartThanTheyReach) {
   const SkyMap map(noise(512));  // texels of pi/2/256
   const SkySampler sampler(map);
   const double texel = 1.5708 / 256;
   EXPECT_EQ(sampler.taps(texel, texel / 100), 1);
-  EXPECT_EQ(sampler.taps(3.9 * texel, texel / 100), 4);
-  EXPECT_EQ(sampler.taps(30 * texel, 10 * texel), 3);
+  EXPECT_EQ(sampler.taps(2.9 * texel, texel / 100), 2);
+  EXPECT_EQ(sampler.taps(5.9 * texel, texel / 100), 4);
+  EXPECT_EQ(sampler.taps(44 * texel, 10 * texel), 3);
   EXPECT_EQ(sampler.taps(300 * texel, 300 * texel), 1);
   EXPECT_EQ(sampler.taps(1, 1e-9), SkySampler::kMostTaps);
   EXPECT_EQ(sampler.taps(1, 1e-9, 4), 4);
