@@ -18,11 +18,11 @@ constexpr int kChunk = SkyPlaces::kSize;
 constexpr int kManyTaps = 4;
 
 // Four channels in a register.
-typedef float Four __attribute__((vector_size(16)));
+using Four __attribute__((vector_size(16))) = float;
 // Two texels side by side.
-typedef float Pair __attribute__((vector_size(32)));
-typedef std::uint32_t PairBits __attribute__((vector_size(32)));
-typedef std::uint16_t PairHalves __attribute__((vector_size(16)));
+using Pair __attribute__((vector_size(32))) = float;
+using PairBits __attribute__((vector_size(32))) = std::uint32_t;
+using PairHalves __attribute__((vector_size(16))) = std::uint16_t;
 
 struct Levels {
   std::array<const SkyTexel*, kMostLevels> texels;
@@ -196,7 +196,7 @@ DOMEFALL_SIMD void to_colours(const Four* sum, const float* gain, float share, i
 // I and I theta of blackbody light, shifted by `tone` octaves of temperature.
 void thermal_to_colours(const Four* sum, const float* gain, const float* tone, float share,
                         int count, float* rgb) {
-  static const float base = static_cast<float>(std::log2(kThermalBase));
+  static const auto base = static_cast<float>(std::log2(kThermalBase));
   const BlackbodyColours& colours = blackbody_colours();
   for (int k = 0; k < count; ++k, rgb += 3) {
     const float light = sum[k][0];

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -108,6 +109,16 @@ void render_frame(benchmark::State& state) {
   render_again(state, first_light(static_cast<int>(state.range(0))));
 }
 
+// With all stars of the catalogue that DOMEFALL_STARS names, such as one of shows/assets/fetch_stars.
+void render_catalogue(benchmark::State& state) {
+  const char* catalogue = std::getenv("DOMEFALL_STARS");
+  if (catalogue == nullptr) return state.SkipWithError("DOMEFALL_STARS names no catalogue");
+  Show show = first_light(static_cast<int>(state.range(0)));
+  show.sky_one.stars = StarField{catalogue, 40};
+  show.sky_three.stars = show.sky_one.stars;
+  render_again(state, show);
+}
+
 // The sky alone, without a star.
 void render_sky(benchmark::State& state) {
   Show show = first_light(static_cast<int>(state.range(0)));
@@ -164,6 +175,14 @@ BENCHMARK(render_frame)
     ->Args({4096, kInside})
     ->Args({8192, kFrame})
     ->Args({8192, kInside})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(render_catalogue)
+    ->ArgNames({"size", "frame"})
+    ->Args({4096, 0})
+    ->Args({4096, kFrame})
+    ->Args({4096, kInside})
+    ->Args({8192, kFrame})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(render_sky)
