@@ -68,6 +68,11 @@ const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
   return table ? &*table : nullptr;
 }
 
+int table_count(const HoleOptics& optics) {
+  return int{optics.home_sky.has_value()} + int{optics.far_sky.has_value()} +
+         int{optics.white_hole.has_value()} + int{optics.emission_times.has_value()};
+}
+
 std::size_t node_count(const HoleOptics& optics) {
   return (optics.home_sky ? optics.home_sky->node_count() : 0) +
          (optics.far_sky ? optics.far_sky->node_count() : 0) +
@@ -160,7 +165,7 @@ void Renderer::load_sky(SeenSky which) { scene_.sky(which); }
 
 int Renderer::threads() const { return arena_->arena.max_concurrency(); }
 
-const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan& plan) {
+const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan& plan, int* made) {
   const ObserverState& o = state.observer;
   const bool mirrored = is_mirrored(o.tetrad);
   const bool one = plan[SeenSky::kOne].lit(), three = plan[SeenSky::kThree].lit();
@@ -168,10 +173,13 @@ const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan&
                            plan[SeenSky::kFour].lit(),
                            plan[SeenSky::kFour].lit() && plan[SeenSky::kFour].rings};
   const double r = plan.gravity ? o.r : kFlatSpace;
-  if (!optics_ || optics_->at.r != r || optics_->tetrad != o.tetrad)
-    optics_ = make_hole_optics(r, o.tetrad, wanted);
-  else
+  const bool kept = optics_ && optics_->at.r == r && optics_->tetrad == o.tetrad;
+  const int before = kept ? table_count(*optics_) : 0;
+  if (kept)
     add_tables(*optics_, wanted);
+  else
+    optics_ = make_hole_optics(r, o.tetrad, wanted);
+  if (made) *made = table_count(*optics_) - before;
   return *optics_;
 }
 
@@ -188,7 +196,7 @@ void add_times(const StageTimes& more, StageTimes& sum) {
   sum.stars_s += more.stars_s, sum.grid_s += more.grid_s, sum.pixels_s += more.pixels_s;
   sum.exact_part = std::max(sum.exact_part, more.exact_part);
   sum.table_nodes = std::max(sum.table_nodes, more.table_nodes);
-  sum.images += more.images;
+  sum.images += more.images, sum.tables_made += more.tables_made;
 }
 
 }  // namespace
@@ -246,7 +254,7 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
   for (const SeenSky which : kEverySky)
     if (plan[which].lit()) skies[static_cast<std::size_t>(which)] = &scene_.sky(which);
   t.load_s = lap();
-  const HoleOptics& optics = optics_for(state, plan);
+  const HoleOptics& optics = optics_for(state, plan, &t.tables_made);
   t.table_nodes = node_count(optics);
   t.tables_s = lap();
 
@@ -303,8 +311,8 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   if (!plan.gravity) tables = "straight light: none";
   std::snprintf(line, sizeof line, "load    %8.3f s  %s\n", t.load_s, skies.c_str());
   text += line;
-  std::snprintf(line, sizeof line, "tables  %8.5f s  %s, %zu nodes\n", t.tables_s, tables.c_str(),
-                t.table_nodes);
+  std::snprintf(line, sizeof line, "tables  %8.5f s  %s, %zu nodes, %d made\n", t.tables_s,
+                tables.c_str(), t.table_nodes, t.tables_made);
   text += line;
   std::snprintf(line, sizeof line, "stars   %8.4f s  %zu images\n", t.stars_s, t.images);
   text += line;

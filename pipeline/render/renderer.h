@@ -37,6 +37,7 @@ struct StageTimes {
   double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;
   double exact_part = 0;  // of the sky's pixels, those looked at one by one
   std::size_t table_nodes = 0, images = 0;
+  int tables_made = 0;  // the others were kept from the frame before
   int pictures =
       1;  // instants that a frame with an open shutter is the mean of; the times are of all
 };
@@ -69,7 +70,8 @@ class Renderer {
   void render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times);
   void render_one(const FrameState& state, HalfFrame& frame, StageTimes& times);
   int pictures_for(const FrameState& state);
-  const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan);
+  // made: gets the number of tables that were not there yet.
+  const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan, int* made = nullptr);
 
   struct Arena;
   const Show& show_;

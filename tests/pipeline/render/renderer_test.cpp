@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "pipeline/image/errors.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/view_tracer.h"
 #include "scenes.h"
@@ -45,6 +46,53 @@ TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
   const Show outside = starry(show_of(StaticObserver{10}, Domemaster{32}));
   EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0))[SeenSky::kThree].lit())
       << "region III is not seen from outside";
+}
+
+TEST(Renderer, MakesOneTableForACameraThatStandsStill) {
+  Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
+  Renderer renderer(show, 1);
+  StageTimes times;
+  renderer.render(frame_state(show, 0), &times);
+  EXPECT_EQ(times.tables_made, 1);
+  renderer.render(frame_state(show, 20), &times);
+  EXPECT_EQ(times.tables_made, 0);
+  EXPECT_GT(times.table_nodes, 0u);
+  // Inside both skies are seen; what is dark there has none.
+  const Show inside = starry(show_of(RadialInfall{1}, Domemaster{64}));
+  Renderer(inside, 1).render(frame_state(inside, 0), &times);
+  EXPECT_EQ(times.tables_made, 2);
+}
+
+TEST(Renderer, ReadsNoFileThatAFrameDoesNotShow) {
+  Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
+  show.sky_one.stars = StarField{"no/such/catalogue.csv", 6.5};
+  show.sky_three.background = PanoramaSky{"no/such/panorama.exr"};
+  show.sky_three.stars = StarField{"nor/this.csv", 6.5};
+  EXPECT_THROW(Renderer(show, 1).render(frame_state(show, 0)), InputError);
+  show.sky_one.star_gain = 0;
+  StageTimes times;
+  EXPECT_NO_THROW(Renderer(show, 1).render(frame_state(show, 0), &times));
+  EXPECT_EQ(times.images, 0u);
+  show.sky_one.background_gain = 0;
+  show.sky_one.background = PanoramaSky{"no/such/panorama.exr"};
+  EXPECT_NO_THROW(Renderer(show, 1).render(frame_state(show, 0), &times));
+  EXPECT_EQ(times.tables_made, 0);
+}
+
+TEST(Renderer, LooksAtNothingWhereAllIsDark) {
+  // In region IV without a light every direction is the past singularity.
+  Show show = starry(
+      show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.0, V3d(0, 0, 0)}, Domemaster{128}));
+  show.sky_one.stars = show.sky_three.stars = StarField{"no/such/catalogue.csv", 6.5};
+  StageTimes times;
+  const HalfFrame frame = Renderer(show, 1).render(frame_state(show, 0), &times);
+  EXPECT_EQ(times.tables_made, 0);
+  EXPECT_EQ(times.images, 0u);
+  for (const Imath::half value : frame.pixels) ASSERT_EQ(value, 0);
+  // And a silhouette is no work: of the pixels with light few are looked at one by one.
+  const Show outside = starry(show_of(StaticObserver{4}, Domemaster{1024}));
+  Renderer(outside, 2).render(frame_state(outside, 0), &times);
+  EXPECT_LT(times.exact_part, 0.25);
 }
 
 TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
