@@ -37,23 +37,28 @@ void report(const fs::path& out, bool quick, bool with_figures) {
   write_atomically(out / "rays.csv", csv_of(measured.rays));
   write_atomically(out / "frames.csv", csv_of(measured.frames));
   write_atomically(out / "orbits.csv", csv_of(measured.orbits));
+  write_atomically(out / "costs.csv", csv_of(measured.costs));
+  write_atomically(out / "benchmark.csv", csv_of(measured.costs.benchmark));
   const std::vector<Figure> plots = error_plots(measured);
   write_drawings(plots, out / "plots");
+  write_drawings(cost_plots(measured.costs), out / "plots");
   write_atomically(out / "accuracy.md", accuracy_page(measured, plots, figures));
+  write_atomically(out / "costs.md", costs_page(measured));
   std::fprintf(stderr, "%s\n", (out / "accuracy.md").c_str());
 }
 
 }  // namespace
 
 void add_report(CLI::App& app) {
-  auto* verb =
-      app.add_subcommand("report", "Error against run time, as tables, plots and a page about it");
+  auto* verb = app.add_subcommand(
+      "report", "Error and cost against run time and size, as tables, plots and pages about them");
   struct Options {
     std::string out;
     bool quick = false, figures = false;
   };
   auto options = std::make_shared<Options>();
-  verb->add_option("--out", options->out, "the folder for accuracy.md, CSV files and plots/")
+  verb->add_option("--out", options->out,
+                   "the folder for accuracy.md, costs.md, CSV files and plots/")
       ->required();
   verb->add_flag("--quick", options->quick, "few rays and frames: seconds instead of minutes");
   verb->add_flag("--figures", options->figures,

@@ -13,10 +13,6 @@ namespace domefall {
 namespace {
 
 std::string error(double value) { return formatted("%.1e", value); }
-std::string amount(double value) {
-  constexpr double kWhole = 100;
-  return formatted(value < kWhole ? "%.3g" : "%.0f", value);
-}
 
 std::string setting_of(const RayErrorRow& row) {
   if (row.method == "table") return formatted("2^%g to the octave", row.setting);
@@ -24,18 +20,14 @@ std::string setting_of(const RayErrorRow& row) {
 }
 
 std::string head(const Report& report) {
-  const Machine on = this_machine();
   std::string page = "# Accuracy, and what it costs\n\nMade by `domefall report";
   page += report.quick ? " --quick" : "";
-  page += "`; every number below was measured by that run.\n\n| | |\n|---|---|\n";
-  page += "| processor | " + on.processor + ", " + std::to_string(on.cores) + " cores |\n";
-  page += "| compiler | " + on.compiler + " |\n";
-  page += "| Domefall | " + on.version + " |\n| date | " + on.date + " |\n\n";
-  page +=
-      "Times are of one machine on one day, and compare within the page; the errors are the "
-      "same\neverywhere. All rows: [rays.csv](rays.csv), [frames.csv](frames.csv), "
-      "[orbits.csv](orbits.csv).\n\n";
-  return page;
+  page += "`; every number below was measured by that run.\n\n" + machine_table();
+  return page +
+         "Times are of one machine on one day, and compare within the page; the errors are the "
+         "same\neverywhere. All rows: [rays.csv](rays.csv), [frames.csv](frames.csv), "
+         "[orbits.csv](orbits.csv).\nWhat a frame costs by its stars and pixels, and against other "
+         "ways to make it: [costs.md](costs.md).\n\n";
 }
 
 // ---- Rays ----
@@ -210,7 +202,10 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
       "## Frames\n\nWhole frames with each setting of anti-aliasing against frames of 256 looks in "
       "every pixel, graded\nas they go to the projector, values from 0 to 1 (one step of 8 bits is "
       "0.0039). Time is CPU time of\nrendering, in seconds and in copies of the frame's own "
-      "memory.\n\n| scene | pixels | setting | rms | worst | s | copies "
+      "memory. Where the view of a map is smooth, most looks\nof the default are interpolated "
+      "between those of a coarse grid; *1 look*, *none interpolated* and *everywhere*\nlook at "
+      "every "
+      "pixel.\n\n| scene | pixels | setting | rms | worst | s | copies "
       "|\n|---|---|---|---|---|---|"
       "---|\n";
   for (const FrameErrorRow& r : rows)

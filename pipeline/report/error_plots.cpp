@@ -46,22 +46,24 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
 }
 
 // Looking often everywhere is another way than looking often where it matters: a curve of its own in
-// the scene's colour.
+// the scene's colour.  So is interpolating nothing, which has one setting and is a point.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
   Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: everywhere)",
                        "CPU time, in copies of the frame", what);
   plot.legend = "below";
-  Plot everywhere;
+  Plot everywhere, exact;
   for (const FrameErrorRow& row : rows) {
-    const bool all = row.setting.find("everywhere") != std::string::npos;
-    add_point(all ? everywhere : plot, row.scene, {row.copies, row.*error});
+    const auto says = [&](const char* part) { return row.setting.find(part) != std::string::npos; };
+    Plot& its = says("everywhere") ? everywhere : says("none interpolated") ? exact : plot;
+    add_point(its, row.scene, {row.copies, row.*error});
   }
-  for (Curve& curve : everywhere.curves) {
-    curve.style = Curve::Style::kDashed;
-    curve.name.clear();
-    plot.curves.push_back(curve);
-  }
+  for (Curve& curve : everywhere.curves) curve.style = Curve::Style::kDashed;
+  for (const Plot* other : {&everywhere, &exact})
+    for (Curve curve : other->curves) {
+      curve.name.clear();
+      plot.curves.push_back(curve);
+    }
   return plot;
 }
 
@@ -83,7 +85,24 @@ void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<Figure>
   }
 }
 
+Plot cost_plot(const std::vector<FrameCostRow>& rows, const char* title, const char* x,
+               double FrameCostRow::*counted) {
+  constexpr double kMilli = 1e3;
+  Plot plot = log_plot(title, x, "CPU time of one thread, ms");
+  plot.legend = "top left";
+  for (const FrameCostRow& row : rows)
+    add_point(plot, row.scene, {row.*counted, kMilli * row.seconds});
+  return plot;
+}
+
 }  // namespace
+
+std::vector<Figure> cost_plots(const FrameCosts& costs) {
+  return {{"costs_stars", cost_plot(costs.stars, "A frame by the stars of its catalogue",
+                                    "stars of the catalogue", &FrameCostRow::stars)},
+          {"costs_pixels", cost_plot(costs.pixels, "A frame by its size", "pixels of the dome",
+                                     &FrameCostRow::pixels)}};
+}
 
 std::vector<Figure> error_plots(const Report& report) {
   std::vector<Figure> plots;

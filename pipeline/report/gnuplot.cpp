@@ -5,44 +5,18 @@
 #include <sys/wait.h>
 
 #include <cerrno>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/report/scratch_folder.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): only some libraries declare it
 
 namespace domefall {
 namespace {
-
-namespace fs = std::filesystem;
-
-// A folder of its own for as long as it lives.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "domefall-plot.XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw TemporaryError(name + ": no temporary folder can be made");
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder(ScratchFolder&&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(ScratchFolder&&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 std::string contents(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -55,7 +29,7 @@ struct Outcome {
 };
 
 Outcome gnuplot(const ScratchFolder& folder, const std::string& argument) {
-  const std::string out = folder / "out", said = folder / "said";
+  const std::string out = (folder / "out").string(), said = (folder / "said").string();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC, kMode = 0600;
@@ -90,7 +64,7 @@ std::string gnuplot_version() {
 
 std::string run_gnuplot(const std::string& script) {
   const ScratchFolder folder;
-  const std::string file = folder / "plot.gp";
+  const std::string file = (folder / "plot.gp").string();
   std::ofstream written(file);
   written << script;
   written.close();

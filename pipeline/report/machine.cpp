@@ -41,4 +41,11 @@ Machine this_machine() {
           today()};
 }
 
+std::string machine_table() {
+  const Machine on = this_machine();
+  return "| | |\n|---|---|\n| processor | " + on.processor + ", " + std::to_string(on.cores) +
+         " cores |\n| compiler | " + on.compiler + " |\n| Domefall | " + on.version +
+         " |\n| date | " + on.date + " |\n\n";
+}
+
 }  // namespace domefall

@@ -15,4 +15,7 @@ struct Machine {
 
 Machine this_machine();
 
+// The same as a table in Markdown, one line for each.
+std::string machine_table();
+
 }  // namespace domefall

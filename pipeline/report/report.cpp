@@ -28,6 +28,8 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
   report.looks = measure_look_speed();
   told("frames");
   report.frames = measure_frames(quick);
+  told("costs of frames");
+  report.costs = measure_frame_costs(quick);
   if (!quick) {
     told("extreme cases");
     report.extremes = extreme_table();
@@ -51,6 +53,17 @@ std::string csv_of(const std::vector<FrameErrorRow>& rows) {
   for (const FrameErrorRow& r : rows)
     csv += joined({r.scene, r.setting, std::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
                    n(r.copies)});
+  return csv;
+}
+
+std::string csv_of(const FrameCosts& costs) {
+  std::string csv = "against,scene,size,pixels,stars,seconds,copies\n";
+  const auto add = [&](const char* against, const std::vector<FrameCostRow>& rows) {
+    for (const FrameCostRow& r : rows)
+      csv += joined({against, r.scene, std::to_string(r.size), formatted("%.0f", r.pixels),
+                     formatted("%.0f", r.stars), n(r.seconds), n(r.copies)});
+  };
+  add("stars", costs.stars), add("pixels", costs.pixels);
   return csv;
 }
 

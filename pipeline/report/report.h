@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/report/figures.h"
+#include "pipeline/report/frame_costs.h"
 #include "pipeline/report/frame_errors.h"
 #include "pipeline/report/look_speed.h"
 #include "pipeline/report/orbit_errors.h"
@@ -18,6 +19,7 @@ struct Report {
   std::vector<RayErrorRow> rays;
   std::vector<LookSpeedRow> looks;
   std::vector<FrameErrorRow> frames;
+  FrameCosts costs;
   std::vector<OrbitErrorRow> orbits;
   std::string extremes;  // extreme_table(); empty if quick
 };
@@ -30,13 +32,21 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
 std::string csv_of(const std::vector<RayErrorRow>& rows);
 std::string csv_of(const std::vector<FrameErrorRow>& rows);
 std::string csv_of(const std::vector<OrbitErrorRow>& rows);
+// The rows of both series; `against` names which.  The benchmark's are rows of frames.
+std::string csv_of(const FrameCosts& costs);
 
 // Error against time: rays_REGION_DIFFICULTY and the same with _sky, frames_rms, frames_worst, and
 // orbit_NAME of every orbit that is integrated as well.
 std::vector<Figure> error_plots(const Report& report);
 
+// Cost against size: costs_stars and costs_pixels.
+std::vector<Figure> cost_plots(const FrameCosts& costs);
+
 // The page, in Markdown.  `figures`: those drawn beside it, under figures/; the plots under plots/.
 std::string accuracy_page(const Report& report, const std::vector<Figure>& plots,
                           const std::vector<Figure>& figures);
+
+// The page about costs, in Markdown, with the two plots under plots/.
+std::string costs_page(const Report& report);
 
 }  // namespace domefall

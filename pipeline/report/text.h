@@ -15,6 +15,12 @@ inline std::string formatted(const char* format, double value) {
   return text.data();
 }
 
+// Three digits, or all those before the point.
+inline std::string amount(double value) {
+  constexpr double kWhole = 100;
+  return formatted(value < kWhole ? "%.3g" : "%.0f", value);
+}
+
 // Quoted where a comma or a quotation mark asks for it (RFC 4180).
 inline std::string csv_cell(const std::string& cell) {
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;

@@ -1,0 +1,203 @@
+#include "pipeline/report/frame_costs.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <numbers>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/report/frame_timing.h"
+#include "pipeline/report/made_up_stars.h"
+#include "pipeline/report/scratch_folder.h"
+#include "pipeline/report/text.h"
+#include "pipeline/show/read_show.h"
+#include "pipeline/sky/star_file.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kThreads = 1;
+constexpr Repeats kRepeats{9, 4};
+
+enum class Place { kBesideTheHole, kFlat };
+enum class Background { kBlack, kMilkyWay };
+
+struct Sizes {
+  std::vector<double> stars;
+  int dome;                // for the rows of stars
+  std::vector<int> domes;  // for those of pixels
+  double stars_of_domes;   // Hipparcos'
+  int picture;             // pixels along an edge of the benchmark's
+  double stars_of_picture;
+};
+
+Sizes sizes(bool quick) {
+  if (quick) return {{1e3, 3e3, 1e4}, 256, {128, 256, 512}, 1e3, 128, 1e3};
+  return {{1e4, 3e4, 1e5, 3e5, 1e6, 2.5e6}, 4096, {1024, 2048, 4096, 8192}, 118218, 1000, 250e3};
+}
+
+// Shows of stars out of one catalogue, in a folder of their own.
+class Shows {
+ public:
+  explicit Shows(std::size_t most_stars) {
+    write_star_file(folder_ / kCatalogue, made_up_stars(most_stars));
+  }
+
+  Show show(Place place, Background background, double stars, const Projection& projection) const {
+    const bool flat = place == Place::kFlat;
+    std::string text = flat ? "camera: {look_at: {ra_deg: 266.417, dec_deg: -29.008}"
+                            : "black_hole: {mass_solar: 4.3e6}\ncamera: {look_at: hole";
+    if (std::holds_alternative<Domemaster>(projection)) text += ", elevation_deg: 45";
+    text += "}\nsky: {region_I: {background: ";
+    text += background == Background::kBlack ? "black" : "milky_way";
+    text += ", stars: ";
+    text += stars > 0
+                ? std::string("{catalogue: ") + kCatalogue +
+                      ", max_magnitude: " + formatted("%.9g", magnitude_of_rank(stars + 0.5)) + "}"
+                : "none";
+    text += "}}\ntimeline:\n  - {duration_s: 1";
+    text += flat ? "}\n" : ", trajectory: {type: infall, from_r: 7}}\n";
+    Show read = read_show(written(text));
+    read.projection = projection;
+    return read;
+  }
+
+  // How many stars such a show has: of two with the same float for a magnitude, both or neither.
+  double count(double stars) const {
+    if (stars <= 0) return 0;
+    return static_cast<double>(
+        StarFile(folder_ / kCatalogue).up_to(magnitude_of_rank(stars + 0.5)).size());
+  }
+
+ private:
+  static constexpr const char* kCatalogue = "made_up.stars";
+
+  std::filesystem::path written(const std::string& text) const {
+    const std::filesystem::path file = folder_ / "cost.yaml";
+    std::ofstream out(file);
+    out << text;
+    out.close();
+    if (!out) throw TemporaryError(file.string() + ": cannot be written");
+    return file;
+  }
+
+  ScratchFolder folder_;
+};
+
+double pixels_inside(const Projection& projection) {
+  double count = 0;
+  for (int row = 0; row < rows(projection); ++row) {
+    const ColumnRange inside = inside_columns(projection, row);
+    count += std::max(0, inside.last - inside.first + 1);
+  }
+  return count;
+}
+
+FrameCostRow measured(const std::string& scene, const Shows& shows, Place place,
+                      Background background, double stars, int size) {
+  const Projection dome = Domemaster{size};
+  const TimedFrame timed =
+      time_frame(shows.show(place, background, stars, dome), {}, kThreads, kRepeats);
+  return {scene,
+          size,
+          pixels_inside(dome),
+          shows.count(stars),
+          timed.seconds,
+          timed.seconds / copy_seconds(timed.frame)};
+}
+
+std::vector<FrameCostRow> against_stars(const Shows& shows, const Sizes& sizes) {
+  std::vector<FrameCostRow> rows;
+  for (const double stars : sizes.stars)
+    rows.push_back(measured("stars alone, falling at 7 M", shows, Place::kBesideTheHole,
+                            Background::kBlack, stars, sizes.dome));
+  for (const double stars : sizes.stars)
+    rows.push_back(measured("stars alone, flat space", shows, Place::kFlat, Background::kBlack,
+                            stars, sizes.dome));
+  return rows;
+}
+
+std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes) {
+  std::vector<FrameCostRow> rows;
+  for (const double stars : {0.0, sizes.stars_of_domes})
+    for (const int dome : sizes.domes)
+      rows.push_back(measured(
+          stars > 0 ? "Milky Way and " + formatted("%.0f", stars) + " stars" : "Milky Way alone",
+          shows, Place::kBesideTheHole, Background::kMilkyWay, stars, dome));
+  return rows;
+}
+
+std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& sizes) {
+  constexpr double kFov = 100 * std::numbers::pi / 180;
+  constexpr std::array<std::pair<const char*, AntiAliasing>, 3> kSettings{
+      {{"4 x 4 in difficult pixels (default)", {}},
+       {"2 x 2 everywhere", {2, true}},
+       {"4 x 4 everywhere", {4, true}}}};
+  const Projection picture = Stereographic{sizes.picture, sizes.picture, kFov};
+  const auto show = [&](double stars) {
+    return shows.show(Place::kBesideTheHole, Background::kMilkyWay, stars, picture);
+  };
+  const Show sky = show(0), whole = show(sizes.stars_of_picture);
+  const Grader grader(sky.grade);
+  const GradedFrame truth = grader.grade(time_frame(sky, kReferenceAntiAliasing, 0, {1}).frame);
+  std::vector<FrameErrorRow> rows;
+  for (const auto& [name, setting] : kSettings) {
+    const TimedFrame timed = time_frame(whole, setting, kThreads, kRepeats);
+    const FrameDifference error =
+        difference(grader.grade(time_frame(sky, setting, 0, {1}).frame), truth, picture);
+    rows.push_back({"flat picture at 7 M, Milky Way, " +
+                        formatted("%.0f", shows.count(sizes.stars_of_picture)) + " stars",
+                    name, sizes.picture, error.rms, error.worst, timed.seconds,
+                    timed.seconds / copy_seconds(timed.frame)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+FrameCosts measure_frame_costs(bool quick) {
+  const Sizes all = sizes(quick);
+  const double most = std::max({all.stars.back(), all.stars_of_domes, all.stars_of_picture});
+  const Shows shows(static_cast<std::size_t>(most));
+  return {against_stars(shows, all), against_pixels(shows, all), paper_benchmark(shows, all)};
+}
+
+std::vector<CostSlope> slopes(const std::vector<FrameCostRow>& rows,
+                              double FrameCostRow::*counted) {
+  constexpr double kNano = 1e9;
+  std::vector<CostSlope> found;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const FrameCostRow &a = rows[k - 1], &b = rows[k];
+    if (a.scene == b.scene)
+      found.push_back({a.scene, a.*counted, b.*counted,
+                       kNano * (b.seconds - a.seconds) / (b.*counted - a.*counted)});
+  }
+  return found;
+}
+
+std::optional<SteepestRise> steepest_rise(const std::vector<CostSlope>& of) {
+  std::optional<SteepestRise> steepest;
+  for (const CostSlope& slope : of)
+    if (!(slope.ns > 0)) return std::nullopt;
+  for (std::size_t k = 1; k < of.size(); ++k) {
+    const double ratio = of[k].ns / of[k - 1].ns;
+    if (of[k].scene == of[k - 1].scene && (!steepest || ratio > steepest->ratio))
+      steepest = {of[k].scene, of[k].from, ratio};
+  }
+  return steepest;
+}
+
+double mean_slope(const std::vector<FrameCostRow>& rows, double FrameCostRow::*counted,
+                  const std::string& scene) {
+  std::vector<FrameCostRow> ends;
+  for (const FrameCostRow& row : rows) {
+    if (row.scene != scene) continue;
+    if (ends.size() < 2)
+      ends.push_back(row);
+    else
+      ends.back() = row;
+  }
+  return ends.size() < 2 ? 0 : slopes(ends, counted).front().ns;
+}
+
+}  // namespace domefall

@@ -1,0 +1,67 @@
+#include "pipeline/report/frame_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <limits>
+
+namespace domefall {
+namespace {
+
+constexpr double kWhite = 65535;  // of graded frames
+
+// Process time, all threads.  It wraps after 71 minutes where clock_t has 32 bits.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats) {
+  Renderer renderer(show, threads, anti_aliasing);
+  const FrameState state = frame_state(show, 0);
+  for (const SeenSky sky : kEverySky)
+    if (plan_frame(show, state)[sky].lit()) renderer.load_sky(sky);
+  TimedFrame best{{}, std::numeric_limits<double>::infinity()};
+  const double begun = cpu_seconds();
+  for (int k = 0; k < repeats.most; ++k) {
+    const double start = cpu_seconds();
+    if (k >= 2 && start - begun > repeats.enough_s) break;
+    renderer.render(state, best.frame);
+    best.seconds = std::min(best.seconds, cpu_seconds() - start);
+  }
+  return best;
+}
+
+double copy_seconds(const HalfFrame& frame) {
+  // A small frame's copy is shorter than a tick, a large one's row of copies would take seconds.
+  constexpr std::size_t kRows = 7, kMostCopies = 64, kBytesOfRow = std::size_t{1} << 28;
+  const std::size_t bytes = frame.pixels.size() * sizeof(Imath::half);
+  const std::size_t copies = std::clamp<std::size_t>(kBytesOfRow / bytes, 1, kMostCopies);
+  HalfFrame copy(frame.width, frame.height);
+  [[maybe_unused]] volatile float seen = 0;  // what is read from a copy must have been written
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const double start = cpu_seconds();
+    for (std::size_t k = 0; k < copies; ++k) {
+      std::memcpy(copy.pixels.data(), frame.pixels.data(), bytes);
+      seen = copy.pixels[k * 997 % copy.pixels.size()];
+    }
+    best = std::min(best, (cpu_seconds() - start) / static_cast<double>(copies));
+  }
+  return best;
+}
+
+FrameDifference difference(const GradedFrame& a, const GradedFrame& b,
+                           const Projection& projection) {
+  double squares = 0, worst = 0, values = 0;
+  for (int row = 0; row < a.height; ++row) {
+    const ColumnRange inside = inside_columns(projection, row);
+    for (int k = 3 * inside.first; k < 3 * (inside.last + 1); ++k, ++values) {
+      const double d = std::abs(a.row(row)[k] - b.row(row)[k]) / kWhite;
+      squares += d * d, worst = std::max(worst, d);
+    }
+  }
+  return {std::sqrt(squares / values), worst};
+}
+
+}  // namespace domefall

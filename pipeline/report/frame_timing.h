@@ -1,0 +1,36 @@
+// What rendering a frame costs, and how far two frames are apart.
+#pragma once
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/renderer.h"
+
+namespace domefall {
+
+// How long to go on rendering a frame for its least time: the rest is a cold cache or a busy neighbour.
+// At least two renderings unless `most` is 1, no more than `most`, and none begun after `enough_s` of CPU time.
+struct Repeats {
+  int most = 7;
+  double enough_s = 1.5;
+};
+
+struct TimedFrame {
+  HalfFrame frame;
+  double seconds;  // CPU, all threads together, of the quickest rendering; skies are loaded before
+};
+
+// Frame 0 of the show, again and again into the same memory, as a run's frames go.
+// threads: as Renderer's.
+TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats);
+
+// CPU seconds of copying the frame's half floats, by the quickest of several rows of copies.
+double copy_seconds(const HalfFrame& frame);
+
+// Root of the mean square and largest difference, of all pixels inside the picture and their three
+// values, white being 1.
+struct FrameDifference {
+  double rms, worst;
+};
+FrameDifference difference(const GradedFrame& a, const GradedFrame& b,
+                           const Projection& projection);
+
+}  // namespace domefall
