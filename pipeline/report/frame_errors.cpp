@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kQuickSize = 256, kFullSize = 1024;
+constexpr Repeats kQuickRepeats{3, 1};
 
 struct View {
   const char* name;
@@ -89,7 +90,8 @@ void append_rows(const View& view, bool quick, std::vector<FrameErrorRow>& rows)
   const GradedFrame graded_reference = grader.grade(reference);
   const double copy = copy_seconds(reference);
   for (const Setting& setting : settings(quick)) {
-    const TimedFrame timed = time_frame(show, setting.anti_aliasing, 0, {});
+    const TimedFrame timed =
+        time_frame(show, setting.anti_aliasing, 0, quick ? kQuickRepeats : Repeats{});
     const FrameDifference error =
         difference(grader.grade(timed.frame), graded_reference, show.projection);
     rows.push_back({view.name, setting.name, size, error.rms, error.worst, timed.seconds,

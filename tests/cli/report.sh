@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# domefall report: every CSV has plausible rows within the stated errors, every plot is an SVG document, the page
-# links only to what is there; and without gnuplot it says so before it works.
+# domefall report: every CSV has plausible rows within the stated errors, every plot is an SVG document, the pages
+# link only to what is there; and without gnuplot it says so before it works.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
@@ -48,10 +48,28 @@ for method in methods - {'exact'}:
     assert fine < coarse / 100, (method, settings, total)
 
 frames = rows('frames.csv', ['rms', 'worst', 'seconds', 'copies'])
-by_setting = {row['setting']: float(row['rms']) for row in frames}
-assert len(frames) == len(by_setting) >= 4, by_setting
-usual = next(rms for setting, rms in by_setting.items() if 'default' in setting)
-assert 0 < usual < by_setting['1 look'] < 0.1, by_setting
+scenes = {row['scene'] for row in frames}
+assert len(scenes) >= 2, scenes
+for scene in scenes:
+    by_setting = {row['setting']: float(row['rms']) for row in frames if row['scene'] == scene}
+    assert len(by_setting) >= 5, by_setting
+    usual = next(rms for setting, rms in by_setting.items() if 'default' in setting)
+    assert 0 < usual < by_setting['1 look'] < 0.1, by_setting
+
+# Every further star or pixel costs something, and no frame is free. (How much is what the report is for.)
+costs = rows('costs.csv', ['size', 'pixels', 'stars', 'seconds', 'copies'])
+for against in ('stars', 'pixels'):
+    series = [row for row in costs if row['against'] == against]
+    assert len(series) >= 6 and len({row['scene'] for row in series}) == 2, series
+    for a, b in zip(series, series[1:]):
+        assert float(b['seconds']) > 0 and float(b['copies']) > 0, b
+        if a['scene'] == b['scene']:
+            assert float(b[against]) > float(a[against]), (a, b)
+            assert abs(float(b['pixels']) / (math.pi / 4 * int(b['size']) ** 2) - 1) < 0.02, b
+benchmark = rows('benchmark.csv', ['size', 'rms', 'worst', 'seconds', 'copies'])
+assert {row['setting'] for row in benchmark} >= {'2 x 2 everywhere', '4 x 4 everywhere'}, benchmark
+for row in benchmark:
+    assert 0 < float(row['rms']) < 0.1 and float(row['seconds']) > 0, row
 
 orbits = rows('orbits.csv', ['energy_drift', 'angular_momentum_drift', 'norm_drift', 'r_error', 'phi_error', 'seconds'])
 closed = [row for row in orbits if row['method'] == 'closed form']
@@ -61,17 +79,17 @@ for row in closed:
     assert float(row['r_error']) < (1e-9 if 'fall' in row['orbit'] else 1e-12) and float(row['norm_drift']) < 1e-9, row
 
 drawn = sorted(folder.glob('*/*.svg'))
-assert len(drawn) >= 16 + 2 + 3 + 6, len(drawn)
+assert len(drawn) >= 16 + 2 + 3 + 2 + 6, len(drawn)
 for file in drawn:
     root = xml.parse(file).getroot()
     assert root.tag.endswith('svg') and len(list(root.iter('{http://www.w3.org/2000/svg}path'))) > 10, file
-page = (folder / 'accuracy.md').read_text()
+page = (folder / 'accuracy.md').read_text() + (folder / 'costs.md').read_text()
 links = re.findall(r'\]\(([^)]+)\)', page)
 assert len(links) >= len(drawn)
 for link in links:
     assert (folder / link).is_file(), link
 assert not re.search(r'\b(nan|inf)\b', page), 'a number in the page is none'
-print(f'{len(rays)} rows of rays, {len(frames)} of frames, {len(orbits)} of orbits, {len(drawn)} drawings')
+print(f'{len(rays)} rows of rays, {len(frames)} of frames, {len(orbits)} of orbits, {len(costs)} of costs, {len(drawn)} drawings')
 END
 [ -z "$(find report -name '*.tmp')" ] || fail "temporaries were left"
 
