@@ -99,37 +99,52 @@ double pixels_inside(const Projection& projection) {
   return count;
 }
 
-FrameCostRow measured(const std::string& scene, const Shows& shows, Place place,
-                      Background background, double stars, int size, Repeats repeats) {
-  const Projection dome = Domemaster{size};
-  const TimedFrame timed =
-      time_frame(shows.show(place, background, stars, dome), {}, kThreads, repeats);
+// Without its stars; what a renderer has read is kept for both.
+FrameState starless(FrameState state) {
+  state.picture.sky_one.star_gain = 0;
+  return state;
+}
+
+FrameCostRow measured(const std::string& scene, Renderer& renderer, const FrameState& state,
+                      double stars, Repeats repeats) {
+  const TimedFrame timed = time_frame(renderer, state, repeats);
   return {scene,
-          size,
-          pixels_inside(dome),
-          shows.count(stars),
+          columns(state.projection),
+          pixels_inside(state.projection),
+          stars,
           timed.seconds,
           timed.seconds / copy_seconds(timed.frame)};
 }
 
 std::vector<FrameCostRow> against_stars(const Shows& shows, const Sizes& sizes) {
   std::vector<FrameCostRow> rows;
-  for (const double stars : sizes.stars)
-    rows.push_back(measured("stars alone, falling at 7 M", shows, Place::kBesideTheHole,
-                            Background::kBlack, stars, sizes.dome, sizes.repeats));
-  for (const double stars : sizes.stars)
-    rows.push_back(measured("stars alone, flat space", shows, Place::kFlat, Background::kBlack,
-                            stars, sizes.dome, sizes.repeats));
+  for (const Place place : {Place::kBesideTheHole, Place::kFlat})
+    for (const double stars : sizes.stars) {
+      const Show show = shows.show(place, Background::kBlack, stars, Domemaster{sizes.dome});
+      Renderer renderer(show, kThreads);
+      rows.push_back(measured(
+          place == Place::kFlat ? "stars alone, flat space" : "stars alone, falling at 7 M",
+          renderer, frame_state(show, 0), shows.count(stars), sizes.repeats));
+    }
   return rows;
 }
 
 std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes) {
+  const double stars = shows.count(sizes.stars_of_domes);
+  const Show show = shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.stars_of_domes,
+                               Domemaster{sizes.domes[0]});
+  Renderer renderer(show, kThreads);
   std::vector<FrameCostRow> rows;
-  for (const double stars : {0.0, sizes.stars_of_domes})
-    for (const int dome : sizes.domes)
-      rows.push_back(measured(
-          stars > 0 ? "Milky Way and " + formatted("%.0f", stars) + " stars" : "Milky Way alone",
-          shows, Place::kBesideTheHole, Background::kMilkyWay, stars, dome, sizes.repeats));
+  for (const bool with_stars : {false, true})
+    for (const int dome : sizes.domes) {
+      FrameState state = frame_state(show, 0);
+      state.projection = Domemaster{dome};
+      if (with_stars)
+        rows.push_back(measured("Milky Way and " + formatted("%.0f", stars) + " stars", renderer,
+                                state, stars, sizes.repeats));
+      else
+        rows.push_back(measured("Milky Way alone", renderer, starless(state), 0, sizes.repeats));
+    }
   return rows;
 }
 
@@ -140,20 +155,19 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
        {"2 x 2 everywhere", {2, true}},
        {"4 x 4 everywhere", {4, true}}}};
   const Projection picture = Stereographic{sizes.picture, sizes.picture, kFov};
-  const auto show = [&](double stars) {
-    return shows.show(Place::kBesideTheHole, Background::kMilkyWay, stars, picture);
-  };
-  const Show sky = show(0), whole = show(sizes.stars_of_picture);
-  const Grader grader(sky.grade);
-  const GradedFrame truth = grader.grade(time_frame(sky, kReferenceAntiAliasing, 0, {1}).frame);
+  const Show show =
+      shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.stars_of_picture, picture);
+  const FrameState whole = frame_state(show, 0), sky = starless(whole);
+  const Grader grader(show.grade);
+  const std::string scene = "flat picture at 7 M, Milky Way, " +
+                            formatted("%.0f", shows.count(sizes.stars_of_picture)) + " stars";
+  const GradedFrame truth = grader.grade(Renderer(show, 0, kReferenceAntiAliasing).render(sky));
   std::vector<FrameErrorRow> rows;
   for (const auto& [name, setting] : kSettings) {
-    const TimedFrame timed = time_frame(whole, setting, kThreads, sizes.repeats);
-    const FrameDifference error =
-        difference(grader.grade(time_frame(sky, setting, 0, {1}).frame), truth, picture);
-    rows.push_back({"flat picture at 7 M, Milky Way, " +
-                        formatted("%.0f", shows.count(sizes.stars_of_picture)) + " stars",
-                    name, sizes.picture, error.rms, error.worst, timed.seconds,
+    Renderer renderer(show, kThreads, setting);
+    const TimedFrame timed = time_frame(renderer, whole, sizes.repeats);
+    const FrameDifference error = difference(grader.grade(renderer.render(sky)), truth, picture);
+    rows.push_back({scene, name, sizes.picture, error.rms, error.worst, timed.seconds,
                     timed.seconds / copy_seconds(timed.frame)});
   }
   return rows;

@@ -16,20 +16,22 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 }  // namespace
 
-TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats) {
-  Renderer renderer(show, threads, anti_aliasing);
-  const FrameState state = frame_state(show, 0);
-  for (const SeenSky sky : kEverySky)
-    if (plan_frame(show, state)[sky].lit()) renderer.load_sky(sky);
+TimedFrame time_frame(Renderer& renderer, const FrameState& state, Repeats repeats) {
   TimedFrame best{{}, std::numeric_limits<double>::infinity()};
-  const double begun = cpu_seconds();
-  for (int k = 0; k < repeats.most; ++k) {
+  double spent = 0;
+  for (int k = 0; k < repeats.most && (k < 2 || spent < repeats.enough_s); ++k) {
     const double start = cpu_seconds();
-    if (k >= 2 && start - begun > repeats.enough_s) break;
     renderer.render(state, best.frame);
-    best.seconds = std::min(best.seconds, cpu_seconds() - start);
+    const double took = cpu_seconds() - start;
+    best.seconds = std::min(best.seconds, took);
+    spent += k == 0 ? 0 : took;
   }
   return best;
+}
+
+TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats) {
+  Renderer renderer(show, threads, anti_aliasing);
+  return time_frame(renderer, frame_state(show, 0), repeats);
 }
 
 double copy_seconds(const HalfFrame& frame) {

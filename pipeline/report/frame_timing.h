@@ -6,8 +6,9 @@
 
 namespace domefall {
 
-// How long to go on rendering a frame for its least time: the rest is a cold cache or a busy neighbour.
-// At least two renderings unless `most` is 1, no more than `most`, and none begun after `enough_s` of CPU time.
+// How long to go on rendering a frame for its least time: the rest is a cold cache, a busy neighbour or, at
+// the first rendering, the reading of files.  At least two renderings unless `most` is 1, at most that many,
+// and none begun when all but the first have taken so much CPU time.
 struct Repeats {
   int most = 7;
   double enough_s = 1.5;
@@ -15,11 +16,13 @@ struct Repeats {
 
 struct TimedFrame {
   HalfFrame frame;
-  double seconds;  // CPU, all threads together, of the quickest rendering; skies are loaded before
+  double seconds;  // CPU, all threads together, of the quickest rendering
 };
 
-// Frame 0 of the show, again and again into the same memory, as a run's frames go.
-// threads: as Renderer's.
+// Renders the state again and again into the same memory, as a run's frames go.
+TimedFrame time_frame(Renderer& renderer, const FrameState& state, Repeats repeats);
+
+// The same for the show's frame 0 by a renderer of its own.
 TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats);
 
 // CPU seconds of copying the frame's half floats, by the quickest of several rows of copies.
