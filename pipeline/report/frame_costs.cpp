@@ -79,7 +79,7 @@ class Shows {
   static constexpr const char* kCatalogue = "made_up.stars";
 
   std::filesystem::path written(const std::string& text) const {
-    const std::filesystem::path file = folder_ / "cost.yaml";
+    std::filesystem::path file = folder_ / "cost.yaml";
     std::ofstream out(file);
     out << text;
     out.close();

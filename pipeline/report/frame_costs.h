@@ -31,7 +31,7 @@ struct FrameCosts {
 // In free fall at 7 M, looking at the hole, and in flat space; stars made up as Tycho-2 counts them
 // (made_up_stars.h) and read from a *.stars file, in shows that are read from files, so that all they do not
 // say is a show's default.
-// quick: small frames and few stars.  Measured: 3 s and 70 s.
+// quick: small frames and few stars.
 // Throws InputError if a shipped asset cannot be read, TemporaryError if there is no room for the catalogue
 // (82 MB).
 FrameCosts measure_frame_costs(bool quick);

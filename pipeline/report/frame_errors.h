@@ -16,16 +16,16 @@ struct FrameErrorRow {
   // scene-linear, since there the few pixels whose blueshift has no bound, and which any display shows
   // white, would be all that counts.
   double rms, worst;
-  double
-      seconds;    // CPU, all threads together, of rendering; loading skies and grading are left out
-  double copies;  // the same over the CPU seconds of copying the frame's half floats
+  double seconds;  // CPU, all threads together, of the quickest of several renderings into the same
+                   // memory; loading skies and grading are left out
+  double copies;   // the same over the CPU seconds of copying the frame's half floats
 };
 
 // Renders each scene with each setting and once as the reference (kReferenceAntiAliasing), which is
 // a mean of looks itself: where an edge runs through a pixel, it errs by up to 1/32 of the step.
 // Stars are left out: they are no looks but discs, drawn alike with every setting, and their own
 // error is bounded by flux (star_blobs.h).
-// quick: one scene of 256 pixels; else six of 1,024.  Measured on two threads: 1.1 s and 97 s.
+// quick: two scenes of 256 pixels; else eight of 1,024.
 // Throws InputError if the shipped sky or grading configuration cannot be read.
 std::vector<FrameErrorRow> measure_frames(bool quick);
 
