@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Every show in shows/ and shows/paper/ is checked and rendered small, first frame, last frame and some between.
+# Every show in shows/, shows/paper/ and shows/sky/ is checked and rendered small, first frame, last frame and some between.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/../cli/common.bash"
 cd "$DOMEFALL_SOURCE"
 count=0
-for show in shows/*.yaml shows/paper/*.yaml; do
+for show in shows/*.yaml shows/paper/*.yaml shows/sky/*.yaml; do
   exits 0 "$DOMEFALL" check "$show"
   frames=$(sed -nE 's/^frames +([0-9]+).*/\1/p' "$folder/stdout")
   name=$(basename "$show" .yaml)
