@@ -121,13 +121,11 @@ class Run {
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
       // All that the run will need: a damaged file is told before the first frame, not in the middle.
-      for (const SeenSky sky : kEverySky)
-        if (std::any_of(run_.frames.begin(), run_.frames.end(), [this, sky](int number) {
-              const FrameState other = frame_state(run_.show, number);
-              return plan_frame(run_.show, other)[sky].lit() ||
-                     (other.vanishing && plan_frame(run_.show, *other.vanishing)[sky].lit());
-            }))
-          renderer_->load_sky(sky);
+      for (const int number : run_.frames) {
+        const FrameState other = frame_state(run_.show, number);
+        renderer_->load(plan_frame(run_.show, other));
+        if (other.vanishing) renderer_->load(plan_frame(run_.show, *other.vanishing));
+      }
     }
     StageTimes times;
     try {

@@ -161,6 +161,11 @@ Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
 
 Renderer::~Renderer() = default;
 
+void Renderer::load(const FramePlan& plan) {
+  for (const SeenSky which : kEverySky)
+    if (plan[which].lit()) scene_.sky(which, plan[which].background, plan[which].stars);
+}
+
 void Renderer::load_sky(SeenSky which) { scene_.sky(which); }
 
 int Renderer::threads() const { return arena_->arena.max_concurrency(); }
@@ -252,7 +257,9 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
   };
   std::array<const Sky*, kSkies> skies{};
   for (const SeenSky which : kEverySky)
-    if (plan[which].lit()) skies[static_cast<std::size_t>(which)] = &scene_.sky(which);
+    if (plan[which].lit())
+      skies[static_cast<std::size_t>(which)] =
+          &scene_.sky(which, plan[which].background, plan[which].stars);
   t.load_s = lap();
   const HoleOptics& optics = optics_for(state, plan, &t.tables_made);
   t.table_nodes = node_count(optics);

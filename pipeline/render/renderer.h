@@ -61,6 +61,9 @@ class Renderer {
   // more than the light in it.
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
 
+  // Reads the files that a frame needs now instead of when it is rendered.  Throws InputError.
+  void load(const FramePlan& plan);
+
   // Reads a sky's files now instead of at the first frame that shows it.  Throws InputError.
   void load_sky(SeenSky which);
 

@@ -40,35 +40,43 @@ double Scene::limit_of(SeenSky which) const {
 }
 
 // What another sky has loaded already is shared with it.
-Sky Scene::load(SeenSky which) const {
+void Scene::load_background(SeenSky which) {
   const RegionSky& own = region(which);
-  Sky sky;
-  if (std::holds_alternative<GridSky>(own.background)) sky.background = Grid{};
-  if (const auto* rings = std::get_if<RingsSky>(&own.background)) sky.background = *rings;
-  for (const SeenSky other : kEverySky) {
-    const auto& loaded = skies_[static_cast<std::size_t>(other)];
-    if (!loaded) continue;
-    if (same_background(own, region(other))) sky.background = loaded->background;
-    if (same_stars(own, region(other)) && limit_of(which) == limit_of(other))
-      sky.stars = loaded->stars;
-  }
+  auto& background = skies_[static_cast<std::size_t>(which)].sky.background;
+  if (std::holds_alternative<GridSky>(own.background)) background = Grid{};
+  if (const auto* rings = std::get_if<RingsSky>(&own.background)) background = *rings;
   const auto* panorama = std::get_if<PanoramaSky>(&own.background);
-  if (panorama && std::holds_alternative<Black>(sky.background))
-    sky.background = read_sky(panorama->image);
-  if (sky.stars) return sky;
-  sky.stars =
-      own.stars
-          ? std::make_shared<const SceneStars>(
-                read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch).stars)
-          : std::make_shared<const SceneStars>();
-  return sky;
+  if (!panorama) return;
+  for (const SeenSky other : kEverySky) {
+    const Loaded& loaded = skies_[static_cast<std::size_t>(other)];
+    if (!loaded.background || !same_background(own, region(other))) continue;
+    background = loaded.sky.background;
+    return;
+  }
+  background = read_sky(panorama->image);
 }
 
-const Sky& Scene::sky(SeenSky which) {
+void Scene::load_stars(SeenSky which) {
+  const RegionSky& own = region(which);
+  if (!own.stars) return;
+  auto& stars = skies_[static_cast<std::size_t>(which)].sky.stars;
+  for (const SeenSky other : kEverySky) {
+    const Loaded& loaded = skies_[static_cast<std::size_t>(other)];
+    if (!loaded.stars || !same_stars(own, region(other)) || limit_of(which) != limit_of(other))
+      continue;
+    stars = loaded.sky.stars;
+    return;
+  }
+  stars = std::make_shared<const SceneStars>(
+      read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch).stars);
+}
+
+const Sky& Scene::sky(SeenSky which, bool background, bool stars) {
   const std::scoped_lock lock(loading_);
-  auto& kept = skies_[static_cast<std::size_t>(which)];
-  if (!kept) kept = std::make_unique<Sky>(load(which));
-  return *kept;
+  Loaded& kept = skies_[static_cast<std::size_t>(which)];
+  if (background && !kept.background) load_background(which), kept.background = true;
+  if (stars && !kept.stars) load_stars(which), kept.stars = true;
+  return kept.sky;
 }
 
 }  // namespace domefall

@@ -27,17 +27,23 @@ class Scene {
  public:
   explicit Scene(const Show& show) : show_(show) {}
 
-  // Loaded at the first call; files that several regions name are loaded once.  Throws InputError.
-  const Sky& sky(SeenSky which);
+  // With those of its parts that any call has asked for, loaded at the first one; files that several
+  // regions name are loaded once.  Throws InputError.
+  const Sky& sky(SeenSky which, bool background = true, bool stars = true);
 
  private:
-  Sky load(SeenSky which) const;
+  struct Loaded {
+    Sky sky{Black{}, std::make_shared<const SceneStars>()};
+    bool background = false, stars = false;
+  };
+  void load_background(SeenSky which);
+  void load_stars(SeenSky which);
   const RegionSky& region(SeenSky which) const;
   double limit_of(SeenSky which) const;  // magnitude of its faintest stars
 
   const Show& show_;
   std::mutex loading_;
-  std::array<std::unique_ptr<Sky>, kSkies> skies_;
+  std::array<Loaded, kSkies> skies_;
 };
 
 }  // namespace domefall

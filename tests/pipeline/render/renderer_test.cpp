@@ -90,7 +90,7 @@ TEST(Renderer, LooksAtNothingWhereAllIsDark) {
   EXPECT_EQ(times.images, 0u);
   for (const Imath::half value : frame.pixels) ASSERT_EQ(value, 0);
   // And a silhouette is no work: of the pixels with light few are looked at one by one.
-  const Show outside = starry(show_of(StaticObserver{4}, Domemaster{1024}));
+  const Show outside = starry(show_of(StaticObserver{4}, Domemaster{2048}));
   Renderer(outside, 2).render(frame_state(outside, 0), &times);
   EXPECT_LT(times.exact_part, 0.25);
 }
