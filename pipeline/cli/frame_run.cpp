@@ -183,12 +183,12 @@ class Run {
   GradedFrame graded_frame(const HalfFrame& frame) const {
     GradedFrame out(frame.width, frame.height);
     const int parts = file_threads();
-    std::vector<std::future<void>> others;
+    std::vector<std::future<void>> others(static_cast<std::size_t>(parts));
     for (int part = 0; part < parts; ++part)
-      others.push_back(std::async(std::launch::async, [&, part] {
+      others[static_cast<std::size_t>(part)] = std::async(std::launch::async, [&, part] {
         grader_->grade_rows(frame, out, frame.height * part / parts,
                             frame.height * (part + 1) / parts);
-      }));
+      });
     for (auto& other : others) other.get();
     return out;
   }

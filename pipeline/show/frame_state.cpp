@@ -84,6 +84,7 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
   const double opened = std::max(t - half, begin),
                closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
   std::vector<FrameState> states;
+  states.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     states.push_back(
         state_at(show, segment, frame, opened + (closed - opened) * (k + 0.5) / count));
