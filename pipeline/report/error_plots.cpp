@@ -49,13 +49,15 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
 // the scene's colour.  So is interpolating nothing, which has one setting and is a point.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
-  Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: everywhere)",
+  Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: in every pixel)",
                        "CPU time, in copies of the frame", what);
   plot.legend = "below";
   Plot everywhere, exact;
   for (const FrameErrorRow& row : rows) {
     const auto says = [&](const char* part) { return row.setting.find(part) != std::string::npos; };
-    Plot& its = says("everywhere") ? everywhere : says("none interpolated") ? exact : plot;
+    Plot& its = says("everywhere") || row.setting == "1 look" ? everywhere
+                : says("none interpolated")                   ? exact
+                                                              : plot;
     add_point(its, row.scene, {row.copies, row.*error});
   }
   for (Curve& curve : everywhere.curves) curve.style = Curve::Style::kDashed;

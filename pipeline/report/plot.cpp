@@ -113,7 +113,7 @@ std::string key_script(const std::string& place) {
   if (place.empty()) return "unset key\n";
   // gnuplot's own "below" runs into the axis's name.
   if (place == "below")
-    return "set bmargin 8\nset key at screen 0.98,0.03 right bottom maxrows 3\n";
+    return "set bmargin 9.5\nset key at screen 0.98,0.03 right bottom maxrows 4\n";
   return "set key " + place + " opaque\n";
 }
 
