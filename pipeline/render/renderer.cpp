@@ -50,15 +50,17 @@ int threads_of(int wanted) {
 
 // Each task's stars into a list of its own, the lists in the catalogue's order: the same images in the
 // same order for any number of threads.
-std::vector<std::vector<StarImage>> images_of(const StarImages& maker, const SceneStars& stars) {
+// `lists`: whatever is in them goes, their memory stays.
+void find_images(const StarImages& maker, const SceneStars& stars,
+                 std::vector<std::vector<StarImage>>& lists) {
   const std::size_t count = maker.count(stars);
-  std::vector<std::vector<StarImage>> lists((count + kStarsPerTask - 1) / kStarsPerTask);
+  lists.resize((count + kStarsPerTask - 1) / kStarsPerTask);
   tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t task) {
     const std::size_t first = task * kStarsPerTask, end = std::min(count, first + kStarsPerTask);
+    lists[task].clear();
     lists[task].reserve(end - first);
     for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, lists[task]);
   });
-  return lists;
 }
 
 // Of a sky with stars; null in flat space.
@@ -144,6 +146,8 @@ struct Renderer::Arena {
   tbb::task_arena arena;
   // Kept from frame to frame: new memory costs more than what is written into it.
   LookGrid grid{};
+  StarLayer stars{Domemaster{1}};
+  std::vector<std::vector<StarImage>> images{};
   tbb::enumerable_thread_specific<std::vector<float>> bands{};
 };
 
@@ -268,14 +272,15 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
     frame = HalfFrame(columns(state.projection), rows(state.projection));
   arena_->arena.execute([&] {
-    StarLayer stars(state.projection);
+    StarLayer& stars = arena_->stars;
+    stars.start(state.projection);
     const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
-    for (const SeenSky which : kEverySky)
-      if (plan[which].stars)
-        stars.add(images_of(StarImages(show_, state, sky_of(state.picture, which),
-                                       table_of(optics, which)),
-                            *skies[static_cast<std::size_t>(which)]->stars),
-                  widths);
+    for (const SeenSky which : kEverySky) {
+      if (!plan[which].stars) continue;
+      find_images(StarImages(show_, state, sky_of(state.picture, which), table_of(optics, which)),
+                  *skies[static_cast<std::size_t>(which)]->stars, arena_->images);
+      stars.add(arena_->images, widths);
+    }
     t.images = stars.size();
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;

@@ -21,9 +21,25 @@ constexpr int kMostBands = (kSmallBlobPixels + 2 * kBandRows - 2) / kBandRows;
 
 }  // namespace
 
-StarLayer::StarLayer(const Projection& projection)
-    : projection_(projection),
-      bands_(static_cast<std::size_t>((rows(projection) + kBandRows - 1) / kBandRows)) {}
+void StarLayer::Batch::clear() {
+  small.clear(), band.clear(), last_band.clear(), wide.clear();
+  size = 0;
+}
+
+void StarLayer::start(const Projection& projection) {
+  projection_ = projection;
+  bands_ = static_cast<std::size_t>((rows(projection) + kBandRows - 1) / kBandRows);
+  for (Batch& batch : batches_) batch.clear();
+  used_ = size_ = 0;
+  wide_.clear();
+}
+
+std::size_t StarLayer::new_batches(std::size_t count) {
+  const std::size_t before = used_;
+  used_ += count;
+  if (batches_.size() < used_) batches_.resize(used_);
+  return before;
+}
 
 void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidths& widths,
                       Batch& batch) const {
@@ -82,41 +98,44 @@ void StarLayer::place(const StarImage* images, std::size_t count, const BlobWidt
   }
 }
 
-// Short lists, many to a task: sorting takes memory for each task and band.
+// Lists in a row that are one task's, until they hold enough.
 void StarLayer::add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths) {
-  constexpr std::size_t kLists = 64;
-  const std::size_t before = batches_.size(), tasks = (lists.size() + kLists - 1) / kLists;
-  batches_.resize(before + tasks);
+  std::vector<std::size_t> first{0};
+  std::size_t images = 0;
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    images += lists[k].size();
+    if (images < kTask) continue;
+    first.push_back(k + 1);
+    images = 0;
+  }
+  if (first.back() < lists.size()) first.push_back(lists.size());
+  const std::size_t tasks = first.size() - 1, before = new_batches(tasks);
   tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t t) {
-    const std::size_t end = std::min(lists.size(), (t + 1) * kLists);
-    for (std::size_t k = t * kLists; k < end; ++k)
+    for (std::size_t k = first[t]; k < first[t + 1]; ++k)
       place(lists[k].data(), lists[k].size(), widths, batches_[before + t]);
   });
-  for (std::size_t t = before; t < batches_.size(); ++t) size_ += batches_[t].size;
+  for (std::size_t t = before; t < used_; ++t) size_ += batches_[t].size;
 }
 
 void StarLayer::add(const std::vector<StarImage>& images, const BlobWidths& widths) {
-  const std::size_t before = batches_.size(), tasks = (images.size() + kTask - 1) / kTask;
-  batches_.resize(before + tasks);
+  const std::size_t tasks = (images.size() + kTask - 1) / kTask, before = new_batches(tasks);
   tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t t) {
     const std::size_t first = t * kTask;
     place(images.data() + first, std::min(kTask, images.size() - first), widths,
           batches_[before + t]);
   });
-  for (std::size_t t = before; t < batches_.size(); ++t) size_ += batches_[t].size;
+  for (std::size_t t = before; t < used_; ++t) size_ += batches_[t].size;
 }
 
 void StarLayer::add(const std::vector<StarBlob>& blobs) {
-  Batch batch;
-  batch.wide = blobs;
+  batches_[new_batches(1)].wide = blobs;
   size_ += blobs.size();
-  batches_.push_back(std::move(batch));
 }
 
 // A counting sort by band that keeps the order within a band, each task's blobs in its own turn.
 void StarLayer::sort_small() {
-  std::vector<std::vector<std::size_t>> next(batches_.size(), std::vector<std::size_t>(bands_));
-  tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
+  std::vector<std::vector<std::size_t>> next(used_, std::vector<std::size_t>(bands_));
+  tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
     for (const std::uint16_t band : batches_[t].band) ++next[t][band];
   });
   first_small_.assign(bands_ + 1, 0), last_small_.assign(bands_, 0);
@@ -133,8 +152,11 @@ void StarLayer::sort_small() {
     }
   }
   first_small_[bands_] = sum;
-  small_ = std::make_unique_for_overwrite<SmallBlob[]>(sum);
-  tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t t) {
+  if (small_capacity_ < sum) {
+    small_ = std::make_unique_for_overwrite<SmallBlob[]>(sum);
+    small_capacity_ = sum;
+  }
+  tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
     const Batch& batch = batches_[t];
     for (std::size_t k = 0; k < batch.small.size(); ++k)
       small_[next[t][batch.band[k]]++] = batch.small[k];
@@ -145,7 +167,6 @@ void StarLayer::sort_into_bands() {
   sort_small();
   for (const Batch& batch : batches_)
     wide_.insert(wide_.end(), batch.wide.begin(), batch.wide.end());
-  batches_.clear();
   merge_crowds(projection_, wide_);
   wide_of_band_.assign(bands_, {});
   for (std::size_t k = 0; k < wide_.size(); ++k)

@@ -17,7 +17,10 @@ static_assert(kBandRows <= kMostCanvasRows);
 // wide ones, each in the order in which they came.
 class StarLayer {
  public:
-  explicit StarLayer(const Projection& projection);
+  explicit StarLayer(const Projection& projection) { start(projection); }
+  // An empty layer for another frame, in the memory of the one before: new memory costs as much as what
+  // is done in it.
+  void start(const Projection& projection);
 
   void add(const std::vector<StarImage>& images, const BlobWidths& widths);
   void add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths);
@@ -39,16 +42,21 @@ class StarLayer {
     std::vector<int> last_band;       // that blobs which begin in a band reach
     std::vector<StarBlob> wide;
     std::size_t size = 0;
+
+    void clear();
   };
+  // So many more, empty; the first one's number.
+  std::size_t new_batches(std::size_t count);
   void place(const StarImage* images, std::size_t count, const BlobWidths& widths,
              Batch& batch) const;
   void sort_small();
 
   Projection projection_;
-  std::size_t bands_;
-  std::vector<Batch> batches_;
-  std::size_t size_ = 0;
-  std::unique_ptr<SmallBlob[]> small_;    // by band
+  std::size_t bands_ = 0;
+  std::vector<Batch> batches_;  // of which `used_` are this frame's
+  std::size_t used_ = 0, size_ = 0;
+  std::unique_ptr<SmallBlob[]> small_;  // by band
+  std::size_t small_capacity_ = 0;
   std::vector<std::size_t> first_small_;  // of each band, and the end
   std::vector<int> last_small_;           // the last band that those of a band reach
   std::vector<StarBlob> wide_;
