@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <future>
 #include <optional>
@@ -21,6 +22,9 @@
 
 namespace domefall {
 namespace {
+
+// Frames of more pixels are made one at a time.
+constexpr std::int64_t kMostPixelsOfTwo = 40'000'000;
 
 class Stopwatch {
  public:
@@ -47,7 +51,10 @@ class Run {
 
   void all() {
     Progress progress(run_.frames.size());
-    // One frame is graded and written while the next is rendered, into the memory of the one before.
+    // One frame is graded and written while the next is rendered, into the memory of the one before.  A
+    // large one is written first: two of 8k, and a graded one, would take more than 1.5 GiB.
+    const bool large =
+        std::int64_t{columns(run_.show.projection)} * rows(run_.show.projection) > kMostPixelsOfTwo;
     std::future<void> writing;
     auto frame = std::make_shared<HalfFrame>(), written = std::make_shared<HalfFrame>();
     for (const int number : run_.frames) {
@@ -68,7 +75,10 @@ class Run {
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
         write(state, key, *frame, !linear_good, !graded_good);
       });
-      std::swap(frame, written);
+      if (large)
+        writing.get(), progress.made();
+      else
+        std::swap(frame, written);
     }
     if (writing.valid()) writing.get(), progress.made();
     std::fprintf(stderr, "%zu frames made, %zu already there, in %.1f s: %s\n",

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
@@ -44,6 +45,7 @@ void build(const BuildOptions& o) {
     throw InputError("--size " + std::to_string(size) + ": too coarse for a blur of " +
                      std::to_string(o.blur_deg) + " degrees; at least " +
                      std::to_string(static_cast<int>(std::ceil(60 / o.blur_deg))));
+  refuse_overwriting(o.out, o.stars);
   const StarCatalogue catalogue = read_star_catalogue(o.stars, kEveryStar);
   const std::vector<FaintStar> stars = fainter_stars(catalogue, o.fainter_than);
   if (stars.empty())
@@ -154,6 +156,7 @@ struct ImportOptions {
 SkyImport import_of(const ImportOptions& o) {
   SkyImport import = o.import;
   import.image = o.image, import.out = o.out;
+  refuse_overwriting(o.out, o.image);
   check_size(import.size, kLargestFace);
   if (o.projection == "equirectangular") import.projection = SkyProjection::kEquirectangular;
   if (o.projection == "healpix") import.projection = SkyProjection::kHealpix;

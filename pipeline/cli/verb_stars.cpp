@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pipeline/cli/output_file.h"
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
@@ -64,6 +65,9 @@ void tell_result(const RawCatalogue& catalogue, const std::string& out) {
 
 void import(const Options& o) {
   const Paths inputs(o.inputs.begin(), o.inputs.end());
+  for (const std::filesystem::path& input : inputs) refuse_overwriting(o.out, input);
+  for (const std::string& input : {o.hipparcos, o.names, o.corrections})
+    refuse_overwriting(o.out, input);
   const Importer& importer = importer_for(o.format, inputs);
   if (o.format == "auto") say("taken as " + std::string(importer.title));
   ImportedCatalogue imported = importer.import(inputs);

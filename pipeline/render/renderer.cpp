@@ -210,15 +210,26 @@ void add_times(const StageTimes& more, StageTimes& sum) {
 
 }  // namespace
 
-// Of the whole time for which the shutter is open: the middles of its halves are half of it apart.
+double Renderer::motion_between(const FrameState& from, const FrameState& to) {
+  const HoleOptics first = optics_for(from, plan_frame(show_, from));
+  const HoleOptics& second = optics_for(to, plan_frame(show_, to));
+  return motion_in_pixels(from, ViewTracer(from, first, show_.effects), to,
+                          ViewTracer(to, second, show_.effects));
+}
+
+// The way through the middles of the quarters of the exposure, three quarters of the whole; of a dissolve
+// the longer of both.
 int Renderer::pictures_for(const FrameState& state) {
-  std::vector<FrameState> halves = exposure_states(show_, state.frame, 2);
-  for (FrameState& half : halves) take_size(state, half);
-  const HoleOptics first = optics_for(halves[0], plan_frame(show_, halves[0]));
-  const HoleOptics& second = optics_for(halves[1], plan_frame(show_, halves[1]));
-  const double motion = motion_in_pixels(halves[0], ViewTracer(halves[0], first, show_.effects),
-                                         halves[1], ViewTracer(halves[1], second, show_.effects));
-  return pictures_of(2 * motion);
+  constexpr int kParts = 4;
+  std::vector<FrameState> states = exposure_states(show_, state.frame, kParts);
+  for (FrameState& exposed : states) take_size(state, exposed);
+  double way = 0, vanishing_way = 0;
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    way += motion_between(states[k - 1], states[k]);
+    if (states[k - 1].vanishing && states[k].vanishing)
+      vanishing_way += motion_between(*states[k - 1].vanishing, *states[k].vanishing);
+  }
+  return pictures_of(std::max(way, vanishing_way) * kParts / (kParts - 1));
 }
 
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {

@@ -72,6 +72,7 @@ class Renderer {
  private:
   void render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times);
   void render_one(const FrameState& state, HalfFrame& frame, StageTimes& times);
+  double motion_between(const FrameState& from, const FrameState& to);
   int pictures_for(const FrameState& state);
   // made: gets the number of tables that were not there yet.
   const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan, int* made = nullptr);

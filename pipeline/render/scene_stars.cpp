@@ -109,8 +109,9 @@ SceneStar SceneStars::operator[](std::size_t k) const {
 }
 
 std::size_t SceneStars::brighter_than(double limit) const {
-  const auto end = std::partition_point(magnitude_.begin(), magnitude_.end(),
-                                        [limit](float v) { return v <= limit; });
+  const auto end = std::partition_point(magnitude_.begin(), magnitude_.end(), [limit](float v) {
+    return v <= static_cast<float>(limit);
+  });
   return static_cast<std::size_t>(end - magnitude_.begin());
 }
 

@@ -28,9 +28,9 @@ constexpr double kFade = 0.5;  // magnitudes
 // Pieces of an arc are so many sigma apart: its light is even to 2 exp(-2 pi^2/1.5^2), 3e-4.
 constexpr double kPieceSigmas = 1.5;
 
-// The part of a star's light that a frame takes.
+// The part of a star's light that a frame takes.  Magnitudes are floats: so is a limit that some have.
 double part_taken(const Picture::Sky& sky, double magnitude) {
-  if (!sky.soft_limit) return magnitude <= sky.max_magnitude ? 1 : 0;
+  if (!sky.soft_limit) return magnitude <= double{static_cast<float>(sky.max_magnitude)} ? 1 : 0;
   return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
 }
 

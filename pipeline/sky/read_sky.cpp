@@ -1,5 +1,8 @@
 #include "pipeline/sky/read_sky.h"
 
+#include <cstdint>
+#include <utility>
+
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
@@ -17,10 +20,18 @@ FloatImage read_panorama(const std::filesystem::path& file) {
   return image;
 }
 
+// A smaller file is read to its end in a moment, and damage told before it is in a picture; of a larger
+// one only what is looked at is to be read.
+constexpr std::uintmax_t kReadWhole = std::uintmax_t{256} << 20;
+
 }  // namespace
 
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file) {
-  if (is_sky_file(file)) return std::make_shared<const SkyMap>(open_sky_file(file).map);
+  if (is_sky_file(file)) {
+    SkyFile opened = open_sky_file(file);
+    if (std::filesystem::file_size(file) <= kReadWhole) verify_sky_file(file);
+    return std::make_shared<const SkyMap>(std::move(opened.map));
+  }
   return std::make_shared<const SkyMap>(read_panorama(file));
 }
 

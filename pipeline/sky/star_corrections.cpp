@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "pipeline/sky/quoted_table.h"
 
@@ -38,7 +39,10 @@ class Corrections {
       : catalogue_(catalogue), row_(file, {"star"}) {
     for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)
       if (catalogue.stars[i].id != kNoStarId) by_id_.emplace(catalogue.stars[i].id, i);
-    for (const StarName& name : catalogue.names) by_name_.emplace(folded(name.name), name.star);
+    for (const StarName& name : catalogue.names) {
+      const auto [at, first] = by_name_.emplace(folded(name.name), name.star);
+      if (!first && at->second != name.star) ambiguous_.insert(at->first);
+    }
   }
 
   std::size_t apply() {
@@ -48,9 +52,9 @@ class Corrections {
       if (action == "add")
         add();
       else if (action == "remove")
-        remove(wanted());
+        remove(wanted_once());
       else if (action.empty())
-        change(wanted());
+        change(wanted_once());
       else
         row_.fail("action must be add, remove or empty, got '" + std::string(action) + "'");
     }
@@ -65,6 +69,8 @@ class Corrections {
       if (found != by_id_.end()) return found->second;
     }
     const auto found = by_name_.find(folded(alternative));
+    if (found != by_name_.end() && ambiguous_.contains(found->first))
+      row_.fail("several stars are called '" + std::string(alternative) + "'; name its number");
     return found == by_name_.end() ? std::nullopt : std::optional(found->second);
   }
 
@@ -76,6 +82,14 @@ class Corrections {
       if (place && catalogue_.stars[*place].v != kRemoved) return catalogue_.stars[*place];
     }
     row_.fail("the catalogue has no star '" + std::string(cell) + "'");
+  }
+
+  // Of two rows about one star the later would undo the earlier without a word.
+  CatalogueStar& wanted_once() {
+    CatalogueStar& star = wanted();
+    if (!seen_.insert(&star - catalogue_.stars.data()).second)
+      row_.fail("the star '" + std::string(row_.text("star")) + "' is corrected twice");
+    return star;
   }
 
   // Whether the row gives any of a star's numbers, which are taken.
@@ -103,7 +117,11 @@ class Corrections {
     if (!take_numbers(star)) row_.fail("the row changes nothing");
   }
 
-  static void remove(CatalogueStar& star) { star.v = kRemoved; }
+  void remove(CatalogueStar& star) {
+    CatalogueStar other;
+    if (take_numbers(other)) row_.fail("a star that is removed has no numbers");
+    star.v = kRemoved;
+  }
 
   void add() {
     CatalogueStar star;
@@ -129,6 +147,8 @@ class Corrections {
   QuotedTable row_;
   std::unordered_map<StarId, std::uint32_t> by_id_;
   std::unordered_map<std::string, std::uint32_t> by_name_;
+  std::unordered_set<std::string> ambiguous_;  // names of several stars
+  std::unordered_set<std::ptrdiff_t> seen_;    // stars that a row was about
 };
 
 }  // namespace

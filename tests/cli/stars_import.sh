@@ -107,6 +107,12 @@ sed 's/few.stars/bad.stars/' now.yaml >bad.yaml
 exits 2 "$DOMEFALL" check bad.yaml
 says 'bad.stars: byte '
 
+# What is to be read is not written over.
+cp by_hand.csv kept.csv
+exits 2 "$DOMEFALL" stars import csv kept.csv --out ./kept.csv
+says '^--out ./kept.csv: that is the file to be read; name another$'
+cmp by_hand.csv kept.csv || fail "the input was written over"
+
 # A disk that fills up, a process that is killed: the catalogue that was there stays.
 awk 'BEGIN { print "ra_deg,dec_deg,v_mag,b_v"; for (i = 0; i < 200000; ++i) print i % 360 "," i % 90 "," i % 12 ",0.5" }' >many.csv
 cp few.stars kept.stars

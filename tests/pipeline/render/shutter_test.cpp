@@ -77,6 +77,21 @@ TEST(Shutter, OfAStillPictureTakesOne) {
   EXPECT_TRUE(std::equal(open.pixels.begin(), open.pixels.end(), closed.pixels.begin()));
 }
 
+// Of two segments that are seen at once the one that moves faster counts, also if it is the one that goes.
+TEST(Shutter, OfADissolveTakesWhatTheFasterPartNeeds) {
+  Show show = turning(8, Domemaster{256});
+  Segment still = show.timeline[0];
+  still.curves = {};
+  still.dissolve_s = 0.5;
+  show.timeline.push_back(still);
+  show.exposure.shutter = 0.5;
+  StageTimes times;
+  frame_of(show, 20, &times);  // in the middle of it
+  EXPECT_GT(times.pictures, 5);
+  frame_of(show, 40, &times);  // after it
+  EXPECT_EQ(times.pictures, 1);
+}
+
 TEST(Shutter, IsOpenAboutTheInstantAndNotAcrossACut) {
   Show show = turning(1, Domemaster{64});
   show.timeline.push_back(show.timeline[0]);

@@ -210,5 +210,14 @@ TEST(StarImages, HaveTheColoursOfBlackbodies) {
   EXPECT_EQ(star_colours()(0).r, 0);
 }
 
+// A limit that a star has to the last digit takes it, though one is a float and the other is not.
+TEST(SceneStars, AreTakenUpToTheLimitItself) {
+  for (const double v : {8.3, 6.5, 0.1, -1.44, 12.123}) {
+    const SceneStars stars({SceneStar{{V3d(0, 0, 1)}, v, 1e-12, 6000, 1e-9}});
+    EXPECT_EQ(stars.brighter_than(v), 1u) << v;
+    EXPECT_EQ(stars.brighter_than(v - 1e-3), 0u) << v;
+  }
+}
+
 }  // namespace
 }  // namespace domefall

@@ -92,6 +92,15 @@ TEST_F(StarCorrections, RowsThatDoNothingAreErrorsWithTheirLine) {
             "c.csv:3: the catalogue has no star 'HD 1'");
 }
 
+TEST_F(StarCorrections, RowsThatClashAreErrorsWithTheirLine) {
+  EXPECT_EQ(complaint("star,v_mag\nHD 1,2\nOne,3\n"), "c.csv:3: the star 'One' is corrected twice");
+  EXPECT_EQ(complaint("star,action,v_mag\nHD 2,remove,3\n"),
+            "c.csv:2: a star that is removed has no numbers");
+  stars_.names.push_back({3, "one"});
+  EXPECT_EQ(complaint("star,v_mag\nOne,2\n"),
+            "c.csv:2: several stars are called 'One'; name its number");
+}
+
 TEST_F(StarCorrections, TheShippedOnesGiveTheHenryDraperCatalogueItsBetaLyrae) {
   RawCatalogue draper;
   for (const std::uint32_t hd :
