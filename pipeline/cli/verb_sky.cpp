@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
 #include "pipeline/cli/verbs.h"
@@ -77,18 +78,18 @@ void add_build(CLI::App& sky) {
   verb->add_option("--stars", o->stars, "the catalogue")->required();
   verb->add_option("--out", o->out, "the .sky file to write")->required();
   verb->add_option("--fainter-than", o->fainter_than, "V magnitude of the brightest star taken")
-      ->check(CLI::Range(-30.0, kEveryStar))
+      ->check(number_in(-30.0, kEveryStar))
       ->capture_default_str();
   verb->add_option("--blur", o->blur_deg, "degrees; standard deviation of a star's light")
-      ->check(CLI::Range(kNarrowestBlur / kDegree, kWidestBlur / kDegree))
+      ->check(number_in(kNarrowestBlur / kDegree, kWidestBlur / kDegree))
       ->capture_default_str();
   verb->add_option("--smooth-to", o->smooth_to,
                    "stars brighter than this V are spread wider, so that none stands out")
-      ->check(CLI::Range(-30.0, kEveryStar))
+      ->check(number_in(-30.0, kEveryStar))
       ->capture_default_str();
   verb->add_option("--size", o->size, "texels along a cube face, a power of two [by the blur]");
   verb->add_option("--gain", o->gain, "factor on the light")
-      ->check(CLI::Range(1e-6, 1e6))
+      ->check(number_in(1e-6, 1e6))
       ->capture_default_str();
   verb->callback([o] { build(*o); });
 }
@@ -191,7 +192,7 @@ void add_orientation(CLI::App& verb, ImportOptions& o) {
   verb.add_flag("--south-up", o.import.orientation.south_up, "the top row is the south pole");
   verb.add_option("--centre-ra,--centre-longitude", o.import.orientation.centre_deg,
                   "longitude of the middle column, degrees")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(number_in(-360.0, 360.0))
       ->capture_default_str();
 }
 
@@ -199,15 +200,15 @@ void add_cmb(CLI::App& verb, ImportOptions& o) {
   CLI::Option* cmb = verb.add_flag(
       "--cmb", o.cmb, "the map holds fluctuations of the microwave background's temperature");
   verb.add_option("--cmb-redshift", o.look.redshift, "it is shown as it was at this redshift")
-      ->check(CLI::Range(250.0, 1e5))
+      ->check(number_in(250.0, 1e5))
       ->needs(cmb)
       ->capture_default_str();
   verb.add_option("--cmb-contrast", o.look.contrast, "factor on the fluctuations")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_in(0.0, 1e6))
       ->needs(cmb)
       ->capture_default_str();
   verb.add_option("--cmb-luminance", o.look.luminance, "cd/m^2, of its mean temperature")
-      ->check(CLI::Range(1e-9, 1e3))
+      ->check(number_in(1e-9, 1e3))
       ->needs(cmb)
       ->capture_default_str();
 }
@@ -224,7 +225,7 @@ void add_import(CLI::App& sky) {
   add_orientation(*verb, *o);
   verb->add_option("--unit", o->unit,
                    "cd/m^2 of a value of 1 [1e-4]; with --cmb: kelvin [what the file says]")
-      ->check(CLI::Range(1e-12, 1e12));
+      ->check(number_in(1e-12, 1e12));
   CLI::Option* linear = verb->add_flag("--linear", o->linear, "values are linear light");
   verb->add_flag("--srgb", o->srgb, "values are sRGB-encoded [integers are]")->excludes(linear);
   verb->add_option("--size", o->import.size,

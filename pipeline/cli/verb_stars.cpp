@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
@@ -96,7 +97,7 @@ void add_import(CLI::App& stars) {
   verb->add_option("input", o->inputs, "files, or the folder they are in")->required();
   verb->add_option("--out", o->out, "the .stars file to write")->required();
   verb->add_option("--faintest", o->faintest, "leave out fainter stars than this V")
-      ->check(CLI::Range(kBrightestV, kFaintestV));
+      ->check(number_in(kBrightestV, kFaintestV));
   verb->add_option("--hipparcos", o->hipparcos,
                    "V, colours and missing stars from d3-celestial's stars.N.json");
   verb->add_option("--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json");

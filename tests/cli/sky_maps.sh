@@ -75,3 +75,10 @@ says '0 frames made'
 cp mirrored.sky as_it_is.sky
 exits 0 "$DOMEFALL" render mapped.yaml --frames 0 --out mapped
 says '1 frames? made'
+
+# A number that is none is refused, not used.
+for option in "--centre-ra nan" "--unit nan" "--unit inf"; do
+  # shellcheck disable=SC2086  # two words
+  exits 2 "$DOMEFALL" sky import "$panorama" --out nan.sky $option
+  if [ -e nan.sky ]; then fail "a map was made of $option"; fi
+done
