@@ -2,12 +2,12 @@
 
 #include "pipeline/sky/import_text.h"
 #include "pipeline/sky/importers.h"
-#include "pipeline/sky/quoted_table.h"
+#include "pipeline/sky/table_star.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegreesPerHour = 15, kFastest = 1e5, kLastHip = 120416, kLastHd = 359083;
+constexpr StarColumns kColumns{"ra", "dec", "mag", "ci", "pmra", "pmdec", 15, -kReddest};
 
 // "Alp", "Alp-1", "Kap-2" and the constellation: "alpha CMa", "alpha1 Cru".
 std::string bayer_name(std::string_view letter, std::string_view constellation) {
@@ -28,20 +28,6 @@ std::string bayer_name(std::string_view letter, std::string_view constellation) 
   return "";
 }
 
-CatalogueStar read_star(const QuotedTable& row) {
-  CatalogueStar star;
-  star.direction =
-      star_direction(row.required("ra", 0, 24) * kDegreesPerHour, row.required("dec", -90, 90));
-  star.v = static_cast<float>(row.required("mag", kBrightestV, kFaintestV));
-  if (const auto b_v = row.number("ci", -kReddest, kReddest)) star.colour = colour_of_b_v(*b_v);
-  star.pm_ra = static_cast<float>(row.number("pmra", -kFastest, kFastest).value_or(0));
-  star.pm_dec = static_cast<float>(row.number("pmdec", -kFastest, kFastest).value_or(0));
-  star.hip = static_cast<std::uint32_t>(row.number("hip", 0, kLastHip).value_or(0));
-  const auto hd = static_cast<std::uint32_t>(row.number("hd", 0, kLastHd).value_or(0));
-  if (hd) star.id = henry_draper_id(hd);
-  return star;
-}
-
 }  // namespace
 
 ImportedCatalogue import_hyg(const Paths& inputs) {
@@ -56,7 +42,7 @@ ImportedCatalogue import_hyg(const Paths& inputs) {
         continue;
       }
       const auto place = static_cast<std::uint32_t>(catalogue.stars.size());
-      catalogue.stars.push_back(read_star(row));
+      catalogue.stars.push_back(read_table_star(row, kColumns));
       if (!proper.empty()) catalogue.names.push_back({place, std::string(proper)});
       const std::string bayer = bayer_name(row.text("bayer"), row.text("con"));
       if (!bayer.empty()) catalogue.names.push_back({place, bayer});

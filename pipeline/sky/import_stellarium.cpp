@@ -9,6 +9,7 @@
 #include "pipeline/sky/importers.h"
 #include "pipeline/sky/quoted_table.h"
 #include "pipeline/sky/stellarium_zones.h"
+#include "pipeline/sky/table_star.h"
 
 namespace domefall {
 namespace {
@@ -171,7 +172,6 @@ Paths catalogues_in(const fs::path& folder) {
 void take_motions(const fs::path& file, std::vector<CatalogueStar>& stars) {
   std::unordered_map<std::uint32_t, std::pair<float, float>> motions;
   QuotedTable row(file, {"hip", "pm_ra", "pm_dec"}, '\t', {"hip", "pm_ra", "pm_dec"});
-  constexpr double kLastHip = 120416, kFastest = 1e5;
   while (row.next())
     motions[static_cast<std::uint32_t>(row.required("hip", 1, kLastHip))] = {
         static_cast<float>(row.required("pm_ra", -kFastest, kFastest)),

@@ -5,12 +5,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "pipeline/sky/quoted_table.h"
+#include "pipeline/sky/table_star.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kFastest = 1e5;
 // What a removed star has until the end, beyond every limit.
 constexpr float kRemoved = 2 * kNoMagnitude;
 

@@ -6,9 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 #include <numbers>
 #include <random>
@@ -17,6 +15,7 @@
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/star_layer.h"
+#include "pipeline/report/frame_timing.h"
 
 namespace domefall {
 namespace {
@@ -70,20 +69,6 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double copy_seconds(int size) {
-  const HalfFrame frame(size, size);
-  HalfFrame copy(size, size);
-  double best = 1e9;
-  for (int k = 0; k < 7; ++k) {
-    const double start = cpu_seconds();
-    std::memcpy(copy.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2);
-    benchmark::DoNotOptimize(copy.pixels.data());
-    benchmark::ClobberMemory();
-    best = std::min(best, cpu_seconds() - start);
-  }
-  return best;
-}
-
 struct Cost {
   double place = 1e9, sort = 1e9, draw = 1e9;
 };
@@ -122,7 +107,7 @@ void draw_stars(benchmark::State& state, double within, double gain) {
   state.counters["sort_ns"] = 1e9 * cost.sort / static_cast<double>(count);
   state.counters["draw_ns"] = 1e9 * cost.draw / static_cast<double>(count);
   state.counters["cpu_s"] = total;
-  state.counters["copies"] = total / copy_seconds(size);
+  state.counters["copies"] = total / copy_seconds(HalfFrame(size, size));
 }
 
 void open_sky(benchmark::State& state) { draw_stars(state, pi / 2, 1); }

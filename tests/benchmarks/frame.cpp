@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,6 +15,7 @@
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/renderer.h"
+#include "pipeline/report/frame_timing.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {
@@ -47,21 +47,6 @@ double cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
-
-// Seconds of copying a frame of this size: the unit.
-double copy_seconds(const HalfFrame& frame) {
-  HalfFrame copy(frame.width, frame.height);
-  double best = 1e9;
-  for (int k = 0; k < 7; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    std::memcpy(copy.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2);
-    benchmark::DoNotOptimize(copy.pixels.data());
-    benchmark::ClobberMemory();
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best;
 }
 
 // What the iterations of a benchmark took: the quickest one's time, since a machine may be busy with

@@ -16,51 +16,27 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/star_images.h"
+#include "pipeline/report/frame_timing.h"
+#include "pipeline/report/made_up_stars.h"
 
 namespace domefall {
 namespace {
 
 constexpr int kSize = 4096;
 
-// V, and how many stars of Tycho-2 are brighter.
-struct Count {
-  double magnitude, stars;
-};
-constexpr std::array<Count, 8> kCounts{{{-1.5, 1},
-                                        {6.5, 8805},
-                                        {8, 45630},
-                                        {9, 130720},
-                                        {10, 357145},
-                                        {11, 945959},
-                                        {12, 2083385},
-                                        {13, 2543829}}};
-
-double magnitude_of_rank(double rank) {
-  std::size_t k = 1;
-  while (k + 1 < kCounts.size() && kCounts[k].stars < rank) ++k;
-  const Count &a = kCounts[k - 1], &b = kCounts[k];
-  return a.magnitude +
-         (b.magnitude - a.magnitude) * std::log(rank / a.stars) / std::log(b.stars / a.stars);
-}
-
 std::vector<Star> made_up(std::size_t count) {
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> b_v(-0.2, 1.8);
-  std::vector<Star> stars(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const V3d v(normal(random), normal(random), normal(random));
-    stars[k] = {{v.normalized()},
-                static_cast<float>(magnitude_of_rank(static_cast<double>(k) + 1)),
-                static_cast<float>(temperature_from_b_v(b_v(random)))};
-  }
+  std::vector<Star> stars;
+  stars.reserve(count);
+  for (const CatalogueStar& star : made_up_stars(count).stars)
+    stars.push_back(
+        {star.direction, star.v, static_cast<float>(temperature_from_b_v(star.colour))});
   return stars;
 }
 
 const std::vector<Star>& all_stars() {
   static const std::vector<Star> stars = [] {
     const char* file = std::getenv("DOMEFALL_STARS");
-    return file ? read_star_catalogue(file, 99).stars : made_up(2'543'829);
+    return file ? read_star_catalogue(file, 99).stars : made_up(kMostMadeUpStars);
   }();
   return stars;
 }
@@ -70,22 +46,6 @@ double cpu_seconds() {
   getrusage(RUSAGE_SELF, &use);
   return static_cast<double>(use.ru_utime.tv_sec) +
          1e-6 * static_cast<double>(use.ru_utime.tv_usec);
-}
-
-// CPU seconds of copying a frame: the unit.
-double copy_seconds() {
-  const HalfFrame frame(kSize, kSize);
-  HalfFrame copy(kSize, kSize);
-  double best = 1e9;
-  for (int k = 0; k < 5; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    std::memcpy(copy.pixels.data(), frame.pixels.data(), frame.pixels.size() * 2);
-    benchmark::DoNotOptimize(copy.pixels.data());
-    benchmark::ClobberMemory();
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best;
 }
 
 struct Place {
@@ -125,7 +85,7 @@ void find_images(benchmark::State& bench) {
   bench.SetLabel(place.name);
   bench.counters["ns_per_star"] = best * 1e9 / static_cast<double>(number);
   bench.counters["cpu_ms"] = best * 1e3;
-  bench.counters["copies"] = best / copy_seconds();
+  bench.counters["copies"] = best / copy_seconds(HalfFrame(kSize, kSize));
   bench.counters["images"] = static_cast<double>(images.size());
 }
 
