@@ -2,13 +2,14 @@
 
 #include <bit>
 
-#include "pipeline/render/vector_math.h"
+#include "pipeline/render/simd.h"
 
 namespace domefall {
 
 namespace {
 
-DOMEFALL_SIMD std::uint32_t convert(const float* values, int count, std::uint16_t* out) {
+[[gnu::always_inline]] inline std::uint32_t convert_loop(const float* values, int count,
+                                                         std::uint16_t* out) {
   constexpr float kLargest = 65504, kSmallestNormal = 0x1p-14f;
   // Adding it lets the addition round to the step of subnormal halves.
   constexpr float kMagic = 0.5f;
@@ -26,6 +27,7 @@ DOMEFALL_SIMD std::uint32_t convert(const float* values, int count, std::uint16_
   }
   return not_finite;
 }
+Dispatched<convert_loop> convert;
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/render/vector_math.h"
+#include "pipeline/render/simd.h"
 
 namespace domefall {
 namespace {
@@ -46,19 +46,23 @@ constexpr std::array<Weights, kStep> kCubic = [] {
   return table;
 }();
 
-DOMEFALL_SIMD void mix_four(const float* a, const float* b, const float* c, const float* d,
-                            const Weights& weights, int count, float* out) {
+[[gnu::always_inline]] inline void mix_four_loop(const float* a, const float* b, const float* c,
+                                                 const float* d, const Weights& weights, int count,
+                                                 float* out) {
   const Weights w = weights;
   for (int k = 0; k < count; ++k)
     out[k] = w.w[0] * a[k] + w.w[1] * b[k] + w.w[2] * c[k] + w.w[3] * d[k];
 }
+Dispatched<mix_four_loop> mix_four;
 
-DOMEFALL_SIMD void mix_two(const float* a, const float* b, float t, int count, float* out) {
+[[gnu::always_inline]] inline void mix_two_loop(const float* a, const float* b, float t, int count,
+                                                float* out) {
   for (int k = 0; k < count; ++k) out[k] = a[k] + t * (b[k] - a[k]);
 }
+Dispatched<mix_two_loop> mix_two;
 
 // kStep pixels for each cell; `line` begins one node before the first of them.
-DOMEFALL_SIMD void spread_cubic(const float* line, int cells, float* out) {
+[[gnu::always_inline]] inline void spread_cubic_loop(const float* line, int cells, float* out) {
   float w[4][kStep];
   for (int n = 0; n < 4; ++n)
     for (int k = 0; k < kStep; ++k) w[n][k] = kCubic[k].w[n];
@@ -67,19 +71,22 @@ DOMEFALL_SIMD void spread_cubic(const float* line, int cells, float* out) {
     for (int k = 0; k < kStep; ++k) out[k] = w[0][k] * p + w[1][k] * q + w[2][k] * r + w[3][k] * s;
   }
 }
+Dispatched<spread_cubic_loop> spread_cubic;
 
-DOMEFALL_SIMD void spread_linear(const float* line, int cells, float* out) {
+[[gnu::always_inline]] inline void spread_linear_loop(const float* line, int cells, float* out) {
   for (int c = 0; c < cells; ++c, out += kStep) {
     const float from = line[c + 1], by = (line[c + 2] - line[c + 1]) * (1.0f / kStep);
     for (int k = 0; k < kStep; ++k) out[k] = from + static_cast<float>(k) * by;
   }
 }
+Dispatched<spread_linear_loop> spread_linear;
 
 // Of a panorama: ShiftSides become the shift.
-DOMEFALL_SIMD void choose_side(const float* red, const float* blue, float knee, int count,
-                               float* gain) {
+[[gnu::always_inline]] inline void choose_side_loop(const float* red, const float* blue, float knee,
+                                                    int count, float* gain) {
   for (int k = 0; k < count; ++k) gain[k] = red[k] > knee ? blue[k] : red[k];
 }
+Dispatched<choose_side_loop> choose_side;
 
 // What the cubic through the second next neighbours errs by.
 inline float missed(const float* p, std::ptrdiff_t stride) {
@@ -94,8 +101,8 @@ struct Checked {
 };
 
 // Along a line of nodes, or across it with a stride.  A comparison with NaN is false: not good.
-DOMEFALL_SIMD void check(const Checked& nodes, std::ptrdiff_t stride, int count,
-                         std::uint8_t* good) {
+[[gnu::always_inline]] inline void check_loop(const Checked& nodes, std::ptrdiff_t stride,
+                                              int count, std::uint8_t* good) {
   const Checked n = nodes;
   for (int k = 0; k < count; ++k) {
     const float x = missed(n.x + k, stride), y = missed(n.y + k, stride),
@@ -109,6 +116,7 @@ DOMEFALL_SIMD void check(const Checked& nodes, std::ptrdiff_t stride, int count,
     good[k] = static_cast<std::uint8_t>(good[k] & ((place & gain & tone) ? 1 : 0));
   }
 }
+Dispatched<check_loop> check;
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/vector_math.h"
+#include "pipeline/render/simd.h"
 
 namespace domefall {
 namespace {
@@ -68,17 +68,19 @@ inline void place(const OnFace& on, float half_size, std::int32_t side, std::int
   fy = y - static_cast<float>(j);
 }
 
-DOMEFALL_SIMD void locate(Directions d, int count, int size, Spots& spots) {
+[[gnu::always_inline]] inline void locate_loop(Directions d, int count, int size, Spots& spots) {
   const float half_size = static_cast<float>(size) / 2;
   for (int k = 0; k < count; ++k) {
     const OnFace on = on_face(d.x[k], d.y[k], d.z[k]);
     place(on, half_size, size + 2, spots.at[k], spots.fx[k], spots.fy[k]);
   }
 }
+Dispatched<locate_loop> locate;
 
 // Levels by the logarithm of the blur in texels, straight between powers of two.
-DOMEFALL_SIMD void locate_levels(Directions d, const float* blur, float per_texel, int count,
-                                 int size, int last, LevelSpots& spots) {
+[[gnu::always_inline]] inline void locate_levels_loop(Directions d, const float* blur,
+                                                      float per_texel, int count, int size,
+                                                      int last, LevelSpots& spots) {
   for (int k = 0; k < count; ++k) {
     const float texels = blur[k] * per_texel;
     const float bounded = texels > 1 ? texels : 1;
@@ -96,6 +98,7 @@ DOMEFALL_SIMD void locate_levels(Directions d, const float* blur, float per_texe
           spots.coarse.at[k], spots.coarse.fx[k], spots.coarse.fy[k]);
   }
 }
+Dispatched<locate_levels_loop> locate_levels;
 
 // Texels that a look will want are asked for so many pixels ahead: they are all over the map.
 constexpr int kAhead = 12;
@@ -122,7 +125,8 @@ inline void prefetch(const SkyTexel* t, int side) {
   return left + (right - left) * fx;
 }
 
-DOMEFALL_SIMD void add_fine(const Levels& levels, const Spots& s, int count, Four* sum) {
+[[gnu::always_inline]] inline void add_fine_loop(const Levels& levels, const Spots& s, int count,
+                                                 Four* sum) {
   const SkyTexel* texels = levels.texels[0];
   const int side = levels.side[0];
   for (int k = 0; k < count; ++k) {
@@ -130,11 +134,13 @@ DOMEFALL_SIMD void add_fine(const Levels& levels, const Spots& s, int count, Fou
     sum[k] += bilinear(texels + s.at[k], side, s.fx[k], s.fy[k]);
   }
 }
+Dispatched<add_fine_loop> add_fine;
 
 // As add_levels, for one of many looks of a pixel: each keeps to one level, and as many of them to the
 // coarser one as its part asks for.  `threshold`: in (0, 1), another one for each look.
-DOMEFALL_SIMD void locate_level(Directions d, const float* blur, float per_texel, float threshold,
-                                int count, int size, int last, LevelSpots& spots) {
+[[gnu::always_inline]] inline void locate_level_loop(Directions d, const float* blur,
+                                                     float per_texel, float threshold, int count,
+                                                     int size, int last, LevelSpots& spots) {
   for (int k = 0; k < count; ++k) {
     const float texels = blur[k] * per_texel;
     const float bounded = texels > 1 ? texels : 1;
@@ -149,8 +155,10 @@ DOMEFALL_SIMD void locate_level(Directions d, const float* blur, float per_texel
           (size >> level) + 2, spots.fine.at[k], spots.fine.fx[k], spots.fine.fy[k]);
   }
 }
+Dispatched<locate_level_loop> locate_level;
 
-DOMEFALL_SIMD void add_level(const Levels& levels, const LevelSpots& s, int count, Four* sum) {
+[[gnu::always_inline]] inline void add_level_loop(const Levels& levels, const LevelSpots& s,
+                                                  int count, Four* sum) {
   for (int k = 0; k < count; ++k) {
     const int level = s.level[k], later = std::min(k + kAhead, count - 1), then = s.level[later];
     prefetch(levels.texels[then] + s.fine.at[later], levels.side[then]);
@@ -158,8 +166,10 @@ DOMEFALL_SIMD void add_level(const Levels& levels, const LevelSpots& s, int coun
                        s.fine.fy[k]);
   }
 }
+Dispatched<add_level_loop> add_level;
 
-DOMEFALL_SIMD void add_levels(const Levels& levels, const LevelSpots& s, int count, Four* sum) {
+[[gnu::always_inline]] inline void add_levels_loop(const Levels& levels, const LevelSpots& s,
+                                                   int count, Four* sum) {
   const int last = static_cast<int>(levels.texels.size()) - 1;
   for (int k = 0; k < count; ++k) {
     const int fine = s.level[k], coarse = fine < last ? fine + 1 : last;
@@ -172,10 +182,11 @@ DOMEFALL_SIMD void add_levels(const Levels& levels, const LevelSpots& s, int cou
     sum[k] += a + (b - a) * s.part[k];
   }
 }
+Dispatched<add_levels_loop> add_levels;
 
 // One look a pixel at the finest level: the bulk of most frames, in one loop.
-DOMEFALL_SIMD void fine_colours(const Levels& levels, const Spots& s, const float* gain, int count,
-                                float* rgb) {
+[[gnu::always_inline]] inline void fine_colours_loop(const Levels& levels, const Spots& s,
+                                                     const float* gain, int count, float* rgb) {
   const SkyTexel* texels = levels.texels[0];
   const int side = levels.side[0];
   for (int k = 0; k < count; ++k, rgb += 3) {
@@ -184,14 +195,16 @@ DOMEFALL_SIMD void fine_colours(const Levels& levels, const Spots& s, const floa
     std::memcpy(rgb, &c, sizeof c);  // the fourth is 0, and the next pixel's to overwrite
   }
 }
+Dispatched<fine_colours_loop> fine_colours;
 
-DOMEFALL_SIMD void to_colours(const Four* sum, const float* gain, float share, int count,
-                              float* rgb) {
+[[gnu::always_inline]] inline void to_colours_loop(const Four* sum, const float* gain, float share,
+                                                   int count, float* rgb) {
   for (int k = 0; k < count; ++k, rgb += 3) {
     const Four c = sum[k] * (gain[k] * share);
     rgb[0] = c[0], rgb[1] = c[1], rgb[2] = c[2];
   }
 }
+Dispatched<to_colours_loop> to_colours;
 
 // I and I theta of blackbody light, shifted by `tone` octaves of temperature.
 void thermal_to_colours(const Four* sum, const float* gain, const float* tone, float share,
@@ -207,21 +220,24 @@ void thermal_to_colours(const Four* sum, const float* gain, const float* tone, f
   }
 }
 
-DOMEFALL_SIMD void step_along(const SkyPlaces& p, float along, int count, float* x, float* y,
-                              float* z) {
+[[gnu::always_inline]] inline void step_along_loop(const SkyPlaces& p, float along, int count,
+                                                   float* x, float* y, float* z) {
   for (int k = 0; k < count; ++k) {
     x[k] = p.x[k] + p.ax[k] * along;
     y[k] = p.y[k] + p.ay[k] * along;
     z[k] = p.z[k] + p.az[k] * along;
   }
 }
+Dispatched<step_along_loop> step_along;
 
-DOMEFALL_SIMD void look_widths(const SkyPlaces& p, float share, int count, float* blur) {
+[[gnu::always_inline]] inline void look_widths_loop(const SkyPlaces& p, float share, int count,
+                                                    float* blur) {
   for (int k = 0; k < count; ++k) {
     const float each = p.wide[k] * share;
     blur[k] = p.narrow[k] > each ? p.narrow[k] : each;
   }
 }
+Dispatched<look_widths_loop> look_widths;
 
 Levels levels_of(const SkyMap& map) {
   Levels l{};

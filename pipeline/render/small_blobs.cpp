@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "pipeline/render/lanes.h"
+#include "pipeline/render/simd.h"
 
 namespace domefall {
 namespace {
@@ -65,9 +66,8 @@ template <bool kDome>
   }
 }
 
-DOMEFALL_SIMD void place_on_dome(const Frame& f, Placing& p) { place<true>(f, p); }
-
-DOMEFALL_SIMD void place_on_flat(const Frame& f, Placing& p) { place<false>(f, p); }
+Dispatched<place<true>> place_on_dome;
+Dispatched<place<false>> place_on_flat;
 
 void place_batch(const Frame& f, bool dome, const StarImage* images, const double* sigma,
                  std::size_t count, SmallBlob* blobs, int* first_row, Placed* kind) {
@@ -77,7 +77,10 @@ void place_batch(const Frame& f, bool dome, const StarImage* images, const doubl
     p.x[k] = image.x, p.y[k] = image.y, p.sigma[k] = sigma[std::min(k, count - 1)];
     p.red[k] = image.rgb[0], p.green[k] = image.rgb[1], p.blue[k] = image.rgb[2];
   }
-  (dome ? place_on_dome : place_on_flat)(f, p);
+  if (dome)
+    place_on_dome(f, p);
+  else
+    place_on_flat(f, p);
   for (std::size_t k = 0; k < count; ++k) {
     const StarImage& image = images[k];
     const float scale = p.peak_per_flux[k];
@@ -217,8 +220,10 @@ void place_small_blobs(const Projection& projection, const StarImage* images, co
                 first_row + k, kind + k);
 }
 
-DOMEFALL_SIMD void draw_small_blobs(const SmallBlob* blobs, std::size_t count,
-                                    const Canvas& canvas) {
+namespace {
+
+[[gnu::always_inline]] inline void draw_loop(const SmallBlob* blobs, std::size_t count,
+                                             const Canvas& canvas) {
   // A box within these columns is inside on every row, the padding to whole blocks included.
   int least = 0, most = canvas.width - 1;
   for (int row = 0; row < canvas.rows; ++row) {
@@ -241,6 +246,13 @@ DOMEFALL_SIMD void draw_small_blobs(const SmallBlob* blobs, std::size_t count,
       }
     }
   }
+}
+Dispatched<draw_loop> draw;
+
+}  // namespace
+
+void draw_small_blobs(const SmallBlob* blobs, std::size_t count, const Canvas& canvas) {
+  draw(blobs, count, canvas);
 }
 
 }  // namespace domefall

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/render/angle_over_sine.h"
+#include "pipeline/render/simd.h"
 #include "pipeline/render/vector_math.h"
 
 namespace domefall {
@@ -16,8 +17,8 @@ struct Input {
   const float *x, *y, *z, *magnitude, *flux, *temperature;
 };
 
-DOMEFALL_SIMD void to_tetrad(const StarFrame& frame, const Input& input, int count,
-                             StarSources& s) {
+[[gnu::always_inline]] inline void into_tetrad_loop(const StarFrame& frame, const Input& input,
+                                                    int count, StarSources& s) {
   const M33d matrix = frame.sky_from_tetrad;
   const double gain = frame.gain, limit = frame.limit, inverse_fade = frame.inverse_fade;
   const Input in = input;
@@ -31,10 +32,11 @@ DOMEFALL_SIMD void to_tetrad(const StarFrame& frame, const Input& input, int cou
     s.temperature[k] = in.temperature[k];
   }
 }
+Dispatched<into_tetrad_loop> into_tetrad;
 
 // sine and v.  With c and s the cosine and sine of half the angle from +R,
 // tan((pi - angle)/4) = (1 + c - s)/(1 + c + s).
-DOMEFALL_SIMD void to_lens(int count, StarSources& sources) {
+[[gnu::always_inline]] inline void to_lens_loop(int count, StarSources& sources) {
   for (int k = 0; k < count; ++k) {
     const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
     const double sine = std::sqrt(y * y + z * z);
@@ -44,6 +46,7 @@ DOMEFALL_SIMD void to_lens(int count, StarSources& sources) {
     sources.v[k] = (1 + c - s) / (1 + c + s);
   }
 }
+Dispatched<to_lens_loop> to_lens;
 
 // A tetrad's direction with what gravity does to its light, as the moving camera has it.
 inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
@@ -58,8 +61,9 @@ inline void receive(const Aberration& boost, const M33d& camera, const V3d& dire
   views.x[k] = n.x, views.y[k] = n.y, views.z[k] = n.z;
 }
 
-DOMEFALL_SIMD void look_up(const LensCurve::Lookup& lookup, double side, const double* v, int count,
-                           double* __restrict psi, double* __restrict slope) {
+[[gnu::always_inline]] inline void look_up_loop(const LensCurve::Lookup& lookup, double side,
+                                                const double* v, int count, double* __restrict psi,
+                                                double* __restrict slope) {
   const LensCurve::Lookup curve = lookup;
   for (int k = 0; k < count; ++k) {
     const LensCurve::View view = curve(side * v[k]);
@@ -67,10 +71,12 @@ DOMEFALL_SIMD void look_up(const LensCurve::Lookup& lookup, double side, const d
     slope[k] = view.slope;
   }
 }
+Dispatched<look_up_loop> look_up;
 
-DOMEFALL_SIMD void bend_all(const StarFrame& frame, double side, const double* psis,
-                            const double* slopes, const StarSources& sources, int count,
-                            StarViews& views) {
+[[gnu::always_inline]] inline void bend_all_loop(const StarFrame& frame, double side,
+                                                 const double* psis, const double* slopes,
+                                                 const StarSources& sources, int count,
+                                                 StarViews& views) {
   const Aberration boost = frame.from_tetrad;
   const M33d camera = frame.tetrad_from_camera;
   const PsiFrame psi = frame.psi;
@@ -84,25 +90,30 @@ DOMEFALL_SIMD void bend_all(const StarFrame& frame, double side, const double* p
     receive(boost, camera, direction, 1 / energy, across * slopes[k], sources, k, views);
   }
 }
+Dispatched<bend_all_loop> bend_all;
 
-DOMEFALL_SIMD void go_straight_all(const StarFrame& frame, const StarSources& sources, int count,
-                                   StarViews& views) {
+[[gnu::always_inline]] inline void go_straight_all_loop(const StarFrame& frame,
+                                                        const StarSources& sources, int count,
+                                                        StarViews& views) {
   const Aberration boost = frame.from_tetrad;
   const M33d camera = frame.tetrad_from_camera;
   for (int k = 0; k < count; ++k)
     receive(boost, camera, V3d(sources.x[k], sources.y[k], sources.z[k]), 1, 1, sources, k, views);
 }
+Dispatched<go_straight_all_loop> go_straight_all;
 
-DOMEFALL_SIMD void onto_dome(double scale, double middle, int count, StarViews& views) {
+[[gnu::always_inline]] inline void onto_dome_loop(double scale, double middle, int count,
+                                                  StarViews& views) {
   for (int k = 0; k < count; ++k) {
     const double m = scale * angle_over_sine(views.z[k]);
     views.i[k] = middle + m * views.x[k];
     views.j[k] = middle + m * views.y[k];
   }
 }
+Dispatched<onto_dome_loop> onto_dome;
 
-DOMEFALL_SIMD void onto_plane(double scale, double middle_i, double middle_j, int count,
-                              StarViews& views) {
+[[gnu::always_inline]] inline void onto_plane_loop(double scale, double middle_i, double middle_j,
+                                                   int count, StarViews& views) {
   for (int k = 0; k < count; ++k) {
     const double x = views.x[k], y = views.y[k], z = views.z[k];
     // 1 + cos(theta), from the sine where the sum would cancel.
@@ -112,6 +123,7 @@ DOMEFALL_SIMD void onto_plane(double scale, double middle_i, double middle_j, in
     views.j[k] = middle_j + m * y;
   }
 }
+Dispatched<onto_plane_loop> onto_plane;
 
 // Pixels per radian of the flat picture, and of any, in its middle.
 double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
@@ -120,10 +132,10 @@ double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p
 
 void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
                   StarSources& sources) {
-  to_tetrad(frame,
-            {stars.x() + first, stars.y() + first, stars.z() + first, stars.magnitude() + first,
-             stars.flux() + first, stars.temperature() + first},
-            count, sources);
+  into_tetrad(frame,
+              {stars.x() + first, stars.y() + first, stars.z() + first, stars.magnitude() + first,
+               stars.flux() + first, stars.temperature() + first},
+              count, sources);
   to_lens(count, sources);
 }
 

@@ -9,6 +9,7 @@
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/render/lanes.h"
 #include "pipeline/render/photometry.h"
+#include "pipeline/render/simd.h"
 
 namespace domefall {
 namespace {
@@ -195,7 +196,8 @@ template <bool kDome, int kCount>
 }
 
 // `room`: pixels from out on that may be touched; beyond the blob they get 0.
-DOMEFALL_SIMD void add_span(const Brush& b, float dx, float dy, int count, int room, float* out) {
+[[gnu::always_inline]] inline void add_span_loop(const Brush& b, float dx, float dy, int count,
+                                                 int room, float* out) {
   for (; count > 0; count -= kChunk, room -= kChunk, dx += kChunk, out += 3 * kChunk) {
     const int pixels = std::min(room, kChunk);
     if (!b.dome)
@@ -206,6 +208,7 @@ DOMEFALL_SIMD void add_span(const Brush& b, float dx, float dy, int count, int r
       add_chunk<true, kTerms>(b, dx, dy, pixels, out);
   }
 }
+Dispatched<add_span_loop> add_span;
 
 }  // namespace
 

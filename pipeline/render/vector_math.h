@@ -7,14 +7,6 @@
 #include <bit>
 #include <cstdint>
 
-// Compiles a function for several instruction sets and picks one when the program starts.  Clang
-// vectorises for the baseline only; it is what the sanitizers run on.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define DOMEFALL_SIMD __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define DOMEFALL_SIMD
-#endif
-
 namespace domefall {
 
 // Adding it rounds a number below 2^51 to an integer, which stands in its lowest bits.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/render/simd.h"
 #include "pipeline/render/vector_math.h"
 
 namespace domefall {
@@ -32,8 +33,8 @@ struct Rain {
   LookBatch::Column<double> x, y, z, sine, sin_half, cos_half, inverse_doppler;
 };
 
-DOMEFALL_SIMD void to_rain(const Frame& frame, const CameraDirection* n, int count, Rain& rain,
-                           LookBatch& batch) {
+[[gnu::always_inline]] inline void to_rain_loop(const Frame& frame, const CameraDirection* n,
+                                                int count, Rain& rain, LookBatch& batch) {
   const Frame f = frame;
   for (int k = 0; k < count; ++k) {
     const AberratedLight in = f.aberration.to_rest(apply(f.tetrad_from_camera, n[k].v));
@@ -49,8 +50,10 @@ DOMEFALL_SIMD void to_rain(const Frame& frame, const CameraDirection* n, int cou
     batch.to_edge[k] = HUGE_VAL;
   }
 }
+Dispatched<to_rain_loop> to_rain;
 
-DOMEFALL_SIMD void flat_sky(const Frame& frame, const Rain& rain, int count, LookBatch& batch) {
+[[gnu::always_inline]] inline void flat_sky_loop(const Frame& frame, const Rain& rain, int count,
+                                                 LookBatch& batch) {
   const Frame f = frame;
   for (int k = 0; k < count; ++k) {
     const V3d sky = apply(f.sky_from_tetrad, V3d(rain.x[k], rain.y[k], rain.z[k]));
@@ -61,10 +64,11 @@ DOMEFALL_SIMD void flat_sky(const Frame& frame, const Rain& rain, int count, Loo
     batch.radial_scale[k] = batch.tangential_scale[k] = rain.inverse_doppler[k];
   }
 }
+Dispatched<flat_sky_loop> flat_sky;
 
 // Distances from an edge: the coordinate of its table, and the angle of view.
-DOMEFALL_SIMD void distances(const SkyEdge& sky_edge, const Rain& rain, int count, double* distance,
-                             double* away) {
+[[gnu::always_inline]] inline void distances_loop(const SkyEdge& sky_edge, const Rain& rain,
+                                                  int count, double* distance, double* away) {
   const SkyEdge edge = sky_edge;
   for (int k = 0; k < count; ++k) {
     const double x = edge.distance(rain.sin_half[k], rain.cos_half[k]);
@@ -72,10 +76,13 @@ DOMEFALL_SIMD void distances(const SkyEdge& sky_edge, const Rain& rain, int coun
     away[k] = 2 * std::abs(x) / rain.inverse_doppler[k];
   }
 }
+Dispatched<distances_loop> distances;
 
 // The swept azimuth and its slope, where the table reaches.
-DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* __restrict distance,
-                          int count, double* __restrict azimuth, double* __restrict slope) {
+[[gnu::always_inline]] inline void sweeps_loop(const SkyTable::Lookup& lookup,
+                                               const double* __restrict distance, int count,
+                                               double* __restrict azimuth,
+                                               double* __restrict slope) {
   const SkyTable::Lookup table = lookup;
   for (int k = 0; k < count; ++k) {
     const SkyTable::Sweep sweep = table(distance[k]);
@@ -83,10 +90,13 @@ DOMEFALL_SIMD void sweeps(const SkyTable::Lookup& lookup, const double* __restri
     slope[k] = sweep.slope;
   }
 }
+Dispatched<sweeps_loop> sweeps;
 
-DOMEFALL_SIMD void sweeps(const WhiteHoleTable::Lookup& lookup, const Rain& rain, int count,
-                          double* __restrict place, double* __restrict azimuth,
-                          double* __restrict slope) {
+[[gnu::always_inline]] inline void white_hole_sweeps_loop(const WhiteHoleTable::Lookup& lookup,
+                                                          const Rain& rain, int count,
+                                                          double* __restrict place,
+                                                          double* __restrict azimuth,
+                                                          double* __restrict slope) {
   const WhiteHoleTable::Lookup table = lookup;
   for (int k = 0; k < count; ++k) {
     double rate = 0;
@@ -97,9 +107,11 @@ DOMEFALL_SIMD void sweeps(const WhiteHoleTable::Lookup& lookup, const Rain& rain
     slope[k] = std::abs(at.slope * rate);
   }
 }
+Dispatched<white_hole_sweeps_loop> white_hole_sweeps;
 
-DOMEFALL_SIMD void onto_sky(const Frame& frame, const Rain& rain, const double* azimuth,
-                            const double* slope, int count, LookBatch& batch) {
+[[gnu::always_inline]] inline void onto_sky_loop(const Frame& frame, const Rain& rain,
+                                                 const double* azimuth, const double* slope,
+                                                 int count, LookBatch& batch) {
   const Frame f = frame;
   for (int k = 0; k < count; ++k) {
     const SineCosine phi = sin_cos(azimuth[k]);
@@ -115,6 +127,7 @@ DOMEFALL_SIMD void onto_sky(const Frame& frame, const Rain& rain, const double* 
     batch.tangential_scale[k] = std::abs(across) * rain.inverse_doppler[k];
   }
 }
+Dispatched<onto_sky_loop> onto_sky;
 
 using Doubles = LookBatch::Column<double>;
 
@@ -140,7 +153,7 @@ void add_white_hole(const WhiteHoleTable& table, const Rain& rain, int count, Lo
                     Doubles& azimuth, Doubles& slope) {
   const WhiteHoleTable::Lookup lookup = table.lookup();
   Doubles place, phi, d;
-  sweeps(lookup, rain, count, place.data(), phi.data(), d.data());
+  white_hole_sweeps(lookup, rain, count, place.data(), phi.data(), d.data());
   for (int k = 0; k < count; ++k) {
     if (batch.sky[k] != SeenSky::kFour) continue;
     batch.frequency_ratio[k] = 1;
