@@ -12,6 +12,7 @@
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/render/simd.h"
 
 namespace {
 
@@ -42,6 +43,8 @@ int run(int argc, char** argv) {
   domefall::add_report(app);
   domefall::add_stars(app);
   domefall::add_sky(app);
+  // A wrong DOMEFALL_SIMD is told before anything is made.
+  app.parse_complete_callback([] { domefall::simd_in_use(); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

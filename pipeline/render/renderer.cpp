@@ -17,6 +17,7 @@
 #include "pipeline/render/photometry.h"
 #include "pipeline/render/pixel_light.h"
 #include "pipeline/render/shutter.h"
+#include "pipeline/render/simd.h"
 #include "pipeline/render/sky_pass.h"
 #include "pipeline/render/sky_spots.h"
 #include "pipeline/render/star_images.h"
@@ -345,8 +346,8 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   }
   std::snprintf(line, sizeof line, "grid    %8.4f s\n", t.grid_s);
   text += line;
-  std::snprintf(line, sizeof line, "pixels  %8.4f s  %.1f %% looked at one by one\n", t.pixels_s,
-                100 * t.exact_part);
+  std::snprintf(line, sizeof line, "pixels  %8.4f s  %.1f %% looked at one by one; loops: %s\n",
+                t.pixels_s, 100 * t.exact_part, name_of(simd_in_use()));
   return text + line;
 }
 
