@@ -1,0 +1,103 @@
+// For the tests that hold each width of SIMD against the portable code.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <ostream>
+#include <random>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "pipeline/render/simd.h"
+#include "pipeline/sky/sky_pyramid.h"
+
+namespace domefall {
+
+class ScopedSimd {
+ public:
+  explicit ScopedSimd(Simd level) : before_(simd_in_use()) { use_simd(level); }
+  ~ScopedSimd() { use_simd(before_); }
+  ScopedSimd(const ScopedSimd&) = delete;
+  ScopedSimd(ScopedSimd&&) = delete;
+  ScopedSimd& operator=(const ScopedSimd&) = delete;
+  ScopedSimd& operator=(ScopedSimd&&) = delete;
+
+ private:
+  Simd before_;
+};
+
+// What a computation leaves, bit by bit: -0 is not 0, and one NaN not another.
+class Bytes {
+ public:
+  template <class T>
+  void add(const T* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto bytes = std::as_bytes(std::span(values, count));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.data(), values.size());
+  }
+
+  void add(const Bytes& other) { add(other.bytes_); }
+
+  std::size_t size() const { return bytes_.size(); }
+  // The first byte that differs, -1 if none does.
+  std::ptrdiff_t difference(const Bytes& other) const {
+    if (bytes_ == other.bytes_) return -1;
+    return std::mismatch(bytes_.begin(), bytes_.end(), other.bytes_.begin(), other.bytes_.end())
+               .first -
+           bytes_.begin();
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+// A test for each level but the portable one; skipped where the processor lacks it, and says so.
+class SimdLevel : public testing::TestWithParam<Simd> {
+ protected:
+  void SetUp() override {
+    if (!processor_has(GetParam())) GTEST_SKIP() << "this processor has no " << name_of(GetParam());
+  }
+  // make: what is computed, as Bytes.  How many there were.
+  template <class Make>
+  std::size_t compare(const std::string& what, const Make& make) {
+    const auto at = [&](Simd level) {
+      const ScopedSimd scoped(level);
+      return make();
+    };
+    const Bytes portable = at(Simd::kPortable), here = at(GetParam());
+    EXPECT_EQ(portable.difference(here), -1)
+        << what << ": the first byte of " << portable.size() << " that differs";
+    return portable.size();
+  }
+};
+
+inline const auto kLevels = testing::Values(Simd::kAvx2, Simd::kAvx512);
+inline std::string level_name(const testing::TestParamInfo<Simd>& level) {
+  return name_of(level.param);
+}
+inline void PrintTo(Simd level, std::ostream* out) { *out << name_of(level); }
+
+// Noise over the sky, as bright as a real one; thermal light from 2000 to 30000 K.
+inline void noise(const SkyPyramid& pyramid) {
+  const bool thermal = pyramid.kind == SkyMapKind::kThermal;
+  paint(pyramid.levels[0], [&](const V3d& n, float* channel) {
+    std::mt19937 random(static_cast<unsigned>(1e6 * (n.x + 2 * n.y + 4 * n.z + 8)));
+    std::uniform_real_distribution<float> u(10, 8000);
+    if (thermal) {
+      channel[0] = u(random) / 8;
+      channel[1] = channel[0] * (3 + u(random) / 2000);
+    } else {
+      for (int k = 0; k < 3; ++k) channel[k] = u(random);
+    }
+  });
+}
+
+}  // namespace domefall

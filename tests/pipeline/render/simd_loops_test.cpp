@@ -1,0 +1,281 @@
+// The loops one by one: the same bits from each width of SIMD, for counts that fill no register too.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "drawn_blobs.h"
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/half_row.h"
+#include "pipeline/render/sky_sampler.h"
+#include "pipeline/render/small_blobs.h"
+#include "pipeline/render/view_tracer.h"
+#include "simd_levels.h"
+#include "star_scene.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+class SimdLoops : public SimdLevel {};
+INSTANTIATE_TEST_SUITE_P(Every, SimdLoops, kLevels, level_name);
+
+TEST_P(SimdLoops, MakesTheSameHalves) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::uint32_t> bits(0, 0x47800000);  // 0 to 65536
+  std::vector<float> values{0,        -0.0f,      1e-9f,    -1e-9f,       0x1p-24f,
+                            0x1p-25f, 0x1.8p-24f, 0x1p-14f, 0x1.ffep-15f, 65504,
+                            65519,    65520,      1e30f,    0x1p-149f,    0x1.8p-127f};
+  while (values.size() < 20000) values.push_back(std::bit_cast<float>(bits(random)));
+  // All halves, and what lies half way between them.
+  for (std::uint32_t k = 0; k < 0x7c00; ++k) {
+    Imath::half half;
+    half.setBits(static_cast<std::uint16_t>(k));
+    const float step = std::max(0x1p-24f, half * 0x1p-10f) / 2;
+    for (const float off : {-step, 0.0f, step}) values.push_back(half + off);
+  }
+  const auto halves = [](const std::vector<float>& from, int count) {
+    std::vector<std::uint16_t> out(from.size());
+    const bool finite = to_half(from.data(), count, out.data());
+    Bytes bytes;
+    bytes.add(out), bytes.add(&finite, 1);
+    return bytes;
+  };
+  for (const int less : {0, 1, 7, 31})
+    compare("halves", [&] { return halves(values, static_cast<int>(values.size()) - less); });
+  for (const float bad : {NAN, -NAN, INFINITY, -INFINITY})
+    for (std::size_t at = 0; at < 70; ++at) {
+      std::vector<float> few(values.begin(), values.begin() + 70);
+      few[at] = bad;
+      compare("not finite", [&] { return halves(few, 70); });
+    }
+}
+
+SkyPlaces random_places(std::mt19937& random, double gain) {
+  std::uniform_real_distribution<double> octave(-14, 1);
+  SkyPlaces places{};
+  for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+    const V3d d = random_direction(random) * (1 + 1e-3 * octave(random));
+    places.x[k] = static_cast<float>(d.x), places.y[k] = static_cast<float>(d.y);
+    places.z[k] = static_cast<float>(d.z);
+    places.gain[k] = static_cast<float>(gain * std::exp2(octave(random)));
+    places.tone[k] = static_cast<float>(octave(random) + 7);
+    places.wide[k] = static_cast<float>(std::exp2(octave(random)));
+    places.narrow[k] = places.wide[k] * 0.1f;
+    const V3d along = d.cross(random_direction(random)).normalized() * places.wide[k];
+    places.ax[k] = static_cast<float>(along.x), places.ay[k] = static_cast<float>(along.y);
+    places.az[k] = static_cast<float>(along.z);
+  }
+  // Edges and corners of the cube.
+  places.x[0] = places.y[0] = places.x[1] = places.z[2] = 1, places.y[1] = places.x[2] = -1;
+  places.z[0] = places.z[1] = places.y[2] = 0;
+  return places;
+}
+
+TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
+  for (const SkyMapKind kind : {SkyMapKind::kColour, SkyMapKind::kThermal}) {
+    const SkyPyramid pyramid(kind, 1e-9, 64);
+    noise(pyramid);
+    pyramid.finish();
+    const SkyMap map = pyramid.map();
+    const SkySampler sampler(map);
+    std::mt19937 random(1);
+    const SkyPlaces places = random_places(random, 1e-9);
+    for (const int taps : {1, 2, 3, 4, 8, SkySampler::kMostTaps})
+      for (const bool minified : {false, true})
+        for (const int count : {SkyPlaces::kSize, SkyPlaces::kSize - 3, 17, 1})
+          compare(std::to_string(taps) + " taps of " + std::to_string(count), [&] {
+            std::vector<float> rgb(3 * SkyPlaces::kSize + 1);
+            sampler.sample(places, count, taps, minified, rgb.data());
+            Bytes bytes;
+            bytes.add(rgb);
+            return bytes;
+          });
+  }
+}
+
+std::vector<Trajectory> observers() {
+  return {StaticObserver{3},
+          StaticObserver{1e7},
+          StaticObserver{},
+          CircularOrbit{6},
+          RadialInfall{1.2},
+          RadialInfall{0.05},
+          GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(300, -800, 500)},
+          GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, V3d(0, 0, 0)},
+          GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)},
+          GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, V3d(0, 0, 0)},
+          GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}};
+}
+
+Bytes looks(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
+  Bytes bytes;
+  LookBatch b;
+  const auto count = static_cast<int>(n.size());
+  // Skies without a table leave their columns alone.
+  for (auto* column :
+       {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
+        &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
+    column->fill(0);
+  tracer.look(n.data(), count, b);
+  for (const auto* column :
+       {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
+        &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
+    bytes.add(column->data(), n.size());
+  bytes.add(b.sky.data(), n.size());
+  return bytes;
+}
+
+TEST_P(SimdLoops, LooksAtTheSamePlaces) {
+  std::mt19937 random(4);
+  for (const Trajectory& trajectory : observers()) {
+    const Show show = show_of(trajectory, Domemaster{64});
+    const FrameState state = frame_state(show, 0);
+    const HoleOptics optics =
+        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});
+    const ViewTracer tracer(state, optics);
+    for (const std::size_t count : {128, 127, 61, 3, 1}) {
+      std::vector<CameraDirection> n(count);
+      for (auto& direction : n) direction.v = random_direction(random);
+      n[0].v = apply_transposed(state.observer.tetrad_from_camera, V3d(-1, 0, 0));
+      compare("observer " + std::to_string(trajectory.index()) + ", " + std::to_string(count),
+              [&] { return looks(tracer, n); });
+    }
+  }
+}
+
+SceneStars random_stars(int count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> magnitude(-1, 9), temperature(2500, 30000);
+  std::vector<SceneStar> stars;
+  for (int k = 0; k < count; ++k) {
+    const double t = temperature(random), v = magnitude(random);
+    stars.push_back({{random_direction(random)},
+                     v,
+                     std::pow(10, -0.4 * v) * bolometric_flux_at_v_zero(t),
+                     t,
+                     1e-9});
+  }
+  return SceneStars(std::move(stars));
+}
+
+Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
+  Bytes bytes;
+  for (const Projection& p :
+       {Projection(Domemaster{512}), Projection(Stereographic{640, 360, 2.0})}) {
+    const Show show = show_of(trajectory, p);
+    FrameState state = frame_state(show, 0);
+    state.picture.sky_one.max_magnitude = 99, state.picture.ev = 8;
+    const ObserverState& o = state.observer;
+    const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
+    for (const auto* table : {&optics.home_sky, &optics.far_sky})
+      if (*table || is_flat(o))
+        bytes.add(all_images(
+            StarImages(show, state, state.picture.sky_one, *table ? &**table : nullptr), stars));
+  }
+  return bytes;
+}
+
+TEST_P(SimdLoops, FindsTheSameImagesOfStars) {
+  const SceneStars stars = random_stars(2000);
+  std::size_t bytes = 0;
+  for (const Trajectory& trajectory : observers())
+    bytes += compare("observer " + std::to_string(trajectory.index()),
+                     [&] { return images_at(trajectory, stars); });
+  EXPECT_GT(bytes, 10000 * sizeof(StarImage));
+}
+
+Bytes views_of(const StarFrame& frame, const SkyTable* lens, const SceneStars& stars, int count) {
+  Bytes bytes;
+  StarSources s;
+  find_sources(frame, stars, kStarBatch, count, s);
+  const auto number = static_cast<std::size_t>(count);
+  for (const auto* column : {&s.x, &s.y, &s.z, &s.sine, &s.v, &s.flux, &s.temperature})
+    bytes.add(column->data(), number);
+  const auto place = [&](StarViews& v) {
+    for (const Projection& p :
+         {Projection(Domemaster{512}), Projection(Stereographic{640, 360, 2.0})}) {
+      std::array<int, kStarBatch> listed{};
+      const int there = StarPlane(p, 0.02).place(v, count, listed.data());
+      for (const auto* column : {&v.x, &v.y, &v.z, &v.flux, &v.temperature, &v.i, &v.j})
+        bytes.add(column->data(), number);
+      bytes.add(listed.data(), static_cast<std::size_t>(there));
+    }
+  };
+  StarViews views;
+  go_straight(frame, s, count, views);
+  place(views);
+  if (!lens) return bytes;
+  for (const int pair : {0, 1}) {
+    const LensCurve curve(*lens, pair, 64, {});
+    for (const double side : {1.0, -1.0}) {
+      bend(frame, curve, side, s, count, views);
+      place(views);
+    }
+  }
+  return bytes;
+}
+
+TEST_P(SimdLoops, BendsTheSameLight) {
+  const SceneStars stars = random_stars(3 * kStarBatch);
+  for (const Trajectory& trajectory : observers()) {
+    const FrameState state = frame_state(show_of(trajectory, Domemaster{64}), 0);
+    const ObserverState& o = state.observer;
+    const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
+    const SkyTable* lens = optics.home_sky ? &*optics.home_sky : nullptr;
+    StarFrame frame{o.sky_from_tetrad, o.tetrad_from_camera, Aberration(-o.celerity), {0, 1, 1}};
+    frame.gain = 1e3, frame.limit = 5.5, frame.inverse_fade = 2;
+    if (lens) frame.psi = psi_frame(*lens);
+    for (const int count : {kStarBatch, kStarBatch - 1, 13, 1})
+      compare("observer " + std::to_string(trajectory.index()) + ", " + std::to_string(count),
+              [&] { return views_of(frame, lens, stars, count); });
+  }
+}
+
+std::vector<StarImage> random_images(const Projection& p, int count) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(0, 1);
+  std::vector<StarImage> images;
+  for (int k = 0; k < count; ++k) {
+    const auto light = static_cast<float>(1e-8 * std::pow(10, 7 * u(random)));
+    images.push_back({static_cast<float>((1.2 * u(random) - 0.1) * columns(p)),
+                      static_cast<float>((1.2 * u(random) - 0.1) * rows(p)),
+                      {light, light * static_cast<float>(u(random)), light / 3}});
+  }
+  return images;
+}
+
+TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
+  for (const Projection& p :
+       {Projection(Domemaster{1024}), Projection(Stereographic{900, 510, 1.5})}) {
+    const std::vector<StarImage> images = random_images(p, 3001);
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> width(0.9, 2);
+    std::vector<double> sigma;
+    for (std::size_t k = 0; k < images.size(); ++k)
+      sigma.push_back(width(random) * central_pixel_angle(p));
+    compare("places", [&] {
+      std::vector<SmallBlob> blobs(images.size());
+      std::vector<int> first_row(images.size());
+      std::vector<Placed> kind(images.size());
+      place_small_blobs(p, images.data(), sigma.data(), images.size(), 50, blobs.data(),
+                        first_row.data(), kind.data());
+      EXPECT_GT(std::count(kind.begin(), kind.end(), Placed::kSmall), 500);
+      Bytes bytes;
+      bytes.add(blobs), bytes.add(first_row), bytes.add(kind);
+      return bytes;
+    });
+    StarBlobs plain{0.05 * kDegree, 0.3, 2, 3 * kDegree}, haloes = plain;
+    haloes.halo = 0.3, haloes.halo_sigma = 2 * kDegree, haloes.white_core = kWhiteCore;
+    for (const StarBlobs& law : {plain, haloes})
+      compare("drawn", [&] {
+        Bytes bytes;
+        bytes.add(drawn(images, p, BlobWidths(law, p, 1e3)).rgb);
+        return bytes;
+      });
+  }
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,164 @@
+#include "pipeline/render/simd.h"
+
+#include <set>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/sky/sky_file.h"
+#include "scenes.h"
+#include "simd_levels.h"
+
+namespace domefall {
+namespace {
+
+TEST(Simd, IsWhatAWordAsksForOrTheWidestThereIs) {
+  EXPECT_TRUE(processor_has(Simd::kPortable));
+  EXPECT_EQ(simd_named("portable"), Simd::kPortable);
+  Simd widest = Simd::kPortable;
+  for (const Simd level : kEverySimd) {
+    if (processor_has(level)) {
+      EXPECT_EQ(simd_named(name_of(level)), level);
+      widest = level;
+    } else {
+      EXPECT_THROW(simd_named(name_of(level)), InputError);
+      EXPECT_THROW(use_simd(level), InputError);
+    }
+  }
+  EXPECT_EQ(simd_named(""), widest);
+  for (const char* word : {"sse2", "AVX2", "avx", " avx2", "2"})
+    EXPECT_THROW(simd_named(word), InputError) << word;
+}
+
+#if DOMEFALL_X86
+// Where the loop that runs stands in memory.
+[[gnu::always_inline]] inline std::uintptr_t place_loop() {
+  std::uintptr_t here = 0;
+  asm volatile("lea (%%rip), %0" : "=r"(here));
+  return here;
+}
+Dispatched<place_loop> place_of_code;
+
+TEST(Simd, RunsCodeOfItsOwnAtEachLevel) {
+  std::set<std::uintptr_t> places;
+  std::size_t levels = 0;
+  for (const Simd level : kEverySimd) {
+    if (!processor_has(level)) continue;
+    const ScopedSimd scoped(level);
+    EXPECT_EQ(simd_in_use(), level);
+    places.insert(place_of_code());
+    EXPECT_EQ(places.size(), ++levels) << name_of(level) << " runs another level's code";
+  }
+}
+#endif
+
+// ---- whole frames ----
+
+class SimdFrames : public SimdLevel {};
+INSTANTIATE_TEST_SUITE_P(Every, SimdFrames, kLevels, level_name);
+
+// A map in a file, gone with the process.
+class NoisyFile {
+ public:
+  explicit NoisyFile(SkyMapKind kind)
+      : path_(std::filesystem::temp_directory_path() /
+              ("domefall_simd_" + std::to_string(getpid()) +
+               (kind == SkyMapKind::kThermal ? "_thermal.sky" : "_colour.sky"))) {
+    NewSkyFile file(path_, kind, kind == SkyMapKind::kThermal ? 1e-9 : 1e-7, 128, {});
+    noise(file.pyramid());
+    file.finish();
+  }
+  ~NoisyFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  NoisyFile(const NoisyFile&) = delete;
+  NoisyFile(NoisyFile&&) = delete;
+  NoisyFile& operator=(const NoisyFile&) = delete;
+  NoisyFile& operator=(NoisyFile&&) = delete;
+
+  PanoramaSky sky() const { return {path_}; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+PanoramaSky colour_sky() {
+  static const NoisyFile file(SkyMapKind::kColour);
+  return file.sky();
+}
+
+PanoramaSky thermal_sky() {
+  static const NoisyFile file(SkyMapKind::kThermal);
+  return file.sky();
+}
+
+// Panorama, thermal map and stars over all of the lens.
+std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
+  const auto with = [&](const Trajectory& trajectory, const SkyBackground& one,
+                        const SkyBackground& three, const SkyBackground& four) {
+    Show show = starry(show_of(trajectory, projection));
+    show.sky_one.background = one, show.sky_three.background = three;
+    show.sky_four.background = four;
+    return show;
+  };
+  const PanoramaSky colour = colour_sky(), thermal = thermal_sky();
+  const BlackSky black;
+  const GridSky grid;
+  Show haloes = with(StaticObserver{7}, colour, black, black);
+  haloes.blobs.halo = 0.4, haloes.blobs.halo_sigma = 2 * kDegree;
+  haloes.blobs.white_core = kWhiteCore;
+  haloes.timeline[0].camera.elevation = 80 * kDegree;
+  return {
+      {"7 M", with(StaticObserver{7}, colour, black, black)},
+      {"7 M, thermal", with(RadialInfall{7}, thermal, black, black)},
+      {"haloes", haloes},
+      {"1.2 M, both skies", with(RadialInfall{1.2}, colour, thermal, black)},
+      {"0.1 M, both skies", with(RadialInfall{0.1}, thermal, colour, black)},
+      {"flat space", with(StaticObserver{}, colour, black, black)},
+      {"flat space, brisk", with(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)},
+                                 thermal, black, black)},
+      {"far away", with(StaticObserver{1e4}, thermal, black, black)},
+      {"fast",
+       with(GivenVelocity{Region::kI, Tetrad::kRain, 8, V3d(-30, 40, 5)}, colour, black, black)},
+      {"region III", with(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)}, black,
+                          colour, grid)},
+      {"region IV, grid",
+       with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.7, V3d(0, 0, 0)}, grid, grid, grid)},
+      {"region IV, rings", with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, V3d(0, 1, 0)},
+                                grid, grid, RingsSky{})}};
+}
+
+Bytes frame_of(const Show& show) {
+  const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
+  Bytes bytes;
+  bytes.add(frame.pixels.data(), frame.pixels.size());
+  return bytes;
+}
+
+TEST_P(SimdFrames, MakesTheSameDomes) {
+  for (const auto& [name, show] : scenes(Domemaster{200}))
+    compare(name, [&show = show] { return frame_of(show); });
+}
+
+TEST_P(SimdFrames, MakesTheSameFlatPictures) {
+  for (const auto& [name, show] : scenes(Stereographic{250, 141, 100 * kDegree}))
+    compare(name, [&show = show] { return frame_of(show); });
+}
+
+// No scene is empty, or another one again.
+TEST(Simd, IsTriedOnScenesThatDiffer) {
+  std::vector<Bytes> frames;
+  for (const auto& [name, show] : scenes(Domemaster{64})) {
+    const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
+    EXPECT_GT(std::count_if(frame.pixels.begin(), frame.pixels.end(),
+                            [](Imath::half value) { return value > 0; }),
+              1000)
+        << name;
+    Bytes bytes;
+    bytes.add(frame.pixels.data(), frame.pixels.size());
+    for (const Bytes& other : frames) EXPECT_NE(bytes.difference(other), -1) << name;
+    frames.push_back(bytes);
+  }
+}
+
+}  // namespace
+}  // namespace domefall
