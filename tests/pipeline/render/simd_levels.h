@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ostream>
 #include <random>
 #include <span>
 #include <string>
@@ -83,7 +82,6 @@ inline const auto kLevels = testing::Values(Simd::kAvx2, Simd::kAvx512);
 inline std::string level_name(const testing::TestParamInfo<Simd>& level) {
   return name_of(level.param);
 }
-inline void PrintTo(Simd level, std::ostream* out) { *out << name_of(level); }
 
 // Noise over the sky, as bright as a real one; thermal light from 2000 to 30000 K.
 inline void noise(const SkyPyramid& pyramid) {

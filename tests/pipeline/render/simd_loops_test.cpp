@@ -16,8 +16,6 @@
 namespace domefall {
 namespace {
 
-using std::numbers::pi;
-
 class SimdLoops : public SimdLevel {};
 INSTANTIATE_TEST_SUITE_P(Every, SimdLoops, kLevels, level_name);
 

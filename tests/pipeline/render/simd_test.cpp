@@ -3,6 +3,8 @@
 #include <set>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/look_grid.h"
+#include "pipeline/render/sky_pass.h"
 #include "pipeline/sky/sky_file.h"
 #include "scenes.h"
 #include "simd_levels.h"
@@ -142,6 +144,46 @@ TEST_P(SimdFrames, MakesTheSameDomes) {
 TEST_P(SimdFrames, MakesTheSameFlatPictures) {
   for (const auto& [name, show] : scenes(Stereographic{250, 141, 100 * kDegree}))
     compare(name, [&show = show] { return frame_of(show); });
+}
+
+Bytes grid_of(const Show& show, const SkyMap& map) {
+  const FrameState state = frame_state(show, 0);
+  const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;
+  const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
+  const Sky sky{std::make_shared<const SkyMap>(map), nullptr};
+  const PixelLight light(show, state, optics, {&sky, &sky, nullptr});
+  LookGrid grid;
+  grid.make(state.projection, light, special_directions(show, state, optics));
+  Bytes bytes;
+  LookGrid::Line line;
+  for (int j = 0; j < grid.cell_rows(); ++j) {
+    grid.line_at(j, j % LookGrid::kStep, line);
+    for (int i = 0; i < grid.cell_columns(); ++i) {
+      const LookGrid::Cell& cell = grid.cell(j, i);
+      bytes.add(&cell, 1);
+      if (cell.kind != LookGrid::Kind::kSmooth) continue;
+      SkyPlaces places{};
+      grid.places(line, cell, i, i + 1, places);
+      for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone,
+                                 &places.wide, &places.narrow, &places.ax, &places.ay, &places.az})
+        bytes.add(column->data(), LookGrid::kStep);
+    }
+  }
+  return bytes;
+}
+
+// What half floats would hide.
+TEST_P(SimdFrames, InterpolatesTheSameLooks) {
+  for (const PanoramaSky& sky : {colour_sky(), thermal_sky()}) {
+    const SkyMap map = open_sky_file(sky.image).map;
+    for (const Trajectory& trajectory :
+         {Trajectory(StaticObserver{7}), Trajectory(RadialInfall{1.2}),
+          Trajectory(StaticObserver{}), Trajectory(StaticObserver{1e4}),
+          Trajectory(CircularOrbit{4})}) {
+      const Show show = show_of(trajectory, Domemaster{512});
+      EXPECT_GT(compare("grid", [&] { return grid_of(show, map); }), 50000u);
+    }
+  }
 }
 
 // No scene is empty, or another one again.
