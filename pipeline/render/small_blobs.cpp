@@ -14,9 +14,11 @@
 namespace domefall {
 namespace {
 
-// A blob is drawn in parts of so many columns.
-constexpr int kPixels = 16, kFloats = 3 * kPixels, kBlocks = kFloats / kLanes;
-constexpr std::size_t kBatch = 128;
+// A blob is drawn in parts of so many columns, three blocks of floats.
+constexpr int kPixels = 16, kFloats = 3 * kPixels;
+constexpr int kBlock = 16;
+using Block = float __attribute__((vector_size(4 * kBlock)));
+constexpr std::size_t kBatch = 32;
 
 // ---- placing ----
 
@@ -103,10 +105,11 @@ void place_batch(const Frame& f, bool dome, const StarImage* images, const doubl
 // What drawing needs of a batch of blobs, computed for all at once.  Pixels count from 0.
 struct Batch {
   alignas(64) std::array<float, kBatch> dx, dy;  // from the centre to the box's first pixel
-  alignas(64) std::array<float, kBatch> xx, xy, yy, slope, dent, end;
+  alignas(64) std::array<float, kBatch> xx, xy, yy, part, gain, end;
   alignas(64) std::array<int, kBatch> column, columns, first, last;  // rows within the canvas
 };
 
+// With u = part W, part = dent/slope of FlatGaussian, its value is slope/part (u - u^2).
 [[gnu::always_inline]] inline void prepare(const SmallBlob* blobs, std::size_t count,
                                            const Canvas& canvas, Batch& batch) {
   constexpr int kMargin = 64;  // makes numbers positive, so that truncation rounds down
@@ -125,14 +128,77 @@ struct Batch {
     const int bottom = static_cast<int>(b.y + half_y + kMargin) - kMargin;
     const int first = top > first_row ? top : first_row;
     const float flat = (b.xx * b.xx + b.yy * b.yy) * static_cast<float>(1.0 / 5760);
-    const float slope = 1 + 7.5f * flat, dent = 13.5f * flat;
+    const float slope = 1 + 7.5f * flat, dent = 13.5f * flat, part = dent / slope;
     batch.column[k] = left;
     batch.columns[k] = right - left + 1;
     batch.first[k] = first;
     batch.last[k] = bottom < end_row ? bottom : end_row;
     batch.dx[k] = static_cast<float>(left) - b.x, batch.dy[k] = static_cast<float>(first) - b.y;
     batch.xx[k] = -0.5f * b.xx, batch.xy[k] = -b.xy, batch.yy[k] = -0.5f * b.yy;
-    batch.slope[k] = slope, batch.dent[k] = dent, batch.end[k] = cut * (slope - dent * cut);
+    batch.part[k] = part, batch.gain[k] = slope / part;
+    batch.end[k] = part * cut * (1 - part * cut);
+  }
+}
+
+// Pixels' values for their three channels each: block m of three from 16 pixels.
+template <int kOf>
+[[gnu::always_inline]] inline Block in_threes(const float* pixels) {
+  Lanes low, high;
+  if constexpr (kOf == 0) {
+    Lanes p;
+    std::memcpy(&p, pixels, sizeof p);
+    low = __builtin_shufflevector(p, p, 0, 0, 0, 1, 1, 1, 2, 2);
+    high = __builtin_shufflevector(p, p, 2, 3, 3, 3, 4, 4, 4, 5);
+  } else if constexpr (kOf == 1) {
+    Lanes p, q;
+    std::memcpy(&p, pixels, sizeof p);
+    std::memcpy(&q, pixels + 8, sizeof q);
+    low = __builtin_shufflevector(p, p, 5, 5, 6, 6, 6, 7, 7, 7);
+    high = __builtin_shufflevector(q, q, 0, 0, 0, 1, 1, 1, 2, 2);
+  } else {
+    Lanes q;
+    std::memcpy(&q, pixels + 8, sizeof q);
+    low = __builtin_shufflevector(q, q, 2, 3, 3, 3, 4, 4, 4, 5);
+    high = __builtin_shufflevector(q, q, 5, 5, 6, 6, 6, 7, 7, 7);
+  }
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+using BlockBits = std::int32_t __attribute__((vector_size(4 * kBlock)));
+
+// The larger of v and 0; a float's bits are in order above 0, and below it negative.
+[[gnu::always_inline]] inline Block positive(const Block& v) {
+  BlockBits bits;
+  std::memcpy(&bits, &v, sizeof v);
+  bits = bits > 0 ? bits : BlockBits{};
+  Block result;
+  std::memcpy(&result, &bits, sizeof v);
+  return result;
+}
+
+// A blob's columns from `first` on, as many as one part draws, and what it is made of: its exponentials.
+struct Part {
+  alignas(64) float weight[kPixels], step[kPixels], rows[kPixels];
+};
+struct PartOf {
+  int blob, column;
+};
+
+[[gnu::always_inline]] inline void find_exponentials(const Batch& batch, const PartOf* of,
+                                                     int count, Part* parts) {
+  static_assert(kMostCanvasRows <= kPixels);
+  for (int n = 0; n < count; ++n) {
+    const auto k = static_cast<std::size_t>(of[n].blob);
+    const float x0 = batch.dx[k] + static_cast<float>(of[n].column), y0 = batch.dy[k],
+                xx = batch.xx[k], xy = batch.xy[k], yy = batch.yy[k], along = xy * y0,
+                scale = batch.part[k];
+    Part& part = parts[n];
+    for (int m = 0; m < kPixels; ++m) {
+      const float dx = x0 + static_cast<float>(m), dy = y0 + static_cast<float>(m);
+      part.weight[m] = exponential_of_float((xx * dx + along) * dx);
+      part.step[m] = exponential_of_float(xy * dx);
+      part.rows[m] = scale * exponential_of_float(yy * dy * dy);
+    }
   }
 }
 
@@ -140,61 +206,51 @@ struct Batch {
 // by exp(-xy dx) along the columns, and by a factor common to the row.
 template <int kCount>
 [[gnu::always_inline]] inline void add_rows(const SmallBlob& blob, const Batch& batch,
-                                            std::size_t k, const float* exponentials,
-                                            float* __restrict out, std::ptrdiff_t stride) {
-  Lanes weight[kBlocks], step[kBlocks], scale[3], all;
-  in_threes<kCount>(exponentials, weight);
-  in_threes<kCount>(exponentials + kPixels, step);
-  const float* rows = exponentials + 2 * kPixels;
-  static_assert(sizeof blob == sizeof all && offsetof(SmallBlob, rgb) == 5 * sizeof(float));
-  std::memcpy(&all, &blob, sizeof all);
-  scale[0] = __builtin_shufflevector(all, all, 5, 6, 7, 5, 6, 7, 5, 6);
-  scale[1] = __builtin_shufflevector(all, all, 7, 5, 6, 7, 5, 6, 7, 5);
-  scale[2] = __builtin_shufflevector(all, all, 6, 7, 5, 6, 7, 5, 6, 7);
-  const float slope = batch.slope[k], dent = batch.dent[k], end = batch.end[k];
-  const Lanes zero{};
+                                            std::size_t k, const Part& part, float* __restrict out,
+                                            std::ptrdiff_t stride) {
+  Block weight[3], step[3], scale[3];
+  weight[0] = in_threes<0>(part.weight), weight[1] = in_threes<1>(part.weight);
+  step[0] = in_threes<0>(part.step), step[1] = in_threes<1>(part.step);
+  if constexpr (kCount == 3)
+    weight[2] = in_threes<2>(part.weight), step[2] = in_threes<2>(part.step);
+  const float gain = batch.gain[k], r = gain * blob.rgb[0], g = gain * blob.rgb[1],
+              b = gain * blob.rgb[2], end = batch.end[k];
+  scale[0] = Block{r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r};
+  scale[1] = Block{g, b, r, g, b, r, g, b, r, g, b, r, g, b, r, g};
+  scale[2] = Block{b, r, g, b, r, g, b, r, g, b, r, g, b, r, g, b};
   for (int j = 0; j <= batch.last[k] - batch.first[k]; ++j, out += stride) {
-    const float row = rows[j];
+    const float row = part.rows[j];
     for (int m = 0; m < kCount; ++m) {
-      const Lanes w = weight[m] * row;
-      const Lanes v = w * (slope - dent * w) - end;
-      Lanes sum;
-      std::memcpy(&sum, out + m * kLanes, sizeof sum);
-      sum += scale[m % 3] * (v > zero ? v : zero);
-      std::memcpy(out + m * kLanes, &sum, sizeof sum);
+      const Block u = weight[m] * row;
+      const Block v = (u - u * u) - end;
+      Block sum;
+      std::memcpy(&sum, out + m * kBlock, sizeof sum);
+      sum += scale[m] * positive(v);
+      std::memcpy(out + m * kBlock, &sum, sizeof sum);
       weight[m] *= step[m];
     }
   }
 }
 
-// The part of a blob from its column `part` on; out is where its first pixel is.
+// Adds a part to out, where its first pixel is.
 [[gnu::always_inline]] inline void add_part(const SmallBlob& blob, const Batch& batch,
-                                            std::size_t k, int part, float* out,
+                                            const PartOf& of, const Part& part, float* out,
                                             std::ptrdiff_t stride) {
-  alignas(64) float e[2 * kPixels + 2 * kMostCanvasRows];
-  const float x0 = batch.dx[k] + static_cast<float>(part), y0 = batch.dy[k], xx = batch.xx[k],
-              xy = batch.xy[k], yy = batch.yy[k], along = xy * y0;
-  for (int m = 0; m < kPixels; ++m) {
-    const float dx = x0 + static_cast<float>(m), dy = y0 + static_cast<float>(m);
-    e[m] = exponential_of_float((xx * dx + along) * dx);
-    e[kPixels + m] = exponential_of_float(xy * dx);
-    e[2 * kPixels + m] = exponential_of_float(yy * dy * dy);
-  }
-  const int blocks = (3 * (batch.columns[k] - part) + kLanes - 1) / kLanes;
-  if (blocks <= 4)
-    add_rows<4>(blob, batch, k, e, out, stride);
-  else if (blocks == 5)
-    add_rows<5>(blob, batch, k, e, out, stride);
+  const auto k = static_cast<std::size_t>(of.blob);
+  if (3 * (batch.columns[k] - of.column) <= 2 * kBlock)
+    add_rows<2>(blob, batch, k, part, out, stride);
   else
-    add_rows<6>(blob, batch, k, e, out, stride);
+    add_rows<3>(blob, batch, k, part, out, stride);
 }
 
 // Where some of the part is outside: drawn aside, and what is inside copied.
 [[gnu::always_inline]] inline void add_clipped(const SmallBlob& blob, const Batch& batch,
-                                               std::size_t k, int part, const Canvas& canvas) {
+                                               const PartOf& of, const Part& part,
+                                               const Canvas& canvas) {
+  const auto k = static_cast<std::size_t>(of.blob);
   float aside[kMostCanvasRows * kFloats] = {};
-  add_part(blob, batch, k, part, aside, kFloats);
-  const int column = batch.column[k] + part;
+  add_part(blob, batch, of, part, aside, kFloats);
+  const int column = batch.column[k] + of.column;
   for (int row = batch.first[k]; row <= batch.last[k]; ++row) {
     const ColumnRange inside = canvas.columns[row - canvas.first_row];
     const int left = std::max(column, inside.first);
@@ -232,18 +288,33 @@ namespace {
   }
   const std::ptrdiff_t stride = 3 * static_cast<std::ptrdiff_t>(canvas.width);
   Batch batch;
+  std::array<PartOf, 2 * kBatch> of;
+  std::array<Part, 2 * kBatch> parts;
   for (std::size_t begin = 0; begin < count; begin += kBatch) {
     const std::size_t n = std::min(kBatch, count - begin);
     prepare(blobs + begin, n, canvas, batch);
+    int listed = 0;
+    bool wide = false;
     for (std::size_t k = 0; k < n; ++k) {
-      if (batch.first[k] > batch.last[k]) continue;
-      for (int part = 0; part < batch.columns[k]; part += kPixels) {
-        const int column = batch.column[k] + part;
-        if (column >= least && column + kPixels - 1 <= most)
-          add_part(blobs[begin + k], batch, k, part, canvas.at(batch.first[k], column), stride);
-        else
-          add_clipped(blobs[begin + k], batch, k, part, canvas);
-      }
+      of[static_cast<std::size_t>(listed)] = {static_cast<int>(k), 0};
+      const bool seen = batch.first[k] <= batch.last[k];
+      listed += seen ? 1 : 0;
+      wide |= seen && batch.columns[k] > kPixels;
+    }
+    for (std::size_t k = 0; k < n && wide; ++k)
+      if (batch.first[k] <= batch.last[k] && batch.columns[k] > kPixels)
+        of[static_cast<std::size_t>(listed++)] = {static_cast<int>(k), kPixels};
+    find_exponentials(batch, of.data(), listed, parts.data());
+    for (int m = 0; m < listed; ++m) {
+      const PartOf& one = of[static_cast<std::size_t>(m)];
+      const auto k = static_cast<std::size_t>(one.blob);
+      const SmallBlob& blob = blobs[begin + k];
+      const int column = batch.column[k] + one.column;
+      if (column >= least && column + kPixels - 1 <= most)
+        add_part(blob, batch, one, parts[static_cast<std::size_t>(m)],
+                 canvas.at(batch.first[k], column), stride);
+      else
+        add_clipped(blob, batch, one, parts[static_cast<std::size_t>(m)], canvas);
     }
   }
 }
