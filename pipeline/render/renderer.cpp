@@ -1,5 +1,6 @@
 #include "pipeline/render/renderer.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -9,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -26,8 +28,18 @@
 namespace domefall {
 namespace {
 
-// Whose images one task finds.
-constexpr std::size_t kStarsPerTask = 16 * kStarBatch;
+// Whose images one task finds, however many threads there are; of many stars, more.
+std::size_t stars_per_task(std::size_t count) {
+  constexpr std::size_t kLeast = 16 * kStarBatch, kTasks = 64;
+  return std::max(kLeast, count / kTasks / kStarBatch * kStarBatch);
+}
+// That one thread makes one after another, if that is a gain: a thread should have some turns, but a
+// turn's first and last dots are dropped by its neighbours too.
+constexpr int kTurns = 8, kLeastInARow = 8;
+
+int bands_in_a_row(int bands) {
+  return std::max(bands / (kTurns * tbb::this_task_arena::max_concurrency()), kLeastInARow);
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -49,18 +61,21 @@ int threads_of(int wanted) {
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
-// Each task's stars into a list of its own, the lists in the catalogue's order: the same images in the
-// same order for any number of threads.
-// `lists`: whatever is in them goes, their memory stays.
-void find_images(const StarImages& maker, const SceneStars& stars,
-                 std::vector<std::vector<StarImage>>& lists) {
+using ImageLists = tbb::enumerable_thread_specific<std::vector<StarImage>>;
+
+// Each task's stars in a place of their own, in the catalogue's order: the same images in the same order
+// for any number of threads.  `lists`: whatever is in them goes, their memory stays.
+void add_stars(const StarImages& maker, const SceneStars& stars, const BlobWidths& widths,
+               ImageLists& lists, StarLayer& layer) {
   const std::size_t count = maker.count(stars);
-  lists.resize((count + kStarsPerTask - 1) / kStarsPerTask);
-  tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t task) {
-    const std::size_t first = task * kStarsPerTask, end = std::min(count, first + kStarsPerTask);
-    lists[task].clear();
-    lists[task].reserve(end - first);
-    for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, lists[task]);
+  const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
+  const std::size_t before = layer.new_tasks(tasks);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+    const std::size_t first = task * each, end = std::min(count, first + each);
+    std::vector<StarImage>& images = lists.local();
+    images.clear();
+    for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, images);
+    layer.place(before + task, images, widths);
   });
 }
 
@@ -148,7 +163,8 @@ struct Renderer::Arena {
   // Kept from frame to frame: new memory costs more than what is written into it.
   LookGrid grid{};
   StarLayer stars{Domemaster{1}};
-  std::vector<std::vector<StarImage>> images{};
+  ImageLists images{};
+  tbb::enumerable_thread_specific<DotCanvas> dots{};
   tbb::enumerable_thread_specific<std::vector<float>> bands{};
 };
 
@@ -287,18 +303,26 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     StarLayer& stars = arena_->stars;
     stars.start(state.projection);
     const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
+    std::array<std::optional<StarImages>, kSkies> makers;
+    std::size_t many = 0;
     for (const SeenSky which : kEverySky) {
       if (!plan[which].stars) continue;
-      find_images(StarImages(show_, state, sky_of(state.picture, which), table_of(optics, which)),
-                  *skies[static_cast<std::size_t>(which)]->stars, arena_->images);
-      stars.add(arena_->images, widths);
+      const auto k = static_cast<std::size_t>(which);
+      makers[k].emplace(show_, state, sky_of(state.picture, which), table_of(optics, which));
+      many += makers[k]->count(*skies[k]->stars);
     }
-    t.images = stars.size();
+    if (StarLayer::are_many(many, state.projection)) stars.use_dots(widths);
+    for (const SeenSky which : kEverySky) {
+      const auto k = static_cast<std::size_t>(which);
+      if (makers[k]) add_stars(*makers[k], *skies[k]->stars, widths, arena_->images, stars);
+    }
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
     SkySpots spots = find_sky_spots(show_, state, optics, skies);
     stars.add(spots.blobs);
+    const std::size_t bright_spots = spots.blobs.size();
     stars.sort_into_bands();
+    t.images = stars.size() - bright_spots;
     t.stars_s = lap();
     const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
     const SkyPass pass(show_, state, optics, anti_aliasing_, light, arena_->grid);
@@ -306,16 +330,26 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     t.exact_part = pass.exact_part();
     const bool background = plan.background();
     const auto stride = static_cast<std::size_t>(frame.width) * 3;
-    tbb::parallel_for(0, (frame.height + kBandRows - 1) / kBandRows, [&](int band) {
+    const auto make_band = [&](int band, DotCanvas& dots) {
       const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
       std::vector<float>& rgb = arena_->bands.local();
       rgb.assign(stride * kBandRows + 1, 0.0f);
       if (background) pass.fill_band(band, rgb.data());
-      stars.draw_band(band, rgb.data());
+      stars.draw_band(band, dots, rgb.data());
       for (int row = first; row < end; ++row)
         store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
                   inside_columns(state.projection, row), frame);
-    });
+    };
+    // Dots are dropped once for bands that follow one another.
+    const int bands = (frame.height + kBandRows - 1) / kBandRows;
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, bands, stars.has_dots() ? bands_in_a_row(bands) : 1),
+        [&](const tbb::blocked_range<int>& some) {
+          DotCanvas& dots = arena_->dots.local();
+          stars.start_canvas(dots);
+          for (int band = some.begin(); band < some.end(); ++band) make_band(band, dots);
+        },
+        tbb::simple_partitioner());
     t.pixels_s = lap();
   });
 }

@@ -172,20 +172,20 @@ void StarImages::append_views(StarViews& views, int count, std::vector<StarImage
   StarColumn<int> listed;
   const int number = plane_.place(views, count, listed.data());
   const StarColours& colours = star_colours();
-  std::array<StarImage, kStarBatch> found;
-  std::size_t bright = 0;
+  std::size_t bright = images.size();
+  images.resize(bright + static_cast<std::size_t>(number));
   for (int n = 0; n < number; ++n) {
     const auto k = static_cast<std::size_t>(listed[static_cast<std::size_t>(n)]);
     const StarColours::Light per_flux = colours(views.temperature[k]);
     const double flux = views.flux[k], pixel_flux = flux * scale_;
-    found[bright] = {
+    images[bright] = {
         static_cast<float>(views.i[k]),
         static_cast<float>(views.j[k]),
         {static_cast<float>(per_flux.r * pixel_flux), static_cast<float>(per_flux.g * pixel_flux),
          static_cast<float>(per_flux.b * pixel_flux)}};
     bright += per_flux.luminance * flux * peak_per_lux_ > kFaintestPeak ? 1 : 0;
   }
-  images.insert(images.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(bright));
+  images.resize(bright);
 }
 
 }  // namespace domefall

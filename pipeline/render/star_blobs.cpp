@@ -70,7 +70,7 @@ struct Series {
 
 // sinc(sqrt t) = sum over n of (-t)^n / (2n + 1)!; its k-th derivative over k! has the coefficients
 // kSinc[k][m] of t^m.
-constexpr int kPowers = 15;
+constexpr int kPowers = 15, kNearPowers = 10;
 constexpr auto kSinc = [] {
   std::array<std::array<double, kPowers>, kTerms> table{};
   for (int k = 0; k < kTerms; ++k) {
@@ -86,12 +86,14 @@ constexpr auto kSinc = [] {
   return table;
 }();
 
+// For t up to 3.4 (a star beyond a dome's rim); what is left out is below 1e-9 of sinc's part.
+template <std::size_t kCount, std::size_t kPowersUsed>
 Series series_about(double t) {
-  std::array<double, kTerms> sinc{};
-  for (std::size_t m = kPowers; m-- > 0;)
-    for (std::size_t k = 0; k < kTerms; ++k) sinc[k] = sinc[k] * t + kSinc[k][m];
-  Series s;
-  for (std::size_t k = 0; k < kTerms; ++k) {
+  std::array<double, kCount> sinc{};
+  for (std::size_t m = kPowersUsed; m-- > 0;)
+    for (std::size_t k = 0; k < kCount; ++k) sinc[k] = sinc[k] * t + kSinc[k][m];
+  Series s{};
+  for (std::size_t k = 0; k < kCount; ++k) {
     s.sinc[k] = static_cast<float>(sinc[k]);
     s.cosine[k] = k > 0 ? static_cast<float>(-sinc[k - 1] / (2.0 * static_cast<double>(k))) : 0;
   }
@@ -120,7 +122,9 @@ Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float mid
   const double t = unit * unit * (cx * cx + cy * cy);
   Brush brush{};
   brush.dome = is_dome(p), brush.near = b.reach * unit < kNear;
-  if (brush.dome) brush.series = series_about(t);
+  if (brush.dome)
+    brush.series =
+        brush.near ? series_about<kNearTerms, kNearPowers>(t) : series_about<kTerms, kPowers>(t);
   brush.cx = static_cast<float>(cx), brush.cy = static_cast<float>(cy);
   brush.unit = static_cast<float>(unit), brush.unit2 = static_cast<float>(unit * unit);
   brush.one_plus_w2 = static_cast<float>(1 + t);

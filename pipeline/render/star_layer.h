@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pipeline/render/star_blobs.h"
+#include "pipeline/render/star_dots.h"
 
 namespace domefall {
 
@@ -13,17 +15,27 @@ namespace domefall {
 inline constexpr int kBandRows = 8;
 static_assert(kBandRows <= kMostCanvasRows);
 
-// The same sums for any number of threads: small blobs first, by the band in which they begin, then
-// wide ones, each in the order in which they came.
+static_assert(kBandRows == kBucketRows);
+
+// The same sums for any number of threads: dots first, then small blobs, both by the band in which they
+// begin, then wide ones, each in the order of the tasks that found them.
 class StarLayer {
  public:
   explicit StarLayer(const Projection& projection) { start(projection); }
   // An empty layer for another frame, in the memory of the one before: new memory costs as much as what
   // is done in it.
   void start(const Projection& projection);
+  // From now on faint images are dots, which is worth it for so many (of all frames alike).
+  void use_dots(const BlobWidths& widths);
+  static bool are_many(std::size_t images, const Projection& projection);
+  bool has_dots() const { return brush_.has_value(); }
+
+  // So many tasks more; the first one's number.
+  std::size_t new_tasks(std::size_t count);
+  // The images of a task, in whatever thread, once.  What is in the list afterwards is of no use.
+  void place(std::size_t task, std::vector<StarImage>& images, const BlobWidths& widths);
 
   void add(const std::vector<StarImage>& images, const BlobWidths& widths);
-  void add(const std::vector<std::vector<StarImage>>& lists, const BlobWidths& widths);
   void add(const std::vector<StarBlob>& blobs);
   // Once all are there.
   void sort_into_bands();
@@ -31,12 +43,18 @@ class StarLayer {
   // Images of which something is in the picture.
   std::size_t size() const { return size_; }
 
-  // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.
-  void draw_band(int band, float* rgb) const;
+  // Before bands of this layer, in rising order, are drawn with a thread's canvas.
+  void start_canvas(DotCanvas& canvas) const {
+    if (brush_) canvas.start(*brush_);
+  }
+  // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.  A canvas is one thread's;
+  // bands that follow one another cost less.
+  void draw_band(int band, DotCanvas& canvas, float* rgb) const;
 
  private:
   // What one task places.
-  struct Batch {
+  struct Task {
+    DotList dots;
     std::vector<SmallBlob> small;
     std::vector<std::uint16_t> band;  // in which small[k] begins
     std::vector<int> last_band;       // that blobs which begin in a band reach
@@ -45,15 +63,16 @@ class StarLayer {
 
     void clear();
   };
-  // So many more, empty; the first one's number.
-  std::size_t new_batches(std::size_t count);
-  void place(const StarImage* images, std::size_t count, const BlobWidths& widths,
-             Batch& batch) const;
+  void place_blobs(const StarImage* images, std::size_t count, const BlobWidths& widths,
+                   Task& task) const;
   void sort_small();
+  void draw_dots(int band, DotCanvas& canvas, float* rgb) const;
 
   Projection projection_;
   std::size_t bands_ = 0;
-  std::vector<Batch> batches_;  // of which `used_` are this frame's
+  std::optional<DotBrush> brush_;
+  std::vector<std::size_t> first_dot_;  // of each bucket among all
+  std::vector<Task> tasks_;             // of which `used_` are this frame's
   std::size_t used_ = 0, size_ = 0;
   std::unique_ptr<SmallBlob[]> small_;  // by band
   std::size_t small_capacity_ = 0;

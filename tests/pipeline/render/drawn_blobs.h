@@ -25,8 +25,10 @@ inline DrawnBlobs drawn(const StarLayer& layer, const Projection& p) {
   const auto row = static_cast<std::size_t>(columns(p)) * 3;
   const int bands = (rows(p) + kBandRows - 1) / kBandRows;
   picture.rgb.resize(row * kBandRows * bands);
+  DotCanvas dots;
+  layer.start_canvas(dots);
   for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, picture.rgb.data() + row * kBandRows * band);
+    layer.draw_band(band, dots, picture.rgb.data() + row * kBandRows * band);
   return picture;
 }
 
@@ -52,9 +54,11 @@ inline Brought brought(const StarImage& image, const Projection& p, const BlobWi
   Brought sum;
   const int first = std::max(0, (static_cast<int>(image.y) - reach) / kBandRows);
   const int last = std::min(bands - 1, (static_cast<int>(image.y) + reach) / kBandRows);
+  DotCanvas dots;
+  layer.start_canvas(dots);
   for (int band = first; band <= last; ++band) {
     std::fill(rgb.begin(), rgb.end(), 0.0f);
-    layer.draw_band(band, rgb.data());
+    layer.draw_band(band, dots, rgb.data());
     for (int k = 0; k < width * kBandRows; ++k) {
       const double value = rgb[3 * static_cast<std::size_t>(k)];
       if (value == 0) continue;

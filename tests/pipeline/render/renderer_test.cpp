@@ -110,7 +110,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
       if (!is_inside(show.projection, pixel)) {
         ++outside;
         EXPECT_EQ(light, 0);
-      } else if (look.sky == SeenSky::kFour && look.to_edge > 0.06) {
+      } else if (look.sky == SeenSky::kFour && look.to_edge > 0.1) {
         ++dark;
         EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
       } else if (look.sky == SeenSky::kOne) {

@@ -23,8 +23,10 @@ std::vector<float> drawn(const StarLayer& layer, const Projection& p) {
   const auto stride = static_cast<std::size_t>(columns(p)) * 3;
   const int bands = (rows(p) + kBandRows - 1) / kBandRows;
   std::vector<float> all(stride * static_cast<std::size_t>(kBandRows * bands) + 1);
+  DotCanvas dots;
+  layer.start_canvas(dots);
   for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, all.data() + static_cast<std::size_t>(band * kBandRows) * stride);
+    layer.draw_band(band, dots, all.data() + static_cast<std::size_t>(band * kBandRows) * stride);
   return all;
 }
 
@@ -43,7 +45,11 @@ TEST(StarLayer, DrawsTheSameHoweverItsImagesAreListed) {
       lists.back().push_back(images[k]);
       singles.push_back({images[k]});
     }
-    split.add(lists, widths), alone.add(singles, widths);
+    const auto add = [&](StarLayer& layer, std::vector<std::vector<StarImage>> tasks) {
+      const std::size_t first = layer.new_tasks(tasks.size());
+      for (std::size_t t = 0; t < tasks.size(); ++t) layer.place(first + t, tasks[t], widths);
+    };
+    add(split, lists), add(alone, singles);
     whole.sort_into_bands(), split.sort_into_bands(), alone.sort_into_bands();
     EXPECT_EQ(whole.size(), split.size());
     const std::vector<float> expected = drawn(whole, p);
