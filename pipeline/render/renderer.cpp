@@ -15,24 +15,17 @@
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/frame_stars.h"
 #include "pipeline/render/half_row.h"
-#include "pipeline/render/photometry.h"
 #include "pipeline/render/pixel_light.h"
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/simd.h"
 #include "pipeline/render/sky_pass.h"
 #include "pipeline/render/sky_spots.h"
-#include "pipeline/render/star_images.h"
-#include "pipeline/render/star_layer.h"
 
 namespace domefall {
 namespace {
 
-// Whose images one task finds, however many threads there are; of many stars, more.
-std::size_t stars_per_task(std::size_t count) {
-  constexpr std::size_t kLeast = 16 * kStarBatch, kTasks = 64;
-  return std::max(kLeast, count / kTasks / kStarBatch * kStarBatch);
-}
 // That one thread makes one after another, if that is a gain: a thread should have some turns, but a
 // turn's first and last dots are dropped by its neighbours too.
 constexpr int kTurns = 8, kLeastInARow = 8;
@@ -47,43 +40,10 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool shows_anything(const RegionSky& sky, const Picture::Sky& now) {
-  return !std::holds_alternative<BlackSky>(sky.background) && now.background_gain > 0;
-}
-
-bool has_stars(const RegionSky& sky, const Picture::Sky& now) {
-  return sky.stars && now.star_gain > 0;
-}
-
 // More threads than processors gain nothing, and TBB would say so on the terminal.
 int threads_of(int wanted) {
   const int processors = tbb::info::default_concurrency();
   return wanted > 0 ? std::min(wanted, processors) : processors;
-}
-
-using ImageLists = tbb::enumerable_thread_specific<std::vector<StarImage>>;
-
-// Each task's stars in a place of their own, in the catalogue's order: the same images in the same order
-// for any number of threads.  `lists`: whatever is in them goes, their memory stays.
-void add_stars(const StarImages& maker, const SceneStars& stars, const BlobWidths& widths,
-               ImageLists& lists, StarLayer& layer) {
-  const std::size_t count = maker.count(stars);
-  const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
-  const std::size_t before = layer.new_tasks(tasks);
-  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-    const std::size_t first = task * each, end = std::min(count, first + each);
-    std::vector<StarImage>& images = lists.local();
-    images.clear();
-    for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, images);
-    layer.place(before + task, images, widths);
-  });
-}
-
-// Of a sky with stars; null in flat space.
-const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
-  const bool home = (which == SeenSky::kThree) == is_mirrored(optics.tetrad);
-  const auto& table = home ? optics.home_sky : optics.far_sky;
-  return table ? &*table : nullptr;
 }
 
 int table_count(const HoleOptics& optics) {
@@ -120,11 +80,6 @@ void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) 
 
 namespace {
 
-FramePlan::Sky plan_sky(const RegionSky& sky, const Picture::Sky& now) {
-  return {shows_anything(sky, now), has_stars(sky, now),
-          std::holds_alternative<RingsSky>(sky.background)};
-}
-
 // The part of the light that is the vanishing picture's, the rest the other's.
 void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
@@ -137,26 +92,6 @@ void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
 }
 
 }  // namespace
-
-bool FramePlan::background() const {
-  return std::any_of(sky.begin(), sky.end(), [](const Sky& s) { return s.background; });
-}
-
-FramePlan plan_frame(const Show& show, const FrameState& state) {
-  const ObserverState& o = state.observer;
-  const bool inside = o.region == Region::kII && o.r < 2;
-  FramePlan plan;
-  plan.gravity = !is_flat(o) && show.effects.lensing;
-  const auto set = [&](SeenSky which, const RegionSky& sky) {
-    plan.sky[static_cast<std::size_t>(which)] = plan_sky(sky, sky_of(state.picture, which));
-  };
-  const bool mirrored = is_mirrored(o.tetrad);
-  const bool home = o.region != Region::kIV;
-  if (mirrored ? inside : home) set(SeenSky::kOne, show.sky_one);
-  if (mirrored ? home : inside) set(SeenSky::kThree, show.sky_three);
-  if (plan.gravity) set(SeenSky::kFour, show.sky_four);
-  return plan;
-}
 
 struct Renderer::Arena {
   tbb::task_arena arena;
@@ -279,6 +214,32 @@ void Renderer::render_instant(const FrameState& state, HalfFrame& frame, StageTi
   add_times(others, times);
 }
 
+// pass: null where there is nothing behind the stars.
+void Renderer::make_bands(const SkyPass* pass, const Projection& projection, HalfFrame& frame) {
+  const StarLayer& stars = arena_->stars;
+  const auto stride = static_cast<std::size_t>(frame.width) * 3;
+  const auto make_band = [&](int band, DotCanvas& dots) {
+    const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
+    std::vector<float>& rgb = arena_->bands.local();
+    rgb.assign(stride * kBandRows + 1, 0.0f);
+    if (pass) pass->fill_band(band, rgb.data());
+    stars.draw_band(band, dots, rgb.data());
+    for (int row = first; row < end; ++row)
+      store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
+                inside_columns(projection, row), frame);
+  };
+  // Dots are dropped once for bands that follow one another.
+  const int bands = (frame.height + kBandRows - 1) / kBandRows;
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, bands, stars.has_dots() ? bands_in_a_row(bands) : 1),
+      [&](const tbb::blocked_range<int>& some) {
+        DotCanvas& dots = arena_->dots.local();
+        stars.start_canvas(dots);
+        for (int band = some.begin(); band < some.end(); ++band) make_band(band, dots);
+      },
+      tbb::simple_partitioner());
+}
+
 void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes& t) {
   const FramePlan plan = plan_frame(show_, state);
   auto start = Clock::now();
@@ -302,20 +263,7 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
   arena_->arena.execute([&] {
     StarLayer& stars = arena_->stars;
     stars.start(state.projection);
-    const BlobWidths widths(show_.blobs, state.projection, exposure_scale(state.picture));
-    std::array<std::optional<StarImages>, kSkies> makers;
-    std::size_t many = 0;
-    for (const SeenSky which : kEverySky) {
-      if (!plan[which].stars) continue;
-      const auto k = static_cast<std::size_t>(which);
-      makers[k].emplace(show_, state, sky_of(state.picture, which), table_of(optics, which));
-      many += makers[k]->count(*skies[k]->stars);
-    }
-    if (StarLayer::are_many(many, state.projection)) stars.use_dots(widths);
-    for (const SeenSky which : kEverySky) {
-      const auto k = static_cast<std::size_t>(which);
-      if (makers[k]) add_stars(*makers[k], *skies[k]->stars, widths, arena_->images, stars);
-    }
+    lay_stars(show_, state, plan, optics, skies, arena_->images, stars);
     for (const SeenSky which : kEverySky)
       if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
     SkySpots spots = find_sky_spots(show_, state, optics, skies);
@@ -328,28 +276,7 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     const SkyPass pass(show_, state, optics, anti_aliasing_, light, arena_->grid);
     t.grid_s = lap();
     t.exact_part = pass.exact_part();
-    const bool background = plan.background();
-    const auto stride = static_cast<std::size_t>(frame.width) * 3;
-    const auto make_band = [&](int band, DotCanvas& dots) {
-      const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
-      std::vector<float>& rgb = arena_->bands.local();
-      rgb.assign(stride * kBandRows + 1, 0.0f);
-      if (background) pass.fill_band(band, rgb.data());
-      stars.draw_band(band, dots, rgb.data());
-      for (int row = first; row < end; ++row)
-        store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
-                  inside_columns(state.projection, row), frame);
-    };
-    // Dots are dropped once for bands that follow one another.
-    const int bands = (frame.height + kBandRows - 1) / kBandRows;
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, bands, stars.has_dots() ? bands_in_a_row(bands) : 1),
-        [&](const tbb::blocked_range<int>& some) {
-          DotCanvas& dots = arena_->dots.local();
-          stars.start_canvas(dots);
-          for (int band = some.begin(); band < some.end(); ++band) make_band(band, dots);
-        },
-        tbb::simple_partitioner());
+    make_bands(plan.background() ? &pass : nullptr, state.projection, frame);
     t.pixels_s = lap();
   });
 }

@@ -10,28 +10,11 @@
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/render/anti_aliasing.h"
+#include "pipeline/render/frame_plan.h"
 #include "pipeline/render/scene.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
-
-// What one frame needs, decided before anything is made.
-struct FramePlan {
-  bool gravity = false;  // else no table
-  struct Sky {
-    bool background = false;  // anything to see but stars
-    bool stars = false;
-    bool rings = false;  // lit by the time at which its light started
-
-    bool lit() const { return background || stars; }
-  };
-  std::array<Sky, kSkies> sky;  // by SeenSky: what can be seen from the observer's region
-
-  const Sky& operator[](SeenSky which) const { return sky[static_cast<std::size_t>(which)]; }
-  bool background() const;
-};
-
-FramePlan plan_frame(const Show& show, const FrameState& state);
 
 struct StageTimes {
   double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;
@@ -41,6 +24,8 @@ struct StageTimes {
   int pictures =
       1;  // instants that a frame with an open shutter is the mean of; the times are of all
 };
+
+class SkyPass;
 
 class Renderer {
  public:
@@ -71,6 +56,7 @@ class Renderer {
 
  private:
   void render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times);
+  void make_bands(const SkyPass* pass, const Projection& projection, HalfFrame& frame);
   void render_one(const FrameState& state, HalfFrame& frame, StageTimes& times);
   double motion_between(const FrameState& from, const FrameState& to);
   int pictures_for(const FrameState& state);

@@ -142,7 +142,7 @@ struct Batch {
 
 // Pixels' values for their three channels each: block m of three from 16 pixels.
 template <int kOf>
-[[gnu::always_inline]] inline Block in_threes(const float* pixels) {
+[[gnu::always_inline]] inline void in_threes(const float* pixels, Block& floats) {
   Lanes low, high;
   if constexpr (kOf == 0) {
     Lanes p;
@@ -161,19 +161,17 @@ template <int kOf>
     low = __builtin_shufflevector(q, q, 2, 3, 3, 3, 4, 4, 4, 5);
     high = __builtin_shufflevector(q, q, 5, 5, 6, 6, 6, 7, 7, 7);
   }
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  floats = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
 using BlockBits = std::int32_t __attribute__((vector_size(4 * kBlock)));
 
 // The larger of v and 0; a float's bits are in order above 0, and below it negative.
-[[gnu::always_inline]] inline Block positive(const Block& v) {
+[[gnu::always_inline]] inline void keep_positive(Block& v) {
   BlockBits bits;
   std::memcpy(&bits, &v, sizeof v);
   bits = bits > 0 ? bits : BlockBits{};
-  Block result;
-  std::memcpy(&result, &bits, sizeof v);
-  return result;
+  std::memcpy(&v, &bits, sizeof v);
 }
 
 // A blob's columns from `first` on, as many as one part draws, and what it is made of: its exponentials.
@@ -209,10 +207,9 @@ template <int kCount>
                                             std::size_t k, const Part& part, float* __restrict out,
                                             std::ptrdiff_t stride) {
   Block weight[3], step[3], scale[3];
-  weight[0] = in_threes<0>(part.weight), weight[1] = in_threes<1>(part.weight);
-  step[0] = in_threes<0>(part.step), step[1] = in_threes<1>(part.step);
-  if constexpr (kCount == 3)
-    weight[2] = in_threes<2>(part.weight), step[2] = in_threes<2>(part.step);
+  in_threes<0>(part.weight, weight[0]), in_threes<1>(part.weight, weight[1]);
+  in_threes<0>(part.step, step[0]), in_threes<1>(part.step, step[1]);
+  if constexpr (kCount == 3) in_threes<2>(part.weight, weight[2]), in_threes<2>(part.step, step[2]);
   const float gain = batch.gain[k], r = gain * blob.rgb[0], g = gain * blob.rgb[1],
               b = gain * blob.rgb[2], end = batch.end[k];
   scale[0] = Block{r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r};
@@ -222,10 +219,11 @@ template <int kCount>
     const float row = part.rows[j];
     for (int m = 0; m < kCount; ++m) {
       const Block u = weight[m] * row;
-      const Block v = (u - u * u) - end;
+      Block v = (u - u * u) - end;
+      keep_positive(v);
       Block sum;
       std::memcpy(&sum, out + m * kBlock, sizeof sum);
-      sum += scale[m] * positive(v);
+      sum += scale[m] * v;
       std::memcpy(out + m * kBlock, &sum, sizeof sum);
       weight[m] *= step[m];
     }

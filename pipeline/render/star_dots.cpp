@@ -162,7 +162,7 @@ void DotCanvas::advance(int first_row) {
 // Neighbours one after another: what they are dropped on is in the cache.
 void DotCanvas::drop(const std::vector<Dots>& lists) {
   constexpr int kColumns = 32;
-  const float offset = static_cast<float>(brush_->margin_);
+  const auto offset = static_cast<float>(brush_->margin_);
   const auto tile_of = [offset](const StarImage& image) {
     return static_cast<std::size_t>(image.x + offset) / kColumns;
   };

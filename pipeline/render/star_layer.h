@@ -32,8 +32,8 @@ class StarLayer {
 
   // So many tasks more; the first one's number.
   std::size_t new_tasks(std::size_t count);
-  // The images of a task, in whatever thread, once.  What is in the list afterwards is of no use.
-  void place(std::size_t task, std::vector<StarImage>& images, const BlobWidths& widths);
+  // The images of task `number`, in whatever thread, once.  What is in the list afterwards is of no use.
+  void place(std::size_t number, std::vector<StarImage>& images, const BlobWidths& widths);
 
   void add(const std::vector<StarImage>& images, const BlobWidths& widths);
   void add(const std::vector<StarBlob>& blobs);
@@ -47,9 +47,9 @@ class StarLayer {
   void start_canvas(DotCanvas& canvas) const {
     if (brush_) canvas.start(*brush_);
   }
-  // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.  A canvas is one thread's;
+  // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.  The canvas is one thread's;
   // bands that follow one another cost less.
-  void draw_band(int band, DotCanvas& canvas, float* rgb) const;
+  void draw_band(int band, DotCanvas& dots, float* rgb) const;
 
  private:
   // What one task places.
