@@ -1,9 +1,10 @@
 #include "projections/projection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "projections/inside_direction.h"
 
 namespace domefall {
 namespace {
@@ -41,31 +42,8 @@ CameraDirection direction(const Stereographic& s, Centred at) {
   return {{2 * x / (1 + w2), 2 * y / (1 + w2), (1 - w2) / (1 + w2)}};
 }
 
-// Ratios of neighbouring terms of the series of sin(theta)/theta and cos(theta) in theta^2.
-struct SeriesRatios {
-  std::array<double, 11> sine, cosine;
-};
-constexpr SeriesRatios kRatios = [] {
-  SeriesRatios ratios{};
-  for (int n = 1; n <= 11; ++n) {
-    ratios.sine[n - 1] = 1.0 / ((2 * n) * (2 * n + 1));
-    ratios.cosine[n - 1] = 1.0 / ((2 * n - 1) * (2 * n));
-  }
-  return ratios;
-}();
-
-// direction() up to theta = pi/2, where the series' next term is below 1e-17, and to 1e-14 up to
-// 0.75 pi.
 CameraDirection inside_direction(const Domemaster& d, Centred at) {
-  const double scale = pi / d.size;
-  const double t = (at.x * at.x + at.y * at.y) * scale * scale;
-  double sine = 0, cosine = 0;
-  for (std::size_t n = kRatios.sine.size(); n-- > 0;) {
-    sine = (1 - t * sine) * kRatios.sine[n];
-    cosine = (1 - t * cosine) * kRatios.cosine[n];
-  }
-  const double k = (1 - t * sine) * scale;
-  return {{at.x * k, at.y * k, 1 - t * cosine}};
+  return DomemasterView(d).direction(at.x, at.y);
 }
 
 CameraDirection inside_direction(const Stereographic& s, Centred at) { return direction(s, at); }
@@ -85,6 +63,8 @@ double magnification(const Stereographic& s, const CameraDirection& n) {
 }
 
 }  // namespace
+
+StereographicView::StereographicView(const Stereographic& s) : scale(half_tangent_per_pixel(s)) {}
 
 int columns(const Projection& p) {
   if (const auto* d = std::get_if<Domemaster>(&p)) return d->size;

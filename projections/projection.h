@@ -60,7 +60,7 @@ struct ColumnRange {
 ColumnRange inside_columns(const Projection& p, int row);
 
 // direction_at for the centres of those pixels, into out[last - first + 1], in a quarter of the
-// time: sine and cosine are power series, cut below 1e-17.  Measured: within 6e-16 of direction_at.
+// time: by power series, cut below 1e-17.  Measured: within 6e-16 of direction_at.
 void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out);
 
 // direction_at for `count` positions of a row, evenly spaced from `first` on, into out[count]: by the

@@ -194,7 +194,8 @@ void LookGrid::store(std::size_t node, const LookBatch& batch, int k, double pix
   const double g = batch.frequency_ratio[k];
   const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
   const MapShift shift = thermal ? light_->shift(sky, g) : MapShift{};
-  const ShiftSides sides = thermal ? ShiftSides{} : light_->shift_sides(sky, g);
+  ShiftSides sides{};
+  if (!thermal) light_->shift_sides(sky, &g, 1, &sides.red, &sides.blue);
   const std::array<double, kQuantities> values{on_sky.x,
                                                on_sky.y,
                                                on_sky.z,

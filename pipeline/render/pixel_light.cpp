@@ -7,7 +7,9 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/effect_light.h"
+#include "pipeline/render/footprints.h"
 #include "pipeline/render/photometry.h"
+#include "pipeline/render/pixel_directions.h"
 #include "pipeline/render/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
 #include "pipeline/sky/ring_glow.h"
@@ -15,7 +17,7 @@
 namespace domefall {
 namespace {
 
-static_assert(kMostSamples <= LookBatch::kSize);  // a batch holds at least one line of looks
+static_assert(kMostSamples <= SkyPlaces::kSize);  // a batch holds at least one line of looks
 // A pixel this near (in pixels) to the edge of a sky is sampled finely.
 constexpr double kEdgePixels = 4;
 // On a grid, so is one whose footprint on the sky is longer than this (radians) and that elongated:
@@ -24,7 +26,7 @@ constexpr double kLongOnGrid = 0.0005, kElongation = 3;
 // Looks in a line of one of many samples in a pixel: the samples do most of the blurring.
 constexpr int kTapsOfSample = 4;
 // A footprint on a map longer than this is no straight line any more; it is blurred to its length.
-constexpr double kLongestLine = 0.7;
+constexpr float kLongestLine = 0.7f;
 
 WorkingRgb operator*(const WorkingRgb& c, double k) {
   const auto f = static_cast<float>(k);
@@ -106,9 +108,16 @@ bool PixelLight::needs_more_samples(const LookBatch& batch, int k, double pixel_
          (std::holds_alternative<Grid>(sky->background) && longer * pixel_angle > kLongOnGrid);
 }
 
-ShiftSides PixelLight::shift_sides(SeenSky sky, double frequency_ratio) const {
+void PixelLight::shifts(SeenSky sky, const double* frequency_ratio, int count, float* gain,
+                        float* tone) const {
   const auto k = static_cast<std::size_t>(sky);
-  return domefall::shift_sides(samplers_[k]->map(), show_, frequency_ratio, scale_[k]);
+  map_shifts(samplers_[k]->map(), show_, frequency_ratio, count, scale_[k], gain, tone);
+}
+
+void PixelLight::shift_sides(SeenSky sky, const double* frequency_ratio, int count, float* red,
+                             float* blue) const {
+  const auto k = static_cast<std::size_t>(sky);
+  domefall::shift_sides(samplers_[k]->map(), show_, frequency_ratio, count, scale_[k], red, blue);
 }
 
 float PixelLight::knee(SeenSky sky) const {
@@ -116,135 +125,142 @@ float PixelLight::knee(SeenSky sky) const {
   return domefall::knee(samplers_[k]->map(), scale_[k]);
 }
 
-// The looks on a map, in groups of as many taps each.
-void PixelLight::add_map(SeenSky sky, const LookBatch& batch, const CameraDirection* n, int count,
-                         const double* sample_angle, bool fine, float* rgb) const {
-  const SkySampler& sampler = *this->sampler(sky);
+struct PixelLight::Looks {
+  static constexpr int kSize = SkyPlaces::kSize;
+  int count = 0;
+  alignas(64) std::array<double, kSize> i, j;   // positions in the picture
+  alignas(64) std::array<double, kSize> angle;  // of the view, that a look stands for
+  std::array<CameraDirection, kSize> n;
+  std::array<bool, kSize> difficult;  // needs_more_samples
+  std::array<float, 3 * kSize + 1> rgb;
+
+  void add(double column, double row) {
+    i[count] = column + 1, j[count] = row + 1;
+    ++count;
+  }
+};
+
+// The looks on maps among them.
+struct PixelLight::Maps {
+  SkyPlaces places;
+  std::array<std::array<std::uint8_t, SkyPlaces::kSize>, kSkies> taps;  // 0: no look on that sky
+  std::array<bool, kSkies> any{};
+};
+
+void PixelLight::put_maps(const LookBatch& batch, const Looks& looks, int first, int count,
+                          bool fine, Maps& maps) const {
+  set_footprints(batch, &looks.angle[first], count, first, maps.places);
   const bool few = fine && !anti_aliasing_.everywhere;
   const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
-  std::array<int, LookBatch::kSize> taps{};  // 0: none
-  for (int k = 0; k < count; ++k) {
-    if (batch.sky[k] != sky || is_darkened(sky, n[k])) continue;
-    const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
-    const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-    const double wide = longer * sample_angle[k];
-    taps[k] = wide < kLongestLine ? sampler.taps(wide, shorter * sample_angle[k], most) : 1;
-  }
-  SkyPlaces places;
-  std::array<int, LookBatch::kSize> who;
-  std::array<float, 3 * LookBatch::kSize + 1> light;
-  for (int left = count; left > 0;) {
-    int at_once = 0, members = 0;
-    bool minified = false;
-    left = 0;
+  for (const SeenSky sky : kEverySky) {
+    const SkySampler* sampler = this->sampler(sky);
+    if (sampler == nullptr) continue;
+    std::uint8_t* taps = &maps.taps[static_cast<std::size_t>(sky)][first];
+    int members = 0;
+    for (int k = 0; k < count; ++k) members += batch.sky[k] == sky;
+    if (members == 0) {
+      std::fill_n(taps, count, std::uint8_t{0});
+      continue;
+    }
+    maps.any[static_cast<std::size_t>(sky)] = true;
+    sampler->taps(maps.places, first, count, most, kLongestLine, taps);
+    LookBatch::Column<float> gain, tone;
+    shifts(sky, batch.frequency_ratio.data(), count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {
-      if (taps[k] == 0) continue;
-      if (at_once == 0) at_once = taps[k];
-      if (taps[k] != at_once) {
-        ++left;
-        continue;
-      }
-      minified |= put_place(sky, batch, k, sample_angle[k], at_once, places, members);
-      who[members++] = k;
-      taps[k] = 0;
+      if (batch.sky[k] == sky)
+        maps.places.gain[first + k] = gain[k], maps.places.tone[first + k] = tone[k];
+      if (batch.sky[k] != sky || looks.difficult[first + k] || is_darkened(sky, looks.n[first + k]))
+        taps[k] = 0;
     }
-    if (members == 0) return;
-    sampler.sample(places, members, at_once, minified, light.data());
-    for (int m = 0; m < members; ++m) std::copy_n(&light[3 * m], 3, rgb + 3 * who[m]);
   }
 }
 
-bool PixelLight::put_place(SeenSky sky, const LookBatch& batch, int k, double sample_angle,
-                           int taps, SkyPlaces& places, int member) const {
-  const bool radial = batch.radial_scale[k] >= batch.tangential_scale[k];
-  const double wide = sample_angle * (radial ? batch.radial_scale[k] : batch.tangential_scale[k]);
-  const double narrow = sample_angle * (radial ? batch.tangential_scale[k] : batch.radial_scale[k]);
-  const V3d on_sky = batch.sky_direction(k);
-  const V3d along = (radial ? batch.along(k) : batch.along(k).cross(on_sky)) * wide;
-  const MapShift shifted = shift(sky, batch.frequency_ratio[k]);
-  const auto set = [member](SkyPlaces::Column& column, double value) {
-    column[static_cast<std::size_t>(member)] = static_cast<float>(value);
-  };
-  set(places.x, on_sky.x), set(places.y, on_sky.y), set(places.z, on_sky.z);
-  set(places.gain, shifted.gain), set(places.tone, shifted.tone);
-  set(places.wide, wide), set(places.narrow, narrow);
-  set(places.ax, along.x), set(places.ay, along.y), set(places.az, along.z);
-  return this->sampler(sky)->is_minified(wide, narrow, taps);
-}
-
-void PixelLight::shade(const LookBatch& batch, const CameraDirection* n, int count,
-                       const double* sample_angle, bool fine, float* rgb) const {
-  for (const SeenSky sky : kEverySky)
-    if (sampler(sky)) add_map(sky, batch, n, count, sample_angle, fine, rgb);
+void PixelLight::shade_batch(Looks& looks, int first, int count, bool fine, Maps& maps) const {
+  LookBatch batch;
+  tracer_.look(&looks.n[first], count, batch);
+  bool maps_seen = false;
+  float* rgb = &looks.rgb[3 * first];
   for (int k = 0; k < count; ++k, rgb += 3) {
+    const int at = first + k;
+    looks.difficult[at] = !fine && needs_more_samples(batch, k, looks.angle[at]);
+    const bool map = sampler(batch.sky[k]) != nullptr;
+    maps_seen |= map;
     WorkingRgb c{0, 0, 0};
-    if (!is_darkened(batch.sky[k], n[k])) {
-      if (sampler(batch.sky[k]))
-        c = {rgb[0], rgb[1], rgb[2]};
-      else
-        c = light(batch, k, sample_angle[k], fine);
-    }
-    if (amplified_)
-      c = c * amplification(n[k], sample_angle[k] * (fine ? anti_aliasing_.samples : 1));
+    if (!map && !looks.difficult[at] && !is_darkened(batch.sky[k], looks.n[at]))
+      c = light(batch, k, looks.angle[at], fine);
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
+  if (maps_seen)
+    put_maps(batch, looks, first, count, fine, maps);
+  else
+    for (auto& taps : maps.taps) std::fill_n(&taps[first], count, std::uint8_t{0});
 }
 
-// Each of these pixels becomes the mean of a square of looks.  The squares' lines follow one another
-// through the batches, as many at once as one holds, so that a square may be larger than a batch.
-void PixelLight::supersample(int row, const std::vector<int>& pixels, float* rgb) const {
-  const int samples = anti_aliasing_.samples, at_once = LookBatch::kSize / samples;
-  const Projection finer = refined(projection_, samples);
+void PixelLight::shade(Looks& looks, bool fine) const {
+  view_directions(projection_, looks.i.data(), looks.j.data(), looks.count, looks.n.data(),
+                  looks.angle.data());
+  const int samples = fine ? anti_aliasing_.samples : 1;
+  if (fine)
+    for (int k = 0; k < looks.count; ++k) looks.angle[k] /= samples;
+  Maps maps;
+  for (int first = 0; first < looks.count; first += LookBatch::kSize)
+    shade_batch(looks, first, std::min(LookBatch::kSize, looks.count - first), fine, maps);
+  for (const SeenSky sky : kEverySky)
+    if (maps.any[static_cast<std::size_t>(sky)])
+      sampler(sky)->sample_each(maps.places, looks.count,
+                                maps.taps[static_cast<std::size_t>(sky)].data(), looks.rgb.data());
+  if (!amplified_) return;
+  for (int k = 0; k < looks.count; ++k) {
+    const auto by = static_cast<float>(amplification(looks.n[k], looks.angle[k] * samples));
+    for (int c = 0; c < 3; ++c) looks.rgb[3 * k + c] *= by;
+  }
+}
+
+// Each of these pixels becomes the mean of a square of looks.  The squares' lines follow one another, as many
+// at once as there is room for, so that a square may be larger than that.
+void PixelLight::supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
+  const int samples = anti_aliasing_.samples, at_once = Looks::kSize / samples;
   const int lines = static_cast<int>(pixels.size()) * samples;
-  LookBatch batch;
-  std::array<CameraDirection, LookBatch::kSize> n;
-  std::array<double, LookBatch::kSize> angle;
-  std::array<float, 3 * LookBatch::kSize> fine;
+  const double step = 1.0 / samples, start = step / 2 - 0.5;
+  Looks looks;
   float sum[3] = {0, 0, 0};
   for (int first = 0; first < lines; first += at_once) {
     const int end = std::min(lines, first + at_once);
-    int count = 0;
-    for (int line = first; line < end; ++line, count += samples) {
-      const int pixel = pixels[line / samples];
-      std::fill_n(angle.begin() + count, samples,
-                  pixel_angle(projection_, {pixel + 1.0, row + 1.0}) / samples);
-      inside_directions(finer, samples * row + line % samples,
-                        {samples * pixel, samples * (pixel + 1) - 1}, n.data() + count);
+    looks.count = 0;
+    for (int line = first; line < end; ++line) {
+      const Pixel& pixel = pixels[line / samples];
+      for (int k = 0; k < samples; ++k)
+        looks.add(pixel.column + start + k * step, pixel.row + start + line % samples * step);
     }
-    tracer_.look(n.data(), count, batch);
-    shade(batch, n.data(), count, angle.data(), true, fine.data());
-    const float* sample = fine.data();
+    shade(looks, true);
+    const float* sample = looks.rgb.data();
     for (int line = first; line < end; ++line) {
       for (int k = 0; k < samples; ++k, sample += 3)
         for (int c = 0; c < 3; ++c) sum[c] += sample[c];
       if (line % samples != samples - 1) continue;
-      float* out = rgb + 3 * pixels[line / samples];
+      float* out = this->pixel(pixels[line / samples], first_row, rgb);
       for (int c = 0; c < 3; ++c)
         out[c] = sum[c] / static_cast<float>(samples * samples), sum[c] = 0;
     }
   }
 }
 
-void PixelLight::fill(int row, ColumnRange range, float* rgb) const {
-  const ColumnRange in_picture = inside_columns(projection_, row);
-  const ColumnRange inside{std::max(in_picture.first, range.first),
-                           std::min(in_picture.last, range.last)};
-  LookBatch batch;
-  std::array<CameraDirection, LookBatch::kSize> n;
-  std::array<double, LookBatch::kSize> angle;
-  std::vector<int> fine;
-  for (int first = inside.first; first <= inside.last; first += LookBatch::kSize) {
-    const int last = std::min(inside.last, first + LookBatch::kSize - 1), count = last - first + 1;
-    inside_directions(projection_, row, {first, last}, n.data());
-    for (int k = 0; k < count; ++k)
-      angle[static_cast<std::size_t>(k)] = pixel_angle(projection_, {first + k + 1.0, row + 1.0});
-    tracer_.look(n.data(), count, batch);
-    shade(batch, n.data(), count, angle.data(), false, rgb + 3 * first);
-    for (int k = 0; k < count; ++k)
-      if (needs_more_samples(batch, k, angle[static_cast<std::size_t>(k)]))
-        fine.push_back(first + k);
+void PixelLight::fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
+  Looks looks;
+  std::vector<Pixel> difficult;
+  for (std::size_t first = 0; first < pixels.size(); first += Looks::kSize) {
+    const std::size_t end = std::min(pixels.size(), first + Looks::kSize);
+    looks.count = 0;
+    for (std::size_t k = first; k < end; ++k) looks.add(pixels[k].column, pixels[k].row);
+    shade(looks, false);
+    const float* value = looks.rgb.data();
+    for (std::size_t k = first; k < end; ++k, value += 3)
+      if (looks.difficult[k - first])
+        difficult.push_back(pixels[k]);
+      else
+        std::copy_n(value, 3, pixel(pixels[k], first_row, rgb));
   }
-  supersample(row, fine, rgb);
+  supersample(difficult, first_row, rgb);
 }
 
 }  // namespace domefall

@@ -18,6 +18,11 @@ struct DarkenedSpot {
   double chord2;  // of the cap's radius, squared
 };
 
+// Column and row from 0.
+struct Pixel {
+  int column, row;
+};
+
 class PixelLight {
  public:
   // By SeenSky; null for a dark one.  Everything must outlive it.
@@ -26,9 +31,9 @@ class PixelLight {
              const Skies& skies, AntiAliasing anti_aliasing = {},
              std::vector<DarkenedSpot> darkened = {});
 
-  // Scene-linear working-space pixel values of the pixels of row `row` (from 0) that are inside `range`
-  // and the picture, into rgb[3 * columns].  The others are left alone.
-  void fill(int row, ColumnRange range, float* rgb) const;
+  // Scene-linear working-space values of pixels, which are all in the picture, into the rows of 3 columns()
+  // floats of which `rgb` is row `first_row`.  What stands side by side is best named one after another.
+  void fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
 
   const ViewTracer& tracer() const { return tracer_; }
   bool is_dark(SeenSky sky) const { return skies_[static_cast<std::size_t>(sky)] == nullptr; }
@@ -36,22 +41,31 @@ class PixelLight {
   const SkySampler* sampler(SeenSky sky) const;
   // Of the light of a sky that is a map.
   MapShift shift(SeenSky sky, double frequency_ratio) const;
-  ShiftSides shift_sides(SeenSky sky, double frequency_ratio) const;
+  void shifts(SeenSky sky, const double* frequency_ratio, int count, float* gain,
+              float* tone) const;
+  void shift_sides(SeenSky sky, const double* frequency_ratio, int count, float* red,
+                   float* blue) const;
   float knee(SeenSky sky) const;
 
  private:
-  void shade(const LookBatch& batch, const CameraDirection* n, int count,
-             const double* sample_angle, bool fine, float* rgb) const;
-  void add_map(SeenSky sky, const LookBatch& batch, const CameraDirection* n, int count,
-               const double* sample_angle, bool fine, float* rgb) const;
-  // Whether the look needs more than the finest level.
-  bool put_place(SeenSky sky, const LookBatch& batch, int k, double sample_angle, int taps,
-                 SkyPlaces& places, int member) const;
+  // Up to so many looks at once.
+  struct Looks;
+  struct Maps;
+
+  void shade(Looks& looks, bool fine) const;
+  void shade_batch(Looks& looks, int first, int count, bool fine, Maps& maps) const;
+  void put_maps(const LookBatch& batch, const Looks& looks, int first, int count, bool fine,
+                Maps& maps) const;
   bool is_darkened(SeenSky sky, const CameraDirection& n) const;
   WorkingRgb light(const LookBatch& batch, int k, double sample_angle, bool fine) const;
   double amplification(const CameraDirection& n, double pixel_angle) const;
   bool needs_more_samples(const LookBatch& batch, int k, double pixel_angle) const;
-  void supersample(int row, const std::vector<int>& pixels, float* rgb) const;
+  void supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
+  float* pixel(const Pixel& at, int first_row, float* rgb) const {
+    return rgb + 3 * (static_cast<std::size_t>(at.row - first_row) *
+                          static_cast<std::size_t>(columns(projection_)) +
+                      static_cast<std::size_t>(at.column));
+  }
 
   const Show& show_;
   Projection projection_;

@@ -5,6 +5,7 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/effect_light.h"
+#include "pipeline/render/simd.h"
 #include "pipeline/render/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
 
@@ -31,6 +32,31 @@ constexpr double kMostGain = 1e28;
 float gain_of(const SkyMap& map, double shift, double scale) {
   return static_cast<float>(std::min(map.unit() * shift * scale, kMostGain));
 }
+
+// gain_of(redshifted) and gain_of(blueshifted) for many frequency ratios.
+[[gnu::always_inline]] inline void red_gains_loop(const double* g, int count, double unit,
+                                                  double scale, float* gain) {
+  for (int k = 0; k < count; ++k) {
+    const double wanted = unit * redshifted(g[k]) * scale;
+    gain[k] = static_cast<float>(wanted < kMostGain ? wanted : kMostGain);
+  }
+}
+Dispatched<red_gains_loop> red_gains;
+
+[[gnu::always_inline]] inline void square_gains_loop(const double* g, int count, double unit,
+                                                     double scale, float* gain) {
+  for (int k = 0; k < count; ++k) {
+    const double wanted = unit * (g[k] * g[k]) * scale;
+    gain[k] = static_cast<float>(wanted < kMostGain ? wanted : kMostGain);
+  }
+}
+Dispatched<square_gains_loop> square_gains;
+
+[[gnu::always_inline]] inline void choose_loop(const float* red, const float* blue, const double* g,
+                                               int count, float* gain) {
+  for (int k = 0; k < count; ++k) gain[k] = g[k] < 1 ? red[k] : blue[k];
+}
+Dispatched<choose_loop> choose;
 
 // A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
 // since g^4 may be far beyond a float where the colour, per unit of light, is as far below it.
@@ -68,6 +94,40 @@ MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale) 
   const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
   return {gain_of(map, ratio2 * ratio2 * surface_brightness_ratio(effects, g), scale),
           static_cast<float>(std::log2(ratio))};
+}
+
+void map_shifts(const SkyMap& map, const Show& show, const double* g, int count, double scale,
+                float* gain, float* tone) {
+  if (map.kind() == SkyMapKind::kThermal) {
+    for (int k = 0; k < count; ++k) {
+      const MapShift shift = map_shift(map, show, g[k], scale);
+      gain[k] = shift.gain, tone[k] = shift.tone;
+    }
+    return;
+  }
+  std::fill_n(tone, count, 0.0f);
+  if (!show.effects.intensity) {
+    std::fill_n(gain, count, gain_of(map, 1, scale));
+    return;
+  }
+  std::array<float, kMostShifts> red, blue;
+  shift_sides(map, show, g, count, scale, red.data(), blue.data());
+  choose(red.data(), blue.data(), g, count, gain);
+}
+
+void shift_sides(const SkyMap& map, const Show& show, const double* g, int count, double scale,
+                 float* red, float* blue) {
+  if (!show.effects.intensity) {
+    std::fill_n(red, count, gain_of(map, 1, scale));
+    std::fill_n(blue, count, gain_of(map, 1, scale));
+    return;
+  }
+  red_gains(g, count, map.unit(), scale, red);
+  if (show.panorama_shift.blueshift_power == 2)
+    square_gains(g, count, map.unit(), scale, blue);
+  else
+    for (int k = 0; k < count; ++k)
+      blue[k] = gain_of(map, blueshifted(show.panorama_shift, g[k]), scale);
 }
 
 ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale) {

@@ -24,6 +24,14 @@ struct ShiftSides {
   float red, blue;
 };
 ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale);
+
+// Both for many at a time, `count` <= kMostShifts: the same bits.
+inline constexpr int kMostShifts = 128;
+void map_shifts(const SkyMap& map, const Show& show, const double* g, int count, double scale,
+                float* gain, float* tone);
+void shift_sides(const SkyMap& map, const Show& show, const double* g, int count, double scale,
+                 float* red, float* blue);
+
 inline float knee(const SkyMap& map, double scale) {
   return static_cast<float>(map.unit() * scale);
 }

@@ -74,8 +74,6 @@ void SkyPass::fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) 
   for (int first = inside.first / kStep, end = first; first <= last; first = end) {
     const LookGrid::Cell cell = grid_.cell(cell_row, first);
     while (end <= last && grid_.cell(cell_row, end) == cell) ++end;
-    if (cell.kind == LookGrid::Kind::kExact)
-      light_.fill(cell_row * kStep + row, {first * kStep, end * kStep - 1}, rgb);
     if (cell.kind != LookGrid::Kind::kSmooth) continue;
     if (!lined) grid_.line_at(cell_row, row, line);
     lined = true;
@@ -83,16 +81,30 @@ void SkyPass::fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) 
   }
 }
 
+std::vector<Pixel> SkyPass::exact_pixels(int band) const {
+  const int first = band * kStep, end = std::min(first + kStep, rows(projection_));
+  std::array<ColumnRange, kStep> inside{};
+  for (int row = first; row < end; ++row) inside[row - first] = inside_columns(projection_, row);
+  std::vector<Pixel> pixels;
+  for (int left = 0; left < columns(projection_); left += kStep) {
+    if (interpolates_ && grid_.cell(band, left / kStep).kind != LookGrid::Kind::kExact) continue;
+    for (int row = first; row < end; ++row) {
+      const ColumnRange& in = inside[row - first];
+      for (int i = std::max(left, in.first); i <= std::min(left + kStep - 1, in.last); ++i)
+        pixels.push_back({i, row});
+    }
+  }
+  return pixels;
+}
+
 void SkyPass::fill_band(int band, float* rgb) const {
   const int width = columns(projection_), height = rows(projection_);
   LookGrid::Line line;
-  for (int row = 0; row < kStep && band * kStep + row < height; ++row) {
-    float* out = rgb + static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(width);
-    if (interpolates_)
-      fill_row(band, row, line, out);
-    else
-      light_.fill(band * kStep + row, {0, width - 1}, out);
-  }
+  if (interpolates_)
+    for (int row = 0; row < kStep && band * kStep + row < height; ++row)
+      fill_row(band, row, line,
+               rgb + static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(width));
+  light_.fill(exact_pixels(band), band * kStep, rgb);
 }
 
 double SkyPass::exact_part() const { return interpolates_ ? grid_.exact_part() : 1; }

@@ -26,6 +26,8 @@ class SkyPass {
   double exact_part() const;
 
  private:
+  // The pixels of cells that are looked at one by one, cell by cell; if there is no grid, of all.
+  std::vector<Pixel> exact_pixels(int band) const;
   void fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) const;
   void fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first, int end,
                    ColumnRange inside, float* rgb) const;

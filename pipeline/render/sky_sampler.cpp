@@ -15,6 +15,8 @@ namespace {
 constexpr int kChunk = SkyPlaces::kSize;
 // From so many looks a pixel on, each keeps to one level of the map.
 constexpr int kManyTaps = 4;
+// An oblong that is nearly round, or nearly a texel, is blurred to its length.
+constexpr float kRound = 1.25f;
 // Texels are asked for so many looks ahead.
 constexpr int kAhead = 24;
 
@@ -202,6 +204,25 @@ void thermal_to_colours(const Four* sum, const float* gain, const float* tone, f
 }
 Dispatched<lay_out_loop> lay_out;
 
+struct TapLimits {
+  std::array<int, 10> taps;
+  std::array<float, 10> longest;  // in units of its width, of a footprint with so many
+};
+
+[[gnu::always_inline]] inline void count_taps_loop(const float* wide, const float* narrow,
+                                                   int count, float texel, const TapLimits& limits,
+                                                   float longest, std::uint8_t* out) {
+  const TapLimits l = limits;
+  for (int k = 0; k < count; ++k) {
+    const float wanted = wide[k] / (narrow[k] > texel ? narrow[k] : texel);
+    int taps = 1;
+    for (std::size_t j = 1; j < l.taps.size(); ++j)
+      taps = wanted > l.longest[j - 1] ? l.taps[j] : taps;
+    out[k] = static_cast<std::uint8_t>(wide[k] < longest ? taps : 1);
+  }
+}
+Dispatched<count_taps_loop> count_taps;
+
 TexelLevels levels_of(const SkyMap& map) {
   TexelLevels l{};
   const auto& from = map.levels();
@@ -218,14 +239,23 @@ SkySampler::SkySampler(const SkyMap& map)
     : map_(map), texel_(std::numbers::pi / 2 / map.levels().front().size) {}
 
 int SkySampler::taps(double wide, double narrow, int most) const {
-  // An oblong that is nearly round, or nearly a texel, is blurred to its length.
-  constexpr double kRound = 1.25;
   const double wanted = wide / std::max(narrow, texel_);
   if (!(wanted > kRound)) return 1;
-  static constexpr std::array<int, 9> kTaps{2, 3, 4, 6, 8, 12, 16, 24, kMostTaps};
   for (const int taps : kTaps)
-    if (taps * kSpacing >= wanted || taps >= most) return taps;
+    if (taps > 1 && (taps * kSpacing >= wanted || taps >= most)) return taps;
   return kMostTaps;
+}
+
+void SkySampler::taps(const SkyPlaces& places, int first, int count, int most, float longest,
+                      std::uint8_t* out) const {
+  TapLimits limits{};
+  for (std::size_t j = 0; j < kTaps.size(); ++j) {
+    limits.taps[j] = kTaps[j];
+    limits.longest[j] = j == 0 ? kRound : static_cast<float>(kTaps[j] * kSpacing);
+    if (kTaps[j] >= most) limits.longest[j] = HUGE_VALF;
+  }
+  count_taps(&places.wide[first], &places.narrow[first], count, static_cast<float>(texel_), limits,
+             longest, out);
 }
 
 void SkySampler::sample(const SkyPlaces& places, int count, int taps, bool minified,

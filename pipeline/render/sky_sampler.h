@@ -33,6 +33,10 @@ class SkySampler {
   int taps(double wide, double narrow, int most = kMostTaps) const;
   static constexpr int kMostTaps = 32;
 
+  // The same for many, from element `first` of `places` on; 1 for those longer than `longest`.
+  void taps(const SkyPlaces& places, int first, int count, int most, float longest,
+            std::uint8_t* out) const;
+
   // Whether the looks of a footprint need coarser levels than the finest.
   bool is_minified(double wide, double narrow, int taps) const {
     return blur(wide, narrow, taps) > texel_;
@@ -42,10 +46,17 @@ class SkySampler {
   // minified: whether any of the looks is.
   void sample(const SkyPlaces& places, int count, int taps, bool minified, float* rgb) const;
 
+  // The same of looks with a number of taps each, one of those that taps() gives; where it is 0, rgb is left
+  // as it is.
+  void sample_each(const SkyPlaces& places, int count, const std::uint8_t* taps, float* rgb) const;
+
   const SkyMap& map() const { return map_; }
 
  private:
+  bool any_minified(const SkyPlaces& places, int count, int taps) const;
+
   static constexpr double kSpacing = 1.5;
+  static constexpr std::array<int, 10> kTaps{1, 2, 3, 4, 6, 8, 12, 16, 24, kMostTaps};
   // How wide each of its looks is.
   static double blur(double wide, double narrow, int taps) {
     return taps == 1 ? wide : std::max(narrow, wide / (taps * kSpacing));

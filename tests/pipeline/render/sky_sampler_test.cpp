@@ -94,6 +94,37 @@ TEST(SkySampler, TakesSoManyLooksThatTheyStandNoFartherApartThanTheyReach) {
   EXPECT_EQ(sampler.taps(1, 1e-9, 4), 4);
 }
 
+// Places with as many taps each as they need, and some that are nobody's: as one at a time.
+TEST(SkySampler, LooksThatNeedDifferentNumbersOfTapsAreThoseOfEachNumber) {
+  const SkyMap map(noise(512));
+  const SkySampler sampler(map);
+  std::mt19937 random(6);
+  SkyPlaces places = random_places(random, map.unit());
+  std::uniform_real_distribution<float> thinner(0.01f, 1);
+  for (float& narrow : places.narrow) narrow *= thinner(random);
+  std::array<std::uint8_t, SkyPlaces::kSize> taps;
+  for (const int most : {4, SkySampler::kMostTaps}) {
+    sampler.taps(places, 0, SkyPlaces::kSize, most, 0.7f, taps.data());
+    for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+      const int expected =
+          places.wide[k] < 0.7f ? sampler.taps(places.wide[k], places.narrow[k], most) : 1;
+      ASSERT_EQ(taps[k], expected) << places.wide[k] << " " << places.narrow[k];
+      if (k % 7 == 0) taps[k] = 0;
+    }
+    std::array<float, 3 * SkyPlaces::kSize + 1> rgb, one;
+    rgb.fill(-1);
+    sampler.sample_each(places, SkyPlaces::kSize, taps.data(), rgb.data());
+    for (int n = 1; n <= SkySampler::kMostTaps; ++n) {
+      if (std::find(taps.begin(), taps.end(), n) == taps.end()) continue;
+      sampler.sample(places, SkyPlaces::kSize, n, true, one.data());
+      for (std::size_t k = 0; k < SkyPlaces::kSize; ++k)
+        for (std::size_t c = 3 * k; taps[k] == n && c < 3 * k + 3; ++c)
+          ASSERT_NEAR(rgb[c], one[c], 1e-6f * one[c]);  // a group at the finest level: rounding
+    }
+    for (std::size_t k = 0; k < SkyPlaces::kSize; k += 7) ASSERT_EQ(rgb[3 * k + 1], -1);
+  }
+}
+
 // Blackbody light, shifted: what a look at the map and the exact colours give.
 TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
   SkyTexel texel{};

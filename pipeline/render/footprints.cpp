@@ -1,0 +1,44 @@
+#include "pipeline/render/footprints.h"
+
+#include "pipeline/render/simd.h"
+
+namespace domefall {
+namespace {
+
+struct Out {
+  float *x, *y, *z, *wide, *narrow, *ax, *ay, *az;
+};
+
+[[gnu::always_inline]] inline void set_loop(const LookBatch& batch, const double* angle, int count,
+                                            const Out& places) {
+  const LookBatch& b = batch;
+  const Out out = places;
+  for (int k = 0; k < count; ++k) {
+    const double sx = b.sky_x[k], sy = b.sky_y[k], sz = b.sky_z[k];
+    const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
+    const double across_x = y * sz - z * sy, across_y = z * sx - x * sz, across_z = x * sy - y * sx;
+    const double r = b.radial_scale[k], t = b.tangential_scale[k];
+    const bool radial = r >= t;
+    const double wide = angle[k] * (radial ? r : t), narrow = angle[k] * (radial ? t : r);
+    out.x[k] = static_cast<float>(sx);
+    out.y[k] = static_cast<float>(sy);
+    out.z[k] = static_cast<float>(sz);
+    out.wide[k] = static_cast<float>(wide);
+    out.narrow[k] = static_cast<float>(narrow);
+    out.ax[k] = static_cast<float>((radial ? x : across_x) * wide);
+    out.ay[k] = static_cast<float>((radial ? y : across_y) * wide);
+    out.az[k] = static_cast<float>((radial ? z : across_z) * wide);
+  }
+}
+Dispatched<set_loop> set;
+
+}  // namespace
+
+void set_footprints(const LookBatch& batch, const double* angle, int count, int first,
+                    SkyPlaces& p) {
+  set(batch, angle, count,
+      {&p.x[first], &p.y[first], &p.z[first], &p.wide[first], &p.narrow[first], &p.ax[first],
+       &p.ay[first], &p.az[first]});
+}
+
+}  // namespace domefall
