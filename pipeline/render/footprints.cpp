@@ -5,14 +5,10 @@
 namespace domefall {
 namespace {
 
-struct Out {
-  float *x, *y, *z, *wide, *narrow, *ax, *ay, *az;
-};
-
 [[gnu::always_inline]] inline void set_loop(const LookBatch& batch, const double* angle, int count,
-                                            const Out& places) {
+                                            const FootprintColumns& places) {
   const LookBatch& b = batch;
-  const Out out = places;
+  const FootprintColumns out = places;
   for (int k = 0; k < count; ++k) {
     const double sx = b.sky_x[k], sy = b.sky_y[k], sz = b.sky_z[k];
     const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
@@ -34,11 +30,9 @@ Dispatched<set_loop> set;
 
 }  // namespace
 
-void set_footprints(const LookBatch& batch, const double* angle, int count, int first,
-                    SkyPlaces& p) {
-  set(batch, angle, count,
-      {&p.x[first], &p.y[first], &p.z[first], &p.wide[first], &p.narrow[first], &p.ax[first],
-       &p.ay[first], &p.az[first]});
+void set_footprints(const LookBatch& batch, const double* angle, int count,
+                    const FootprintColumns& places) {
+  set(batch, angle, count, places);
 }
 
 }  // namespace domefall

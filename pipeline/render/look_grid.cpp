@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/render/footprints.h"
+#include "pipeline/render/pixel_directions.h"
 #include "pipeline/render/simd.h"
 
 namespace domefall {
@@ -27,66 +29,6 @@ constexpr float kFaintGain = 1e-12f;
 constexpr float kCoarser = 6;
 
 constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
-
-struct Weights {
-  float w[4];
-};
-
-// Lagrange's cubic through -1, 0, 1 and 2 at t in [0, 1].
-constexpr Weights cubic_weights(double t) {
-  return {{static_cast<float>(-t * (t - 1) * (t - 2) / 6),
-           static_cast<float>((t + 1) * (t - 1) * (t - 2) / 2),
-           static_cast<float>(-(t + 1) * t * (t - 2) / 2),
-           static_cast<float>((t + 1) * t * (t - 1) / 6)}};
-}
-
-constexpr std::array<Weights, kStep> kCubic = [] {
-  std::array<Weights, kStep> table{};
-  for (int k = 0; k < kStep; ++k) table[k] = cubic_weights(static_cast<double>(k) / kStep);
-  return table;
-}();
-
-[[gnu::always_inline]] inline void mix_four_loop(const float* a, const float* b, const float* c,
-                                                 const float* d, const Weights& weights, int count,
-                                                 float* out) {
-  const Weights w = weights;
-  for (int k = 0; k < count; ++k)
-    out[k] = w.w[0] * a[k] + w.w[1] * b[k] + w.w[2] * c[k] + w.w[3] * d[k];
-}
-Dispatched<mix_four_loop> mix_four;
-
-[[gnu::always_inline]] inline void mix_two_loop(const float* a, const float* b, float t, int count,
-                                                float* out) {
-  for (int k = 0; k < count; ++k) out[k] = a[k] + t * (b[k] - a[k]);
-}
-Dispatched<mix_two_loop> mix_two;
-
-// kStep pixels for each cell; `line` begins one node before the first of them.
-[[gnu::always_inline]] inline void spread_cubic_loop(const float* line, int cells, float* out) {
-  float w[4][kStep];
-  for (int n = 0; n < 4; ++n)
-    for (int k = 0; k < kStep; ++k) w[n][k] = kCubic[k].w[n];
-  for (int c = 0; c < cells; ++c, out += kStep) {
-    const float p = line[c], q = line[c + 1], r = line[c + 2], s = line[c + 3];
-    for (int k = 0; k < kStep; ++k) out[k] = w[0][k] * p + w[1][k] * q + w[2][k] * r + w[3][k] * s;
-  }
-}
-Dispatched<spread_cubic_loop> spread_cubic;
-
-[[gnu::always_inline]] inline void spread_linear_loop(const float* line, int cells, float* out) {
-  for (int c = 0; c < cells; ++c, out += kStep) {
-    const float from = line[c + 1], by = (line[c + 2] - line[c + 1]) * (1.0f / kStep);
-    for (int k = 0; k < kStep; ++k) out[k] = from + static_cast<float>(k) * by;
-  }
-}
-Dispatched<spread_linear_loop> spread_linear;
-
-// Of a panorama: ShiftSides become the shift.
-[[gnu::always_inline]] inline void choose_side_loop(const float* red, const float* blue, float knee,
-                                                    int count, float* gain) {
-  for (int k = 0; k < count; ++k) gain[k] = red[k] > knee ? blue[k] : red[k];
-}
-Dispatched<choose_side_loop> choose_side;
 
 // What the cubic through the second next neighbours errs by.
 inline float missed(const float* p, std::ptrdiff_t stride) {
@@ -118,6 +60,18 @@ struct Checked {
 }
 Dispatched<check_loop> check;
 
+// Radians on the sky.
+[[gnu::always_inline]] inline void set_tolerances_loop(const float* wide, const float* narrow,
+                                                       int count, float* tolerance) {
+  constexpr float kNarrowest = 0.1f;  // of the longer side: an Einstein ring's is 0
+  for (int k = 0; k < count; ++k) {
+    const float least = kNarrowest * wide[k];
+    tolerance[k] =
+        static_cast<float>(LookGrid::kTolerance) * (narrow[k] > least ? narrow[k] : least);
+  }
+}
+Dispatched<set_tolerances_loop> set_tolerances;
+
 }  // namespace
 
 void LookGrid::make(const Projection& projection, const PixelLight& light,
@@ -128,8 +82,9 @@ void LookGrid::make(const Projection& projection, const PixelLight& light,
   node_columns_ = cell_columns_ + 1 + 2 * kMargin;
   node_rows_ = cell_rows_ + 1 + 2 * kMargin;
   const std::size_t nodes = at(node_rows_, 0);
-  for (auto& quantity : nodes_) quantity.resize(nodes);
+  for (auto& quantity : nodes_) quantity.resize(nodes + kPadding);
   tolerance_.resize(nodes), edge_.resize(nodes), sky_.resize(nodes), run_.resize(nodes);
+  kinds_.resize(nodes);
   good_.assign(nodes, 1);
   cells_.resize(static_cast<std::size_t>(cell_rows_) * static_cast<std::size_t>(cell_columns_));
   tone_floor_ = kToneTolerance;
@@ -157,17 +112,17 @@ std::pair<int, int> LookGrid::needed_nodes(int row) const {
 }
 
 void LookGrid::look_at_row(int row) {
-  const double j = (row - kMargin) * kStep + 1.0;
   LookBatch batch;
   std::array<CameraDirection, LookBatch::kSize> n;
+  LookBatch::Column<double> i, j, angle;
+  j.fill((row - kMargin) * kStep + 1.0);
   const auto [from, to] = needed_nodes(row);
   for (int first = from; first < to; first += LookBatch::kSize) {
     const int count = std::min(LookBatch::kSize, to - first);
-    directions_along(projection_, {(first - kMargin) * kStep + 1.0, j}, kStep, count, n.data());
+    for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
+    view_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
     light_->tracer().look(n.data(), count, batch);
-    for (int k = 0; k < count; ++k)
-      store(at(row, first + k), batch, k,
-            pixel_angle(projection_, {(first + k - kMargin) * kStep + 1.0, j}));
+    store(at(row, first), batch, angle.data(), count);
   }
   // Where eight nodes in a row see one sky.
   const std::uint8_t* sky = sky_.data() + at(row, 0);
@@ -179,37 +134,47 @@ void LookGrid::look_at_row(int row) {
   }
 }
 
-void LookGrid::store(std::size_t node, const LookBatch& batch, int k, double pixel) {
-  const SeenSky sky = batch.sky[k];
-  const SkySampler* sampler = light_->sampler(sky);
-  edge_[node] = static_cast<float>(batch.to_edge[k] / (pixel * kStep));
-  sky_[node] = light_->is_dark(sky) ? kDark : sampler ? static_cast<std::uint8_t>(sky) : kMixed;
-  if (!sampler) return;
-  const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
-  const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-  const V3d on_sky = batch.sky_direction(k);
-  V3d along = batch.along(k);
-  if (batch.tangential_scale[k] > batch.radial_scale[k]) along = along.cross(on_sky);
-  along *= longer * pixel;
-  const double g = batch.frequency_ratio[k];
-  const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
-  const MapShift shift = thermal ? light_->shift(sky, g) : MapShift{};
-  ShiftSides sides{};
-  if (!thermal) light_->shift_sides(sky, &g, 1, &sides.red, &sides.blue);
-  const std::array<double, kQuantities> values{on_sky.x,
-                                               on_sky.y,
-                                               on_sky.z,
-                                               thermal ? shift.gain : sides.red,
-                                               thermal ? shift.tone : sides.blue,
-                                               longer * pixel,
-                                               shorter * pixel,
-                                               along.x,
-                                               along.y,
-                                               along.z};
-  for (std::size_t q = 0; q < kQuantities; ++q) nodes_[q][node] = static_cast<float>(values[q]);
-  constexpr double kNarrowest = 0.1;  // of the longer side: an Einstein ring's is 0
-  tolerance_[node] =
-      static_cast<float>(kTolerance * pixel * std::max(shorter, kNarrowest * longer));
+void LookGrid::store(std::size_t node, const LookBatch& batch, const double* angle, int count) {
+  const auto of = [&](Quantity q) { return &nodes_[q][node]; };
+  std::array<std::uint8_t, kSkies> skies{};
+  bool any = false;
+  for (const SeenSky sky : kEverySky) {
+    const bool map = light_->sampler(sky) != nullptr;
+    skies[static_cast<std::size_t>(sky)] = light_->is_dark(sky) ? kDark
+                                           : map                ? static_cast<std::uint8_t>(sky)
+                                                                : kMixed;
+  }
+  for (int k = 0; k < count; ++k) {
+    const std::uint8_t sky = skies[static_cast<std::size_t>(batch.sky[k])];
+    sky_[node + k] = sky;
+    edge_[node + k] = static_cast<float>(batch.to_edge[k] / (angle[k] * kStep));
+    any |= sky < kDark;
+  }
+  if (!any) return;
+  set_footprints(
+      batch, angle, count,
+      {of(kX), of(kY), of(kZ), of(kWide), of(kNarrow), of(kAlongX), of(kAlongY), of(kAlongZ)});
+  set_tolerances(of(kWide), of(kNarrow), count, &tolerance_[node]);
+  LookBatch::Column<float> first, second;
+  LookBatch::Column<LookKind> kinds;
+  for (const SeenSky sky : kEverySky) {
+    const SkySampler* sampler = light_->sampler(sky);
+    const auto end = batch.sky.begin() + count;
+    if (sampler == nullptr || std::find(batch.sky.begin(), end, sky) == end) continue;
+    sampler->choose_kinds(of(kWide), of(kNarrow), count, SkySampler::kMostTaps, HUGE_VALF,
+                          kinds.data());
+    const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
+    const double* g = batch.frequency_ratio.data();
+    if (thermal)
+      light_->shifts(sky, g, count, first.data(), second.data());
+    else
+      light_->shift_sides(sky, g, count, first.data(), second.data());
+    for (int k = 0; k < count; ++k) {
+      if (batch.sky[k] != sky) continue;
+      of(kGain)[k] = first[k], of(kTone)[k] = second[k];
+      kinds_[node + k] = kinds[k];
+    }
+  }
 }
 
 void LookGrid::check_row(int row) {
@@ -256,12 +221,8 @@ LookGrid::Cell LookGrid::classified(int row, int column) const {
   if (sky_[corners[0]] >= kDark || !is_smooth(row, column)) return cell;
   cell.kind = Kind::kSmooth;
   cell.sky = static_cast<SeenSky>(sky_[corners[0]]);
-  const SkySampler& sampler = *light_->sampler(cell.sky);
-  for (const std::size_t n : corners)
-    cell.taps = std::max(
-        cell.taps, static_cast<std::uint8_t>(sampler.taps(nodes_[kWide][n], nodes_[kNarrow][n])));
-  for (const std::size_t n : corners)
-    cell.minified |= sampler.is_minified(nodes_[kWide][n], nodes_[kNarrow][n], cell.taps);
+  cell.plain = std::all_of(corners.begin(), corners.end(),
+                           [&](std::size_t n) { return kinds_[n].is_plain(); });
   return cell;
 }
 
@@ -275,44 +236,6 @@ double LookGrid::exact_part() const {
   for (const Cell& cell : cells_)
     exact += cell.kind == Kind::kExact, all += cell.kind != Kind::kNothing;
   return all > 0 ? static_cast<double>(exact) / static_cast<double>(all) : 0;
-}
-
-void LookGrid::line_at(int cell_row, int row, Line& line) const {
-  const auto w = static_cast<std::size_t>(row);
-  const float t = static_cast<float>(row) / kStep;
-  for (int q = 0; q < kQuantities; ++q) {
-    auto& out = line.quantity[static_cast<std::size_t>(q)];
-    out.resize(static_cast<std::size_t>(node_columns_));
-    const float* first = nodes_[static_cast<std::size_t>(q)].data() + at(cell_row + kMargin - 1, 0);
-    const auto stride = static_cast<std::size_t>(node_columns_);
-    if (q < kCubics)
-      mix_four(first, first + stride, first + 2 * stride, first + 3 * stride, kCubic[w],
-               node_columns_, out.data());
-    else
-      mix_two(first + stride, first + 2 * stride, t, node_columns_, out.data());
-  }
-}
-
-void LookGrid::places(const Line& line, const Cell& cell, int first, int end,
-                      SkyPlaces& out) const {
-  const int cells = end - first, from = first + kMargin - 1;
-  const auto of = [&](Quantity q) {
-    return line.quantity[static_cast<std::size_t>(q)].data() + from;
-  };
-  spread_cubic(of(kX), cells, out.x.data());
-  spread_cubic(of(kY), cells, out.y.data());
-  spread_cubic(of(kZ), cells, out.z.data());
-  spread_cubic(of(kGain), cells, out.gain.data());
-  spread_cubic(of(kTone), cells, out.tone.data());
-  if (light_->sampler(cell.sky)->map().kind() == SkyMapKind::kColour)
-    choose_side(out.gain.data(), out.tone.data(), light_->knee(cell.sky), cells * kStep,
-                out.gain.data());
-  if (cell.taps > 1 || cell.minified) spread_linear(of(kWide), cells, out.wide.data());
-  if (cell.taps == 1) return;
-  spread_linear(of(kNarrow), cells, out.narrow.data());
-  spread_linear(of(kAlongX), cells, out.ax.data());
-  spread_linear(of(kAlongY), cells, out.ay.data());
-  spread_linear(of(kAlongZ), cells, out.az.data());
 }
 
 }  // namespace domefall

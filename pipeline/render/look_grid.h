@@ -37,8 +37,7 @@ class LookGrid {
   struct Cell {
     Kind kind = Kind::kNothing;
     SeenSky sky = SeenSky::kFour;
-    std::uint8_t taps = 1;
-    bool minified = false;
+    bool plain = false;  // one look a pixel, at the finest level of a map, is enough
 
     bool operator==(const Cell&) const = default;
   };
@@ -51,15 +50,12 @@ class LookGrid {
   // Of the pixels of all cells but those out of the picture or dark, 0 to 1.
   double exact_part() const;
 
-  // A row of pixels, interpolated between the node rows.
-  struct Line {
-    std::array<std::vector<float>, 10> quantity;  // by node column
-  };
-  // row: of pixels, 0 to kStep - 1 in the cell row.
-  void line_at(int cell_row, int row, Line& line) const;
-  // Pixels of the cells [first, end) of that line, kStep each, which are like `cell`;
-  // (end - first) kStep <= SkyPlaces::kSize.
-  void places(const Line& line, const Cell& cell, int first, int end, SkyPlaces& out) const;
+  // Pixels of smooth cells [first, end) of one sky, kStep each, in row `row` of their row of cells; x, y, z,
+  // gain and tone only.  (end - first) kStep <= SkyPlaces::kSize.
+  void row_places(int cell_row, int row, int first, int end, SkyPlaces& out) const;
+  // All pixels of such cells: cell by cell, and kStep rows in each.
+  static constexpr int kBlock = SkyPlaces::kSize / (kStep * kStep);  // the most of them
+  void block_places(int cell_row, int first, int end, SkyPlaces& out) const;
 
  private:
   enum Quantity {
@@ -76,6 +72,8 @@ class LookGrid {
     kQuantities
   };
   static constexpr int kCubics = 5;  // so many of them vary as cubics, the others linearly
+  // Beyond the last node: loops over nodes run on to whole registers.
+  static constexpr std::size_t kPadding = 96;
   static constexpr int kMargin = 3;  // nodes beyond the first and the last cell
 
   std::pair<int, int> needed_nodes(int row) const;  // first, end
@@ -85,7 +83,11 @@ class LookGrid {
   bool in_picture(int row, int column) const;
   bool is_smooth(int row, int column) const;
   Cell classified(int row, int column) const;
-  void store(std::size_t node, const LookBatch& batch, int k, double pixel);
+  void store(std::size_t node, const LookBatch& batch, const double* angle, int count);
+  void choose_side(int cell_row, int first, int count, SkyPlaces& out) const;
+  const float* corner(Quantity q, int cell_row, int cell) const {
+    return &nodes_[q][at(cell_row + kMargin - 1, cell + kMargin - 1)];
+  }
   std::size_t at(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(node_columns_) +
            static_cast<std::size_t>(column);
@@ -100,6 +102,7 @@ class LookGrid {
   std::vector<std::uint8_t> sky_;   // SeenSky, or dark, or none to interpolate
   std::vector<std::uint8_t> run_;   // of eight nodes from here on, if it is one
   std::vector<std::uint8_t> good_;  // whether the cubics hold at a node
+  std::vector<LookKind> kinds_;     // of a pixel there
   std::vector<Cell> cells_;
   float tone_floor_ = 0;                // smaller changes of kTone do not matter
   std::vector<PixelPosition> special_;  // pixels from 0

@@ -143,34 +143,32 @@ struct PixelLight::Looks {
 // The looks on maps among them.
 struct PixelLight::Maps {
   SkyPlaces places;
-  std::array<std::array<std::uint8_t, SkyPlaces::kSize>, kSkies> taps;  // 0: no look on that sky
+  std::array<std::array<LookKind, SkyPlaces::kSize>, kSkies> kinds{};  // none: not on that sky
   std::array<bool, kSkies> any{};
 };
 
 void PixelLight::put_maps(const LookBatch& batch, const Looks& looks, int first, int count,
                           bool fine, Maps& maps) const {
-  set_footprints(batch, &looks.angle[first], count, first, maps.places);
+  SkyPlaces& p = maps.places;
+  set_footprints(batch, &looks.angle[first], count,
+                 {&p.x[first], &p.y[first], &p.z[first], &p.wide[first], &p.narrow[first],
+                  &p.ax[first], &p.ay[first], &p.az[first]});
   const bool few = fine && !anti_aliasing_.everywhere;
   const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
   for (const SeenSky sky : kEverySky) {
     const SkySampler* sampler = this->sampler(sky);
-    if (sampler == nullptr) continue;
-    std::uint8_t* taps = &maps.taps[static_cast<std::size_t>(sky)][first];
-    int members = 0;
-    for (int k = 0; k < count; ++k) members += batch.sky[k] == sky;
-    if (members == 0) {
-      std::fill_n(taps, count, std::uint8_t{0});
-      continue;
-    }
+    const auto end = batch.sky.begin() + count;
+    if (sampler == nullptr || std::find(batch.sky.begin(), end, sky) == end) continue;
     maps.any[static_cast<std::size_t>(sky)] = true;
-    sampler->taps(maps.places, first, count, most, kLongestLine, taps);
+    LookKind* kinds = &maps.kinds[static_cast<std::size_t>(sky)][first];
+    sampler->choose_kinds(&p.wide[first], &p.narrow[first], count, most, kLongestLine, kinds);
     LookBatch::Column<float> gain, tone;
     shifts(sky, batch.frequency_ratio.data(), count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {
-      if (batch.sky[k] == sky)
-        maps.places.gain[first + k] = gain[k], maps.places.tone[first + k] = tone[k];
-      if (batch.sky[k] != sky || looks.difficult[first + k] || is_darkened(sky, looks.n[first + k]))
-        taps[k] = 0;
+      const int at = first + k;
+      if (batch.sky[k] == sky) p.gain[at] = gain[k], p.tone[at] = tone[k];
+      if (batch.sky[k] != sky || looks.difficult[at] || is_darkened(sky, looks.n[at]))
+        kinds[k] = LookKind();
     }
   }
 }
@@ -190,10 +188,7 @@ void PixelLight::shade_batch(Looks& looks, int first, int count, bool fine, Maps
       c = light(batch, k, looks.angle[at], fine);
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
-  if (maps_seen)
-    put_maps(batch, looks, first, count, fine, maps);
-  else
-    for (auto& taps : maps.taps) std::fill_n(&taps[first], count, std::uint8_t{0});
+  if (maps_seen) put_maps(batch, looks, first, count, fine, maps);
 }
 
 void PixelLight::shade(Looks& looks, bool fine) const {
@@ -207,8 +202,8 @@ void PixelLight::shade(Looks& looks, bool fine) const {
     shade_batch(looks, first, std::min(LookBatch::kSize, looks.count - first), fine, maps);
   for (const SeenSky sky : kEverySky)
     if (maps.any[static_cast<std::size_t>(sky)])
-      sampler(sky)->sample_each(maps.places, looks.count,
-                                maps.taps[static_cast<std::size_t>(sky)].data(), looks.rgb.data());
+      sampler(sky)->sample(maps.places, looks.count,
+                           maps.kinds[static_cast<std::size_t>(sky)].data(), looks.rgb.data());
   if (!amplified_) return;
   for (int k = 0; k < looks.count; ++k) {
     const auto by = static_cast<float>(amplification(looks.n[k], looks.angle[k] * samples));

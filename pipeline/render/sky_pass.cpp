@@ -1,6 +1,7 @@
 #include "pipeline/render/sky_pass.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/show/vantage.h"
@@ -46,65 +47,88 @@ SkyPass::SkyPass(const Show& show, const FrameState& state, const HoleOptics& op
   if (interpolates_) grid_.make(projection_, light, special_directions(show, state, optics));
 }
 
-void SkyPass::fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first,
-                          int end, ColumnRange inside, float* rgb) const {
-  constexpr int kCellsAtOnce = SkyPlaces::kSize / kStep;
+SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
+  Band band{number, std::min(kStep, rows(projection_) - number * kStep), {}, rgb};
+  for (int row = 0; row < band.rows; ++row)
+    band.inside[row] = inside_columns(projection_, number * kStep + row);
+  return band;
+}
+
+// Smooth cells of one sky where a look a pixel is enough, row by row.
+void SkyPass::fill_plain(const Band& band, int first, int end) const {
+  constexpr int kAtOnce = SkyPlaces::kSize / kStep;
+  const int width = columns(projection_);
   SkyPlaces places;
   std::array<float, 3 * SkyPlaces::kSize + 1> light;
-  for (int from = first; from < end; from += kCellsAtOnce) {
-    const int to = std::min(end, from + kCellsAtOnce), pixel = from * kStep;
-    const int left = std::max(pixel, inside.first), right = std::min(to * kStep - 1, inside.last);
-    if (left > right) continue;
-    grid_.places(line, cell, from, to, places);
-    // Straight into the row where nothing beside it is touched but what comes next.
-    const bool whole = left == pixel && right == to * kStep - 1;
-    float* out = whole ? rgb + 3 * pixel : light.data();
-    light_.sampler(cell.sky)->sample(places, (to - from) * kStep, cell.taps, cell.minified, out);
-    if (whole) continue;
-    std::copy(&light[static_cast<std::size_t>(3 * (left - pixel))],
-              &light[static_cast<std::size_t>(3 * (right + 1 - pixel))], rgb + 3 * left);
-  }
-}
-
-void SkyPass::fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) const {
-  const ColumnRange inside = inside_columns(projection_, cell_row * kStep + row);
-  if (inside.first > inside.last) return;
-  const int last = inside.last / kStep;
-  bool lined = false;
-  for (int first = inside.first / kStep, end = first; first <= last; first = end) {
-    const LookGrid::Cell cell = grid_.cell(cell_row, first);
-    while (end <= last && grid_.cell(cell_row, end) == cell) ++end;
-    if (cell.kind != LookGrid::Kind::kSmooth) continue;
-    if (!lined) grid_.line_at(cell_row, row, line);
-    lined = true;
-    fill_smooth(line, cell, first, end, inside, rgb);
-  }
-}
-
-std::vector<Pixel> SkyPass::exact_pixels(int band) const {
-  const int first = band * kStep, end = std::min(first + kStep, rows(projection_));
-  std::array<ColumnRange, kStep> inside{};
-  for (int row = first; row < end; ++row) inside[row - first] = inside_columns(projection_, row);
-  std::vector<Pixel> pixels;
-  for (int left = 0; left < columns(projection_); left += kStep) {
-    if (interpolates_ && grid_.cell(band, left / kStep).kind != LookGrid::Kind::kExact) continue;
-    for (int row = first; row < end; ++row) {
-      const ColumnRange& in = inside[row - first];
-      for (int i = std::max(left, in.first); i <= std::min(left + kStep - 1, in.last); ++i)
-        pixels.push_back({i, row});
+  const SkySampler& sampler = *light_.sampler(grid_.cell(band.number, first).sky);
+  for (int from = first; from < end; from += kAtOnce) {
+    const int to = std::min(end, from + kAtOnce), pixel = from * kStep;
+    for (int row = 0; row < band.rows; ++row) {
+      const int left = std::max(pixel, band.inside[row].first),
+                right = std::min(to * kStep - 1, band.inside[row].last);
+      if (left > right) continue;
+      grid_.row_places(band.number, row, from, to, places);
+      // Straight into the row where nothing beside it is touched but what comes next.
+      const bool whole = left == pixel && right == to * kStep - 1 && right < width - 1;
+      float* out = row_of(band, row);
+      sampler.sample_plain(places, (to - from) * kStep, whole ? out + 3 * pixel : light.data());
+      if (whole) continue;
+      std::copy(&light[3 * (left - pixel)], &light[3 * (right + 1 - pixel)], out + 3 * left);
     }
   }
-  return pixels;
 }
 
-void SkyPass::fill_band(int band, float* rgb) const {
-  const int width = columns(projection_), height = rows(projection_);
-  LookGrid::Line line;
-  if (interpolates_)
-    for (int row = 0; row < kStep && band * kStep + row < height; ++row)
-      fill_row(band, row, line,
-               rgb + static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(width));
-  light_.fill(exact_pixels(band), band * kStep, rgb);
+// Other smooth cells of one sky, cell by cell: what is beside a line of looks is looked at next.
+void SkyPass::fill_block(const Band& band, int first, int end) const {
+  SkyPlaces places;
+  std::array<LookKind, SkyPlaces::kSize> kinds;
+  std::array<float, 3 * SkyPlaces::kSize + 1> light;
+  const SkySampler& sampler = *light_.sampler(grid_.cell(band.number, first).sky);
+  for (int from = first; from < end; from += LookGrid::kBlock) {
+    const int to = std::min(end, from + LookGrid::kBlock), count = (to - from) * kStep * kStep;
+    grid_.block_places(band.number, from, to, places);
+    sampler.choose_kinds(places.wide.data(), places.narrow.data(), count, SkySampler::kMostTaps,
+                         HUGE_VALF, kinds.data());
+    sampler.sample(places, count, kinds.data(), light.data());
+    for (int row = 0; row < band.rows; ++row)
+      for (int cell = from; cell < to; ++cell) {
+        const float* of_row = &light[3 * kStep * ((cell - from) * kStep + row)];
+        const int left = std::max(cell * kStep, band.inside[row].first),
+                  right = std::min(cell * kStep + kStep - 1, band.inside[row].last);
+        if (left > right) continue;
+        std::copy(of_row + 3 * (left - cell * kStep), of_row + 3 * (right + 1 - cell * kStep),
+                  row_of(band, row) + 3 * left);
+      }
+  }
+}
+
+// The pixels of cells, cell by cell.
+void SkyPass::add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const {
+  for (int cell = first; cell < end; ++cell)
+    for (int row = 0; row < band.rows; ++row) {
+      const int left = std::max(cell * kStep, band.inside[row].first),
+                right = std::min(cell * kStep + kStep - 1, band.inside[row].last);
+      for (int column = left; column <= right; ++column)
+        pixels.push_back({column, band.number * kStep + row});
+    }
+}
+
+void SkyPass::fill_band(int number, float* rgb) const {
+  const Band band = band_at(number, rgb);
+  std::vector<Pixel> pixels;
+  const int cells = (columns(projection_) + kStep - 1) / kStep;
+  if (!interpolates_) add_pixels(band, 0, cells, pixels);
+  for (int first = 0, end = 0; interpolates_ && first < cells; first = end) {
+    const LookGrid::Cell cell = grid_.cell(number, first);
+    while (end < cells && grid_.cell(number, end) == cell) ++end;
+    if (cell.kind == LookGrid::Kind::kExact) add_pixels(band, first, end, pixels);
+    if (cell.kind != LookGrid::Kind::kSmooth) continue;
+    if (cell.plain)
+      fill_plain(band, first, end);
+    else
+      fill_block(band, first, end);
+  }
+  light_.fill(pixels, number * kStep, rgb);
 }
 
 double SkyPass::exact_part() const { return interpolates_ ? grid_.exact_part() : 1; }

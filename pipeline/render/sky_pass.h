@@ -26,11 +26,20 @@ class SkyPass {
   double exact_part() const;
 
  private:
-  // The pixels of cells that are looked at one by one, cell by cell; if there is no grid, of all.
-  std::vector<Pixel> exact_pixels(int band) const;
-  void fill_row(int cell_row, int row, LookGrid::Line& line, float* rgb) const;
-  void fill_smooth(const LookGrid::Line& line, const LookGrid::Cell& cell, int first, int end,
-                   ColumnRange inside, float* rgb) const;
+  // The columns of the picture in each row of a band.
+  struct Band {
+    int number, rows;  // cell row; rows of pixels that there are
+    std::array<ColumnRange, LookGrid::kStep> inside;
+    float* rgb;
+  };
+  Band band_at(int number, float* rgb) const;
+  float* row_of(const Band& band, int row) const {
+    return band.rgb +
+           static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(columns(projection_));
+  }
+  void fill_plain(const Band& band, int first, int end) const;
+  void fill_block(const Band& band, int first, int end) const;
+  void add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const;
 
   Projection projection_;
   const PixelLight& light_;

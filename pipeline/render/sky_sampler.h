@@ -1,10 +1,8 @@
 // Looks at a sky map, many at a time: the inner loop of the sky.  SkyMap::sample is its oracle.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "pipeline/sky/sky_map.h"
 
@@ -22,48 +20,48 @@ struct SkyPlaces {
   alignas(64) Column ax, ay, az;  // along the longer side, as long as it; likewise
 };
 
+// How a footprint is looked at: by how many looks in a line, and whether they need coarser levels of the map
+// than the finest.  0 taps: not at all.
+class LookKind {
+ public:
+  LookKind() = default;
+  constexpr LookKind(int taps, bool minified)
+      : code_(static_cast<std::uint8_t>(2 * taps + (minified ? 1 : 0))) {}
+  constexpr int taps() const { return code_ / 2; }
+  constexpr bool minified() const { return code_ % 2 != 0; }
+  // One look at the finest level.
+  constexpr bool is_plain() const { return *this == LookKind(1, false); }
+  constexpr std::uint8_t code() const { return code_; }
+  constexpr bool operator==(const LookKind&) const = default;
+
+ private:
+  std::uint8_t code_ = 0;
+};
+
 class SkySampler {
  public:
   // The map must outlive it.
   explicit SkySampler(const SkyMap& map);
 
-  // How many looks in a line an oblong footprint takes, so that they stand no farther apart than 1.5
-  // times its width or the finest texel's (what a look between texels gathers is 2 wide): one of a few
-  // numbers up to `most`.
-  int taps(double wide, double narrow, int most = kMostTaps) const;
   static constexpr int kMostTaps = 32;
+  // How footprints are to be looked at, by their longer and shorter sides (radians on the sky).  An oblong one
+  // takes so many looks in a line that they stand no farther apart than 1.5 times its width or the finest
+  // texel's (what a look between texels gathers is 2 wide): one of a few numbers up to `most`.  Those longer
+  // than `longest` are looked at once.
+  void choose_kinds(const float* wide, const float* narrow, int count, int most, float longest,
+                    LookKind* kinds) const;
 
-  // The same for many, from element `first` of `places` on; 1 for those longer than `longest`.
-  void taps(const SkyPlaces& places, int first, int count, int most, float longest,
-            std::uint8_t* out) const;
-
-  // Whether the looks of a footprint need coarser levels than the finest.
-  bool is_minified(double wide, double narrow, int taps) const {
-    return blur(wide, narrow, taps) > texel_;
-  }
-
-  // rgb[3 * count + 1]: the last is overwritten too, with 0 or what it was.
-  // minified: whether any of the looks is.
-  void sample(const SkyPlaces& places, int count, int taps, bool minified, float* rgb) const;
-
-  // The same of looks with a number of taps each, one of those that taps() gives; where it is 0, rgb is left
-  // as it is.
-  void sample_each(const SkyPlaces& places, int count, const std::uint8_t* taps, float* rgb) const;
+  // rgb[3 * count + 1]: the last is overwritten too, with 0 or what it was.  Where there are no taps, the
+  // colour stays what it was.
+  void sample(const SkyPlaces& places, int count, const LookKind* kinds, float* rgb) const;
+  // The same of looks that are all plain.
+  void sample_plain(const SkyPlaces& places, int count, float* rgb) const;
 
   const SkyMap& map() const { return map_; }
 
  private:
-  bool any_minified(const SkyPlaces& places, int count, int taps) const;
-
-  static constexpr double kSpacing = 1.5;
-  static constexpr std::array<int, 10> kTaps{1, 2, 3, 4, 6, 8, 12, 16, 24, kMostTaps};
-  // How wide each of its looks is.
-  static double blur(double wide, double narrow, int taps) {
-    return taps == 1 ? wide : std::max(narrow, wide / (taps * kSpacing));
-  }
-
   const SkyMap& map_;
-  double texel_;  // radians, of the finest level
+  float texel_;  // radians, of the finest level
 };
 
 }  // namespace domefall

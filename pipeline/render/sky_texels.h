@@ -2,6 +2,7 @@
 // and the light between the four texels there.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -20,6 +21,16 @@ struct TexelLevels {
   std::array<const SkyTexel*, kMost> texels;
   std::array<int, kMost> side;
 };
+
+inline TexelLevels levels_of(const SkyMap& map) {
+  TexelLevels l{};
+  const auto& from = map.levels();
+  for (std::size_t k = 0; k < TexelLevels::kMost; ++k) {
+    const SkyLevel& level = from[std::min(k, from.size() - 1)];
+    l.texels[k] = level.texels, l.side[k] = level.size + 2;
+  }
+  return l;
+}
 
 // A texel's place from a direction, without a branch; cube_face.h has it in words.
 struct OnFace {
@@ -46,33 +57,61 @@ struct OnFace {
   fy = y - static_cast<float>(j);
 }
 
-// Asks for four texels that will be wanted: they are all over the map.
+// Asks for four texels that will be wanted, which may lie in four lines of the cache.
 [[gnu::always_inline]] inline void prefetch(const SkyTexel* t, int side) {
-  __builtin_prefetch(t);
-  __builtin_prefetch(t + side);
+  __builtin_prefetch(t), __builtin_prefetch(t + 1);
+  __builtin_prefetch(t + side), __builtin_prefetch(t + side + 1);
 }
 
 // What `bilinear` gives is so many times too small.
 inline constexpr float kTexelScale = 0x1p112f;
 
-// Between four texels: two rows of two neighbours, each pair in one register.  A half that is not subnormal
-// is a float's bits, shifted, and kTexelScale times too small; that is mended once for all looks of a pixel.
-[[gnu::always_inline]] inline Four bilinear(const SkyTexel* t, int side, float fx, float fy) {
-  using Pair __attribute__((vector_size(32))) = float;
-  using PairBits __attribute__((vector_size(32))) = std::uint32_t;
-  using PairHalves __attribute__((vector_size(16))) = std::uint16_t;
-  PairHalves upper, lower;
-  std::memcpy(&upper, t, sizeof upper);
-  std::memcpy(&lower, t + side, sizeof lower);
-  const PairBits upper_bits = __builtin_convertvector(upper, PairBits) << 13;
-  const PairBits lower_bits = __builtin_convertvector(lower, PairBits) << 13;
-  Pair above, below;
-  std::memcpy(&above, &upper_bits, sizeof above);
-  std::memcpy(&below, &lower_bits, sizeof below);
-  const Pair both = above + (below - above) * fy;
-  const Four left = __builtin_shufflevector(both, both, 0, 1, 2, 3);
-  const Four right = __builtin_shufflevector(both, both, 4, 5, 6, 7);
-  return left + (right - left) * fx;
+// Two looks in a register, or what there is of them.
+using Pair __attribute__((vector_size(32))) = float;
+
+// A number for each of the two.
+[[gnu::always_inline]] inline void each_of(const float* of, Pair& pair) {
+  const Four a{of[0], of[0], of[0], of[0]}, b{of[1], of[1], of[1], of[1]};
+  pair = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+// Two texels side by side at t and at u: the left ones of both, and the right ones.  A half that is not
+// subnormal is a float's bits, shifted, and kTexelScale times too small; that is mended once for all looks of
+// a pixel.
+[[gnu::always_inline]] inline void decode(const SkyTexel* t, const SkyTexel* u, Pair& left,
+                                          Pair& right) {
+  using Halves __attribute__((vector_size(16))) = std::uint16_t;
+  using TwiceHalves __attribute__((vector_size(32))) = std::uint16_t;
+  using Bits __attribute__((vector_size(32))) = std::uint32_t;
+  Halves a, b;
+  std::memcpy(&a, t, sizeof a);
+  std::memcpy(&b, u, sizeof b);
+  const TwiceHalves both =
+      __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const TwiceHalves none{};
+  const TwiceHalves low =
+      __builtin_shufflevector(both, none, 0, 16, 1, 17, 2, 18, 3, 19, 8, 24, 9, 25, 10, 26, 11, 27);
+  const TwiceHalves high = __builtin_shufflevector(both, none, 4, 20, 5, 21, 6, 22, 7, 23, 12, 28,
+                                                   13, 29, 14, 30, 15, 31);
+  Bits left_bits, right_bits;
+  std::memcpy(&left_bits, &low, sizeof low);
+  std::memcpy(&right_bits, &high, sizeof high);
+  left_bits <<= 13, right_bits <<= 13;
+  std::memcpy(&left, &left_bits, sizeof left);
+  std::memcpy(&right, &right_bits, sizeof right);
+}
+
+// Two looks between four texels each, the first of which are t and u.
+[[gnu::always_inline]] inline void bilinear(const SkyTexel* t, int side_of_t, const SkyTexel* u,
+                                            int side_of_u, const float* fx, const float* fy,
+                                            Pair& out) {
+  Pair upper_left, upper_right, lower_left, lower_right, x, y;
+  decode(t, u, upper_left, upper_right);
+  decode(t + side_of_t, u + side_of_u, lower_left, lower_right);
+  each_of(fx, x), each_of(fy, y);
+  const Pair left = upper_left + (lower_left - upper_left) * y;
+  const Pair right = upper_right + (lower_right - upper_right) * y;
+  out = left + (right - left) * x;
 }
 
 }  // namespace domefall

@@ -46,17 +46,15 @@ struct Worst {
 // Against a look at every pixel of the cells that are interpolated.
 Worst worst_of(const Gridded& g) {
   Worst worst;
-  LookGrid::Line line;
   SkyPlaces places;
   for (int j = 0; j < g.grid.cell_rows(); ++j)
     for (int row = 0; row < LookGrid::kStep; row += 3) {
       const int y = j * LookGrid::kStep + row;
       if (y >= rows(g.state.projection)) continue;
-      g.grid.line_at(j, row, line);
       const ColumnRange inside = inside_columns(g.state.projection, y);
       for (int i = 0; i < g.grid.cell_columns(); ++i) {
         if (g.grid.cell(j, i).kind != LookGrid::Kind::kSmooth) continue;
-        g.grid.places(line, g.grid.cell(j, i), i, i + 1, places);
+        g.grid.row_places(j, row, i, i + 1, places);
         for (std::size_t k = 0; k < LookGrid::kStep; ++k) {
           const int x = i * LookGrid::kStep + static_cast<int>(k);
           if (x < inside.first || x > inside.last) continue;
@@ -117,6 +115,37 @@ TEST(LookGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
             show_of(GivenVelocity{r < 2 ? Region::kII : Region::kI, Tetrad::kRain, r, along}, p),
             "u = " + std::to_string(celerity) + ", r = " + std::to_string(r));
       }
+}
+
+// A block of cells holds what their rows do.
+TEST(LookGrid, BlocksAreMadeOfRows) {
+  const Gridded g(show_of(StaticObserver{10}, Domemaster{512}));
+  SkyPlaces block, line;
+  int blocks = 0;
+  for (int j = 0; j < g.grid.cell_rows(); ++j)
+    for (int i = 0; i + LookGrid::kBlock <= g.grid.cell_columns(); i += LookGrid::kBlock) {
+      int end = i;
+      while (end < i + LookGrid::kBlock && g.grid.cell(j, end).kind == LookGrid::Kind::kSmooth)
+        ++end;
+      if (end == i) continue;
+      g.grid.block_places(j, i, end, block);
+      ++blocks;
+      for (int row = 0; row < LookGrid::kStep; ++row) {
+        g.grid.row_places(j, row, i, end, line);
+        for (int k = 0; k < (end - i) * LookGrid::kStep; ++k) {
+          const int cell = k / LookGrid::kStep, column = k % LookGrid::kStep;
+          const auto at =
+              static_cast<std::size_t>((cell * LookGrid::kStep + row) * LookGrid::kStep + column);
+          const auto in_line = static_cast<std::size_t>(k);
+          ASSERT_EQ(block.x[at], line.x[in_line]);
+          ASSERT_EQ(block.gain[at], line.gain[in_line]);
+          // The footprint stands where the place is, as wide as its longer side.
+          const V3d along(block.ax[at], block.ay[at], block.az[at]);
+          ASSERT_NEAR(along.length(), block.wide[at], 0.02 * block.wide[at]);
+        }
+      }
+    }
+  EXPECT_GT(blocks, 100);
 }
 
 // What it is for.

@@ -80,16 +80,31 @@ TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
     const SkySampler sampler(map);
     std::mt19937 random(1);
     const SkyPlaces places = random_places(random, 1e-9);
-    for (const int taps : {1, 2, 3, 4, 8, SkySampler::kMostTaps})
-      for (const bool minified : {false, true})
-        for (const int count : {SkyPlaces::kSize, SkyPlaces::kSize - 3, 17, 1})
+    std::array<LookKind, SkyPlaces::kSize> kinds;
+    for (const int count : {SkyPlaces::kSize, SkyPlaces::kSize - 3, 17, 1}) {
+      const auto colours = [&](const auto& sample) {
+        std::vector<float> rgb(3 * SkyPlaces::kSize + 1);
+        sample(rgb.data());
+        Bytes bytes;
+        bytes.add(rgb);
+        return bytes;
+      };
+      for (const int taps : {1, 2, 3, 4, 8, SkySampler::kMostTaps})
+        for (const bool minified : {false, true}) {
+          kinds.fill(LookKind(taps, minified));
           compare(std::to_string(taps) + " taps of " + std::to_string(count), [&] {
-            std::vector<float> rgb(3 * SkyPlaces::kSize + 1);
-            sampler.sample(places, count, taps, minified, rgb.data());
-            Bytes bytes;
-            bytes.add(rgb);
-            return bytes;
+            return colours([&](float* rgb) { sampler.sample(places, count, kinds.data(), rgb); });
           });
+        }
+      compare("plain", [&] {
+        return colours([&](float* rgb) { sampler.sample_plain(places, count, rgb); });
+      });
+      compare("of all kinds", [&] {
+        sampler.choose_kinds(places.wide.data(), places.narrow.data(), count, SkySampler::kMostTaps,
+                             0.7f, kinds.data());
+        return colours([&](float* rgb) { sampler.sample(places, count, kinds.data(), rgb); });
+      });
+    }
   }
 }
 

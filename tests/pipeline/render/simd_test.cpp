@@ -155,20 +155,20 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   LookGrid grid;
   grid.make(state.projection, light, special_directions(show, state, optics));
   Bytes bytes;
-  LookGrid::Line line;
-  for (int j = 0; j < grid.cell_rows(); ++j) {
-    grid.line_at(j, j % LookGrid::kStep, line);
+  for (int j = 0; j < grid.cell_rows(); ++j)
     for (int i = 0; i < grid.cell_columns(); ++i) {
       const LookGrid::Cell& cell = grid.cell(j, i);
       bytes.add(&cell, 1);
       if (cell.kind != LookGrid::Kind::kSmooth) continue;
       SkyPlaces places{};
-      grid.places(line, cell, i, i + 1, places);
+      grid.row_places(j, j % LookGrid::kStep, i, i + 1, places);
+      for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone})
+        bytes.add(column->data(), LookGrid::kStep);
+      grid.block_places(j, i, i + 1, places);
       for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone,
                                  &places.wide, &places.narrow, &places.ax, &places.ay, &places.az})
-        bytes.add(column->data(), LookGrid::kStep);
+        bytes.add(column->data(), std::size_t{LookGrid::kStep} * LookGrid::kStep);
     }
-  }
   return bytes;
 }
 

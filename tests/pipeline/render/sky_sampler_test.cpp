@@ -35,6 +35,12 @@ SkyPlaces random_places(std::mt19937& random, double unit) {
   return places;
 }
 
+void sample_all(const SkySampler& sampler, const SkyPlaces& places, LookKind kind, float* rgb) {
+  std::array<LookKind, SkyPlaces::kSize> kinds;
+  kinds.fill(kind);
+  sampler.sample(places, SkyPlaces::kSize, kinds.data(), rgb);
+}
+
 TEST(SkySampler, SeesWhatOneLookAtTheMapSees) {
   const SkyMap map(noise(512));
   const SkySampler sampler(map);
@@ -43,7 +49,10 @@ TEST(SkySampler, SeesWhatOneLookAtTheMapSees) {
   for (int round = 0; round < 20; ++round) {
     const SkyPlaces places = random_places(random, map.unit());
     for (const bool minified : {true, false}) {
-      sampler.sample(places, SkyPlaces::kSize, 1, minified, rgb.data());
+      if (minified)
+        sample_all(sampler, places, LookKind(1, true), rgb.data());
+      else
+        sampler.sample_plain(places, SkyPlaces::kSize, rgb.data());
       for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
         const V3d d(places.x[k], places.y[k], places.z[k]);
         const WorkingRgb c = map.sample(d, minified ? places.wide[k] : 0);
@@ -64,7 +73,7 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
   for (const int taps : {2, 3, 8, 32}) {
     SkyPlaces places = random_places(random, map.unit());
     for (float& narrow : places.narrow) narrow *= 0.01f;
-    sampler.sample(places, SkyPlaces::kSize, taps, true, rgb.data());
+    sample_all(sampler, places, LookKind(taps, true), rgb.data());
     double worst = 0;
     for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
       double sum = 0;
@@ -81,48 +90,55 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
   }
 }
 
+LookKind kind_of(const SkySampler& sampler, double wide, double narrow,
+                 int most = SkySampler::kMostTaps, float longest = 10) {
+  const auto w = static_cast<float>(wide), n = static_cast<float>(narrow);
+  LookKind kind;
+  sampler.choose_kinds(&w, &n, 1, most, longest, &kind);
+  return kind;
+}
+
 TEST(SkySampler, TakesSoManyLooksThatTheyStandNoFartherApartThanTheyReach) {
   const SkyMap map(noise(512));  // texels of pi/2/256
   const SkySampler sampler(map);
   const double texel = 1.5708 / 256;
-  EXPECT_EQ(sampler.taps(texel, texel / 100), 1);
-  EXPECT_EQ(sampler.taps(2.9 * texel, texel / 100), 2);
-  EXPECT_EQ(sampler.taps(5.9 * texel, texel / 100), 4);
-  EXPECT_EQ(sampler.taps(44 * texel, 10 * texel), 3);
-  EXPECT_EQ(sampler.taps(300 * texel, 300 * texel), 1);
-  EXPECT_EQ(sampler.taps(1, 1e-9), SkySampler::kMostTaps);
-  EXPECT_EQ(sampler.taps(1, 1e-9, 4), 4);
+  EXPECT_EQ(kind_of(sampler, 0.9 * texel, texel / 100), LookKind(1, false));
+  EXPECT_EQ(kind_of(sampler, 1.1 * texel, texel / 100), LookKind(1, true));
+  EXPECT_EQ(kind_of(sampler, 2.9 * texel, texel / 100), LookKind(2, false));
+  EXPECT_EQ(kind_of(sampler, 5.9 * texel, texel / 100), LookKind(4, false));
+  EXPECT_EQ(kind_of(sampler, 44 * texel, 10 * texel), LookKind(3, true));
+  EXPECT_EQ(kind_of(sampler, 300 * texel, 300 * texel), LookKind(1, true));
+  EXPECT_EQ(kind_of(sampler, 1, 1e-9), LookKind(SkySampler::kMostTaps, true));
+  EXPECT_EQ(kind_of(sampler, 1, 1e-9, 4), LookKind(4, true));
+  EXPECT_EQ(kind_of(sampler, 1, 1e-9, 32, 0.7f), LookKind(1, true));
 }
 
-// Places with as many taps each as they need, and some that are nobody's: as one at a time.
-TEST(SkySampler, LooksThatNeedDifferentNumbersOfTapsAreThoseOfEachNumber) {
+// Places looked at as they need, and some that are nobody's: as all of them looked at in each way.
+TEST(SkySampler, LooksOfManyKindsAreThoseOfEachKind) {
   const SkyMap map(noise(512));
   const SkySampler sampler(map);
   std::mt19937 random(6);
   SkyPlaces places = random_places(random, map.unit());
-  std::uniform_real_distribution<float> thinner(0.01f, 1);
-  for (float& narrow : places.narrow) narrow *= thinner(random);
-  std::array<std::uint8_t, SkyPlaces::kSize> taps;
-  for (const int most : {4, SkySampler::kMostTaps}) {
-    sampler.taps(places, 0, SkyPlaces::kSize, most, 0.7f, taps.data());
-    for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
-      const int expected =
-          places.wide[k] < 0.7f ? sampler.taps(places.wide[k], places.narrow[k], most) : 1;
-      ASSERT_EQ(taps[k], expected) << places.wide[k] << " " << places.narrow[k];
-      if (k % 7 == 0) taps[k] = 0;
-    }
-    std::array<float, 3 * SkyPlaces::kSize + 1> rgb, one;
-    rgb.fill(-1);
-    sampler.sample_each(places, SkyPlaces::kSize, taps.data(), rgb.data());
-    for (int n = 1; n <= SkySampler::kMostTaps; ++n) {
-      if (std::find(taps.begin(), taps.end(), n) == taps.end()) continue;
-      sampler.sample(places, SkyPlaces::kSize, n, true, one.data());
-      for (std::size_t k = 0; k < SkyPlaces::kSize; ++k)
-        for (std::size_t c = 3 * k; taps[k] == n && c < 3 * k + 3; ++c)
-          ASSERT_NEAR(rgb[c], one[c], 1e-6f * one[c]);  // a group at the finest level: rounding
-    }
-    for (std::size_t k = 0; k < SkyPlaces::kSize; k += 7) ASSERT_EQ(rgb[3 * k + 1], -1);
+  std::uniform_real_distribution<float> octaves(-6, 0);
+  for (float& narrow : places.narrow) narrow *= std::exp2(octaves(random));
+  std::array<LookKind, SkyPlaces::kSize> kinds;
+  sampler.choose_kinds(places.wide.data(), places.narrow.data(), SkyPlaces::kSize,
+                       SkySampler::kMostTaps, 0.7f, kinds.data());
+  for (std::size_t k = 0; k < SkyPlaces::kSize; k += 7) kinds[k] = LookKind();
+  std::array<float, 3 * SkyPlaces::kSize + 1> rgb, one;
+  rgb.fill(-1);
+  sampler.sample(places, SkyPlaces::kSize, kinds.data(), rgb.data());
+  std::size_t looked = 0;
+  for (int code = 2; code < 2 * SkySampler::kMostTaps + 2; ++code) {
+    const LookKind kind(code / 2, code % 2 != 0);
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) continue;
+    sample_all(sampler, places, kind, one.data());
+    for (std::size_t k = 0; k < SkyPlaces::kSize; ++k)
+      for (std::size_t c = 3 * k; kinds[k] == kind && c < 3 * k + 3; ++c, ++looked)
+        ASSERT_EQ(rgb[c], one[c]) << code;
   }
+  for (std::size_t k = 0; k < SkyPlaces::kSize; k += 7, looked += 3) ASSERT_EQ(rgb[3 * k + 1], -1);
+  EXPECT_EQ(looked, 3 * SkyPlaces::kSize);
 }
 
 // Blackbody light, shifted: what a look at the map and the exact colours give.
@@ -144,7 +160,7 @@ TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
   for (const double g : {0.005, 0.02, 0.3, 1.0, 5.0, 1e3, 1e6}) {
     SkyPlaces places = random_places(random, unit * g * g * g * g);
     places.tone.fill(static_cast<float>(std::log2(g)));
-    sampler.sample(places, SkyPlaces::kSize, 1, true, rgb.data());
+    sample_all(sampler, places, LookKind(1, true), rgb.data());
     const WorkingRgb c = blackbody_colours().per_flux(t * g);
     const double light = 32 * unit * g * g * g * g;
     ASSERT_NEAR(rgb[300], c.r * light, 2e-3 * c.r * light) << g;
