@@ -1,5 +1,6 @@
 #include "pipeline/render/half_row.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "pipeline/render/simd.h"
@@ -8,31 +9,37 @@ namespace domefall {
 
 namespace {
 
-[[gnu::always_inline]] inline std::uint32_t convert_loop(const float* values, int count,
-                                                         std::uint16_t* out) {
-  constexpr float kLargest = 65504, kSmallestNormal = 0x1p-14f;
-  // Adding it lets the addition round to the step of subnormal halves.
-  constexpr float kMagic = 0.5f;
-  std::uint32_t not_finite = 0;
+// The largest absolute value, as bits.
+[[gnu::always_inline]] inline std::int32_t convert_loop(const float* values, int count,
+                                                        std::uint16_t* out) {
+  constexpr std::int32_t kExponent = 0x7f800000, kOctave = 1 << 23;
+  constexpr std::int32_t kSmallestNormal = (127 - 14) * kOctave;  // 2^-14
+  constexpr std::int32_t kLargest = 0x477fe000;                   // 65504
+  std::int32_t largest = 0;
   for (int k = 0; k < count; ++k) {
-    const float v = values[k];
-    not_finite |= (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) == 0x7f800000u ? 1u : 0u;
-    const float positive = v > 0 ? v : 0;
-    const float x = positive < kLargest ? positive : kLargest;
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    const std::uint32_t normal = (bits + 0xfffu + ((bits >> 13) & 1u) - (112u << 23)) >> 13;
-    const std::uint32_t subnormal =
-        std::bit_cast<std::uint32_t>(x + kMagic) - std::bit_cast<std::uint32_t>(kMagic);
-    out[k] = static_cast<std::uint16_t>(x < kSmallestNormal ? subnormal : normal);
+    const auto value = std::bit_cast<std::int32_t>(values[k]);
+    const std::int32_t size = value & 0x7fffffff;
+    largest = std::max(largest, size);
+    // Bits of positive floats are in order; those of negative ones are negative.
+    const std::int32_t bounded = std::min(std::max(value, 0), kLargest);
+    const auto x = std::bit_cast<float>(bounded);
+    const std::int32_t own = bounded & kExponent;
+    const std::int32_t octave = std::max(own, kSmallestNormal);
+    // Beside 2^13 times its octave a float keeps as many bits as a half has: the addition rounds.
+    const std::int32_t beside = octave + 13 * kOctave;
+    const std::int32_t bits =
+        std::bit_cast<std::int32_t>(x + std::bit_cast<float>(beside)) - beside;
+    out[k] = static_cast<std::uint16_t>(bits + ((octave - kSmallestNormal) >> 13));
   }
-  return not_finite;
+  return largest;
 }
 Dispatched<convert_loop> convert;
 
 }  // namespace
 
 bool to_half(const float* values, int count, std::uint16_t* out) {
-  return convert(values, count, out) == 0;
+  constexpr std::int32_t kInfinity = 0x7f800000;
+  return convert(values, count, out) < kInfinity;
 }
 
 }  // namespace domefall

@@ -105,6 +105,12 @@ struct TapLimits {
 }
 Dispatched<choose_loop> choose;
 
+constexpr std::array<std::uint16_t, kChunk + 1> kNumbers = [] {
+  std::array<std::uint16_t, kChunk + 1> numbers{};
+  for (int k = 0; k <= kChunk; ++k) numbers[k] = static_cast<std::uint16_t>(k);
+  return numbers;
+}();
+
 // The numbers of the looks by their kind.
 class Order {
  public:
@@ -117,7 +123,8 @@ class Order {
       before += members;
     }
     each_run(kinds, count, [this](int& to, int first, int end) {
-      for (int k = first; k < end; ++k) who_[to++] = static_cast<std::uint16_t>(k);
+      std::copy(&kNumbers[first], &kNumbers[end], &who_[to]);
+      to += end - first;
     });
   }
 
@@ -131,10 +138,16 @@ class Order {
   }
 
  private:
-  // Neighbours are mostly of one kind.
+  // Neighbours are mostly of one kind: eight at a time.
   template <class F>
   void each_run(const LookKind* kinds, int count, F&& f) {
     for (int first = 0, end = 0; first < count; first = end) {
+      std::array<LookKind, 8> like, next;
+      like.fill(kinds[first]);
+      for (; end + 8 <= count; end += 8) {
+        std::copy_n(kinds + end, 8, next.begin());
+        if (next != like) break;
+      }
       while (end < count && kinds[end] == kinds[first]) ++end;
       f(ends_[kinds[first].code()], first, end);
     }
