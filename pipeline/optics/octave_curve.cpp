@@ -133,7 +133,7 @@ OctaveCurve::OctaveCurve(double x_min, double x_max, const std::function<double(
     const Derivatives low = at_key(k);
     const double start = key_start(k), h = key_start(k + 1) - start;
     intervals_[static_cast<std::size_t>(k - first_key_)] = {
-        start, 1 / h, between(stretched(low, h), stretched(high, h))};
+        between(stretched(low, h), stretched(high, h))};
     high = low;
   }
 }
@@ -146,15 +146,16 @@ OctaveCurve::Jet OctaveCurve::at_unit(const Interval& q, double u) {
 
 OctaveCurve::Jet OctaveCurve::at(double x) const {
   const Interval& q = interval(x);
-  const Jet jet = at_unit(q, (x - q.start) * q.inverse_width);
-  return {jet.value, jet.first * q.inverse_width, jet.second * square(q.inverse_width)};
+  const double by_x = inverse_width(q);
+  const Jet jet = at_unit(q, (x - start(q)) * by_x);
+  return {jet.value, jet.first * by_x, jet.second * square(by_x)};
 }
 
 bool OctaveCurve::is_monotone(double x_end) const {
   constexpr int kSlopeDegree = kTerms - 2;
   const bool rising = intervals_.front().c[0] < intervals_.back().c[0];
   for (const Interval& q : intervals_) {
-    if (q.start + 1 / q.inverse_width >= x_end) return true;
+    if (start(q) + 1 / inverse_width(q) >= x_end) return true;
     // b_j = sum over k <= j of C(j, k)/C(n, k) times the k-th coefficient.
     for (int j = 0; j <= kSlopeDegree; ++j) {
       double sum = 0, weight = 1;
@@ -171,12 +172,12 @@ bool OctaveCurve::is_monotone(double x_end) const {
 double OctaveCurve::inverse(double wanted, double x_end) const {
   const bool rising = intervals_.front().c[0] < value(x_end);
   const auto before = [&](const Interval& q) {
-    return q.start <= x_end && (rising ? q.c[0] <= wanted : q.c[0] >= wanted);
+    return start(q) <= x_end && (rising ? q.c[0] <= wanted : q.c[0] >= wanted);
   };
   // The last interval that starts before the wanted value.
   const auto after = std::partition_point(intervals_.begin(), intervals_.end(), before);
   const Interval& q = after == intervals_.begin() ? *after : *(after - 1);
-  double low = 0, high = std::min(1.0, (x_end - q.start) * q.inverse_width), u = high / 2;
+  double low = 0, high = std::min(1.0, (x_end - start(q)) * inverse_width(q)), u = high / 2;
   for (int step = 0; step < 100; ++step) {
     const Jet jet = at_unit(q, u);
     const double excess = jet.value - wanted;
@@ -186,7 +187,7 @@ double OctaveCurve::inverse(double wanted, double x_end) const {
     if (std::abs(next - u) <= 1e-16) break;
     u = next;
   }
-  return q.start + u / q.inverse_width;
+  return start(q) + u / inverse_width(q);
 }
 
 }  // namespace domefall

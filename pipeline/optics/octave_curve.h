@@ -25,7 +25,7 @@ class OctaveCurve {
               int bits = kPerOctaveBits);
 
   double x_min() const { return x_min_; }
-  double x_max() const { return intervals_.back().start; }  // of the last interval, its start
+  double x_max() const { return start(intervals_.back()); }  // of the last interval, its start
   std::size_t node_count() const { return intervals_.size() + 1; }
 
   struct Jet {
@@ -35,7 +35,7 @@ class OctaveCurve {
   Jet at(double x) const;
   double value(double x) const {
     const Interval& q = interval(x);
-    return polynomial(q.c, (x - q.start) * q.inverse_width);
+    return polynomial(q.c, (x - start(q)) * inverse_width(q));
   }
   // The x in [x_min, x_end] with value(x) = wanted, of the same polynomials.  The function must be
   // monotone there and take the value.
@@ -45,16 +45,17 @@ class OctaveCurve {
   // the slope's Bernstein coefficients.
   bool is_monotone(double x_end) const;
 
-  // value and slope of any number of x without a branch, for loops that are to become SIMD code: a
-  // copy of what a look-up needs, which no store of the loop can be taken to alter.  Good while the
-  // curve lives.  x below x_min is looked up there.
+  static constexpr int kTerms = 8;
+
+  // Where the polynomials of any number of x stand, without a branch, for loops that are to become SIMD code:
+  // a copy of what a look-up needs, which no store of the loop can be taken to alter.  Good while the curve
+  // lives.  x below x_min is looked up there, x beyond the last interval at its end.
   class Lookup;
   Lookup lookup() const;
 
  private:
-  static constexpr int kTerms = 8;
-  struct Interval {
-    double start, inverse_width;
+  // The coefficients in 0 <= u <= 1 across it: a line of the cache.
+  struct alignas(kTerms * sizeof(double)) Interval {
     std::array<double, kTerms> c;
   };
 
@@ -81,6 +82,12 @@ class OctaveCurve {
         std::clamp<std::int64_t>(key(x, shift_) - first_key_, 0, last))];
   }
 
+  double start(const Interval& q) const { return key_start(first_key_ + (&q - intervals_.data())); }
+  double inverse_width(const Interval& q) const {
+    const std::int64_t key = first_key_ + (&q - intervals_.data());
+    return 1 / (key_start(key + 1) - key_start(key));
+  }
+
   static Jet at_unit(const Interval& q, double u);  // derivatives with respect to u
 
   int shift_;
@@ -93,32 +100,41 @@ class OctaveCurve::Lookup {
  public:
   Lookup() = default;
   double x_min() const { return x_min_; }
-  struct ValueAndSlope {
-    double value, slope;
+  // kTerms of each interval, of powers of u.
+  const double* coefficients() const { return coefficients_; }
+  struct Spot {
+    std::int64_t interval;
+    double u, inverse_width;  // the place in it, 0 to 1, and du/dx
   };
-  ValueAndSlope operator()(double x) const {
-    const double at = x > x_min_ ? x : x_min_;
-    const std::int64_t k = key(at, shift_) - first_key_;
-    const Interval& q = intervals_[k < last_ ? k : last_];
-    const double u = (at - q.start) * q.inverse_width;
-    return {polynomial(q.c, u), polynomial_slope(q.c, u) * q.inverse_width};
+  // From the bits of x: the interval's number ends where u begins, and its width is that of an octave's part.
+  Spot operator()(double x) const {
+    constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1,
+                            kOne = std::uint64_t{1023} << 52;
+    const double above = x > x_min_ ? x : x_min_;
+    const auto bits = std::bit_cast<std::uint64_t>(above < x_last_ ? above : x_last_);
+    const auto parts = static_cast<std::uint64_t>(52 - shift_);
+    const std::uint64_t beyond = (bits << parts) & kMantissa;
+    return {static_cast<std::int64_t>(bits >> shift_) - first_key_,
+            std::bit_cast<double>(beyond | kOne) - 1,
+            std::bit_cast<double>((2 * 1023 + parts - (bits >> 52)) << 52)};
   }
 
  private:
   friend class OctaveCurve;
-  const Interval* intervals_ = nullptr;
-  std::int64_t first_key_ = 0, last_ = 0;
+  const double* coefficients_ = nullptr;
+  std::int64_t first_key_ = 0;
   int shift_ = 0;
-  double x_min_ = 0;
+  double x_min_ = 0, x_last_ = 0;
 };
 
 inline OctaveCurve::Lookup OctaveCurve::lookup() const {
   Lookup l;
-  l.intervals_ = intervals_.data();
+  l.coefficients_ = intervals_.front().c.data();
   l.first_key_ = first_key_;
-  l.last_ = static_cast<std::int64_t>(intervals_.size()) - 1;
   l.shift_ = shift_;
   l.x_min_ = x_min_;
+  const auto end = static_cast<std::uint64_t>(first_key_) + intervals_.size();
+  l.x_last_ = std::bit_cast<double>((end << shift_) - 1);
   return l;
 }
 

@@ -74,15 +74,8 @@ class SkyTable {
   double distance_of(const NullRay& ray) const;
 
   std::size_t node_count() const { return curve_.node_count(); }
+  // Of the azimuth, in x; below its x_min the law is the caller's, by way of azimuth() and slope().
   const OctaveCurve& curve() const { return curve_; }
-
-  struct Sweep {
-    double azimuth, slope;
-  };
-  // azimuth() and slope() without a branch; x below x_min is looked up there: the law is the
-  // caller's.
-  class Lookup;
-  Lookup lookup() const;
 
  private:
   SkyTable(const Radius& at, Critical edge, bool outgoing, double tangent, int bits);
@@ -98,25 +91,5 @@ class SkyTable {
   OctaveCurve curve_;
   EdgeLaw law_;
 };
-
-class SkyTable::Lookup {
- public:
-  Lookup() = default;
-  double x_min() const { return curve_.x_min(); }
-  Sweep operator()(double x) const {
-    const auto at = curve_(x);
-    return {at.value, std::abs(at.slope) * ((1 + x * x / 4) / 2)};
-  }
-
- private:
-  friend class SkyTable;
-  OctaveCurve::Lookup curve_;
-};
-
-inline SkyTable::Lookup SkyTable::lookup() const {
-  Lookup l;
-  l.curve_ = curve_.lookup();
-  return l;
-}
 
 }  // namespace domefall
