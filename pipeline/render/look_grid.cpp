@@ -34,7 +34,7 @@ constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 inline float missed(const float* p, std::ptrdiff_t stride) {
   const float between =
       (9 * (p[-stride] + p[stride]) - (p[-3 * stride] + p[3 * stride])) * (1.0f / 16);
-  return std::abs(between - p[0]);
+  return between - p[0];
 }
 
 struct Checked {
@@ -43,6 +43,7 @@ struct Checked {
 };
 
 // Along a line of nodes, or across it with a stride.  A comparison with NaN is false: not good.
+// A place may be of any length: only what is off at right angles to it counts.
 [[gnu::always_inline]] inline void check_loop(const Checked& nodes, std::ptrdiff_t stride,
                                               int count, std::uint8_t* good) {
   const Checked n = nodes;
@@ -50,10 +51,12 @@ struct Checked {
     const float x = missed(n.x + k, stride), y = missed(n.y + k, stride),
                 z = missed(n.z + k, stride);
     const float most = kCoarser * n.tolerance[k];
-    const bool place = x * x + y * y + z * z <= most * most;
+    const float px = n.x[k], py = n.y[k], pz = n.z[k];
+    const float u = y * pz - z * py, v = z * px - x * pz, w = x * py - y * px;
+    const bool place = u * u + v * v + w * w <= most * most;
     const bool gain =
-        missed(n.gain + k, stride) <= kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
-    const bool tone = missed(n.tone + k, stride) <=
+        std::abs(missed(n.gain + k, stride)) <= kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
+    const bool tone = std::abs(missed(n.tone + k, stride)) <=
                       kCoarser * (kGainTolerance * std::abs(n.tone[k]) + n.tone_floor);
     good[k] = static_cast<std::uint8_t>(good[k] & ((place & gain & tone) ? 1 : 0));
   }

@@ -63,7 +63,9 @@ Worst worst_of(const Gridded& g) {
           const double width = pixel_angle(g.state.projection, pixel) *
                                std::max(std::min(look.radial_scale, look.tangential_scale),
                                         0.1 * std::max(look.radial_scale, look.tangential_scale));
-          const V3d at(places.x[k], places.y[k], places.z[k]);
+          V3d at(places.x[k], places.y[k], places.z[k]);
+          EXPECT_NEAR(at.length(), 1, 0.01);
+          at.normalize();
           EXPECT_EQ(look.sky, g.grid.cell(j, i).sky);
           const double off = (at - look.sky_direction).length() - kRounding;
           worst.place = std::max(worst.place, off / width);
