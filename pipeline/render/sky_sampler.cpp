@@ -16,7 +16,7 @@ constexpr int kChunk = SkyPlaces::kSize;
 constexpr float kRound = 1.25f;
 // How far apart the looks of a line are at most, in their widths.
 constexpr float kSpacing = 1.5f;
-constexpr std::array<int, 10> kTaps{1, 2, 3, 4, 6, 8, 12, 16, 24, SkySampler::kMostTaps};
+constexpr std::array<int, 9> kTaps{1, 2, 4, 6, 8, 12, 16, 24, SkySampler::kMostTaps};
 // Texels are asked for so many looks ahead.
 constexpr int kAhead = 40;
 
@@ -45,8 +45,9 @@ Dispatched<locate_loop> locate;
     const int later = std::min(k + kAhead, count - 2);
     prefetch(texels + s.at[later], side), prefetch(texels + s.at[later + 1], side);
     Pair light, gains;
-    bilinear(texels + s.at[k], side, texels + s.at[k + 1], side, &s.fx[k], &s.fy[k], light);
-    each_of(gain + k, gains);
+    bilinear(texels + s.at[k], side, texels + s.at[k + 1], side, s.fx[k], s.fx[k + 1], s.fy[k],
+             s.fy[k + 1], light);
+    each_of(gain[k], gain[k + 1], gains);
     light = light * kTexelScale * gains;
     const Four a = __builtin_shufflevector(light, light, 0, 1, 2, 3);
     const Four b = __builtin_shufflevector(light, light, 4, 5, 6, 7);
@@ -56,24 +57,34 @@ Dispatched<locate_loop> locate;
 }
 Dispatched<fine_colours_loop> fine_colours;
 
-[[gnu::always_inline]] inline void to_colours_loop(const Four* sum, const float* gain,
+// All light of a pixel.
+[[gnu::always_inline]] inline void whole(const Pair& sum, Four& light) {
+  light = (__builtin_shufflevector(sum, sum, 0, 1, 2, 3) +
+           __builtin_shufflevector(sum, sum, 4, 5, 6, 7)) *
+          kTexelScale;
+}
+
+[[gnu::always_inline]] inline void to_colours_loop(const Pair* sum, const float* gain,
                                                    const LookKind* kinds, int count, float* rgb) {
   for (int k = 0; k < count; ++k, rgb += 3) {
     if (kinds[k].taps() == 0) continue;
-    const Four c = sum[k] * kTexelScale * (gain[k] / static_cast<float>(kinds[k].taps()));
+    Four c;
+    whole(sum[k], c);
+    c *= gain[k] / static_cast<float>(kinds[k].taps());
     rgb[0] = c[0], rgb[1] = c[1], rgb[2] = c[2];
   }
 }
 Dispatched<to_colours_loop> to_colours;
 
 // I and I theta of blackbody light, shifted by `tone` octaves of temperature.
-void thermal_to_colours(const Four* sum, const float* gain, const float* tone,
+void thermal_to_colours(const Pair* sum, const float* gain, const float* tone,
                         const LookKind* kinds, int count, float* rgb) {
   static const auto base = static_cast<float>(std::log2(kThermalBase));
   const BlackbodyColours& colours = blackbody_colours();
   for (int k = 0; k < count; ++k, rgb += 3) {
     if (kinds[k].taps() == 0) continue;
-    const Four of = sum[k] * kTexelScale;
+    Four of;
+    whole(sum[k], of);
     const float light = of[0];
     WorkingRgb c{0, 0, 0};
     if (light > 0) c = colours.per_flux_log2(base + of[1] / light + tone[k]);
@@ -173,13 +184,12 @@ void gather(const SkyPlaces& from, const std::uint16_t* who, int count, bool obl
 
 // Looks at `members` places of one kind.
 void add_group(const SkyPlaces& p, LookKind kind, const std::uint16_t* who, int members,
-               TexelLooks& looks, Four* sums) {
-  const int at_once = TexelLooks::kMostOfLines / kind.taps();
-  for (int k = 0; k < members; k += at_once) {
-    if (!looks.has_room()) looks.take(sums);
+               TexelLooks& looks, Pair* sums) {
+  const int at_once = TexelLooks::most_members(kind.taps(), kind.minified());
+  for (int k = 0; k < members; k += at_once)
     looks.add({kind.taps(), std::min(at_once, members - k), kind.minified(), &p.x[k], &p.y[k],
-               &p.z[k], &p.wide[k], &p.narrow[k], &p.ax[k], &p.ay[k], &p.az[k], who + k});
-  }
+               &p.z[k], &p.wide[k], &p.narrow[k], &p.ax[k], &p.ay[k], &p.az[k], who + k},
+              sums);
 }
 
 }  // namespace
@@ -213,8 +223,8 @@ void SkySampler::sample_plain(const SkyPlaces& places, int count, float* rgb) co
 void SkySampler::sample(const SkyPlaces& places, int count, const LookKind* kinds,
                         float* rgb) const {
   const Order order(kinds, count);
-  alignas(64) std::array<Four, kChunk> sums;
-  std::fill_n(sums.begin(), count, Four{0, 0, 0, 0});
+  alignas(64) std::array<Pair, kChunk> sums;
+  std::fill_n(sums.begin(), count, Pair{});
   TexelLooks looks(map_, kSpacing);
   SkyPlaces group;
   for (const int taps : kTaps)

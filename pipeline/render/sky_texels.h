@@ -70,8 +70,8 @@ inline constexpr float kTexelScale = 0x1p112f;
 using Pair __attribute__((vector_size(32))) = float;
 
 // A number for each of the two.
-[[gnu::always_inline]] inline void each_of(const float* of, Pair& pair) {
-  const Four a{of[0], of[0], of[0], of[0]}, b{of[1], of[1], of[1], of[1]};
+[[gnu::always_inline]] inline void each_of(float first, float second, Pair& pair) {
+  const Four a{first, first, first, first}, b{second, second, second, second};
   pair = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
@@ -103,12 +103,12 @@ using Pair __attribute__((vector_size(32))) = float;
 
 // Two looks between four texels each, the first of which are t and u.
 [[gnu::always_inline]] inline void bilinear(const SkyTexel* t, int side_of_t, const SkyTexel* u,
-                                            int side_of_u, const float* fx, const float* fy,
-                                            Pair& out) {
+                                            int side_of_u, float fx_of_t, float fx_of_u,
+                                            float fy_of_t, float fy_of_u, Pair& out) {
   Pair upper_left, upper_right, lower_left, lower_right, x, y;
   decode(t, u, upper_left, upper_right);
   decode(t + side_of_t, u + side_of_u, lower_left, lower_right);
-  each_of(fx, x), each_of(fy, y);
+  each_of(fx_of_t, fx_of_u, x), each_of(fy_of_t, fy_of_u, y);
   const Pair left = upper_left + (lower_left - upper_left) * y;
   const Pair right = upper_right + (lower_right - upper_right) * y;
   out = left + (right - left) * x;

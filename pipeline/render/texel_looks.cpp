@@ -10,12 +10,11 @@
 namespace domefall {
 namespace {
 
-// From so many looks a pixel on, each keeps to one level of the map.
-constexpr int kManyTaps = 4;
-// Texels are asked for so many looks ahead.
-constexpr int kAhead = 40;
+// Texels are asked for so many pairs of looks ahead.
+constexpr int kAhead = 20;
 
-using Column = std::array<float, TexelLooks::kMostOfLines>;
+using Spots = TexelLooks::Spots;
+using Column = std::array<float, 512>;
 // Places on the sky and widths (in texels of the finest level) of looks: those of all members, again and
 // again for each tap.
 struct Spread {
@@ -26,43 +25,40 @@ struct Map {
   int size, last;
 };
 
-// Into `out` from element `first` on.
-[[gnu::always_inline]] inline void locate_loop(const Spread& __restrict s, int count, Map map,
-                                               int first, TexelSpots& __restrict out) {
+// Into `out` from element `first` on.  Neither levels nor weights.
+[[gnu::always_inline]] inline void locate_finest_loop(const Spread& __restrict s, int count,
+                                                      Map map, int first, Spots& __restrict out) {
   const float half_size = static_cast<float>(map.size) / 2;
   for (int k = 0; k < count; ++k) {
     const OnFace on = on_face(s.x[k], s.y[k], s.z[k]);
     place_on(on, half_size, map.size + 2, out.at[first + k], out.fx[first + k], out.fy[first + k]);
-    out.level[first + k] = 0;
-    out.weight[first + k] = 1;
   }
 }
-Dispatched<locate_loop> locate;
+Dispatched<locate_finest_loop> locate_finest;
 
-// Levels by the logarithm of the width in texels, straight between powers of two.  The looks at the coarser
-// ones come after those at the finer ones.
+// Levels by the logarithm of the width in texels, straight between powers of two: the finer one, or the
+// coarser one.
 [[gnu::always_inline]] inline void locate_levels_loop(const Spread& __restrict s, int count,
-                                                      Map map, int first,
-                                                      TexelSpots& __restrict out) {
-  for (int half = 0; half < 2; ++half, first += count)
-    for (int k = 0; k < count; ++k) {
-      const auto bits = std::bit_cast<std::uint32_t>(s.texels[k]);
-      const std::int32_t octave = static_cast<std::int32_t>(bits >> 23) - 127 + half;
-      const std::int32_t level = octave < map.last ? octave : map.last;
-      const float part = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u) - 1;
-      const OnFace on = on_face(s.x[k], s.y[k], s.z[k]);
-      place_on(on, static_cast<float>(map.size) / 2 * std::bit_cast<float>((127 - level) << 23),
-               (map.size >> level) + 2, out.at[first + k], out.fx[first + k], out.fy[first + k]);
-      out.level[first + k] = level;
-      out.weight[first + k] = half == 0 ? 1 - part : part;
-    }
+                                                      Map map, int coarser, int first,
+                                                      Spots& __restrict out) {
+  for (int k = 0; k < count; ++k) {
+    const auto bits = std::bit_cast<std::uint32_t>(s.texels[k]);
+    const std::int32_t octave = static_cast<std::int32_t>(bits >> 23) - 127 + coarser;
+    const std::int32_t level = octave < map.last ? octave : map.last;
+    const float part = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u) - 1;
+    const OnFace on = on_face(s.x[k], s.y[k], s.z[k]);
+    place_on(on, static_cast<float>(map.size) / 2 * std::bit_cast<float>((127 - level) << 23),
+             (map.size >> level) + 2, out.at[first + k], out.fx[first + k], out.fy[first + k]);
+    out.level[first + k] = level;
+    out.weight[first + k] = coarser == 0 ? 1 - part : part;
+  }
 }
 Dispatched<locate_levels_loop> locate_levels;
 
 // The same for one of many looks of a pixel: each keeps to one level, and as many of them to the coarser one
 // as its part asks for.  The threshold is in (0, 1), another one for each look.
 [[gnu::always_inline]] inline void locate_level_loop(const Spread& __restrict s, int count, Map map,
-                                                     int first, TexelSpots& __restrict out) {
+                                                     int first, Spots& __restrict out) {
   for (int k = 0; k < count; ++k) {
     const auto bits = std::bit_cast<std::uint32_t>(s.texels[k]);
     const float part = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u) - 1;
@@ -78,12 +74,13 @@ Dispatched<locate_levels_loop> locate_levels;
 }
 Dispatched<locate_level_loop> locate_level;
 
-// Looks evenly along the lines, each as wide as the pixel is narrow or as they are apart.
-[[gnu::always_inline]] inline void spread_lines_loop(const LinesOfLooks& lines, float per_texel,
-                                                     float spacing, Spread& out) {
+// Looks evenly along the lines, every `step`-th from `first_tap` on, each as wide as the pixel is narrow or as they are apart.
+[[gnu::always_inline]] inline void spread_lines_loop(const LinesOfLooks& lines, int first_tap,
+                                                     int step, float per_texel, float spacing,
+                                                     Spread& out) {
   const LinesOfLooks l = lines;
   const float share = 1 / static_cast<float>(l.taps);
-  for (int tap = 0, to = 0; tap < l.taps; ++tap, to += l.members) {
+  for (int tap = first_tap, to = 0; tap < l.taps; tap += step, to += l.members) {
     const float along = (static_cast<float>(tap) + 0.5f) * share - 0.5f;
     // Multiples of the golden ratio are spread evenly, however many are taken.
     const double turns = (tap + 0.5) * (std::numbers::phi - 1);
@@ -112,23 +109,37 @@ Dispatched<spread_lines_loop> spread_lines;
 }
 Dispatched<spread_points_loop> spread_points;
 
-// `count` is even.
-[[gnu::always_inline]] inline void take_all_loop(const TexelLevels& levels, const TexelSpots& in,
-                                                 const std::uint16_t* who, int count, Four* sums) {
-  const auto texel = [&](int k) { return levels.texels[in.level[k]] + in.at[k]; };
-  const auto side = [&](int k) { return levels.side[in.level[k]]; };
-  for (int k = 0; k < count; k += 2) {
-    const int later = std::min(k + kAhead, count - 2);
-    prefetch(texel(later), side(later)), prefetch(texel(later + 1), side(later + 1));
+[[gnu::always_inline]] inline void take_any_loop(const TexelLevels& levels, const Spots& a,
+                                                 const Spots& b, const std::uint16_t* who,
+                                                 int count, Pair* sums) {
+  const auto texel = [&](const Spots& of, int k) { return levels.texels[of.level[k]] + of.at[k]; };
+  const auto side = [&](const Spots& of, int k) { return levels.side[of.level[k]]; };
+  for (int k = 0; k < count; ++k) {
+    const int later = std::min(k + kAhead, count - 1);
+    prefetch(texel(a, later), side(a, later)), prefetch(texel(b, later), side(b, later));
     Pair light, weights;
-    bilinear(texel(k), side(k), texel(k + 1), side(k + 1), &in.fx[k], &in.fy[k], light);
-    each_of(&in.weight[k], weights);
-    light *= weights;
-    sums[who[k]] += __builtin_shufflevector(light, light, 0, 1, 2, 3);
-    sums[who[k + 1]] += __builtin_shufflevector(light, light, 4, 5, 6, 7);
+    bilinear(texel(a, k), side(a, k), texel(b, k), side(b, k), a.fx[k], b.fx[k], a.fy[k], b.fy[k],
+             light);
+    each_of(a.weight[k], b.weight[k], weights);
+    sums[who[k]] += light * weights;
   }
 }
-Dispatched<take_all_loop> take_all;
+Dispatched<take_any_loop> take_any;
+
+[[gnu::always_inline]] inline void take_finest_loop(const SkyTexel* texels, int side,
+                                                    const Spots& a, const Spots& b,
+                                                    const std::uint16_t* who, int count,
+                                                    Pair* sums) {
+  for (int k = 0; k < count; ++k) {
+    const int later = std::min(k + kAhead, count - 1);
+    prefetch(texels + a.at[later], side), prefetch(texels + b.at[later], side);
+    Pair light;
+    bilinear(texels + a.at[k], side, texels + b.at[k], side, a.fx[k], b.fx[k], a.fy[k], b.fy[k],
+             light);
+    sums[who[k]] += light;
+  }
+}
+Dispatched<take_finest_loop> take_finest;
 
 }  // namespace
 
@@ -139,38 +150,46 @@ TexelLooks::TexelLooks(const SkyMap& map, double spacing)
       per_texel_(static_cast<float>(size_ * 2 / std::numbers::pi)),
       spacing_(static_cast<float>(spacing)) {}
 
-void TexelLooks::add_members(const LinesOfLooks& lines, int times) {
-  for (int k = 0; k < times; ++k, count_ += lines.members)
-    std::copy_n(lines.who, lines.members, &who_[count_]);
-}
-
-void TexelLooks::add(const LinesOfLooks& lines) {
-  Spread spread;
-  if (lines.taps == 1)
-    spread_points(lines, per_texel_, spread);
-  else
-    spread_lines(lines, per_texel_, spacing_, spread);
-  const int count = lines.taps * lines.members;
+// Looks of a pixel are taken in pairs: on two levels, or one after another in its line.
+void TexelLooks::locate(const LinesOfLooks& lines, Queue& queue) const {
   const Map map{size_, last_};
-  const bool two_levels = lines.minified && lines.taps < kManyTaps;
-  if (!lines.minified)
-    locate(spread, count, map, count_, spots_);
-  else if (two_levels)
-    locate_levels(spread, count, map, count_, spots_);
-  else
-    locate_level(spread, count, map, count_, spots_);
-  add_members(lines, two_levels ? 2 * lines.taps : lines.taps);
+  const bool two_levels = on_two_levels(lines.taps, lines.minified);
+  const int count = pairs(lines.taps, lines.minified) * lines.members, first = queue.count;
+  Spread spread;
+  for (int part = 0; part < 2; ++part) {
+    Spots& out = queue.spots[static_cast<std::size_t>(part)];
+    if (lines.taps == 1)
+      spread_points(lines, per_texel_, spread);
+    else if (!two_levels)
+      spread_lines(lines, part, 2, per_texel_, spacing_, spread);
+    else if (part == 0)
+      spread_lines(lines, 0, 1, per_texel_, spacing_, spread);
+    if (two_levels)
+      locate_levels(spread, count, map, part, first, out);
+    else if (lines.minified)
+      locate_level(spread, count, map, first, out);
+    else
+      locate_finest(spread, count, map, first, out);
+    if (lines.taps > 1 || lines.minified) continue;
+    std::fill_n(&out.level[first], count, 0);
+    std::fill_n(&out.weight[first], count, part == 0 ? 1.0f : 0.0f);  // the only one, twice
+  }
 }
 
-void TexelLooks::take(Four* sums) {
-  if (count_ % 2 != 0) {  // one that adds nothing
-    const int k = count_++;
-    spots_.at[k] = spots_.level[k] = 0;
-    spots_.fx[k] = spots_.fy[k] = spots_.weight[k] = 0;
-    who_[k] = who_[0];
-  }
-  take_all(levels_, spots_, who_.data(), count_, sums);
-  count_ = 0;
+void TexelLooks::add(const LinesOfLooks& lines, Pair* sums) {
+  if (std::max(finest_.count, any_.count) + kAtOnce > kMost) take(sums);
+  Queue& queue = lines.minified || lines.taps == 1 ? any_ : finest_;
+  locate(lines, queue);
+  for (int k = 0; k < pairs(lines.taps, lines.minified); ++k, queue.count += lines.members)
+    std::copy_n(lines.who, lines.members, &queue.who[queue.count]);
+}
+
+void TexelLooks::take(Pair* sums) {
+  const auto& [a, b] = any_.spots;
+  take_any(levels_, a, b, any_.who.data(), any_.count, sums);
+  const auto& [c, d] = finest_.spots;
+  take_finest(levels_.texels[0], levels_.side[0], c, d, finest_.who.data(), finest_.count, sums);
+  any_.count = finest_.count = 0;
 }
 
 }  // namespace domefall

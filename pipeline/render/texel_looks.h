@@ -9,9 +9,9 @@
 
 namespace domefall {
 
-// Pixels whose looks are of one kind: `taps` in a line along (ax, ay, az), each `blur` wide at least.
+// Pixels that are looked at in one way: `taps` times in a line along (ax, ay, az).
 struct LinesOfLooks {
-  int taps = 1, members = 0;
+  int taps = 1, members = 0;  // taps: 1 or an even number
   bool minified = false;
   const float *x, *y, *z;      // on the sky
   const float *wide, *narrow;  // radians; narrow: of several taps only
@@ -19,38 +19,47 @@ struct LinesOfLooks {
   const std::uint16_t* who;    // the pixels' numbers
 };
 
-// Between which texels looks fall, and by what their light is multiplied.
-struct TexelSpots {
-  static constexpr int kMost = 2048;
-  alignas(64) std::array<std::int32_t, kMost> at, level;
-  alignas(64) std::array<float, kMost> fx, fy, weight;
-};
-
 class TexelLooks {
  public:
-  static constexpr int kMost = TexelSpots::kMost;
-  // Looks that `lines` may be at most: others do not fit in at once.
-  static constexpr int kMostOfLines = 512;
-
   // spacing: how far apart the looks of a line are, in their widths.
   TexelLooks(const SkyMap& map, double spacing);
 
-  bool has_room() const { return count_ + 2 * kMostOfLines <= kMost; }
-  // taps * members <= kMostOfLines; has_room().
-  void add(const LinesOfLooks& lines);
+  // The most members of such lines that may be added at once.
+  static int most_members(int taps, bool minified) { return kAtOnce / pairs(taps, minified); }
+  // sums: of pixels, in two parts that belong together.  They get the light of all looks that are taken to
+  // make room, 1/kTexelScale of what it is.
+  void add(const LinesOfLooks& lines, Pair* sums);
+  // Those of all the others.
+  void take(Pair* sums);
 
-  // Adds the light of all looks to the sums of their pixels, 1/kTexelScale of what it is, and forgets them.
-  void take(Four* sums);
+  // Where looks fall on a level of the map, and by what their light is multiplied.  Two of them are taken at
+  // a time, both of one pixel.
+  static constexpr int kMost = 1024;
+  struct Spots {
+    alignas(64) std::array<std::int32_t, kMost> at, level;
+    alignas(64) std::array<float, kMost> fx, fy, weight;
+  };
 
  private:
-  void add_members(const LinesOfLooks& lines, int times);
+  static constexpr int kAtOnce = 512;
+  // From so many looks a pixel on, each keeps to one level of the map.
+  static constexpr int kManyTaps = 4;
+  static bool on_two_levels(int taps, bool minified) { return minified && taps < kManyTaps; }
+  static int pairs(int taps, bool minified) {
+    return on_two_levels(taps, minified) ? taps : (taps + 1) / 2;
+  }
+
+  struct Queue {
+    int count = 0;
+    std::array<Spots, 2> spots;
+    alignas(64) std::array<std::uint16_t, kMost> who;
+  };
+  void locate(const LinesOfLooks& lines, Queue& queue) const;
 
   TexelLevels levels_;
   int size_, last_;
   float per_texel_, spacing_;
-  int count_ = 0;
-  TexelSpots spots_;
-  alignas(64) std::array<std::uint16_t, kMost> who_;
+  Queue finest_, any_;  // all at the finest level with the weight 1, and all others
 };
 
 }  // namespace domefall

@@ -70,7 +70,7 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
   const SkySampler sampler(map);
   std::mt19937 random(2);
   std::array<float, 3 * SkyPlaces::kSize + 1> rgb;
-  for (const int taps : {2, 3, 8, 32}) {
+  for (const int taps : {2, 4, 8, 32}) {
     SkyPlaces places = random_places(random, map.unit());
     for (float& narrow : places.narrow) narrow *= 0.01f;
     sample_all(sampler, places, LookKind(taps, true), rgb.data());
@@ -106,7 +106,7 @@ TEST(SkySampler, TakesSoManyLooksThatTheyStandNoFartherApartThanTheyReach) {
   EXPECT_EQ(kind_of(sampler, 1.1 * texel, texel / 100), LookKind(1, true));
   EXPECT_EQ(kind_of(sampler, 2.9 * texel, texel / 100), LookKind(2, false));
   EXPECT_EQ(kind_of(sampler, 5.9 * texel, texel / 100), LookKind(4, false));
-  EXPECT_EQ(kind_of(sampler, 44 * texel, 10 * texel), LookKind(3, true));
+  EXPECT_EQ(kind_of(sampler, 44 * texel, 10 * texel), LookKind(4, true));
   EXPECT_EQ(kind_of(sampler, 300 * texel, 300 * texel), LookKind(1, true));
   EXPECT_EQ(kind_of(sampler, 1, 1e-9), LookKind(SkySampler::kMostTaps, true));
   EXPECT_EQ(kind_of(sampler, 1, 1e-9, 4), LookKind(4, true));
