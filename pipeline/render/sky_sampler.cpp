@@ -168,19 +168,26 @@ class Order {
   std::array<int, 2 * SkySampler::kMostTaps + 2> ends_;  // by code: where they end in who_
 };
 
-void gather(const SkyPlaces::Column& from, const std::uint16_t* who, int count,
-            SkyPlaces::Column& to) {
-  for (int m = 0; m < count; ++m) to[m] = from[who[m]];
+[[gnu::always_inline]] inline void gather_points_loop(const SkyPlaces& __restrict from,
+                                                      const std::uint16_t* who, int count,
+                                                      SkyPlaces& __restrict to) {
+  for (int m = 0; m < count; ++m) {
+    const int k = who[m];
+    to.x[m] = from.x[k], to.y[m] = from.y[k], to.z[m] = from.z[k], to.wide[m] = from.wide[k];
+  }
 }
+Dispatched<gather_points_loop> gather_points;
 
-void gather(const SkyPlaces& from, const std::uint16_t* who, int count, bool oblong,
-            SkyPlaces& to) {
-  gather(from.x, who, count, to.x), gather(from.y, who, count, to.y);
-  gather(from.z, who, count, to.z), gather(from.wide, who, count, to.wide);
-  if (!oblong) return;
-  gather(from.narrow, who, count, to.narrow), gather(from.ax, who, count, to.ax);
-  gather(from.ay, who, count, to.ay), gather(from.az, who, count, to.az);
+[[gnu::always_inline]] inline void gather_lines_loop(const SkyPlaces& __restrict from,
+                                                     const std::uint16_t* who, int count,
+                                                     SkyPlaces& __restrict to) {
+  for (int m = 0; m < count; ++m) {
+    const int k = who[m];
+    to.narrow[m] = from.narrow[k];
+    to.ax[m] = from.ax[k], to.ay[m] = from.ay[k], to.az[m] = from.az[k];
+  }
 }
+Dispatched<gather_lines_loop> gather_lines;
 
 // Looks at `members` places of one kind.
 void add_group(const SkyPlaces& p, LookKind kind, const std::uint16_t* who, int members,
@@ -232,7 +239,10 @@ void SkySampler::sample(const SkyPlaces& places, int count, const LookKind* kind
       const LookKind kind(taps, minified);
       const auto [who, members] = order.group(kind);
       if (members == 0) continue;
-      if (members != count) gather(places, who, members, taps > 1, group);
+      if (members != count) {
+        gather_points(places, who, members, group);
+        if (taps > 1) gather_lines(places, who, members, group);
+      }
       add_group(members == count ? places : group, kind, who, members, looks, sums.data());
     }
   looks.take(sums.data());
