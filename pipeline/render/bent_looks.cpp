@@ -153,7 +153,7 @@ struct Reach {
     const std::int64_t c = sweeps.curve[k];
     const double low = c == kHome ? r.low[kHome] : c == kFar ? r.low[kFar] : r.low[kHole];
     const double high = c == kHole ? r.high[kHole] : HUGE_VAL;
-    beyond |= (x >= low) & (x <= high) ? 0 : 1;
+    beyond |= ((x >= low) & (x <= high)) ? 0 : 1;
   }
   return beyond != 0;
 }

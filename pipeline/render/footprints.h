@@ -12,6 +12,6 @@ struct FootprintColumns {
 
 // Of looks that each stand for `angle` radians of the view.
 void set_footprints(const LookBatch& batch, const double* angle, int count,
-                    const FootprintColumns& out);
+                    const FootprintColumns& places);
 
 }  // namespace domefall

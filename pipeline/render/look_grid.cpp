@@ -12,7 +12,6 @@
 namespace domefall {
 namespace {
 
-constexpr int kStep = LookGrid::kStep;
 // At a distance of x pixels from an edge, -ln x interpolated every 8 pixels errs by 570/x^3 pixels.
 constexpr float kEdgeCells = 5;
 // Farther from any edge than across a cell, what is dark at its corners is dark in it.
@@ -204,11 +203,12 @@ bool LookGrid::is_smooth(int row, int column) const {
 // Whether any of a cell's pixels is in the picture.
 bool LookGrid::in_picture(int row, int column) const {
   if (!std::holds_alternative<Domemaster>(projection_)) return true;
-  const double middle = (columns(projection_) - 1) / 2.0;
+  const double middle = (columns(projection_) - 1) / 2.0, radius = columns(projection_) / 2.0;
   const auto away = [middle](int cell) {
     return std::max({cell * kStep - middle, middle - (cell * kStep + kStep - 1), 0.0});
   };
-  return std::hypot(away(row), away(column)) <= columns(projection_) / 2.0;
+  const double x = away(column), y = away(row);
+  return x * x + y * y <= radius * radius;
 }
 
 LookGrid::Cell LookGrid::classified(int row, int column) const {

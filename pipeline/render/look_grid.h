@@ -84,7 +84,7 @@ class LookGrid {
   bool is_smooth(int row, int column) const;
   Cell classified(int row, int column) const;
   void store(std::size_t node, const LookBatch& batch, const double* angle, int count);
-  void choose_side(int cell_row, int first, int count, SkyPlaces& out) const;
+  void choose_side(int cell_row, int cell, int count, SkyPlaces& out) const;
   const float* corner(Quantity q, int cell_row, int cell) const {
     return &nodes_[q][at(cell_row + kMargin - 1, cell + kMargin - 1)];
   }

@@ -221,8 +221,11 @@ void Renderer::make_bands(const SkyPass* pass, const Projection& projection, Hal
   const auto make_band = [&](int band, DotCanvas& dots) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     std::vector<float>& rgb = arena_->bands.local();
-    rgb.assign(stride * kBandRows + 1, 0.0f);
-    if (pass) pass->fill_band(band, rgb.data());
+    rgb.resize(stride * kBandRows + 1);
+    if (pass)
+      pass->fill_band(band, rgb.data());
+    else
+      std::fill(rgb.begin(), rgb.end(), 0.0f);
     stars.draw_band(band, dots, rgb.data());
     for (int row = first; row < end; ++row)
       store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,

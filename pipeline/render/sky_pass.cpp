@@ -47,11 +47,31 @@ SkyPass::SkyPass(const Show& show, const FrameState& state, const HoleOptics& op
   if (interpolates_) grid_.make(projection_, light, special_directions(show, state, optics));
 }
 
-SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
-  Band band{number, std::min(kStep, rows(projection_) - number * kStep), {}, rgb};
+SkyPass::Band SkyPass::band_at(int number) const {
+  Band band{number, std::min(kStep, rows(projection_) - number * kStep), {}, nullptr};
   for (int row = 0; row < band.rows; ++row)
     band.inside[row] = inside_columns(projection_, number * kStep + row);
   return band;
+}
+
+void SkyPass::blacken_outside(const Band& band) const {
+  const int width = columns(projection_);
+  for (int row = 0; row < band.rows; ++row) {
+    float* out = row_of(band, row);
+    const ColumnRange in = band.inside[row];
+    std::fill(out, out + 3 * std::min(in.first, width), 0.0f);
+    std::fill(out + 3 * std::max(in.last + 1, std::min(in.first, width)), out + 3 * width, 0.0f);
+  }
+}
+
+// Of cells what is in the picture.
+void SkyPass::blacken(const Band& band, int first, int end) const {
+  for (int row = 0; row < band.rows; ++row) {
+    const int left = std::max(first * kStep, band.inside[row].first),
+              right = std::min(end * kStep - 1, band.inside[row].last);
+    if (left <= right)
+      std::fill(row_of(band, row) + 3 * left, row_of(band, row) + 3 * (right + 1), 0.0f);
+  }
 }
 
 // Smooth cells of one sky where a look a pixel is enough, row by row.
@@ -114,7 +134,9 @@ void SkyPass::add_pixels(const Band& band, int first, int end, std::vector<Pixel
 }
 
 void SkyPass::fill_band(int number, float* rgb) const {
-  const Band band = band_at(number, rgb);
+  Band band = band_at(number);
+  band.rgb = rgb;
+  blacken_outside(band);
   std::vector<Pixel> pixels;
   const int cells = (columns(projection_) + kStep - 1) / kStep;
   if (!interpolates_) add_pixels(band, 0, cells, pixels);
@@ -122,6 +144,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
     const LookGrid::Cell cell = grid_.cell(number, first);
     while (end < cells && grid_.cell(number, end) == cell) ++end;
     if (cell.kind == LookGrid::Kind::kExact) add_pixels(band, first, end, pixels);
+    if (cell.kind == LookGrid::Kind::kNothing) blacken(band, first, end);
     if (cell.kind != LookGrid::Kind::kSmooth) continue;
     if (cell.plain)
       fill_plain(band, first, end);

@@ -19,8 +19,8 @@ class SkyPass {
   SkyPass(const Show& show, const FrameState& state, const HoleOptics& optics,
           AntiAliasing anti_aliasing, const PixelLight& light, LookGrid& grid);
 
-  // Pixel values of rows [band kStep, ...) into rgb[rows][3 columns], which is zero, plus one float.
-  void fill_band(int band, float* rgb) const;
+  // Pixel values of rows [number kStep, ...) into rgb[rows][3 columns], plus one float; 0 out of the picture.
+  void fill_band(int number, float* rgb) const;
 
   // Pixels that were looked at one by one, of those in the picture: 0 to 1.
   double exact_part() const;
@@ -32,11 +32,13 @@ class SkyPass {
     std::array<ColumnRange, LookGrid::kStep> inside;
     float* rgb;
   };
-  Band band_at(int number, float* rgb) const;
+  Band band_at(int number) const;
   float* row_of(const Band& band, int row) const {
     return band.rgb +
            static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(columns(projection_));
   }
+  void blacken_outside(const Band& band) const;
+  void blacken(const Band& band, int first, int end) const;
   void fill_plain(const Band& band, int first, int end) const;
   void fill_block(const Band& band, int first, int end) const;
   void add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const;

@@ -127,7 +127,7 @@ class Order {
  public:
   Order(const LookKind* kinds, int count) {
     ends_.fill(0);
-    each_run(kinds, count, [this](int& members, int first, int end) { members += end - first; });
+    each_run(kinds, count, [](int& members, int first, int end) { members += end - first; });
     for (int before = 0; int& end : ends_) {
       const int members = end;
       end = before;  // the start, until they are in

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kTerms = OctaveCurve::kTerms, kSize = Sweeps::kSize;
+constexpr int kTerms = OctaveCurve::kTerms;
 
 struct Spots {
   alignas(64) Sweeps::Column<std::int64_t> interval;

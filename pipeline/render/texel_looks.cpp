@@ -109,17 +109,25 @@ Dispatched<spread_lines_loop> spread_lines;
 }
 Dispatched<spread_points_loop> spread_points;
 
+[[gnu::always_inline]] inline const SkyTexel* texel(const TexelLevels& levels, const Spots& of,
+                                                    int k) {
+  return levels.texels[of.level[k]] + of.at[k];
+}
+
+[[gnu::always_inline]] inline int side(const TexelLevels& levels, const Spots& of, int k) {
+  return levels.side[of.level[k]];
+}
+
 [[gnu::always_inline]] inline void take_any_loop(const TexelLevels& levels, const Spots& a,
                                                  const Spots& b, const std::uint16_t* who,
                                                  int count, Pair* sums) {
-  const auto texel = [&](const Spots& of, int k) { return levels.texels[of.level[k]] + of.at[k]; };
-  const auto side = [&](const Spots& of, int k) { return levels.side[of.level[k]]; };
   for (int k = 0; k < count; ++k) {
     const int later = std::min(k + kAhead, count - 1);
-    prefetch(texel(a, later), side(a, later)), prefetch(texel(b, later), side(b, later));
+    prefetch(texel(levels, a, later), side(levels, a, later)),
+        prefetch(texel(levels, b, later), side(levels, b, later));
     Pair light, weights;
-    bilinear(texel(a, k), side(a, k), texel(b, k), side(b, k), a.fx[k], b.fx[k], a.fy[k], b.fy[k],
-             light);
+    bilinear(texel(levels, a, k), side(levels, a, k), texel(levels, b, k), side(levels, b, k),
+             a.fx[k], b.fx[k], a.fy[k], b.fy[k], light);
     each_of(a.weight[k], b.weight[k], weights);
     sums[who[k]] += light * weights;
   }
