@@ -71,6 +71,13 @@ PsiFrame psi_frame(const SkyTable& table) {
   return {1 + s, less, ray.outgoing ? 1.0 : -1.0};
 }
 
+LensCurve::View LensCurve::operator()(double v) const {
+  const Lookup curve = lookup();
+  const Lookup::Spot at = curve(v);
+  const double* c = curve.coefficients + kTerms * at.interval;
+  return curve.view(v, at.share, c[0], c[1], c[2], c[3]);
+}
+
 LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Wanted& wanted)
     : coefficients_(4 * static_cast<std::size_t>(intervals)),
       bound_(static_cast<std::size_t>(intervals)),
@@ -90,7 +97,7 @@ LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Wante
     const double rise = low.from_edge - high.from_edge;
     double* c = &coefficients_[4 * static_cast<std::size_t>(i)];
     c[0] = low.psi, c[1] = d0, c[2] = 3 * rise - 2 * d0 - d1, c[3] = d0 + d1 - 2 * rise;
-    const View found = lookup()(v + kTested * width);
+    const View found = (*this)(v + kTested * width);
     const double light = tested.light(), most = most_light(low, tested, high);
     const bool good = std::abs(found.psi - tested.psi) < kOfTheMiddle * wanted.position &&
                       std::abs(light_of(found, frame) - light) < wanted.flux * light;

@@ -44,19 +44,28 @@ class LensCurve {
     double psi;    // from the far end
     double slope;  // |d psi/d phi|
   };
-  // What a look-up needs, by value: no store of a loop can be taken to alter it.
+  // Of one v, in [-1, 1].
+  View operator()(double v) const;
+
+  // Where the polynomials of any number of v stand, for loops that are to become SIMD code: by value, so that no
+  // store of the loop can be taken to alter it.
+  static constexpr int kTerms = 4;
   struct Lookup {
-    const double* __restrict coefficients;
-    double half;  // intervals/2
+    const double* coefficients;  // kTerms of each interval, of powers of the share
+    double half;                 // intervals/2
     std::int64_t last;
-    View operator()(double v) const {
+    struct Spot {
+      std::int64_t interval;
+      double share;
+    };
+    Spot operator()(double v) const {
       const double u = (v + 1) * half;
       const double shifted = (u - 0.5) + kRounding;
       const auto at = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(shifted) & 0xffff);
-      const std::int64_t i = at < last ? at : last;
-      const double t = u - (shifted - kRounding);
-      const double c0 = coefficients[4 * i], c1 = coefficients[4 * i + 1],
-                   c2 = coefficients[4 * i + 2], c3 = coefficients[4 * i + 3];
+      return {at < last ? at : last, u - (shifted - kRounding)};
+    }
+    // c0 to c3: of the spot's interval.
+    View view(double v, double t, double c0, double c1, double c2, double c3) const {
       const double by_t = (3 * c3 * t + 2 * c2) * t + c1;
       const double slope = by_t * half * (1 + v * v) * 0.25;
       return {((c3 * t + c2) * t + c1) * t + c0, slope < 0 ? -slope : slope};

@@ -6,6 +6,7 @@
 
 #include "pipeline/render/angle_over_sine.h"
 #include "pipeline/render/simd.h"
+#include "pipeline/render/turned_quads.h"
 #include "pipeline/render/vector_math.h"
 
 namespace domefall {
@@ -61,12 +62,43 @@ inline void receive(const Aberration& boost, const M33d& camera, const V3d& dire
   views.x[k] = n.x, views.y[k] = n.y, views.z[k] = n.z;
 }
 
+struct Spots {
+  alignas(64) StarColumn<std::int64_t> interval;
+  alignas(64) StarColumn<double> v, share;
+  alignas(64) std::array<StarColumn<double>, LensCurve::kTerms> coefficient;
+};
+
+// count: a multiple of four.
+[[gnu::always_inline]] inline void fetch(const LensCurve::Lookup& curve, int count, Spots& spots) {
+  for (int k = 0; k < count; k += 4) {
+    const double* at[4];
+    double* out[4];
+    for (int m = 0; m < 4; ++m) {
+      at[m] = curve.coefficients + LensCurve::kTerms * spots.interval[k + m];
+      out[m] = &spots.coefficient[m][k];
+    }
+    turn_quads(at, out);
+  }
+}
+
 [[gnu::always_inline]] inline void look_up_loop(const LensCurve::Lookup& lookup, double side,
                                                 const double* v, int count, double* __restrict psi,
                                                 double* __restrict slope) {
   const LensCurve::Lookup curve = lookup;
+  Spots spots;
   for (int k = 0; k < count; ++k) {
-    const LensCurve::View view = curve(side * v[k]);
+    spots.v[k] = side * v[k];
+    const LensCurve::Lookup::Spot at = curve(spots.v[k]);
+    spots.interval[k] = at.interval;
+    spots.share[k] = at.share;
+  }
+  const int whole = (count + 3) / 4 * 4;
+  for (int k = count; k < whole; ++k) spots.interval[k] = 0;
+  fetch(curve, whole, spots);
+  const auto& c = spots.coefficient;
+  for (int k = 0; k < count; ++k) {
+    const LensCurve::View view =
+        curve.view(spots.v[k], spots.share[k], c[0][k], c[1][k], c[2][k], c[3][k]);
     psi[k] = view.psi;
     slope[k] = view.slope;
   }
