@@ -92,7 +92,9 @@ std::size_t DotBrush::sort(std::vector<StarImage>& images, float most_light, Dot
     return static_cast<std::size_t>(
         static_cast<int>(image.y + static_cast<float>(lead_ * kBucketRows)) / kBucketRows);
   };
-  std::vector<std::uint16_t> bucket(images.size());
+  // A thread's own, kept: asking the system for memory would take longer than all the rest.
+  thread_local std::vector<std::uint16_t> bucket;
+  bucket.resize(images.size());
   constexpr std::uint16_t kNone = 0xffff;
   for (std::size_t k = 0; k < images.size(); ++k) {
     const bool taken = takes(images[k], most_light);
