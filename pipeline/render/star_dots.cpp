@@ -15,7 +15,7 @@ constexpr double kSplineFourth = -4.0 / 120, kPixelFourth = -1.0 / 120;
 constexpr double kTapSigmas = 4.5;
 
 // On a flat picture what is missing may be so much of the blob's variance in the middle.
-constexpr double kMostMissing = 0.25;
+constexpr double kMostMissing = 0.45;
 
 // A sampled Gaussian whose fourth cumulant is `fourth`: sum over k of f(k) = 1.  Returns how many.
 int find_taps(double variance, double fourth, int most, float* taps) {
@@ -61,7 +61,8 @@ DotBrush::DotBrush(const Projection& projection, double sigma)
   taps_ = find_taps(wanted, kPixelFourth - kSplineFourth, kMostDotTaps, tap_);
   if (taps_ > kMostDotTaps) return;
   const double beyond = 2 * taps_ + 8;
-  const double t = dome_ ? std::pow(unit * (width_ / 2.0 + beyond), 2) : kMostMissing / 2.25;
+  const double t =
+      dome_ ? std::pow(unit * (width_ / 2.0 + beyond), 2) : std::sqrt(1 + kMostMissing) - 1;
   constexpr double kFarthestAngle = 1.85;
   if (dome_ && t > kFarthestAngle * kFarthestAngle) return;
   const double theta = std::sqrt(t), sinc = std::sin(theta) / theta;

@@ -23,7 +23,8 @@ const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
                      {"dome at the floor", Domemaster{1024}, 0.05, 85 * kDegree, 0.05},
                      {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
                      {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
-                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.04}};
+                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.04},
+                     {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
 
 BlobWidths widths_of(const Law& law) {
   StarBlobs blobs;
@@ -83,7 +84,7 @@ TEST(StarDots, BringTheirLightWhereverTheyLie) {
 TEST(StarDots, LookLikeSmallBlobs) {
   for (const Law& law : kLaws) {
     const double rim =
-        std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : 24 * kDegree;
+        std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : law.most_theta + 0.1;
     for (double theta = 0.004; theta < rim; theta += 0.043) {
       const StarImage image = star_at(law, theta, 2.3 * theta, 0.5);
       const DrawnBlobs dot = drawn(layer_of({image}, law, true), law.projection);
