@@ -37,6 +37,7 @@ struct Spots {
 Dispatched<locate_loop> locate;
 
 // One look a pixel at the finest level: the bulk of most frames, in one loop.  `count` is even.
+template <bool kWide>
 [[gnu::always_inline]] inline void fine_colours_loop(const SkyLevel& level, const Spots& s,
                                                      const float* gain, int count, float* rgb) {
   const SkyTexel* texels = level.texels;
@@ -44,18 +45,19 @@ Dispatched<locate_loop> locate;
   for (int k = 0; k < count; k += 2, rgb += 6) {
     const int later = std::min(k + kAhead, count - 2);
     prefetch(texels + s.at[later], side), prefetch(texels + s.at[later + 1], side);
-    Pair light, gains;
-    bilinear(texels + s.at[k], side, texels + s.at[k + 1], side, s.fx[k], s.fx[k + 1], s.fy[k],
-             s.fy[k + 1], light);
-    each_of(gain[k], gain[k + 1], gains);
-    light = light * kTexelScale * gains;
-    const Four a = __builtin_shufflevector(light, light, 0, 1, 2, 3);
-    const Four b = __builtin_shufflevector(light, light, 4, 5, 6, 7);
-    std::memcpy(rgb, &a, sizeof a);  // the fourth is 0, and the next pixel's to overwrite
-    std::memcpy(rgb + 3, &b, sizeof b);
+    Pair light;
+    look_twice<kWide>({texels + s.at[k], side, s.fx[k], s.fy[k], kTexelScale},
+                      {texels + s.at[k + 1], side, s.fx[k + 1], s.fy[k + 1], kTexelScale}, light);
+    Four both[2];
+    std::memcpy(both, &light, sizeof both);
+    both[0] *= gain[k], both[1] *= gain[k + 1];
+    std::memcpy(rgb, &both[0],
+                sizeof both[0]);  // the fourth is 0, and the next pixel's to overwrite
+    std::memcpy(rgb + 3, &both[1], sizeof both[1]);
   }
 }
-Dispatched<fine_colours_loop> fine_colours;
+Dispatched<fine_colours_loop<true>> fine_colours;
+Dispatched<fine_colours_loop<false>> fine_colours_narrowly;
 
 // All light of a pixel.
 [[gnu::always_inline]] inline void whole(const Pair& sum, Four& light) {
@@ -224,7 +226,11 @@ void SkySampler::sample_plain(const SkyPlaces& places, int count, float* rgb) co
   }
   Spots spots;
   locate(places, count, map_.levels().front().size, spots);
-  fine_colours(map_.levels().front(), spots, places.gain.data(), count, rgb);
+  const SkyLevel& finest = map_.levels().front();
+  if (simd_in_use() == Simd::kPortable)
+    fine_colours_narrowly(finest, spots, places.gain.data(), count, rgb);
+  else
+    fine_colours(finest, spots, places.gain.data(), count, rgb);
 }
 
 void SkySampler::sample(const SkyPlaces& places, int count, const LookKind* kinds,

@@ -118,6 +118,7 @@ Dispatched<spread_points_loop> spread_points;
   return levels.side[of.level[k]];
 }
 
+template <bool kWide>
 [[gnu::always_inline]] inline void take_any_loop(const TexelLevels& levels, const Spots& a,
                                                  const Spots& b, const std::uint16_t* who,
                                                  int count, Pair* sums) {
@@ -125,15 +126,17 @@ Dispatched<spread_points_loop> spread_points;
     const int later = std::min(k + kAhead, count - 1);
     prefetch(texel(levels, a, later), side(levels, a, later)),
         prefetch(texel(levels, b, later), side(levels, b, later));
-    Pair light, weights;
-    bilinear(texel(levels, a, k), side(levels, a, k), texel(levels, b, k), side(levels, b, k),
-             a.fx[k], b.fx[k], a.fy[k], b.fy[k], light);
-    each_of(a.weight[k], b.weight[k], weights);
-    sums[who[k]] += light * weights;
+    Pair light;
+    look_twice<kWide>({texel(levels, a, k), side(levels, a, k), a.fx[k], a.fy[k], a.weight[k]},
+                      {texel(levels, b, k), side(levels, b, k), b.fx[k], b.fy[k], b.weight[k]},
+                      light);
+    sums[who[k]] += light;
   }
 }
-Dispatched<take_any_loop> take_any;
+Dispatched<take_any_loop<true>> take_any;
+Dispatched<take_any_loop<false>> take_any_narrowly;
 
+template <bool kWide>
 [[gnu::always_inline]] inline void take_finest_loop(const SkyTexel* texels, int side,
                                                     const Spots& a, const Spots& b,
                                                     const std::uint16_t* who, int count,
@@ -142,12 +145,13 @@ Dispatched<take_any_loop> take_any;
     const int later = std::min(k + kAhead, count - 1);
     prefetch(texels + a.at[later], side), prefetch(texels + b.at[later], side);
     Pair light;
-    bilinear(texels + a.at[k], side, texels + b.at[k], side, a.fx[k], b.fx[k], a.fy[k], b.fy[k],
-             light);
+    look_twice<kWide>({texels + a.at[k], side, a.fx[k], a.fy[k], 1},
+                      {texels + b.at[k], side, b.fx[k], b.fy[k], 1}, light);
     sums[who[k]] += light;
   }
 }
-Dispatched<take_finest_loop> take_finest;
+Dispatched<take_finest_loop<true>> take_finest;
+Dispatched<take_finest_loop<false>> take_finest_narrowly;
 
 }  // namespace
 
@@ -193,10 +197,19 @@ void TexelLooks::add(const LinesOfLooks& lines, Pair* sums) {
 }
 
 void TexelLooks::take(Pair* sums) {
-  const auto& [a, b] = any_.spots;
-  take_any(levels_, a, b, any_.who.data(), any_.count, sums);
-  const auto& [c, d] = finest_.spots;
-  take_finest(levels_.texels[0], levels_.side[0], c, d, finest_.who.data(), finest_.count, sums);
+  const bool wide = simd_in_use() != Simd::kPortable;
+  const auto take_queue = [&](const auto& loop, const Queue& queue, const auto&... of) {
+    loop(of..., queue.spots[0], queue.spots[1], queue.who.data(), queue.count, sums);
+  };
+  const SkyTexel* texels = levels_.texels[0];
+  const int side = levels_.side[0];
+  if (wide) {
+    take_queue(take_any, any_, levels_);
+    take_queue(take_finest, finest_, texels, side);
+  } else {
+    take_queue(take_any_narrowly, any_, levels_);
+    take_queue(take_finest_narrowly, finest_, texels, side);
+  }
   any_.count = finest_.count = 0;
 }
 
