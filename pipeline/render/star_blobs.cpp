@@ -117,7 +117,7 @@ struct Brush {
 Brush brush_of(const StarBlob& b, const Projection& p, float middle_x, float middle_y) {
   const double cx = b.x - middle_x, cy = b.y - middle_y, unit = unit_of(p), sigma = b.sigma;
   const BlobShape s = shape_of(p, cx, cy, sigma);
-  const BlobScale scale = blob_scale(s, brightest(b));
+  const BlobScale scale{b.peak_per_flux, b.cut};
   const FlatGaussian flat(s.flat);
   const double t = unit * unit * (cx * cx + cy * cy);
   Brush brush{};
@@ -283,6 +283,8 @@ bool place_blob(const Projection& projection, StarBlob& blob) {
     return static_cast<int>(std::clamp(v, 0.0, last));
   };
   blob.reach = static_cast<float>(half);
+  blob.peak_per_flux = static_cast<float>(scale.peak_per_flux);
+  blob.cut = static_cast<float>(scale.cut);
   blob.first_row = within(std::ceil(blob.y - half), height - 1);
   blob.last_row = within(std::floor(blob.y + half), height - 1);
   blob.first_column = within(std::ceil(blob.x - half), width - 1);

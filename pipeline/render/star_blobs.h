@@ -22,11 +22,12 @@ struct StarBlob {
   // luminance stays.  0: nowhere.
   float paling;
   // What it covers: a disc of this radius (pixels), and clipped to the picture.
-  float reach;
-  int first_row, last_row, first_column, last_column;
+  float reach = 0;
+  int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
+  float peak_per_flux = 0, cut = 0;  // BlobScale
 };
 
-// Fills the last five; false if there are none.
+// Fills the last seven; false if there is nothing to cover.
 bool place_blob(const Projection& projection, StarBlob& blob);
 
 // Adds the part of a blob that lies on the canvas.

@@ -95,12 +95,7 @@ void StarLayer::place_blobs(const StarImage* images, std::size_t count, const Bl
                   image.y,
                   static_cast<float>(width),
                   {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part},
-                  widths.paling(),
-                  0,
-                  0,
-                  0,
-                  0,
-                  0};
+                  widths.paling()};
     const bool seen = place_blob(projection_, blob);
     if (seen) task.wide.push_back(blob);
     return seen;

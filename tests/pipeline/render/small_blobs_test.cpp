@@ -141,7 +141,7 @@ TEST(SmallBlobs, AgreeWithTheExactOnesInAngle) {
       Placed placed{};
       place_small_blobs(p, &image, &sigma, 1, HUGE_VAL, &small, &first_row, &placed);
       if (placed != Placed::kSmall) continue;
-      StarBlob exact{image.x, image.y, static_cast<float>(sigma), {}, 0, 0, 0, 0, 0, 0};
+      StarBlob exact{image.x, image.y, static_cast<float>(sigma), {}, 0};
       std::copy_n(image.rgb, 3, exact.rgb);
       ASSERT_TRUE(place_blob(p, exact));
       const int width = columns(p), first = exact.first_row, count = 8;

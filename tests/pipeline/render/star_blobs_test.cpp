@@ -158,7 +158,7 @@ TEST(StarBlobs, InACrowdAreDrawnTogether) {
   std::uniform_real_distribution<float> u(-1.5f, 1.5f);
   std::vector<StarBlob> blobs;
   for (int k = 0; k < 4000; ++k) {
-    StarBlob blob{300 + u(random), 200 + u(random), 0.04f, {1, 2, 3}, 0, 0, 0, 0, 0, 0};
+    StarBlob blob{300 + u(random), 200 + u(random), 0.04f, {1, 2, 3}, 0};
     ASSERT_TRUE(place_blob(p, blob));
     blobs.push_back(blob);
   }
