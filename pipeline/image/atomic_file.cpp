@@ -14,6 +14,7 @@
 #include <string>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/new_file.h"
 
 namespace domefall {
 namespace {
@@ -44,14 +45,6 @@ class Descriptor {
   Descriptor(Descriptor&&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   Descriptor& operator=(Descriptor&&) = delete;
-
-  void write(std::string_view rest) const {
-    while (!rest.empty()) {
-      const ssize_t written = ::write(fd_, rest.data(), rest.size());
-      if (written < 0 && errno != EINTR) throw_file_error(path_, errno);
-      if (written > 0) rest.remove_prefix(static_cast<std::size_t>(written));
-    }
-  }
 
   void flush() const {
     // Some file systems cannot flush a folder and say so; their renames are durable or nobody's.
@@ -145,16 +138,9 @@ void throw_file_error(const fs::path& path, int error) {
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {
-  const fs::path temporary = temporary_for(path);
-  const Descriptor file(temporary, O_WRONLY | O_CREAT | O_EXCL, path);
-  try {
-    file.write(contents);
-    file.flush();
-    put_in_place(temporary, path);
-  } catch (...) {
-    unlink(temporary.c_str());
-    throw;
-  }
+  NewFile file(path);
+  file.write(contents);
+  file.commit();
 }
 
 int sweep_temporaries(const fs::path& folder) {

@@ -14,10 +14,9 @@
 
 #include <cstring>
 
-#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/memory_stream.h"
+#include "pipeline/image/new_file_stream.h"
 
 namespace domefall {
 namespace {
@@ -139,13 +138,14 @@ std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
 void set_file_threads(int threads) { Imf::setGlobalThreadCount(threads); }
 
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info) {
-  MemoryStream stream(path.filename().string());
+  NewFile made(path);
   {
+    NewFileStream stream(made, path.filename().string());
     Imf::OutputFile file(stream, header_of(frame, info), Imf::globalThreadCount());
     file.setFrameBuffer(buffer_of(frame));
     file.writePixels(frame.height);
   }
-  write_atomically(path, stream.contents());
+  made.commit();
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

@@ -1,14 +1,13 @@
 #include "pipeline/image/graded_file.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <map>
 #include <sstream>
 
-#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/new_file_stream.h"
 
 namespace domefall {
 namespace {
@@ -64,13 +63,13 @@ void check_graded_name(const std::filesystem::path& path) {
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info) {
   check_graded_name(path);
-  std::vector<unsigned char> contents;
-  OIIO::Filesystem::IOVecOutput memory(contents);
-  const auto out = OIIO::ImageOutput::create(path.string(), &memory);
+  NewFile made(path);
+  NewFileProxy proxy(made);
+  const auto out = OIIO::ImageOutput::create(path.string(), &proxy);
   if (!out || !out->open(path.string(), spec_of(frame, info)) ||
       !out->write_image(OIIO::TypeDesc::UINT16, frame.pixels.data()) || !out->close())
     throw std::runtime_error(path.string() + ": " + (out ? out->geterror() : OIIO::geterror()));
-  write_atomically(path, {reinterpret_cast<const char*>(contents.data()), contents.size()});
+  made.commit();
 }
 
 FrameCondition examine_graded(const std::filesystem::path& path, const std::string& key, int width,

@@ -1,0 +1,83 @@
+#include "pipeline/image/new_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "pipeline/image/atomic_file.h"
+
+namespace domefall {
+namespace {
+
+constexpr unsigned kNewFileMode = 0666;
+
+// Encoders write some bytes at a time; the system is asked for this many.
+constexpr std::size_t kPending = std::size_t{256} << 10;
+
+void write_at(int file, const std::filesystem::path& path, std::string_view rest,
+              std::uint64_t position) {
+  while (!rest.empty()) {
+    const ssize_t written = pwrite(file, rest.data(), rest.size(), static_cast<off_t>(position));
+    if (written < 0 && errno != EINTR) throw_file_error(path, errno);
+    if (written <= 0) continue;
+    rest.remove_prefix(static_cast<std::size_t>(written));
+    position += static_cast<std::uint64_t>(written);
+  }
+}
+
+}  // namespace
+
+NewFile::NewFile(const std::filesystem::path& path)
+    : path_(path),
+      temporary_(temporary_for(path)),
+      file_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode)) {
+  // Failures are told under the name that the user knows.
+  if (file_ < 0) throw_file_error(path_, errno);
+}
+
+NewFile::~NewFile() {
+  close(file_);
+  if (!committed_) unlink(temporary_.c_str());
+}
+
+void NewFile::write_pending() noexcept {
+  if (!error_) try {
+      write_at(file_, path_, pending_, written_to_);
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+  size_ = size(), written_to_ = position();
+  pending_.clear();
+}
+
+void NewFile::write(std::string_view piece) noexcept {
+  if (error_) return;
+  try {
+    while (!piece.empty()) {
+      const std::string_view part = piece.substr(0, kPending - pending_.size());
+      pending_ += part;
+      piece.remove_prefix(part.size());
+      if (pending_.size() == kPending) write_pending();
+    }
+  } catch (...) {
+    error_ = std::current_exception();
+  }
+}
+
+void NewFile::seek(std::uint64_t position) noexcept {
+  if (position == this->position()) return;
+  write_pending();
+  written_to_ = position;
+}
+
+void NewFile::commit() {
+  write_pending();
+  if (error_) std::rethrow_exception(error_);
+  // Some file systems cannot flush and say so.
+  if (fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) throw_file_error(path_, errno);
+  put_in_place(temporary_, path_);
+  committed_ = true;
+}
+
+}  // namespace domefall

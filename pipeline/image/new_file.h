@@ -1,0 +1,49 @@
+// Files that are written piece by piece while they are made, so that no encoder needs the memory of a
+// whole one (new_mapped_file.h writes them as memory).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace domefall {
+
+// A file in the making that appears under its name when it is whole (atomic_file.h).
+class NewFile {
+ public:
+  // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a disk
+  // or a file server that fails.
+  explicit NewFile(const std::filesystem::path& path);
+  // Removes what was not committed.
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile(NewFile&&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  NewFile& operator=(NewFile&&) = delete;
+
+  // Encoders that call these expect no exceptions: after an error, which commit() throws, what is
+  // written goes nowhere.  Not for two threads at once.
+  void write(std::string_view piece) noexcept;
+  void seek(std::uint64_t position) noexcept;
+  std::uint64_t position() const { return written_to_ + pending_.size(); }
+  std::uint64_t size() const { return std::max(size_, position()); }
+  bool failed() const { return error_ != nullptr; }
+
+  // Flushes the file to the disk and gives it its name, once.  Throws as the constructor.
+  void commit();
+
+ private:
+  void write_pending() noexcept;
+
+  std::filesystem::path path_, temporary_;
+  int file_;
+  std::string pending_;  // to be written at written_to_
+  std::uint64_t written_to_ = 0, size_ = 0;
+  std::exception_ptr error_;
+  bool committed_ = false;
+};
+
+}  // namespace domefall
