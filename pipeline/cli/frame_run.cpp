@@ -178,26 +178,49 @@ class Run {
       });
     if (graded) {
       const Stopwatch watch;
-      const GradedFrame picture = graded_frame(frame);
-      grade_s = watch.seconds();
-      write_graded(graded_path(state.frame), picture, graded_info(state, key));
-      graded_s = watch.seconds() - grade_s;
+      grade_s = write_graded_frame(graded_path(state.frame), frame, graded_info(state, key));
+      graded_s = watch.seconds();
     }
     if (other.valid()) other.get();
     if (run_.explain)
-      std::fprintf(stderr, "frame %d: linear file %.3f s, grade %.3f s, graded file %.3f s\n",
-                   state.frame, linear_s, grade_s, graded_s);
+      std::fprintf(
+          stderr,
+          "frame %d: linear file %.3f s, graded file %.3f s, %.3f s of it waiting for the grade\n",
+          state.frame, linear_s, graded_s, grade_s);
   }
 
-  // Each thread a part of the rows.
-  GradedFrame graded_frame(const HalfFrame& frame) const {
-    GradedFrame out(frame.width, frame.height);
+  // Some rows are graded while those before are packed.  Returns the seconds that were waited for grades.
+  double write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
+                            const GradedInfo& info) const {
+    constexpr int kRows = GradedFile::kRows;
+    GradedFile file(path, frame.width, frame.height, info);
+    const auto graded_from = [&](int first) {
+      return std::async(std::launch::async, [this, &frame, first] {
+        return graded_rows(frame, first, std::min(first + kRows, frame.height));
+      });
+    };
+    double waited_s = 0;
+    std::future<GradedFrame> next = graded_from(0);
+    for (int first = 0; first < frame.height; first += kRows) {
+      const Stopwatch watch;
+      const GradedFrame rows = next.get();
+      waited_s += watch.seconds();
+      if (first + kRows < frame.height) next = graded_from(first + kRows);
+      file.add(rows.row(0), rows.height);
+    }
+    file.finish();
+    return waited_s;
+  }
+
+  // Rows y0 <= y < y1, each thread a part of them.
+  GradedFrame graded_rows(const HalfFrame& frame, int y0, int y1) const {
+    GradedFrame out(frame.width, y1 - y0);
     const int parts = file_threads();
     std::vector<std::future<void>> others(static_cast<std::size_t>(parts));
     for (int part = 0; part < parts; ++part)
       others[static_cast<std::size_t>(part)] = std::async(std::launch::async, [&, part] {
-        grader_->grade_rows(frame, out, frame.height * part / parts,
-                            frame.height * (part + 1) / parts);
+        const int first = out.height * part / parts, end = out.height * (part + 1) / parts;
+        grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
       });
     for (auto& other : others) other.get();
     return out;

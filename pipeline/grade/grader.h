@@ -21,8 +21,8 @@ class Grader {
   // display or view with the list of those known.
   explicit Grader(const GradeSettings& settings);
 
-  // Rows y0 <= y < y1.  `out` has the size of `in`.  Any split into rows gives the same values.
-  void grade_rows(const HalfFrame& in, GradedFrame& out, int y0, int y1) const;
+  // Rows y0 <= y < y1 to out[y1 - y0][width][3].  Any split into rows gives the same values.
+  void grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out) const;
   // The whole frame, on the calling thread.
   GradedFrame grade(const HalfFrame& in) const;
 

@@ -25,10 +25,15 @@ struct Digest::State {
 Digest::Digest() : state_(std::make_unique<State>()) {}
 Digest::~Digest() = default;
 
-Digest& Digest::add(std::string_view text) {
-  const std::uint64_t size = text.size();
-  XXH3_128bits_update(state_->xxh, &size, sizeof size);
-  XXH3_128bits_update(state_->xxh, text.data(), text.size());
+Digest& Digest::add(std::string_view text) { return add_length(text.size()).add_piece(text); }
+
+Digest& Digest::add_length(std::uint64_t length) {
+  XXH3_128bits_update(state_->xxh, &length, sizeof length);
+  return *this;
+}
+
+Digest& Digest::add_piece(std::string_view piece) {
+  XXH3_128bits_update(state_->xxh, piece.data(), piece.size());
   return *this;
 }
 

@@ -2,31 +2,33 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/new_file_stream.h"
+#include "pipeline/image/late_digest.h"
 
 namespace domefall {
 namespace {
 
+std::string_view bytes_of(const unsigned short* rgb, std::size_t count) {
+  return {reinterpret_cast<const char*>(rgb), count * sizeof(unsigned short)};
+}
+
 std::string digest_of(const GradedFrame& frame) {
-  return Digest()
-      .add(std::string_view(reinterpret_cast<const char*>(frame.pixels.data()),
-                            frame.pixels.size() * sizeof(unsigned short)))
-      .hex();
+  return Digest().add(bytes_of(frame.pixels.data(), frame.pixels.size())).hex();
 }
 
 // One line for each field; a line break in a title would make two of one.
-std::string description_of(const GradedFrame& frame, const GradedInfo& info) {
+std::string description_of(const GradedInfo& info) {
   std::string title = info.title;
   for (char& c : title)
     if (c == '\n' || c == '\r') c = ' ';
   return "show: " + title + "\nframe: " + std::to_string(info.frame) +
          "\ndisplay: " + info.display + "\nview: " + info.view + "\nsoftware: " + info.software +
-         "\nkey: " + info.key + "\npixels: " + digest_of(frame) + "\n";
+         "\nkey: " + info.key + LateDigest::line() + "\n";
 }
 
 std::map<std::string, std::string> lines_of(const std::string& description) {
@@ -38,9 +40,9 @@ std::map<std::string, std::string> lines_of(const std::string& description) {
   return lines;
 }
 
-OIIO::ImageSpec spec_of(const GradedFrame& frame, const GradedInfo& info) {
-  OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT16);
-  spec.attribute("ImageDescription", description_of(frame, info));
+OIIO::ImageSpec spec_of(int width, int height, const GradedInfo& info) {
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT16);
+  spec.attribute("ImageDescription", description_of(info));
   // Measured on a 4k frame with stars, the PNG filter SUB: 0.9 s and 36 MB, where libpng's choice
   // of filters at its usual level 6 takes 3.6 s for 32 MB; TIFF 0.8 s and 35 MB.
   spec.attribute("png:compressionLevel", 1);
@@ -60,16 +62,54 @@ void check_graded_name(const std::filesystem::path& path) {
     throw InputError(path.string() + ": graded frames are .png, .tif or .tiff");
 }
 
+struct GradedFile::State {
+  std::filesystem::path path;
+  NewFile file;
+  LateDigest proxy;
+  std::unique_ptr<OIIO::ImageOutput> out;
+  Digest digest;
+  int width, row = 0;
+
+  State(const std::filesystem::path& p, int w) : path(p), file(p), proxy(file), width(w) {}
+  void check(bool done) const {
+    if (!done)
+      throw std::runtime_error(path.string() + ": " + (out ? out->geterror() : OIIO::geterror()));
+  }
+};
+
+GradedFile::GradedFile(const std::filesystem::path& path, int width, int height,
+                       const GradedInfo& info) {
+  check_graded_name(path);
+  state_ = std::make_unique<State>(path, width);
+  state_->out = OIIO::ImageOutput::create(path.string(), &state_->proxy);
+  state_->check(state_->out && state_->out->open(path.string(), spec_of(width, height, info)));
+  state_->digest.add_length(std::uint64_t{3} * sizeof(unsigned short) *
+                            static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
+}
+
+GradedFile::~GradedFile() = default;
+
+void GradedFile::add(const unsigned short* rgb, int count) {
+  State& s = *state_;
+  s.digest.add_piece(
+      bytes_of(rgb, 3 * static_cast<std::size_t>(s.width) * static_cast<std::size_t>(count)));
+  s.check(s.out->write_scanlines(s.row, s.row + count, 0, OIIO::TypeDesc::UINT16, rgb));
+  s.row += count;
+}
+
+void GradedFile::finish() {
+  State& s = *state_;
+  s.check(s.out->close());
+  s.proxy.fill_in(s.digest.hex());
+  s.file.commit();
+}
+
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info) {
-  check_graded_name(path);
-  NewFile made(path);
-  NewFileProxy proxy(made);
-  const auto out = OIIO::ImageOutput::create(path.string(), &proxy);
-  if (!out || !out->open(path.string(), spec_of(frame, info)) ||
-      !out->write_image(OIIO::TypeDesc::UINT16, frame.pixels.data()) || !out->close())
-    throw std::runtime_error(path.string() + ": " + (out ? out->geterror() : OIIO::geterror()));
-  made.commit();
+  GradedFile file(path, frame.width, frame.height, info);
+  for (int row = 0; row < frame.height; row += GradedFile::kRows)
+    file.add(frame.row(row), std::min(GradedFile::kRows, frame.height - row));
+  file.finish();
 }
 
 FrameCondition examine_graded(const std::filesystem::path& path, const std::string& key, int width,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "pipeline/image/frame_buffer.h"
@@ -24,9 +25,32 @@ struct GradedInfo {
 // Throws InputError for a name that is neither PNG nor TIFF by its extension.
 void check_graded_name(const std::filesystem::path& path);
 
-// Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for
-// another extension or a path that cannot be written, TemporaryError for a disk that is full or
-// fails.
+// A graded frame in the making, whose rows come from the top: no whole one need be in memory.
+class GradedFile {
+ public:
+  // Throws InputError for another extension or a path that cannot be written, TemporaryError for a
+  // disk that is full or fails.
+  GradedFile(const std::filesystem::path& path, int width, int height, const GradedInfo& info);
+  // Removes what was not finished.
+  ~GradedFile();
+  GradedFile(const GradedFile&) = delete;
+  GradedFile(GradedFile&&) = delete;
+  GradedFile& operator=(const GradedFile&) = delete;
+  GradedFile& operator=(GradedFile&&) = delete;
+
+  // How many rows at once are quickest to write.  Any other split gives the same bytes.
+  static constexpr int kRows = 256;
+  // rgb[count][width][3].
+  void add(const unsigned short* rgb, int count);
+  // Once all rows are there: gives the file its final name (atomic_file.h).  Throws as the constructor.
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// A frame that is whole, at once.  Throws as GradedFile.
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info);
 

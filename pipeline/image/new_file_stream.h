@@ -40,6 +40,9 @@ class NewFileProxy : public OIIO::Filesystem::IOProxy {
   }
   size_t size() const override { return file_.size(); }
 
+ protected:
+  NewFile& file() { return file_; }
+
  private:
   NewFile& file_;
 };

@@ -228,7 +228,8 @@ TEST(GradeRows, MayBeSharedByThreads) {
   GradedFrame out(in.width, in.height);
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
-    threads.emplace_back([&, copy = grader, t] { copy.grade_rows(in, out, 10 * t, 10 * t + 10); });
+    threads.emplace_back(
+        [&, copy = grader, t] { copy.grade_rows(in, 10 * t, 10 * t + 10, out.row(10 * t)); });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(out.pixels, grader.grade(in).pixels);
 }

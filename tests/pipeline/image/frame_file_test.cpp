@@ -5,6 +5,7 @@
 #include <cstring>
 #include <random>
 
+#include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/graded_file.h"
 #include "test_folder.h"
@@ -13,7 +14,7 @@ namespace domefall {
 namespace {
 
 using FrameFile = TestFolder;
-using GradedFile = TestFolder;
+using GradedFiles = TestFolder;
 
 HalfFrame sample_frame() {
   HalfFrame frame(40, 37);
@@ -147,7 +148,7 @@ GradedInfo graded_info() {
   return info;
 }
 
-TEST_F(GradedFile, KeepsEveryBitAsPngAndAsTiff) {
+TEST_F(GradedFiles, KeepsEveryBitAsPngAndAsTiff) {
   const GradedFrame frame = graded_sample();
   for (const char* name : {"g.png", "g.tif"}) {
     const auto path = folder_ / name;
@@ -168,7 +169,44 @@ TEST_F(GradedFile, KeepsEveryBitAsPngAndAsTiff) {
   }
 }
 
-TEST_F(GradedFile, IsKnownForDamagedWhereverItIsCutOrABitFlips) {
+// As a frame is graded, in rows that need not be the encoders' own.
+TEST_F(GradedFiles, HaveTheSameBytesInWhateverRowsTheyCome) {
+  GradedFrame frame(50, 700);
+  std::mt19937 random(5);
+  for (auto& v : frame.pixels) v = static_cast<unsigned short>(random() % 1000);
+  for (const char* kind : {".png", ".tif"}) {
+    const auto whole = folder_ / (std::string("whole") + kind),
+               rows = folder_ / (std::string("rows") + kind);
+    write_graded(whole, frame, graded_info());
+    GradedFile file(rows, frame.width, frame.height, graded_info());
+    for (int row = 0, count = 1; row < frame.height; row += count, count = 3 * count + 1)
+      file.add(frame.row(row), std::min(count, frame.height - row));
+    EXPECT_FALSE(std::filesystem::exists(rows));
+    file.finish();
+    EXPECT_TRUE(contents(rows) == contents(whole)) << kind;
+    EXPECT_EQ(examine_graded(rows, graded_info().key, 50, 700), FrameCondition::kGood) << kind;
+  }
+}
+
+// A PNG's readers check the sum of the chunk that holds it.
+TEST_F(GradedFiles, HaveTheDigestOfTheirPixelsInTheirDescription) {
+  const GradedFrame frame = graded_sample();
+  const std::string digest =
+      Digest()
+          .add({reinterpret_cast<const char*>(frame.pixels.data()), 2 * frame.pixels.size()})
+          .hex();
+  GradedInfo info = graded_info();
+  info.title = std::string(10'000, 'x');
+  for (const char* name : {"g.png", "g.tif"}) {
+    write_graded(folder_ / name, frame, info);
+    const auto in = OIIO::ImageInput::open((folder_ / name).string());
+    ASSERT_TRUE(in) << OIIO::geterror();
+    const std::string text(in->spec().get_string_attribute("ImageDescription"));
+    EXPECT_TRUE(text.ends_with("\npixels: " + digest + "\n")) << name;
+  }
+}
+
+TEST_F(GradedFiles, IsKnownForDamagedWhereverItIsCutOrABitFlips) {
   for (const char* name : {"g.png", "g.tif"}) {
     const auto path = folder_ / name;
     write_graded(path, graded_sample(), graded_info());
@@ -177,7 +215,7 @@ TEST_F(GradedFile, IsKnownForDamagedWhereverItIsCutOrABitFlips) {
   }
 }
 
-TEST_F(GradedFile, OfAnotherKindIsRefused) {
+TEST_F(GradedFiles, OfAnotherKindIsRefused) {
   EXPECT_THROW(write_graded(folder_ / "g.jpg", graded_sample(), graded_info()), InputError);
 }
 

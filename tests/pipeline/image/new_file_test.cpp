@@ -1,10 +1,8 @@
 #include "pipeline/image/new_file.h"
 
 #include <sys/resource.h>
-#include <sys/wait.h>
 
 #include <csignal>
-#include <functional>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
@@ -54,26 +52,27 @@ TEST_F(NewFileTest, ThatIsNotCommittedLeavesTheOldOne) {
   EXPECT_EQ(file_count(), 1);
 }
 
-// A limit on the size of files stands in for a full disk; in a process of its own, which it does not outlive.
-int result_on_a_full_disk(const std::function<void()>& write) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{100'000, 100'000};
+// A limit on the size of files stands in for a full disk.
+class FullDisk {
+ public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{100'000, before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      write();
-    } catch (const TemporaryError&) {
-      _exit(75);
-    } catch (...) {
-      _exit(1);
-    }
-    _exit(0);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WEXITSTATUS(status);
-}
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk(FullDisk&&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  FullDisk& operator=(FullDisk&&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
 
 // The encoders are in the middle of the file when the disk is full.
 TEST_F(NewFileTest, OnAFullDiskFramesAreForLaterAndLeaveNothing) {
@@ -85,9 +84,12 @@ TEST_F(NewFileTest, OnAFullDiskFramesAreForLaterAndLeaveNothing) {
     graded.pixels[k] = static_cast<unsigned short>(noise >> 16);
     frame.pixels[k] = static_cast<float>(noise >> 16);
   }
-  EXPECT_EQ(result_on_a_full_disk([&] { write_frame(folder_ / "a.exr", frame, {}); }), 75);
-  EXPECT_EQ(result_on_a_full_disk([&] { write_graded(folder_ / "a.png", graded, {}); }), 75);
-  EXPECT_EQ(result_on_a_full_disk([&] { write_graded(folder_ / "a.tif", graded, {}); }), 75);
+  {
+    const FullDisk limit;
+    EXPECT_THROW(write_frame(folder_ / "a.exr", frame, {}), TemporaryError);
+    EXPECT_THROW(write_graded(folder_ / "a.png", graded, {}), TemporaryError);
+    EXPECT_THROW(write_graded(folder_ / "a.tif", graded, {}), TemporaryError);
+  }
   EXPECT_EQ(file_count(), 0);
 }
 
