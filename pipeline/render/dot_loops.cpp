@@ -116,7 +116,7 @@ template <bool kDome>
   return std::bit_cast<float>(most);
 }
 
-constexpr int kPositive = 4096;  // makes numbers positive, so that truncation rounds down
+constexpr int kPositive = 256;  // makes numbers positive, so that truncation rounds down
 
 // The spline's weights along both axes, across the rows with the point's light.
 [[gnu::always_inline]] inline void place(const Point& point, const Drops& d, Drops::At& at) {

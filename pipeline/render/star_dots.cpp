@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/render/vector_math.h"
+
 namespace domefall {
 namespace {
 
@@ -25,7 +27,7 @@ int find_taps(double variance, double fourth, int most, float* taps) {
   const auto middle = static_cast<std::size_t>(last + 2);
   double sum = 0;
   for (int k = -last; k <= last; ++k)
-    sum += even[middle + static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / variance);
+    sum += even[middle + static_cast<std::size_t>(k)] = exponential(-0.5 * k * k / variance);
   // The fourth difference has a fourth moment of 24 and no lower one.
   const double c = fourth / 24;
   double corrected = 0;
@@ -61,11 +63,11 @@ DotBrush::DotBrush(const Projection& projection, double sigma)
   taps_ = find_taps(wanted, kPixelFourth - kSplineFourth, kMostDotTaps, tap_);
   if (taps_ > kMostDotTaps) return;
   const double beyond = 2 * taps_ + 8;
-  const double t =
-      dome_ ? std::pow(unit * (width_ / 2.0 + beyond), 2) : std::sqrt(1 + kMostMissing) - 1;
+  const double t = dome_ ? unit * unit * (width_ / 2.0 + beyond) * (width_ / 2.0 + beyond)
+                         : std::sqrt(1 + kMostMissing) - 1;
   constexpr double kFarthestAngle = 1.85;
   if (dome_ && t > kFarthestAngle * kFarthestAngle) return;
-  const double theta = std::sqrt(t), sinc = std::sin(theta) / theta;
+  const double theta = std::sqrt(t), sinc = sin_cos(theta).sine / theta;
   const double missing = variance * (dome_ ? 1 / (sinc * sinc) - 1 : t * (2 + t));
   reach_ = static_cast<int>(std::ceil(double{kFarthestPoint} * std::sqrt(missing))) + 3;
   farthest_ = static_cast<float>(t / (unit * unit));

@@ -65,8 +65,7 @@ class DotCanvas {
  public:
   // Forgets what was drawn.  The brush must outlive the bands.
   void start(const DotBrush& brush);
-  // Before the dots of a band, whose rows are first to first + count - 1: count <= kBucketRows, a band
-  // begins where a bucket does.
+  // Before the dots of a band of up to kBucketRows rows, which begins where a bucket does.
   void advance(int first_row);
   // The bucket to be dropped next, whose dots are these.
   int next_bucket() const { return next_bucket_; }
