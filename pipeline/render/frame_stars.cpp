@@ -47,12 +47,15 @@ void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
                StarLayer& layer) {
   const BlobWidths widths(show.blobs, state.projection, exposure_scale(state.picture));
   std::array<std::optional<StarImages>, kSkies> makers;
+  // About as many as there will be: of half a sky where light goes straight.
+  constexpr std::size_t kImagesOfStar = 2;
   std::size_t many = 0;
   for (const SeenSky which : kEverySky) {
     if (!plan[which].stars) continue;
     const auto k = static_cast<std::size_t>(which);
     makers[k].emplace(show, state, sky_of(state.picture, which), table_of(optics, which));
-    many += makers[k]->count(*skies[k]->stars);
+    const std::size_t stars = makers[k]->count(*skies[k]->stars);
+    many += plan.gravity ? kImagesOfStar * stars : stars / 2;
   }
   if (StarLayer::are_many(many, state.projection)) layer.use_dots(widths);
   for (std::size_t k = 0; k < kSkies; ++k)

@@ -18,8 +18,8 @@ constexpr std::size_t kTask = 32768, kStep = 256;
 // A blob brighter than this part of where stars turn white may show it: in its middle 1/65 of its colour.
 constexpr double kPalingSeen = 1.0 / 8;
 
-// A picture with more stars than a 128th of its pixels is quicker with dots: measured at 4k.
-constexpr std::size_t kPixelsPerDot = 128;
+// A picture with more images than a 32nd of its pixels is quicker with dots: measured at 4k.
+constexpr std::size_t kPixelsPerDot = 32;
 // The peak of a dot where the blob is at its smallest.  A brighter one would be seen to end.
 constexpr double kBrightestDot = 1;
 

@@ -25,7 +25,7 @@ class StarLayer {
   // An empty layer for another frame, in the memory of the one before: new memory costs as much as what
   // is done in it.
   void start(const Projection& projection);
-  // From now on faint images are dots, which is worth it for so many (of all frames alike).
+  // From now on faint images are dots, which is worth it where there are many.
   void use_dots(const BlobWidths& widths);
   static bool are_many(std::size_t images, const Projection& projection);
   bool has_dots() const { return brush_.has_value(); }

@@ -146,8 +146,8 @@ TEST(StarDots, AreTheSameHoweverTheyAreDrawn) {
 }
 
 TEST(StarDots, AreForThoseThatAreMany) {
-  EXPECT_FALSE(StarLayer::are_many(100000, Domemaster{4096}));
-  EXPECT_TRUE(StarLayer::are_many(300000, Domemaster{4096}));
+  EXPECT_FALSE(StarLayer::are_many(300000, Domemaster{4096}));
+  EXPECT_TRUE(StarLayer::are_many(600000, Domemaster{4096}));
   // Bright stars, and blobs too wide to blur, are not dots.
   const BlobWidths widths = widths_of(kLaws[1]);
   StarLayer layer(kLaws[1].projection);
