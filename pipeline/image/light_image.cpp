@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/some_light.h"
 
 namespace domefall {
 namespace {
@@ -94,17 +95,20 @@ LightImage read_light_image(const std::filesystem::path& file, PixelEncoding enc
   LightImage image{{bands.spec().width, bands.spec().height}, srgb ? 1 : unit_for(file, bands)};
   const auto scale = static_cast<float>(1 / image.unit);
   const int floats = 3 * image.pixels.width;
+  float least = 0, most = 0;  // of the file's values
   // A second reading, since keeping the floats would take twice the memory of the result.
   bands.each_row([&](int y, const float* rgb) {
     Imath::half* out = image.pixels.row(y);
     for (int k = 0; k < floats; ++k) {
       const float light = srgb ? linear_from_srgb(rgb[k]) : rgb[k] * scale;
+      least = std::min(least, rgb[k]), most = std::max(most, rgb[k]);
       out[k] = std::max(light, 0.0f);
       if (!std::isfinite(light) || !out[k].isFinite())
         fail(file, "pixel (" + std::to_string(k / 3 + 1) + ", " + std::to_string(y + 1) +
                        ") is not a finite number");
     }
   });
+  check_light(file, least, most);
   return image;
 }
 

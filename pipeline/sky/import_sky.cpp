@@ -1,11 +1,14 @@
 #include "pipeline/sky/import_sky.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/some_light.h"
 #include "pipeline/sky/equirectangular.h"
 #include "pipeline/sky/sky_file.h"
 
@@ -70,8 +73,24 @@ std::string cmb_text(const CmbLook& look) {
          std::to_string(look.contrast) + "\n";
 }
 
+// Bad pixels are NaN.  A microwave background's fluctuations may be negative.
+void check_values(const SkyImport& import, const HealpixFile& healpix) {
+  bool good = false;
+  float least = 0, most = 0;
+  for (const float v : healpix.values) {
+    if (std::isnan(v)) continue;
+    good = true, least = std::min(least, v), most = std::max(most, v);
+  }
+  if (!good)
+    fail(import, "column " + std::to_string(import.column) + " holds no value: all " +
+                     std::to_string(healpix.values.size()) +
+                     " pixels are missing (UNSEEN, NaN or infinite)");
+  if (!import.cmb) check_light(import.image, least, most);
+}
+
 Orientation import_healpix(const SkyImport& import) {
   HealpixFile healpix = read_healpix(import.image, import.column);
+  check_values(import, healpix);
   Orientation orientation;
   orientation.frame = frame_of(import, healpix);
   CmbLook look = import.cmb.value_or(CmbLook{});

@@ -33,7 +33,7 @@ struct SkyImport {
 };
 
 // Writes the file and returns the orientation that it states.  Throws InputError naming the image if
-// it cannot be read or is not what it should be.
+// it cannot be read or is not what it should be: all pixels missing, or none above 0 and some below.
 Orientation import_sky(const SkyImport& import);
 
 }  // namespace domefall

@@ -1,11 +1,13 @@
 #include "pipeline/sky/read_sky.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
+#include "pipeline/image/some_light.h"
 #include "pipeline/sky/sky_file.h"
 
 namespace domefall {
@@ -17,6 +19,8 @@ FloatImage read_panorama(const std::filesystem::path& file) {
     throw InputError(
         file.string() + ": a panorama is twice as wide as high, at least 4 x 2 pixels; " +
         "this one is " + std::to_string(image.width) + " x " + std::to_string(image.height));
+  const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  check_light(file, *least, *most);
   return image;
 }
 

@@ -181,5 +181,21 @@ TEST_F(SkyImages, FloatsBeyondAHalfHaveAUnitAndNegativeLightIsNone) {
   }
 }
 
+// As a picture of logarithms is.
+TEST_F(SkyImages, APictureOfNegativeValuesOnlyIsRefusedByName) {
+  const fs::path path = folder_ / "logs.tif";
+  write_image(path, OIIO::ImageSpec(2, 1, 1, OIIO::TypeDesc::FLOAT), {-3, -0.25f});
+  try {
+    read_light_image(path, PixelEncoding::kOfFile);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        error.what(),
+        path.string() + ": there is no light in it: no value exceeds 0, and they go down to -3");
+  }
+  write_image(path, OIIO::ImageSpec(2, 1, 1, OIIO::TypeDesc::FLOAT), {0, 0});
+  EXPECT_EQ(read_light_image(path, PixelEncoding::kOfFile).pixels.pixels[0], 0.0f);
+}
+
 }  // namespace
 }  // namespace domefall
