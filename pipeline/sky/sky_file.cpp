@@ -25,6 +25,8 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPage = 4096, kMostText = 65536;
 constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPicture = 8;
 
+constexpr std::string_view kExtension = ".sky";
+
 struct Header {
   std::array<char, 8> magic = kMagic;
   std::uint32_t version = kVersion, header_bytes = 0;
@@ -103,7 +105,7 @@ std::optional<Orientation> picture_of(const Header& h) {
 // The fixed part, checked as far as it can be by itself.
 Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
-  if (file.size() < sizeof h) fail(path, file.size(), "the file ends within its header");
+  if (file.size() < sizeof h) fail_cut_short(path, kExtension, file.size(), sizeof h);
   std::memcpy(&h, file.data(), sizeof h);
   if (h.magic != kMagic) fail(path, 0, "this is not a .sky file");
   if (h.version != kVersion)
@@ -222,6 +224,7 @@ void NewSkyFile::finish() {
 }
 
 bool is_sky_file(const std::filesystem::path& path) {
+  if (is_cut_short(path, kExtension, sizeof(Header))) return true;
   std::array<char, kMagic.size()> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   return start == kMagic;

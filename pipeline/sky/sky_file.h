@@ -50,7 +50,8 @@ class NewSkyFile {
   SkyPyramid pyramid_;
 };
 
-// Whether the file begins as a .sky file does.  False if it cannot be read.
+// Whether the file begins as a .sky file does, or should: it is named so and shorter than a header.
+// False if it cannot be read.
 bool is_sky_file(const std::filesystem::path& path);
 
 struct SkyFile {

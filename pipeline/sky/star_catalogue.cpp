@@ -7,6 +7,7 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/sky/mapped_stars.h"
+#include "pipeline/sky/star_file_layout.h"
 #include "pipeline/sky/star_record.h"
 
 namespace domefall {
@@ -148,8 +149,9 @@ StarCatalogue read_csv(const std::filesystem::path& file, double max_magnitude, 
   return catalogue;
 }
 
-// Directories and unreadable files are told by the reader of tables, as ever.
+// Or should.  Directories and unreadable files are told by the reader of tables, as ever.
 bool begins_as_star_file(const std::filesystem::path& file) {
+  if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader))) return true;
   std::ifstream in(file, std::ios::binary);
   std::string start(8, '\0');
   return in.read(start.data(), static_cast<std::streamsize>(start.size())) && is_star_file(start);

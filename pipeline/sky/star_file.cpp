@@ -55,9 +55,10 @@ std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint6
 
 StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
   const std::string_view bytes = file_.bytes();
+  if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader)) ||
+      (is_star_file(bytes) && bytes.size() < sizeof(StarFileHeader)))
+    fail_cut_short(file, kStarExtension, bytes.size(), sizeof(StarFileHeader));
   if (!is_star_file(bytes)) fail(0, "this is no star catalogue (.stars)");
-  if (bytes.size() < sizeof(StarFileHeader))
-    fail(bytes.size(), "the star catalogue ends within its header");
   const auto head = at<StarFileHeader>(bytes, 0);
   if (head.byte_order != kByteOrder)
     fail(offsetof(StarFileHeader, byte_order), "the numbers are in another order of bytes");

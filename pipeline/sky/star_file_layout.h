@@ -8,6 +8,7 @@
 
 namespace domefall {
 
+inline constexpr const char* kStarExtension = ".stars";
 inline constexpr std::array<char, 8> kStarMagic{'\x89', 'S', 'T', 'A', 'R', 'S', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304, kStarFileVersion = 1;
 inline constexpr std::uint32_t kBlockStars = 4096;

@@ -135,6 +135,23 @@ TEST_F(StarFiles, AFileCutShortIsRefusedWhereverItEnds) {
                              std::to_string(bytes_.size()));
 }
 
+TEST_F(StarFiles, AFileShorterThanItsHeaderIsNotTakenForATable) {
+  for (const std::size_t length : {0, 3, 8, 127}) {
+    put(file_, bytes_.substr(0, length));
+    const std::string expected = file_.string() + ": not a .stars file: shorter than its header (" +
+                                 std::to_string(length) + " bytes instead of 128 and more)";
+    EXPECT_EQ(complaint(), expected);
+    try {
+      star_file_fingerprint(file_);
+      FAIL() << length;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), expected);
+    }
+  }
+  put(folder_ / "short.csv", "ra_deg,dec_deg,v_mag,b_v\n10,20,3,0.5\n");
+  EXPECT_EQ(read_star_catalogue(folder_ / "short.csv", kAll).stars.size(), 1u);
+}
+
 TEST_F(StarFiles, DamageBehindTheLimitDoesNotMatter) {
   std::string damaged = bytes_;
   damaged[damaged.size() - 5] ^= 1;
@@ -160,7 +177,7 @@ TEST_F(StarFiles, AnotherOrderOfBytesIsNamed) {
 }
 
 TEST_F(StarFiles, OtherFilesAreNotTakenForThem) {
-  put(file_, "PNG and nothing else");
+  put(file_, "PNG and nothing else" + std::string(128, ' '));
   EXPECT_THROW(StarFile{file_}, InputError);
   EXPECT_THROW(StarFile{folder_}, InputError);
   EXPECT_THROW(StarFile{folder_ / "missing.stars"}, InputError);
