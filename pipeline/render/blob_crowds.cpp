@@ -26,21 +26,25 @@ std::uint64_t key_of(const StarBlob& b, double pixels_per_radian) {
          place(b.y);
 }
 
-// The first of a crowd takes in the others, which are marked by an empty range of rows.
+// The first of a crowd takes in the others, which are marked by an empty range of rows.  Together they
+// are brighter and reach farther: where no blob so large has a place, at the end of a very wide flat
+// picture, they stay as they are.
 void merge(const Projection& projection, const Cell* first, const Cell* end,
            std::vector<StarBlob>& blobs) {
   double x = 0, y = 0, light = 0, rgb[3] = {0, 0, 0};
   for (const Cell* cell = first; cell != end; ++cell) {
-    StarBlob& b = blobs[cell->blob];
+    const StarBlob& b = blobs[cell->blob];
     const double weight = std::max({b.rgb[0], b.rgb[1], b.rgb[2]});
     x += weight * b.x, y += weight * b.y, light += weight;
     for (int c = 0; c < 3; ++c) rgb[c] += b.rgb[c];
-    b.last_row = b.first_row - 1;
   }
-  StarBlob& one = blobs[first->blob];
+  StarBlob one = blobs[first->blob];
   one.x = static_cast<float>(x / light), one.y = static_cast<float>(y / light);
   for (int c = 0; c < 3; ++c) one.rgb[c] = static_cast<float>(rgb[c]);
-  if (!place_blob(projection, one)) one.last_row = one.first_row - 1;
+  if (!place_blob(projection, one)) return;
+  for (const Cell* cell = first; cell != end; ++cell)
+    blobs[cell->blob].last_row = blobs[cell->blob].first_row - 1;
+  blobs[first->blob] = one;
 }
 
 }  // namespace

@@ -179,6 +179,28 @@ TEST(StarBlobs, InACrowdAreDrawnTogether) {
     ASSERT_NEAR(each[k] / peak, together[k] / peak, 0.01) << k;
 }
 
+// Together they are brighter and so reach farther than a very wide flat picture does.
+TEST(StarBlobs, OfACrowdThatHasNoPlaceAsOneStay) {
+  const Projection p = Stereographic{512, 512, 350 * kDegree};
+  const auto placed = [&p](float x, float light) {
+    StarBlob blob{x, 256, 0.1f, {light, light, light}, 0, 0, 0, 0, 0, 0};
+    return std::pair(place_blob(p, blob), blob);
+  };
+  constexpr int kStars = 20;
+  float x = 256;
+  while (x < 512 && placed(x, 20 * kStars).first) ++x;
+  ASSERT_TRUE(placed(x, 20).first);
+  ASSERT_FALSE(placed(x, 20 * kStars).first);
+  std::vector<StarBlob> blobs(kStars, placed(x, 20).second);
+  merge_crowds(p, blobs);
+  EXPECT_EQ(blobs.size(), kStars);
+  // One that has a place is still one.
+  blobs.assign(kStars, placed(256, 20).second);
+  merge_crowds(p, blobs);
+  ASSERT_EQ(blobs.size(), 1u);
+  EXPECT_EQ(blobs[0].rgb[0], 20 * kStars);
+}
+
 // Sizes are angles: a picture of twice the size, averaged over 2 by 2 pixels, shows the same star.
 TEST(StarBlobs, OfTwiceThePictureAreTheSame) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
