@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "pipeline/render/photometry.h"
 
@@ -14,6 +15,8 @@ using std::numbers::pi;
 // A pixel that sees more of a sky than this (radians, about the larger side of its footprint) is
 // crowded; the spot is what lies within so many pixels of it.
 constexpr double kCrowded = 0.5, kSpotPixels = 1.5;
+// From a pixel's middle to its corner, a little more.
+constexpr double kHalfDiagonal = 0.75;
 // Samples from the edge of a sky to its far end, and around the axis.
 constexpr int kAlong = 192, kAround = 384;
 
@@ -33,30 +36,79 @@ class SpotFinder {
   // toward: where the sky's light might be crowded, in the tetrad of the observer.
   void try_spot(const Sky& sky, SeenSky name, const SkyTable& table, const V3d& toward,
                 SkySpots& found) const {
+    const auto spot = crowded_spot(name, toward, found);
+    if (!spot) return;
+    Light light;
+    gather(sky, table, *spot, light);
+    add(*spot, light, found);
+  }
+
+  // The same where light goes straight: ahead.
+  void try_straight_spot(const Sky& sky, SeenSky name, SkySpots& found) const {
+    const auto spot = crowded_spot(name, vantage_.celerity.normalized(), found);
+    if (!spot) return;
+    Light light;
+    gather_straight(sky, *spot, light);
+    add(*spot, light, found);
+  }
+
+ private:
+  // Of a spot, so far.
+  struct Light {
+    double rgb[3] = {0, 0, 0};
+    V3d middle{0, 0, 0};
+
+    void add(const WorkingRgb& c, double solid_angle, const V3d& n) {
+      rgb[0] += c.r * solid_angle, rgb[1] += c.g * solid_angle, rgb[2] += c.b * solid_angle;
+      middle += n * (luminance(c) * solid_angle);
+    }
+  };
+
+  std::optional<DarkenedSpot> crowded_spot(SeenSky name, const V3d& toward,
+                                           const SkySpots& found) const {
     const CameraDirection centre{apply_transposed(observer_.tetrad_from_camera, toward)};
     const double reach2 = kSpotPixels * kSpotPixels * pixel_ * pixel_;
     for (const DarkenedSpot& other : found.darkened)
-      if (other.sky == name && (other.centre.v - centre.v).length2() < 4 * reach2) return;
+      if (other.sky == name && (other.centre.v - centre.v).length2() < 4 * reach2)
+        return std::nullopt;
     const Look look = tracer_.look(centre);
-    if (!look.known || look.sky != name) return;
-    if (!(std::max(look.radial_scale, look.tangential_scale) * pixel_ > kCrowded)) return;
-    const DarkenedSpot spot{name, centre, reach2};
+    if (!look.known || look.sky != name ||
+        !(std::max(look.radial_scale, look.tangential_scale) * pixel_ > kCrowded))
+      return std::nullopt;
+    return DarkenedSpot{name, centre, reach2};
+  }
+
+  void add(const DarkenedSpot& spot, const Light& light, SkySpots& found) const {
+    if (!(light.middle.length() > 0)) return;
+    const auto at = pixel_of(projection_, {light.middle.normalized()});
+    if (!at) return;
     StarBlob blob{};
-    if (!integrate(sky, table, spot, blob)) return;
+    for (int c = 0; c < 3; ++c) blob.rgb[c] = static_cast<float>(light.rgb[c]);
+    blob.x = static_cast<float>(at->i - 1), blob.y = static_cast<float>(at->j - 1);
+    blob.sigma = static_cast<float>(kLeastSigmaPixels * pixel_);
+    if (!place_blob(projection_, blob)) return;
     found.darkened.push_back(spot);
     found.blobs.push_back(blob);
   }
 
- private:
+  // Whether light from there belongs to a pixel that is looked at within the spot: what is gathered is what
+  // the looks leave out.
+  bool is_darkened(const DarkenedSpot& spot, const V3d& n) const {
+    const auto at = pixel_of(projection_, {n});
+    const V3d look = at ? direction_at(projection_, {std::round(at->i), std::round(at->j)}).v : n;
+    return (look - spot.centre.v).length2() <= spot.chord2;
+  }
+
+  double scale_of(SeenSky sky) const {
+    return exposure_scale(picture_) * sky_of(picture_, sky).background_gain;
+  }
+
   // The light of all samples of the sky that arrive within the spot.
-  bool integrate(const Sky& sky, const SkyTable& table, const DarkenedSpot& spot,
-                 StarBlob& blob) const {
+  void gather(const Sky& sky, const SkyTable& table, const DarkenedSpot& spot, Light& light) const {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
     const double d_psi = 2 * pi / kAround;
-    const double scale = exposure_scale(picture_) * sky_of(picture_, spot.sky).background_gain;
+    const double scale = scale_of(spot.sky);
     const bool amplified = show_.effects.amplification == Amplification::kEverything;
-    double rgb[3] = {0, 0, 0};
-    V3d middle(0, 0, 0);
     for (int i = 0; i < kAlong; ++i) {
       const double x = 2 * std::tan((i + 0.5) * d_alpha / 4);
       const NullRay ray = table.ray_at_distance(x);
@@ -70,7 +122,7 @@ class SpotFinder {
         const AberratedLight seen =
             to_observer_.to_rest(V3d(ray.outgoing ? cosine : -cosine, 0, 0) + e * sine);
         const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
-        if ((n - spot.centre.v).length2() > spot.chord2) continue;
+        if (!is_darkened(spot, n)) continue;
         const double d = seen.frequency_ratio;
         const double measured =
             vantage_.measured ? to_measured_.to_rest(seen.direction).frequency_ratio : 1;
@@ -78,18 +130,43 @@ class SpotFinder {
             apply(observer_.sky_from_tetrad, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
         const WorkingRgb c = background_light(sky, show_, from, footprint, g * d * measured, scale);
         const double f = amplified ? amplification({ray_angle, phi, slope, d}, pixel_) : 1;
-        const double solid_angle = f * sine * d_alpha * d_psi / (d * d);
-        rgb[0] += c.r * solid_angle, rgb[1] += c.g * solid_angle, rgb[2] += c.b * solid_angle;
-        middle += n * (luminance(c) * solid_angle);
+        light.add(c, f * sine * d_alpha * d_psi / (d * d), n);
       }
     }
-    if (!(middle.length() > 0)) return false;
-    for (int c = 0; c < 3; ++c) blob.rgb[c] = static_cast<float>(rgb[c]);
-    const auto at = pixel_of(projection_, {middle.normalized()});
-    if (!at) return false;
-    blob.x = static_cast<float>(at->i - 1), blob.y = static_cast<float>(at->j - 1);
-    blob.sigma = static_cast<float>(kLeastSigmaPixels * pixel_);
-    return place_blob(projection_, blob);
+  }
+
+  // Rings about the direction of motion, out to those that arrive at the spot's last pixels: by [Riazuelo]
+  // eq. eq_inv_aberr, tan(alpha/2) = (gamma + |celerity|) tan(alpha'/2).
+  void gather_straight(const Sky& sky, const DarkenedSpot& spot, Light& light) const {
+    const double speed = vantage_.celerity.length(), widening = std::hypot(1, speed) + speed;
+    const double edge = std::min((kSpotPixels + kHalfDiagonal) * pixel_, pi);
+    const double d_alpha = 2 * std::atan(widening * std::tan(edge / 2)) / kAlong;
+    const double d_psi = 2 * pi / kAround;
+    const double scale = scale_of(spot.sky);
+    const bool amplified = show_.effects.amplification == Amplification::kEverything;
+    const V3d ahead = vantage_.celerity / speed;
+    const V3d aside =
+        ahead.cross(std::abs(ahead.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
+    const V3d third = ahead.cross(aside);
+    for (int i = 0; i < kAlong; ++i) {
+      const double alpha = (i + 0.5) * d_alpha, sine = std::sin(alpha), cosine = std::cos(alpha);
+      // cos(alpha - d/2) - cos(alpha + d/2), exactly.
+      const double area = 2 * sine * std::sin(d_alpha / 2) * d_psi;
+      const double footprint = std::max(d_alpha, sine * d_psi);
+      for (int j = 0; j < kAround; ++j) {
+        const double psi = (j + 0.5) * d_psi;
+        const AberratedLight seen = to_observer_.to_rest(
+            ahead * cosine + (aside * std::cos(psi) + third * std::sin(psi)) * sine);
+        const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
+        if (!is_darkened(spot, n)) continue;
+        const Look look = tracer_.look({n});
+        const double d = seen.frequency_ratio;
+        const double f = amplified ? amplification(look.bundle, pixel_) : 1;
+        light.add(background_light(sky, show_, look.sky_direction, footprint, look.frequency_ratio,
+                                   scale),
+                  f * area / (d * d), n);
+      }
+    }
   }
 
   const Show& show_;
@@ -107,9 +184,14 @@ class SpotFinder {
 SkySpots find_sky_spots(const Show& show, const FrameState& state, const HoleOptics& optics,
                         const PixelLight::Skies& skies) {
   SkySpots found;
-  if (is_flat(state.observer)) return found;
   const SpotFinder finder(show, state, optics);
   const V3d celerity = vantage_of(state.observer, show.effects).celerity;
+  if (is_flat(state.observer) || !show.effects.lensing) {
+    const Sky* sky = skies[static_cast<std::size_t>(SeenSky::kOne)];
+    if (sky != nullptr && celerity.length() > 1)
+      finder.try_straight_spot(*sky, SeenSky::kOne, found);
+    return found;
+  }
   const bool mirrored = is_mirrored(optics.tetrad);
   // The far ends of both skies lie on the axis: home outward, far inward.
   const auto look_for = [&](SeenSky name, const std::optional<SkyTable>& table, double outward) {

@@ -1,8 +1,7 @@
 // A sky whose light is crowded into less than a pixel: region III a moment after the crossing, the sky
 // of a static observer just above the horizon, or whatever lies ahead of a very fast one.  Looks through
 // pixels would miss it or hit it by chance.  Such a spot is integrated from the side of the sky, where it
-// is smooth, and drawn like a star: the light arrives whole, wherever between pixels it falls.  Near a hole
-// only: in flat space what lies ahead of a very fast observer is lost between the pixels.
+// is smooth, and drawn like a star: the light arrives whole, wherever between pixels it falls.
 #pragma once
 
 #include <vector>
