@@ -40,7 +40,7 @@ struct DotBlur {
   const float* tap;
   int taps;  // at most kMostDotTaps
 };
-inline constexpr int kMostDotTaps = 16;
+inline constexpr int kMostDotTaps = 64;
 
 // Down `lines` rows at once, which have most of what they read in common.  rows: lines + 2 taps; out:
 // lines of `count` floats, `stride` apart.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 
 #include "pipeline/render/photometry.h"
@@ -40,6 +41,16 @@ const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
   return table ? &*table : nullptr;
 }
 
+// About as many as a picture will have, by its part of the sphere; falling at 7 M a dome has two of each star.
+double images_expected(std::size_t stars, bool gravity, const Projection& p) {
+  const double pixel = central_pixel_angle(p);
+  const double part =
+      std::holds_alternative<Domemaster>(p)
+          ? 0.5
+          : std::min(1.0, pixel * pixel * columns(p) * rows(p) / (4 * std::numbers::pi));
+  return static_cast<double>(stars) * part * (gravity ? 4 : 1);
+}
+
 }  // namespace
 
 void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
@@ -47,15 +58,12 @@ void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
                StarLayer& layer) {
   const BlobWidths widths(show.blobs, state.projection, exposure_scale(state.picture));
   std::array<std::optional<StarImages>, kSkies> makers;
-  // About as many as there will be: of half a sky where light goes straight.
-  constexpr std::size_t kImagesOfStar = 2;
-  std::size_t many = 0;
+  double many = 0;
   for (const SeenSky which : kEverySky) {
     if (!plan[which].stars) continue;
     const auto k = static_cast<std::size_t>(which);
     makers[k].emplace(show, state, sky_of(state.picture, which), table_of(optics, which));
-    const std::size_t stars = makers[k]->count(*skies[k]->stars);
-    many += plan.gravity ? kImagesOfStar * stars : stars / 2;
+    many += images_expected(makers[k]->count(*skies[k]->stars), plan.gravity, state.projection);
   }
   if (StarLayer::are_many(many, state.projection)) layer.use_dots(widths);
   for (std::size_t k = 0; k < kSkies; ++k)

@@ -3,7 +3,7 @@
 // Nodes stand every kStep pixels.  Between them sky directions and shifts follow the cubic through four
 // nodes a side, at an error of at most kTolerance pixels, bounded in two ways: an edge of a sky, towards
 // which the azimuth is -ln x, is kEdgeCells cells away at least; and at the nodes around, the cubic
-// through their second next neighbours, 16 times worse, is right to 8 times the tolerance.  A cell that
+// through their second next neighbours, 16 times worse, is right to 6 times the tolerance.  A cell that
 // fails has every pixel looked at.  (And floats hold a place on the sky to 3e-7 radians, a thousandth of
 // a texel of a map 16k wide.)
 #pragma once

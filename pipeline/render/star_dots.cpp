@@ -62,7 +62,7 @@ DotBrush::DotBrush(const Projection& projection, double sigma)
   if (!(wanted > kLeastVariance)) return;
   taps_ = find_taps(wanted, kPixelFourth - kSplineFourth, kMostDotTaps, tap_);
   if (taps_ > kMostDotTaps) return;
-  const double beyond = 2 * taps_ + 8;
+  const double beyond = taps_ + 8;
   const double t = dome_ ? unit * unit * (width_ / 2.0 + beyond) * (width_ / 2.0 + beyond)
                          : std::sqrt(1 + kMostMissing) - 1;
   constexpr double kFarthestAngle = 1.85;
@@ -85,8 +85,9 @@ bool DotBrush::takes(const StarImage& image, float most_light) const {
               bottom = static_cast<float>(height_ - 1) + beyond;
   const bool near =
       (image.x > -beyond) & (image.x < right) & (image.y > -beyond) & (image.y < bottom);
-  const float light = std::max({image.rgb[0], image.rgb[1], image.rgb[2]});
-  return near & (cx * cx + cy * cy < farthest_) & (light <= most_light);
+  const bool faint = (image.rgb[0] <= most_light) & (image.rgb[1] <= most_light) &
+                     (image.rgb[2] <= most_light);  // and a number
+  return near & (cx * cx + cy * cy < farthest_) & faint;
 }
 
 std::size_t DotBrush::sort(std::vector<StarImage>& images, float most_light, DotList& dots) const {

@@ -33,7 +33,8 @@ class DotBrush {
  public:
   // sigma: of the blobs, radians.
   DotBrush(const Projection& projection, double sigma);
-  // False where blobs are wider than is worth it, and where a picture is too small.
+  // False where a blur would need more taps than there is room for (blobs wider than 14 pixels), and where a
+  // picture is too small.
   bool usable() const { return usable_; }
 
   // Moves the images that it takes on to `dots`, in their order within each bucket, and the others to the

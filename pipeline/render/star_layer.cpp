@@ -19,7 +19,7 @@ constexpr std::size_t kTask = 32768, kStep = 256;
 constexpr double kPalingSeen = 1.0 / 8;
 
 // A picture with more images than a 32nd of its pixels is quicker with dots: measured at 4k.
-constexpr std::size_t kPixelsPerDot = 32;
+constexpr double kPixelsPerDot = 32;
 // The peak of a dot where the blob is at its smallest.  A brighter one would be seen to end.
 constexpr double kBrightestDot = 1;
 
@@ -53,9 +53,8 @@ void StarLayer::start(const Projection& projection) {
   wide_.clear();
 }
 
-bool StarLayer::are_many(std::size_t images, const Projection& projection) {
-  return images > static_cast<std::size_t>(columns(projection)) *
-                      static_cast<std::size_t>(rows(projection)) / kPixelsPerDot;
+bool StarLayer::are_many(double images, const Projection& projection) {
+  return images * kPixelsPerDot > static_cast<double>(columns(projection)) * rows(projection);
 }
 
 void StarLayer::use_dots(const BlobWidths& widths) {

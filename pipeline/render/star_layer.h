@@ -27,7 +27,7 @@ class StarLayer {
   void start(const Projection& projection);
   // From now on faint images are dots, which is worth it where there are many.
   void use_dots(const BlobWidths& widths);
-  static bool are_many(std::size_t images, const Projection& projection);
+  static bool are_many(double images, const Projection& projection);
   bool has_dots() const { return brush_.has_value(); }
 
   // So many tasks more; the first one's number.
@@ -40,7 +40,7 @@ class StarLayer {
   // Once all are there.
   void sort_into_bands();
 
-  // Images of which something is in the picture.
+  // Images of which something is in the picture, and dots next to it.
   std::size_t size() const { return size_; }
 
   // Before bands of this layer, in rising order, are drawn with a thread's canvas.

@@ -1,8 +1,7 @@
 #include "pipeline/render/sweeps.h"
 
-#include <cstring>
-
 #include "pipeline/render/simd.h"
+#include "pipeline/render/turned_quads.h"
 
 namespace domefall {
 namespace {
@@ -29,28 +28,6 @@ struct Spots {
 }
 Dispatched<locate_loop> locate;
 
-using Quad __attribute__((vector_size(32))) = double;
-
-// Four coefficients of four rays each become four rays' coefficients.  `at`: the rays' first.
-[[gnu::always_inline]] inline void turn(const double* const* at, std::ptrdiff_t first, int ray,
-                                        Spots& out) {
-  Quad a, b, c, d;
-  std::memcpy(&a, at[0] + first, sizeof a);
-  std::memcpy(&b, at[1] + first, sizeof b);
-  std::memcpy(&c, at[2] + first, sizeof c);
-  std::memcpy(&d, at[3] + first, sizeof d);
-  const Quad even_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Quad odd_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Quad even_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Quad odd_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  const Quad turned[4] = {__builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5),
-                          __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5),
-                          __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7),
-                          __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7)};
-  for (int j = 0; j < 4; ++j)
-    std::memcpy(&out.coefficient[first + j][ray], &turned[j], sizeof turned[j]);
-}
-
 // Whole lines of the cache for each ray, instead of gathering numbers from them.
 [[gnu::always_inline]] inline void fetch_loop(
     const std::array<const double*, Sweeps::kCurves>& coefficients, int count, const Sweeps& in,
@@ -59,7 +36,13 @@ using Quad __attribute__((vector_size(32))) = double;
     const double* at[4];
     for (int m = 0; m < 4; ++m)
       at[m] = coefficients[in.curve[k + m]] + kTerms * spots.interval[k + m];
-    turn(at, 0, k, spots), turn(at, 4, k, spots);
+    for (int first = 0; first < kTerms; first += 4) {
+      const double* from[4];
+      double* out[4];
+      for (int m = 0; m < 4; ++m)
+        from[m] = at[m] + first, out[m] = &spots.coefficient[first + m][k];
+      turn_quads(from, out);
+    }
   }
 }
 Dispatched<fetch_loop> fetch;

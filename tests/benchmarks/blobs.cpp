@@ -77,7 +77,7 @@ void measure(const std::vector<StarImage>& images, const Projection& p, const Bl
              std::vector<float>& rgb, Cost& least) {
   StarLayer layer(p);
   DotCanvas dots;
-  if (StarLayer::are_many(images.size(), p)) layer.use_dots(widths);
+  if (StarLayer::are_many(static_cast<double>(images.size()), p)) layer.use_dots(widths);
   const double start = cpu_seconds();
   layer.add(images, widths);
   const double placed = cpu_seconds();

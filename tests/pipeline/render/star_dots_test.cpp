@@ -23,6 +23,7 @@ const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
                      {"dome at the floor", Domemaster{1024}, 0.05, 85 * kDegree, 0.05},
                      {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
                      {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
+                     {"wider dome", Domemaster{1024}, 0.65, 75 * kDegree, 0.05},
                      {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.04},
                      {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
 
@@ -158,6 +159,7 @@ TEST(StarDots, AreForThoseThatAreMany) {
   EXPECT_EQ(layer.size(), 50u);
   EXPECT_EQ(drawn(layer, kLaws[1].projection).rgb,
             drawn(layer_of(scattered(kLaws[1], 50, 20), kLaws[1], false), kLaws[1].projection).rgb);
+  EXPECT_TRUE(DotBrush(Domemaster{1024}, 0.65 * kDegree).usable());
   EXPECT_FALSE(DotBrush(Domemaster{4096}, 0.2).usable());
   EXPECT_FALSE(DotBrush(Domemaster{32}, 0.1).usable());
 }
