@@ -119,7 +119,7 @@ struct Batch {
     const float warm = b.rgb[0] > b.rgb[1] ? b.rgb[0] : b.rgb[1];
     const float peak = warm > b.rgb[2] ? warm : b.rgb[2];
     const float low = static_cast<float>(kUnseen) / peak;
-    const float highest = static_cast<float>(kHighestCut), lowest = static_cast<float>(kLowestCut);
+    const auto highest = static_cast<float>(kHighestCut), lowest = static_cast<float>(kLowestCut);
     const float high = low < highest ? low : highest, cut = high > lowest ? high : lowest;
     const float spread = 2 * about_minus_log(cut) / (b.xx * b.yy - b.xy * b.xy);
     const float half_x = std::sqrt(spread * b.yy), half_y = std::sqrt(spread * b.xx);
