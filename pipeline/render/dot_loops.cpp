@@ -23,7 +23,7 @@ using Pair = float __attribute__((vector_size(8 * kChannels)));
 struct Point {
   float along, across, share;
 };
-// Gauss and Hermite's points, and for both directions a cross, without and with its middle.
+// Gauss and Hermite's points, and for both directions a triangle, and a cross without and with its middle.
 constexpr Point kOne[] = {{0, 0, 1}};
 constexpr Point kTwo[] = {{-1, 0, 0.5f}, {1, 0, 0.5f}};
 constexpr Point kThree[] = {
@@ -37,6 +37,9 @@ constexpr Point kFive[] = {{-2.8569700f, 0, 0.011257411f},
                            {0, 0, 0.533333333f},
                            {1.3556262f, 0, 0.222075922f},
                            {2.8569700f, 0, 0.011257411f}};
+constexpr Point kTriangle[] = {{1.4142136f, 0, 1.0f / 3},
+                               {-0.70710678f, 1.2247449f, 1.0f / 3},
+                               {-0.70710678f, -1.2247449f, 1.0f / 3}};
 constexpr Point kCross[] = {{1.4142136f, 0, 0.25f},
                             {-1.4142136f, 0, 0.25f},
                             {0, 1.4142136f, 0.25f},
@@ -44,22 +47,23 @@ constexpr Point kCross[] = {{1.4142136f, 0, 0.25f},
 constexpr Point kStar[] = {
     {0, 0, 0.5f}, {2, 0, 0.125f}, {-2, 0, 0.125f}, {0, 2, 0.125f}, {0, -2, 0.125f}};
 
-// The fewest points that err by less than 8e-3 of the peak (at the outskirts of a flat picture 2e-2) where
+// The fewest points that err by less than 1e-2 of the peak (at the outskirts of a flat picture 2e-2) where
 // so much of the blob's variance, in parts, is missing; on a dome along one direction.
 struct Rule {
   const Point* points;
   int count;
 };
 constexpr Rule line_rule(float missing) {
-  if (missing < 0.016f) return {kOne, 1};
-  if (missing < 0.18f) return {kTwo, 2};
-  if (missing < 0.4f) return {kThree, 3};
-  if (missing < 0.6f) return {kFour, 4};
+  if (missing < 0.02f) return {kOne, 1};
+  if (missing < 0.2f) return {kTwo, 2};
+  if (missing < 0.43f) return {kThree, 3};
+  if (missing < 0.63f) return {kFour, 4};
   return {kFive, 5};
 }
 constexpr Rule plane_rule(float missing) {
-  if (missing < 0.008f) return {kOne, 1};
-  if (missing < 0.12f) return {kCross, 4};
+  if (missing < 0.02f) return {kOne, 1};
+  if (missing < 0.09f) return {kTriangle, 3};
+  if (missing < 0.15f) return {kCross, 4};
   return {kStar, 5};
 }
 // Dots on their way to the pixels, in columns of kBatch: the last ones may be there twice.

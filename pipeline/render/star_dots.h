@@ -5,7 +5,7 @@
 // 1 to rounding: no light depends on where a star is.  What a dome's outskirts stretch along the tangent, or
 // a flat picture's in all directions, is added before: a star is dropped at a few points with a Gaussian's
 // moments.  The blur is even, and its fourth moment such that the whole has that of a Gaussian over
-// the square of a pixel, as small blobs do.  Measured against those, in parts of the peak: 0.04 at
+// the square of a pixel, as small blobs do.  Measured against those, in parts of the peak: 0.05 at
 // a width of 0.9 pixel, where the spline's own shape is seen, 0.02 at 1.14 (4k), 0.01 at 2; at the rim of
 // a dome of 1024 pixels 0.04.  The brightest pixel swings by 1.33 instead of 1.32 at 0.9 pixel.
 #pragma once

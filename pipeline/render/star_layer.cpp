@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "pipeline/render/blob_crowds.h"
 
@@ -189,10 +190,12 @@ void StarLayer::sort_into_bands() {
   }
   for (const Task& task : tasks_) wide_.insert(wide_.end(), task.wide.begin(), task.wide.end());
   merge_crowds(projection_, wide_);
-  // Those of a band side by side in memory.
-  std::stable_sort(wide_.begin(), wide_.end(), [](const StarBlob& a, const StarBlob& b) {
-    return a.first_row / kBandRows < b.first_row / kBandRows;
-  });
+  // Those of a band side by side in memory, in an order that only blobs of one place and light share.
+  const auto key = [](const StarBlob& b) {
+    return std::tuple(b.first_row / kBandRows, b.y, b.x, b.sigma, b.rgb[0], b.rgb[1], b.rgb[2]);
+  };
+  std::sort(wide_.begin(), wide_.end(),
+            [&key](const StarBlob& a, const StarBlob& b) { return key(a) < key(b); });
   wide_of_band_.assign(bands_, {});
   for (std::size_t k = 0; k < wide_.size(); ++k)
     for (int band = wide_[k].first_row / kBandRows; band <= wide_[k].last_row / kBandRows; ++band)

@@ -24,7 +24,7 @@ const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
                      {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
                      {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
                      {"wider dome", Domemaster{1024}, 0.65, 75 * kDegree, 0.05},
-                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.04},
+                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.05},
                      {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
 
 BlobWidths widths_of(const Law& law) {
