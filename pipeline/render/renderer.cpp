@@ -31,7 +31,8 @@ namespace {
 constexpr int kTurns = 8, kLeastInARow = 8;
 
 int bands_in_a_row(int bands) {
-  return std::max(bands / (kTurns * tbb::this_task_arena::max_concurrency()), kLeastInARow);
+  const int threads = tbb::this_task_arena::max_concurrency();
+  return threads == 1 ? bands : std::max(bands / (kTurns * threads), kLeastInARow);
 }
 
 using Clock = std::chrono::steady_clock;

@@ -157,6 +157,19 @@ Dispatched<onto_dome_loop> onto_dome;
 }
 Dispatched<onto_plane_loop> onto_plane;
 
+// 1 for the views in front that lie within half_i and half_j of the middle.
+[[gnu::always_inline]] inline void flag_loop(const StarViews& views, double least_z,
+                                             double middle_i, double middle_j, double half_i,
+                                             double half_j, int count, int* __restrict seen) {
+  for (int k = 0; k < count; ++k) {
+    const bool across = std::abs(views.i[k] - middle_i) <= half_i;
+    const bool down = std::abs(views.j[k] - middle_j) <= half_j;
+    const bool ahead = views.z[k] >= least_z;
+    seen[k] = int{ahead} & int{across} & int{down};
+  }
+}
+Dispatched<flag_loop> flag;
+
 // Pixels per radian of the flat picture, and of any, in its middle.
 double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
 
@@ -208,12 +221,12 @@ int StarPlane::place(StarViews& views, int count, int* listed) const {
     onto_dome(scale_, middle_i_, count, views);
   else
     onto_plane(scale_, middle_i_, middle_j_, count, views);
+  StarColumn<int> seen;
+  flag(views, least_z_, middle_i_, middle_j_, half_i_, half_j_, count, seen.data());
   int number = 0;
   for (int k = 0; k < count; ++k) {
     listed[number] = k;
-    const bool near =
-        std::abs(views.i[k] - middle_i_) <= half_i_ && std::abs(views.j[k] - middle_j_) <= half_j_;
-    number += views.z[k] >= least_z_ && near ? 1 : 0;
+    number += seen[static_cast<std::size_t>(k)];
   }
   return number;
 }

@@ -81,10 +81,8 @@ DotBrush::DotBrush(const Projection& projection, double sigma)
 bool DotBrush::takes(const StarImage& image, float most_light) const {
   const float cx = image.x - frame_.middle_x, cy = image.y - frame_.middle_y;
   const auto beyond = static_cast<float>(taps_ + reach_);
-  const float right = static_cast<float>(width_ - 1) + beyond,
-              bottom = static_cast<float>(height_ - 1) + beyond;
-  const bool near =
-      (image.x > -beyond) & (image.x < right) & (image.y > -beyond) & (image.y < bottom);
+  const float across = std::abs(cx), down = std::abs(cy);
+  const bool near = (across < frame_.middle_x + beyond) & (down < frame_.middle_y + beyond);
   const bool faint = (image.rgb[0] <= most_light) & (image.rgb[1] <= most_light) &
                      (image.rgb[2] <= most_light);  // and a number
   return near & (cx * cx + cy * cy < farthest_) & faint;
