@@ -75,6 +75,15 @@ using Pair __attribute__((vector_size(32))) = float;
   pair = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+// Floats from halves that stand in the lower parts of 32 bits, 2^112 times too small.
+template <class Bits, class Halves, class Floats>
+[[gnu::always_inline]] inline void widen(const Halves& halves, Floats& floats) {
+  Bits bits;
+  std::memcpy(&bits, &halves, sizeof bits);
+  bits <<= 13;
+  std::memcpy(&floats, &bits, sizeof floats);
+}
+
 // Two texels side by side at t and at u: the left ones of both, and the right ones.  A half that is not
 // subnormal is a float's bits, shifted, and kTexelScale times too small; that is mended once for all looks of
 // a pixel.
@@ -93,12 +102,7 @@ using Pair __attribute__((vector_size(32))) = float;
       __builtin_shufflevector(both, none, 0, 16, 1, 17, 2, 18, 3, 19, 8, 24, 9, 25, 10, 26, 11, 27);
   const TwiceHalves high = __builtin_shufflevector(both, none, 4, 20, 5, 21, 6, 22, 7, 23, 12, 28,
                                                    13, 29, 14, 30, 15, 31);
-  Bits left_bits, right_bits;
-  std::memcpy(&left_bits, &low, sizeof low);
-  std::memcpy(&right_bits, &high, sizeof high);
-  left_bits <<= 13, right_bits <<= 13;
-  std::memcpy(&left, &left_bits, sizeof left);
-  std::memcpy(&right, &right_bits, sizeof right);
+  widen<Bits>(low, left), widen<Bits>(high, right);
 }
 
 // Two looks between four texels each, the first of which are t and u.
@@ -123,12 +127,7 @@ using Pair __attribute__((vector_size(32))) = float;
   const Halves none{};
   const Halves low = __builtin_shufflevector(both, none, 0, 8, 1, 9, 2, 10, 3, 11);
   const Halves high = __builtin_shufflevector(both, none, 4, 12, 5, 13, 6, 14, 7, 15);
-  Bits left_bits, right_bits;
-  std::memcpy(&left_bits, &low, sizeof low);
-  std::memcpy(&right_bits, &high, sizeof high);
-  left_bits <<= 13, right_bits <<= 13;
-  std::memcpy(&left, &left_bits, sizeof left);
-  std::memcpy(&right, &right_bits, sizeof right);
+  widen<Bits>(low, left), widen<Bits>(high, right);
 }
 
 [[gnu::always_inline]] inline void bilinear(const SkyTexel* t, int side, float fx, float fy,

@@ -141,28 +141,14 @@ struct Batch {
   }
 }
 
-// Pixels' values for their three channels each: block m of three from 16 pixels.
-template <int kOf>
-[[gnu::always_inline]] inline void in_threes(const float* pixels, Block& floats) {
-  Lanes low, high;
-  if constexpr (kOf == 0) {
-    Lanes p;
-    std::memcpy(&p, pixels, sizeof p);
-    low = __builtin_shufflevector(p, p, 0, 0, 0, 1, 1, 1, 2, 2);
-    high = __builtin_shufflevector(p, p, 2, 3, 3, 3, 4, 4, 4, 5);
-  } else if constexpr (kOf == 1) {
-    Lanes p, q;
-    std::memcpy(&p, pixels, sizeof p);
-    std::memcpy(&q, pixels + 8, sizeof q);
-    low = __builtin_shufflevector(p, p, 5, 5, 6, 6, 6, 7, 7, 7);
-    high = __builtin_shufflevector(q, q, 0, 0, 0, 1, 1, 1, 2, 2);
-  } else {
-    Lanes q;
-    std::memcpy(&q, pixels + 8, sizeof q);
-    low = __builtin_shufflevector(q, q, 2, 3, 3, 3, 4, 4, 4, 5);
-    high = __builtin_shufflevector(q, q, 5, 5, 6, 6, 6, 7, 7, 7);
-  }
-  floats = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+// Pixels' values for their three channels each, from 16 pixels.
+template <int kCount>
+[[gnu::always_inline]] inline void in_blocks(const float* pixels, Block* blocks) {
+  Lanes floats[6];
+  in_threes<2 * kCount>(pixels, floats);
+  for (int m = 0; m < kCount; ++m)
+    blocks[m] = __builtin_shufflevector(floats[2 * m], floats[2 * m + 1], 0, 1, 2, 3, 4, 5, 6, 7, 8,
+                                        9, 10, 11, 12, 13, 14, 15);
 }
 
 using BlockBits = std::int32_t __attribute__((vector_size(4 * kBlock)));
@@ -208,9 +194,7 @@ template <int kCount>
                                             std::size_t k, const Part& part, float* __restrict out,
                                             std::ptrdiff_t stride) {
   Block weight[3], step[3], scale[3];
-  in_threes<0>(part.weight, weight[0]), in_threes<1>(part.weight, weight[1]);
-  in_threes<0>(part.step, step[0]), in_threes<1>(part.step, step[1]);
-  if constexpr (kCount == 3) in_threes<2>(part.weight, weight[2]), in_threes<2>(part.step, step[2]);
+  in_blocks<kCount>(part.weight, weight), in_blocks<kCount>(part.step, step);
   const float gain = batch.gain[k], r = gain * blob.rgb[0], g = gain * blob.rgb[1],
               b = gain * blob.rgb[2], end = batch.end[k];
   scale[0] = Block{r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r};
