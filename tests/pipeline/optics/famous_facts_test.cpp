@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "pipeline/optics/aberration.h"
-#include "pipeline/optics/silhouette.h"
+#include "pipeline/optics/exact_azimuth.h"
+#include "pipeline/optics/null_ray.h"
 #include "pipeline/optics/traced_ray.h"
 #include "trajectories/circular_orbit.h"
 
@@ -14,37 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-TEST(Silhouette, AtTheHorizonCosDeltaIs23Over31) {
-  EXPECT_NEAR(std::cos(silhouette_edge(2)), 23.0 / 31, 1e-15);
-  EXPECT_NEAR(2 * silhouette_edge(2) * 180 / pi, 84.2, 0.05);
-}
-
-TEST(Silhouette, FillsHalfTheSkyAtTheSingularity) {
-  EXPECT_NEAR(2 * silhouette_edge(1e-12), pi, 1e-5);
-}
-
-TEST(Silhouette, FillsHalfTheSkyOfAStaticObserverAtThreeM) {
-  const double s = std::sqrt(2.0 / 3), kappa = std::sqrt(1.0 / 3) / (1 + s);
-  EXPECT_NEAR(2 * std::atan(tan_half_silhouette(3) / kappa), pi / 2, 1e-15);
-}
-
-TEST(Silhouette, FarAwayIsTheCriticalImpactParameterOverR) {
-  EXPECT_NEAR(silhouette_edge(1e8) * 1e8, std::sqrt(27.0), 1e-3);
-}
-
-TEST(Silhouette, VanishesInFlatSpace) { EXPECT_EQ(silhouette_edge(kFlatSpace), 0); }
-
-TEST(RegionThree, IsAPointAtTheHorizonAndGrowsLinearly) {
-  EXPECT_EQ(region_three_edge(2), 0);
-  const double depth = 1e-5;
-  EXPECT_NEAR(region_three_edge(2 - depth), 3 * std::sqrt(3.0) * depth / 8, 1e-9);
-}
-
-TEST(RegionThree, FillsHalfTheSkyAtTheSingularity) {
-  EXPECT_NEAR(2 * region_three_edge(1e-12), pi, 1e-5);
-}
-
-// [Riazuelo] sec. on region III: the strongest blueshift, at the edge of either sky, is
+// [Riazuelo] eq. zmin_I: the strongest blueshift, at the edge of either sky, is
 // 1 + z = r sin(delta)/(3 sqrt 3), which tends to r/(3 sqrt 3) at the singularity.
 TEST(Redshift, IsLeastAtTheEdgesAndTendsToROverThreeRootThree) {
   for (const double r : {1e-6, 1e-4, 1e-2}) {
@@ -72,7 +43,7 @@ double one_plus_z_along(double r, const V3d& celerity, const V3d& m) {
   return (1 + std::sqrt(2 / r) * seen.direction.x) * seen.frequency_ratio;
 }
 
-// [Riazuelo] app_img: z = sqrt(2)/3 - 1 ahead and sqrt(2) - 1 behind on the last stable orbit.
+// [Riazuelo] app. app_img: z = sqrt(2)/3 - 1 ahead and sqrt(2) - 1 behind on the last stable orbit.
 TEST(CircularOrbitAtSixM, ShiftsAheadAndBehindAreThePapers) {
   const V3d celerity = point_at(CircularOrbit{6}, 0).celerity;
   // Ahead and behind are the extremes of 1 + z over the sky.
@@ -125,6 +96,49 @@ TEST(Aberration, AgreesWithThePapersFormula) {
   const AberratedLight seen = to_observer(v * gamma, n);
   EXPECT_LT((seen.direction - expected).length(), 1e-15);
   EXPECT_NEAR(seen.frequency_ratio, gamma * (1 + vn), 1e-15);
+}
+
+// [Riazuelo] eq. zkin: with v = 0.6 and gamma = 1.25.  Light that is seen from the side, cos(alpha') = 0,
+// is redder by gamma; light that comes from the side in the frame at rest, cos(alpha) = 0, is bluer by
+// gamma, and seen from ahead.
+TEST(Aberration, LightSeenFromTheSideIsRedAndLightFromTheSideBlue) {
+  const double gamma = 1.25, v = 0.6;
+  const V3d celerity(gamma * v, 0, 0);
+  EXPECT_NEAR(1 / to_tetrad(celerity, {0, 1, 0}).frequency_ratio, 1 / gamma, 1e-15);
+  const AberratedLight from_side = to_observer(celerity, {0, 1, 0});
+  EXPECT_NEAR(from_side.frequency_ratio, gamma, 1e-15);
+  EXPECT_NEAR(from_side.direction.x, v, 1e-15);
+}
+
+// After [Riazuelo] eq. zkin: the sky is bluer out to cos(alpha') = gamma v/(gamma + 1), which comes from
+// cos(alpha) = -gamma v/(gamma + 1).
+TEST(Aberration, BluerLightEndsAtOppositeCosinesInBothFrames) {
+  for (const double v : {0.01, 0.3, 0.6, 0.9, 0.999}) {
+    const double gamma = 1 / std::sqrt((1 - v) * (1 + v)), bound = gamma * v / (gamma + 1);
+    const AberratedLight seen =
+        to_observer(V3d(gamma * v, 0, 0), {-bound, std::sqrt((1 - bound) * (1 + bound)), 0});
+    EXPECT_NEAR(seen.frequency_ratio, 1, 1e-13) << v;
+    EXPECT_NEAR(seen.direction.x, bound, 1e-13) << v;
+  }
+}
+
+// [Riazuelo] sec. sec_Kruskal: in region IV, at rest in t, b = r tan(delta)/sqrt(2/r - 1), which grows
+// towards the horizon: what is seen there in any one direction but +-d/dt is the antipode.
+TEST(RegionFour, ConvergesOnTheAntipodeNextToTheHorizon) {
+  const double delta = pi / 4;
+  const RadialFrame at_rest{true, true};
+  double left_before = pi;
+  for (const double depth : {1.0, 0.1, 1e-3, 1e-6, 1e-9, 1e-12}) {
+    const NullRay ray = ray_at({2 - depth, -depth, -1 - depth}, delta, at_rest);
+    const RayInvariants k = invariants(ray);
+    const double b = (2 - depth) * std::tan(delta) / std::sqrt(depth / (2 - depth));
+    // E is the mean of two numbers as large as L/sqrt(27), so it loses digits as b grows.
+    EXPECT_NEAR(k.angular_momentum / std::abs(k.energy) / b, 1, 1e-14 + 1e-16 * b) << depth;
+    const double left = pi - exact_azimuth(ray);
+    EXPECT_LT(left, left_before) << depth;
+    left_before = left;
+  }
+  EXPECT_LT(left_before, 1e-5);
 }
 
 }  // namespace
