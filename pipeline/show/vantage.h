@@ -25,8 +25,8 @@ struct Vantage {
 
 Vantage vantage_of(const ObserverState& observer, const Effects& effects);
 
-// Frequency of light from infinity for the observer at rest, over that at infinity: 1 + z_grav =
-// sqrt(1 - 2/r), [Riazuelo] eq. zgrav.  r > 2 or kFlatSpace.
+// Frequency of light from infinity for the observer at rest, over that at infinity:
+// 1/(1 + z_grav) = 1/sqrt(1 - 2/r), [Riazuelo] eq. zgrav.  r > 2 or kFlatSpace.
 double gravitational_ratio(double r);
 
 }  // namespace domefall
