@@ -1,4 +1,4 @@
-// From infinity with a speed, around the hole and back: [Riazuelo] app. on orbits, fig. fighy1.
+// From infinity with a speed, around the hole and back: [Riazuelo] app. app_img, fig. fighy1.
 // E = 1/sqrt(1 - v^2), L = b v E of impact parameter b (M).  tau = 0 at the periastron.
 // v between 1e-9 and 1 - 1e-12, as a fraction of c.
 // Throws std::domain_error that names the bound, of speeds in both units.

@@ -1,4 +1,4 @@
-// From the past singularity, through region IV: [Riazuelo] sec. on region IV, eq. TR_IV.
+// From the past singularity, through region IV: [Riazuelo] sec. sec_Kruskal, eq. TR_IV.
 //
 //   E = 0             IV -> II through r = 2 itself, tau = 0 there; of L = 0 the cycloid r = 1 + cos eta,
 //                     tau = eta + sin eta, at rest in t

@@ -1,6 +1,6 @@
 // When light from the past singularity (region IV) started: the Schwarzschild t at which it left
-// r = 0, where t is a place along the singularity.  [Riazuelo] sec. on region IV: "a series of rings
-// of variable t".
+// r = 0, where t is a place along the singularity.  [Riazuelo] sec. sec_Kruskal on region IV:
+// "a series of rings of variable t".
 //
 // t itself is infinite on the horizons, so times count from the observer's own null coordinate:
 // v = t + r* of an observer in free fall (rain), u = t - r* in the outgoing frame, r* = r + 2 ln|r/2 - 1|;

@@ -4,11 +4,11 @@
 //
 //     phi = int dw / sqrt(P),   P(w) = 1/b^2 - w^2 + 2 w^3,   w = 1/r,
 //
-// [Riazuelo] app_geod; from the sky the path begins at w = 0, from the singularity at w = infinity,
-// and it may turn on its way.  With w = 1/3 + x and eps = 1/b^2 - 1/27, P = 2 x^3 + x^2 + eps; eps is
-// formed from (E - L/sqrt 27)(E + L/sqrt 27)/L^2, each factor carried without cancellation, and so
-// are all differences of roots.  Cubics: Carlson, Math. Comp. 51 (1988) 267 (three real roots) and
-// 56 (1991) 267 (one real root).
+// [Riazuelo] app. app_geod; from the sky the path begins at w = 0, from the singularity at w =
+// infinity, and it may turn on its way.  With w = 1/3 + x and eps = 1/b^2 - 1/27, P = 2 x^3 + x^2 +
+// eps; eps is formed from (E - L/sqrt 27)(E + L/sqrt 27)/L^2, each factor carried without
+// cancellation, and so are all differences of roots.  Cubics: Carlson, Math. Comp. 51 (1988) 267
+// (three real roots) and 56 (1991) 267 (one real root).
 #pragma once
 
 #include "pipeline/optics/null_ray.h"

@@ -3,7 +3,7 @@
 //
 // Rain (falling in):  alpha = delta, the angle of the look from -R, the direction of the hole,
 //     k = T + cos(delta) R + sin(delta) Theta,   E = 1 - s cos(delta),   L = r sin(delta),
-// s = sqrt(2/r), M = 1.  [Riazuelo] eq. def_k_prec; app_geod for the origins.
+// s = sqrt(2/r), M = 1.  [Riazuelo] eq. def_k_prec, and app. app_geod for the origins.
 // Outgoing frame (T_I' of [Riazuelo]):  alpha = pi - delta, the angle from +R.  Time reversal makes
 // the two one: E and L are the same functions of r and alpha, k^r has the opposite sign.
 //

@@ -13,7 +13,7 @@ namespace domefall {
 // 1e-6 < r < 1e8.
 double tan_half_silhouette(const Radius& at);
 
-// tan(delta/2) of the edge of region III, which lies within it.  [Riazuelo] sec. on region III.
+// tan(delta/2) of the edge of region III, which lies within it.  [Riazuelo] sec. sec_Kruskal.
 // 0 < r <= 2; zero at r = 2, where the region appears as a point.
 double tan_half_region_three(const Radius& at);
 

@@ -1,6 +1,6 @@
 // The azimuth swept by light from the past singularity (region IV), as a table: what fills the
 // silhouette seen from outside, the shell between the two skies inside, and all directions in
-// region IV.  [Riazuelo] sec. on region IV; its figures dev_wh_0, dev_wh and fig_IV_dev.
+// region IV.  [Riazuelo] sec. sec_Kruskal, figs. dev_wh_0, dev_wh and fig_IV_dev.
 //
 // The coordinate s is made of ratios of T = tan(alpha/2), which radial boosts only scale, so that none
 // of the structure is lost however close the horizon is:

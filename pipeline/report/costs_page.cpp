@@ -151,7 +151,7 @@ std::string benchmark(const std::vector<FrameErrorRow>& rows) {
   std::string text =
       "\n### The paper's picture\n\n\"Typical images of one million pixel initially computed at a "
       "twice larger resolution and then smoothed needed\nin the first versions of our code needed "
-      "one minute of single CPU time\" ([Riazuelo], on CPU issues), with the\n250,000 stars of the "
+      "one minute of single CPU time\" ([Riazuelo] sec. sec_data), with the\n250,000 stars of the "
       "Henry Draper catalogue. Here, on one thread, files read before; the errors are of the sky "
       "without\nits stars against 256 looks in every pixel:\n\n| scene | pixels | setting | rms | "
       "worst | ms | copies |\n|---|---|---|---|---|---|---|\n";

@@ -208,9 +208,9 @@ ExtremeResult pole_of_the_sky() {
   return frames.result("The poles' discs are round");
 }
 
-// [Riazuelo] fig_z: eight pictures from 90 degrees to 160 milliarcseconds at the silhouette's edge seen
-// from 30 M, in which the seventh ghost is visible.  Each look of the middle row against the exact
-// integral at the offset that the projection gives it, in pixels.
+// [Riazuelo] fig. fig_z: eight pictures from 90 degrees to 160 milliarcseconds at the silhouette's
+// edge seen from 30 M, in which the seventh ghost is visible.  Each look of the middle row against
+// the exact integral at the offset that the projection gives it, in pixels.
 ExtremeResult zoom_to_the_seventh_ghost() {
   constexpr double kRadius = 30;
   const int size = kSize + 1;

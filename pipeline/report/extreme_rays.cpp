@@ -243,8 +243,8 @@ ExtremeResult star_on_the_axis() {
                ring, front)};
 }
 
-// The star at the deepest zoom of [Riazuelo] fig_z: its images of order 6 and 7 from 30 M, found by the
-// table, against the exact integral there.
+// The star at the deepest zoom of [Riazuelo] fig. fig_z: its images of order 6 and 7 from 30 M,
+// found by the table, against the exact integral there.
 ExtremeResult seventh_ghost() {
   const double r = 30;
   const SkyTable table(r, Critical::kFirst);

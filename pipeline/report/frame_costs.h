@@ -22,9 +22,9 @@ struct FrameCostRow {
 struct FrameCosts {
   std::vector<FrameCostRow> stars;   // against the number of stars, without any background
   std::vector<FrameCostRow> pixels;  // against the number of pixels
-  // The paper's own task ([Riazuelo] sec. on CPU issues): a picture of a million pixels as good as by twice
-  // the resolution, with the 250,000 stars of the Henry Draper catalogue.  Rows of one scene, one thread;
-  // the errors are those of the sky, measured without stars.
+  // The paper's own task ([Riazuelo] sec. sec_data): a picture of a million pixels as good as by
+  // twice the resolution, with the 250,000 stars of the Henry Draper catalogue.  Rows of one scene,
+  // one thread; the errors are those of the sky, measured without stars.
   std::vector<FrameErrorRow> benchmark;
 };
 

@@ -9,8 +9,8 @@
 //     outgoing  E = 1 + s cos(delta)            k^r = cos(delta) + s
 //     T_II      E = -sqrt(2/r - 1) cos(delta)   k^r = -sqrt(2/r - 1)
 //     T_IV      E = -sqrt(2/r - 1) cos(delta)   k^r = +sqrt(2/r - 1)
-// [Riazuelo] eq. def_k_prec, TR_IV; the origins and the azimuth from app_geod.  The azimuth is
-// int dw/sqrt(1/b^2 - w^2 + 2 w^3), w = 1/r, in Legendre's form with the cubic's roots.
+// [Riazuelo] eq. def_k_prec, TR_IV, and app. app_geod for the origins and the azimuth.  The azimuth
+// is int dw/sqrt(1/b^2 - w^2 + 2 w^3), w = 1/r, in Legendre's form with the cubic's roots.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -48,8 +48,8 @@ struct ReferenceRay {
 // within 1e-18 of a quadrature beside the edge at r = 3, where the rows cannot.  1.5 ms a ray.
 ReferenceRay reference_ray(const ReferenceRequest& q);
 
-// Edge in delta: rain and outgoing by eq. tan_delta_final and its like, static and at rest in t by
-// tan(delta) where L/|E| = sqrt(27).
+// Edge in delta: rain and outgoing by [Riazuelo] eq. tan_delta_final and its like, static and at
+// rest in t by tan(delta) where L/|E| = sqrt(27).
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge);
 
 }  // namespace domefall

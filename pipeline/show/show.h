@@ -94,7 +94,7 @@ struct PanoramaSky {
   std::filesystem::path image;
 };
 // Region IV only: light that left the past singularity at t glows with 1 + cos(2 pi t/period): "a series
-// of rings of variable t", [Riazuelo] sec. on region IV.
+// of rings of variable t", [Riazuelo] sec. sec_Kruskal.
 struct RingsSky {
   double period = 4;  // M, > 0
 };

@@ -170,7 +170,7 @@ TEST(Geodesic, WhatIsThrownAroundIsTheCircularOrbit) {
   }
 }
 
-// [Riazuelo] sec. on region IV: r = 1 + cos eta, tau = eta + sin eta.
+// [Riazuelo] sec. sec_Kruskal: r = 1 + cos eta, tau = eta + sin eta.
 TEST(Geodesic, TheApexOrbitIsTheCycloid) {
   const Geodesic orbit = kruskal_crossing(0);
   EXPECT_NEAR(orbit.death(), pi, 1e-15);

@@ -24,7 +24,7 @@ TEST(CircularOrbit, AtSixMTheSpeedIsHalfThatOfLight) {
   EXPECT_NEAR(std::sqrt(1 - 1 / (gamma * gamma)), 0.5, 1e-15);
 }
 
-// [Riazuelo] app_img: 0.189 c at r = 30 M.
+// [Riazuelo] app. app_img: 0.189 c at r = 30 M.
 TEST(CircularOrbit, AtThirtyMTheSpeedIsThePapers) {
   const double gamma =
       relative_gamma(point_at(CircularOrbit{30}, 0).celerity, resting_celerity(30));

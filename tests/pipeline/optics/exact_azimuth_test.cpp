@@ -13,8 +13,8 @@ using std::numbers::pi_v;
 
 // Every ray from the past singularity that turns back at E = 0, and those that just pass.
 TEST(ExactAzimuth, AtZeroEnergyIsTheArcSineOfThePaper) {
-  // [Riazuelo] sec. on region IV: arcsin(r - 1) + pi/2 seen from IV at E = 0, and what is left of the
-  // whole turn of 2 pi seen from II.
+  // [Riazuelo] sec. sec_Kruskal: arcsin(r - 1) + pi/2 seen from IV at E = 0, and what is left of
+  // the whole turn of 2 pi seen from II.
   for (const double r : {1e-6, 0.01, 0.5, 1.0, 1.7, 1.999}) {
     const double half_turn = 2 * std::asin(std::sqrt(r / 2));  // the same without cancelling
     for (const bool outgoing : {false, true}) {
