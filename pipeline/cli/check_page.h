@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "pipeline/cli/render_time.h"
-#include "pipeline/render/light_survey.h"
-#include "pipeline/render/show_jumps.h"
-#include "pipeline/render/show_survey.h"
+#include "pipeline/survey/light_survey.h"
+#include "pipeline/survey/show_jumps.h"
+#include "pipeline/survey/show_survey.h"
 
 namespace domefall {
 

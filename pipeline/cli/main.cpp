@@ -12,7 +12,7 @@
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/render/simd.h"
+#include "pipeline/simd/dispatch.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
-#include "pipeline/render/light_survey.h"
+#include "pipeline/survey/light_survey.h"
 
 namespace domefall {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pipeline/sky/sky_check.h"
+#include "pipeline/sky/make/sky_check.h"
 
 namespace domefall {
 

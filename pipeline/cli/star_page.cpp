@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "pipeline/sky/import_text.h"
-#include "pipeline/sky/json_file.h"
-#include "pipeline/sky/mapped_stars.h"
+#include "pipeline/sky/catalogue/import/import_text.h"
+#include "pipeline/sky/catalogue/import/json_file.h"
+#include "pipeline/sky/catalogue/mapped_stars.h"
 
 namespace domefall {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pipeline/sky/star_file.h"
+#include "pipeline/sky/catalogue/star_file.h"
 
 namespace domefall {
 

@@ -19,9 +19,9 @@ void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) 
     return std::find(survey.regions.begin(), survey.regions.end(), region) != survey.regions.end();
   };
   const bool inside = visits(Region::kII);
-  if (inside || visits(Region::kI)) renderer.load_sky(SeenSky::kOne);
-  if (inside || visits(Region::kIII)) renderer.load_sky(SeenSky::kThree);
-  if (show.mass_solar) renderer.load_sky(SeenSky::kFour);
+  if (inside || visits(Region::kI)) renderer.load_sky(SkyRegion::kI);
+  if (inside || visits(Region::kIII)) renderer.load_sky(SkyRegion::kIII);
+  if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
 }
 
 // Nothing where no temporary file can be written: that is no fault of the show's.

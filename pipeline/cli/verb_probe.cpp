@@ -6,8 +6,8 @@
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/render/effect_light.h"
-#include "pipeline/render/view_tracer.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/scene/effect_light.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {
@@ -28,7 +28,7 @@ PixelPosition parse_pixel(const std::string& text) {
 }
 
 // What becomes of a blackbody there under the effects that the show keeps.
-void print_effects(const Effects& effects, const Look& look, double width) {
+void print_effects(const Effects& effects, const ViewRay& look, double width) {
   const double g = look.frequency_ratio, colour = colour_ratio(effects, g);
   const double colour2 = colour * colour;
   std::printf("thermal sky  temperature times %.6g, bolometric intensity times %.6g\n", colour,
@@ -46,15 +46,15 @@ void probe(const Options& o) {
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
-  const Look look =
-      ViewTracer(state, optics, show.effects).look(direction_at(show.projection, pixel));
+  const ViewRay look =
+      ViewTracer(state, optics, show.effects).trace(direction_at(show.projection, pixel));
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
   if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
   const V3d& d = look.sky_direction;
   double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
   if (ra < 0) ra += 360;
-  const bool singularity = look.sky == SeenSky::kFour;
+  const bool singularity = look.sky == SkyRegion::kIV;
   std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
               singularity ? "the past singularity, region" : "sky", name_of(look.sky), ra,
               std::atan2(d.z, std::hypot(d.x, d.y)) * 180 / std::numbers::pi);

@@ -10,10 +10,10 @@
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/show/assets.h"
-#include "pipeline/sky/import_sky.h"
+#include "pipeline/sky/make/import_sky.h"
+#include "pipeline/sky/make/starlight_map.h"
+#include "pipeline/sky/maps/sky_file.h"
 #include "pipeline/sky/read_sky.h"
-#include "pipeline/sky/sky_file.h"
-#include "pipeline/sky/starlight_map.h"
 
 namespace domefall {
 namespace {

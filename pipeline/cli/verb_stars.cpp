@@ -6,12 +6,12 @@
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/hipparcos_repair.h"
-#include "pipeline/sky/import_text.h"
-#include "pipeline/sky/importers.h"
-#include "pipeline/sky/star_corrections.h"
-#include "pipeline/sky/star_file.h"
-#include "pipeline/sky/star_names.h"
+#include "pipeline/sky/catalogue/import/hipparcos_repair.h"
+#include "pipeline/sky/catalogue/import/import_text.h"
+#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/star_corrections.h"
+#include "pipeline/sky/catalogue/import/star_names.h"
+#include "pipeline/sky/catalogue/star_file.h"
 
 namespace domefall {
 namespace {

@@ -1,4 +1,4 @@
-// Scene-linear frames to display-encoded ones, by OpenColorIO.
+// SkyStore-linear frames to display-encoded ones, by OpenColorIO.
 #pragma once
 
 #include <memory>

@@ -10,14 +10,14 @@
 #include "pipeline/optics/emission_time_table.h"
 #include "pipeline/optics/sky_table.h"
 #include "pipeline/optics/white_hole_table.h"
-#include "trajectories/observer_state.h"
+#include "trajectories/sky_region.h"
 
 namespace domefall {
 
 // Which tables to make: what a black sky would show is not worth one.
 struct WantedSkies {
-  bool home = true, far = true, white_hole = false;
-  bool emission_times = false;  // of the white hole's light, with white_hole only
+  PerSky<bool> sky{true, true, false};
+  bool emission_times = false;  // of the past singularity's light, with its sky only
 };
 
 struct HoleOptics {
@@ -29,6 +29,12 @@ struct HoleOptics {
   std::optional<SkyTable> home_sky, far_sky;
   std::optional<WhiteHoleTable> white_hole;
   std::optional<EmissionTimeTable> emission_times;
+
+  // The table of the sky of region I or III; null where it was not made, is not seen, or space is flat.
+  const SkyTable* table_of(SkyRegion sky) const {
+    const auto& table = sky == domefall::home_sky(tetrad) ? home_sky : far_sky;
+    return table && sky != SkyRegion::kIV ? &*table : nullptr;
+  }
 };
 
 // r = kFlatSpace: no table at all.  The home sky is there for rain at any r and for the outgoing

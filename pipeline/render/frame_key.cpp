@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
-#include "pipeline/sky/star_catalogue.h"
 
 namespace domefall {
 namespace {
@@ -38,7 +38,7 @@ void add_projection(Digest& digest, const Projection& p) {
 }
 
 // Keys of the law `size` without more are as they were before there were others.
-void add_blobs(Digest& digest, const StarBlobs& b) {
+void add_blobs(Digest& digest, const PointSpreadLaw& b) {
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) digest.add(v);
   if (b.halo > 0) digest.add("halo").add(b.halo).add(b.halo_sigma);
   if (b.white_core != kWhiteCore) digest.add("core").add(b.white_core);
@@ -63,7 +63,7 @@ double steady(double value) {
 
 namespace {
 
-void add_picture(Digest& digest, const Picture::Sky& sky) {
+void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
   digest.add(steady(sky.background_gain))
       .add(steady(sky.star_gain))
       .add(steady(sky.max_magnitude))
@@ -73,24 +73,24 @@ void add_picture(Digest& digest, const Picture::Sky& sky) {
 }  // namespace
 
 // Raised with every change that alters a pixel, so that frames from before it are made again.
-constexpr int kPictures = 5;
+constexpr int kPixelVersion = 5;
 
 FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
   Digest common;
-  common.add(DOMEFALL_VERSION).add(kPictures).add(show.title).add(show.frames_per_second);
-  add_sky(common, show.sky_one);
+  common.add(DOMEFALL_VERSION).add(kPixelVersion).add(show.title).add(show.frames_per_second);
+  add_sky(common, show.sky[SkyRegion::kI]);
   add_blobs(common, show.blobs);
   common.add(show.panorama_shift.blueshift_power);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   common_ = common.hex();
   Digest three;
-  add_sky(three, show.sky_three);
+  add_sky(three, show.sky[SkyRegion::kIII]);
   sky_three_ = three.hex();
-  rings_ = std::holds_alternative<RingsSky>(show.sky_four.background);
-  if (std::holds_alternative<BlackSky>(show.sky_four.background)) return;
+  rings_ = std::holds_alternative<RingsSky>(show.sky[SkyRegion::kIV].background);
+  if (std::holds_alternative<BlackSky>(show.sky[SkyRegion::kIV].background)) return;
   Digest four;
-  add_sky(four, show.sky_four);
+  add_sky(four, show.sky[SkyRegion::kIV]);
   sky_four_ = four.hex();
 }
 
@@ -118,11 +118,11 @@ std::string FrameKeys::instant(const FrameState& state) const {
   add_matrix(digest, o.sky_from_tetrad);
   add_matrix(digest, o.tetrad_from_camera);
   add_projection(digest, state.projection);
-  digest.add(steady(state.picture.ev));
-  add_picture(digest, state.picture.sky_one);
+  digest.add(steady(state.settings.ev));
+  add_settings(digest, state.settings.sky[SkyRegion::kI]);
   if (o.region == Region::kII || o.region == Region::kIII)
-    digest.add(sky_three_), add_picture(digest, state.picture.sky_three);
-  if (!is_flat(o)) digest.add(sky_four_), add_picture(digest, state.picture.sky_four);
+    digest.add(sky_three_), add_settings(digest, state.settings.sky[SkyRegion::kIII]);
+  if (!is_flat(o)) digest.add(sky_four_), add_settings(digest, state.settings.sky[SkyRegion::kIV]);
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();

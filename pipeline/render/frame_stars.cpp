@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/render/photometry.h"
-#include "pipeline/render/star_images.h"
+#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/stars/star_images.h"
 
 namespace domefall {
 namespace {
@@ -20,8 +20,8 @@ std::size_t stars_per_task(std::size_t count) {
 }
 // Each task's stars in a place of their own, in the catalogue's order: the same images in the same order
 // for any number of threads.  `lists`: whatever is in them goes, their memory stays.
-void add_stars(const StarImages& maker, const SceneStars& stars, const BlobWidths& widths,
-               ImageLists& lists, StarLayer& layer) {
+void add_stars(const StarImages& maker, const SceneStars& stars, const PointSpread& widths,
+               ImageLists& lists, BlobLayer& layer) {
   const std::size_t count = maker.count(stars);
   const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
   const std::size_t before = layer.new_tasks(tasks);
@@ -32,13 +32,6 @@ void add_stars(const StarImages& maker, const SceneStars& stars, const BlobWidth
     for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, images);
     layer.place(before + task, images, widths);
   });
-}
-
-// Of a sky with stars; null in flat space.
-const SkyTable* table_of(const HoleOptics& optics, SeenSky which) {
-  const bool home = (which == SeenSky::kThree) == is_mirrored(optics.tetrad);
-  const auto& table = home ? optics.home_sky : optics.far_sky;
-  return table ? &*table : nullptr;
 }
 
 // About as many as a picture will have, by its part of the sphere; falling at 7 M a dome has two of each star.
@@ -54,20 +47,20 @@ double images_expected(std::size_t stars, bool gravity, const Projection& p) {
 }  // namespace
 
 void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
-               const HoleOptics& optics, const PixelLight::Skies& skies, ImageLists& lists,
-               StarLayer& layer) {
-  const BlobWidths widths(show.blobs, state.projection, exposure_scale(state.picture));
-  std::array<std::optional<StarImages>, kSkies> makers;
+               const HoleOptics& optics, const PixelShader::Skies& skies, ImageLists& lists,
+               BlobLayer& layer) {
+  const PointSpread widths(show.blobs, state.projection, exposure_scale(state.settings));
+  PerSky<std::optional<StarImages>> makers;
   double many = 0;
-  for (const SeenSky which : kEverySky) {
+  for (const SkyRegion which : kEverySky) {
     if (!plan[which].stars) continue;
-    const auto k = static_cast<std::size_t>(which);
-    makers[k].emplace(show, state, sky_of(state.picture, which), table_of(optics, which));
-    many += images_expected(makers[k]->count(*skies[k]->stars), plan.gravity, state.projection);
+    makers[which].emplace(show, state, state.settings.sky[which], optics.table_of(which));
+    many +=
+        images_expected(makers[which]->count(*skies[which]->stars), plan.gravity, state.projection);
   }
-  if (StarLayer::are_many(many, state.projection)) layer.use_dots(widths);
-  for (std::size_t k = 0; k < kSkies; ++k)
-    if (makers[k]) add_stars(*makers[k], *skies[k]->stars, widths, lists, layer);
+  if (BlobLayer::are_many(many, state.projection)) layer.use_splats(widths);
+  for (const SkyRegion which : kEverySky)
+    if (makers[which]) add_stars(*makers[which], *skies[which]->stars, widths, lists, layer);
 }
 
 }  // namespace domefall

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/frame_plan.h"
-#include "pipeline/render/pixel_light.h"
-#include "pipeline/render/star_layer.h"
+#include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/scene/frame_plan.h"
+#include "pipeline/render/sky/pixel_shader.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -19,7 +19,7 @@ using ImageLists = tbb::enumerable_thread_specific<std::vector<StarImage>>;
 // Adds what the frame receives of the skies' stars to an empty layer, by all threads of the arena that
 // calls: the same layer for any number of them.  skies: those of the plan with stars have some.
 void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
-               const HoleOptics& optics, const PixelLight::Skies& skies, ImageLists& lists,
-               StarLayer& layer);
+               const HoleOptics& optics, const PixelShader::Skies& skies, ImageLists& lists,
+               BlobLayer& layer);
 
 }  // namespace domefall

@@ -16,12 +16,12 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/render/frame_stars.h"
-#include "pipeline/render/half_row.h"
-#include "pipeline/render/pixel_light.h"
 #include "pipeline/render/shutter.h"
-#include "pipeline/render/simd.h"
-#include "pipeline/render/sky_pass.h"
-#include "pipeline/render/sky_spots.h"
+#include "pipeline/render/sky/pixel_shader.h"
+#include "pipeline/render/sky/sky_pass.h"
+#include "pipeline/render/sky/unresolved_sky.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/half_row.h"
 
 namespace domefall {
 namespace {
@@ -97,16 +97,16 @@ void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
 struct Renderer::Arena {
   tbb::task_arena arena;
   // Kept from frame to frame: new memory costs more than what is written into it.
-  LookGrid grid{};
-  StarLayer stars{Domemaster{1}};
+  RayGrid grid{};
+  BlobLayer stars{Domemaster{1}};
   ImageLists images{};
-  tbb::enumerable_thread_specific<DotCanvas> dots{};
+  tbb::enumerable_thread_specific<SplatCanvas> dots{};
   tbb::enumerable_thread_specific<std::vector<float>> bands{};
 };
 
 Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
     : show_(show),
-      scene_(show),
+      sky_store_(show),
       anti_aliasing_(anti_aliasing),
       arena_(new Arena{tbb::task_arena(threads_of(threads))}) {
   if (anti_aliasing.samples < 1 || anti_aliasing.samples > kMostSamples)
@@ -119,21 +119,19 @@ Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
 Renderer::~Renderer() = default;
 
 void Renderer::load(const FramePlan& plan) {
-  for (const SeenSky which : kEverySky)
-    if (plan[which].lit()) scene_.sky(which, plan[which].background, plan[which].stars);
+  for (const SkyRegion which : kEverySky)
+    if (plan[which].lit()) sky_store_.sky(which, plan[which].background, plan[which].stars);
 }
 
-void Renderer::load_sky(SeenSky which) { scene_.sky(which); }
+void Renderer::load_sky(SkyRegion which) { sky_store_.sky(which); }
 
 int Renderer::threads() const { return arena_->arena.max_concurrency(); }
 
 const HoleOptics& Renderer::optics_for(const FrameState& state, const FramePlan& plan, int* made) {
   const ObserverState& o = state.observer;
-  const bool mirrored = is_mirrored(o.tetrad);
-  const bool one = plan[SeenSky::kOne].lit(), three = plan[SeenSky::kThree].lit();
-  const WantedSkies wanted{mirrored ? three : one, mirrored ? one : three,
-                           plan[SeenSky::kFour].lit(),
-                           plan[SeenSky::kFour].lit() && plan[SeenSky::kFour].rings};
+  WantedSkies wanted;
+  for (const SkyRegion which : kEverySky) wanted.sky[which] = plan[which].lit();
+  wanted.emission_times = plan[SkyRegion::kIV].lit() && plan[SkyRegion::kIV].rings;
   const double r = plan.gravity ? o.r : kFlatSpace;
   const bool kept = optics_ && optics_->at.r == r && optics_->tetrad == o.tetrad;
   const int before = kept ? table_count(*optics_) : 0;
@@ -156,7 +154,7 @@ namespace {
 void add_times(const StageTimes& more, StageTimes& sum) {
   sum.load_s += more.load_s, sum.tables_s += more.tables_s;
   sum.stars_s += more.stars_s, sum.grid_s += more.grid_s, sum.pixels_s += more.pixels_s;
-  sum.exact_part = std::max(sum.exact_part, more.exact_part);
+  sum.traced_fraction = std::max(sum.traced_fraction, more.traced_fraction);
   sum.table_nodes = std::max(sum.table_nodes, more.table_nodes);
   sum.images += more.images, sum.tables_made += more.tables_made;
 }
@@ -172,7 +170,7 @@ double Renderer::motion_between(const FrameState& from, const FrameState& to) {
 
 // The way through the middles of the quarters of the exposure, three quarters of the whole; of a dissolve
 // the longer of both.
-int Renderer::pictures_for(const FrameState& state) {
+int Renderer::instants_for(const FrameState& state) {
   constexpr int kParts = 4;
   std::vector<FrameState> states = exposure_states(show_, state.frame, kParts);
   for (FrameState& exposed : states) take_size(state, exposed);
@@ -182,12 +180,12 @@ int Renderer::pictures_for(const FrameState& state) {
     if (states[k - 1].vanishing && states[k].vanishing)
       vanishing_way += motion_between(*states[k - 1].vanishing, *states[k].vanishing);
   }
-  return pictures_of(std::max(way, vanishing_way) * kParts / (kParts - 1));
+  return instants_for_motion(std::max(way, vanishing_way) * kParts / (kParts - 1));
 }
 
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
   StageTimes sum;
-  const int pictures = show_.exposure.shutter > 0 ? pictures_for(state) : 1;
+  const int pictures = show_.exposure.shutter > 0 ? instants_for(state) : 1;
   if (pictures == 1) {
     render_instant(state, frame, sum);
   } else {
@@ -217,9 +215,9 @@ void Renderer::render_instant(const FrameState& state, HalfFrame& frame, StageTi
 
 // pass: null where there is nothing behind the stars.
 void Renderer::make_bands(const SkyPass* pass, const Projection& projection, HalfFrame& frame) {
-  const StarLayer& stars = arena_->stars;
+  const BlobLayer& stars = arena_->stars;
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
-  const auto make_band = [&](int band, DotCanvas& dots) {
+  const auto make_band = [&](int band, SplatCanvas& dots) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     std::vector<float>& rgb = arena_->bands.local();
     rgb.resize(stride * kBandRows + 1);
@@ -235,9 +233,9 @@ void Renderer::make_bands(const SkyPass* pass, const Projection& projection, Hal
   // Dots are dropped once for bands that follow one another.
   const int bands = (frame.height + kBandRows - 1) / kBandRows;
   tbb::parallel_for(
-      tbb::blocked_range<int>(0, bands, stars.has_dots() ? bands_in_a_row(bands) : 1),
+      tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_row(bands) : 1),
       [&](const tbb::blocked_range<int>& some) {
-        DotCanvas& dots = arena_->dots.local();
+        SplatCanvas& dots = arena_->dots.local();
         stars.start_canvas(dots);
         for (int band = some.begin(); band < some.end(); ++band) make_band(band, dots);
       },
@@ -252,11 +250,10 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
     start = Clock::now();
     return s;
   };
-  std::array<const Sky*, kSkies> skies{};
-  for (const SeenSky which : kEverySky)
+  PerSky<const Sky*> skies{};
+  for (const SkyRegion which : kEverySky)
     if (plan[which].lit())
-      skies[static_cast<std::size_t>(which)] =
-          &scene_.sky(which, plan[which].background, plan[which].stars);
+      skies[which] = &sky_store_.sky(which, plan[which].background, plan[which].stars);
   t.load_s = lap();
   const HoleOptics& optics = optics_for(state, plan, &t.tables_made);
   t.table_nodes = node_count(optics);
@@ -265,21 +262,21 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
     frame = HalfFrame(columns(state.projection), rows(state.projection));
   arena_->arena.execute([&] {
-    StarLayer& stars = arena_->stars;
+    BlobLayer& stars = arena_->stars;
     stars.start(state.projection);
     lay_stars(show_, state, plan, optics, skies, arena_->images, stars);
-    for (const SeenSky which : kEverySky)
-      if (!plan[which].background) skies[static_cast<std::size_t>(which)] = nullptr;
-    SkySpots spots = find_sky_spots(show_, state, optics, skies);
+    for (const SkyRegion which : kEverySky)
+      if (!plan[which].background) skies[which] = nullptr;
+    UnresolvedSkies spots = find_unresolved_skies(show_, state, optics, skies);
     stars.add(spots.blobs);
     const std::size_t bright_spots = spots.blobs.size();
     stars.sort_into_bands();
     t.images = stars.size() - bright_spots;
     t.stars_s = lap();
-    const PixelLight light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
+    const PixelShader light(show_, state, optics, skies, anti_aliasing_, std::move(spots.darkened));
     const SkyPass pass(show_, state, optics, anti_aliasing_, light, arena_->grid);
     t.grid_s = lap();
-    t.exact_part = pass.exact_part();
+    t.traced_fraction = pass.traced_fraction();
     make_bands(plan.background() ? &pass : nullptr, state.projection, frame);
     t.pixels_s = lap();
   });
@@ -288,7 +285,7 @@ void Renderer::render_one(const FrameState& state, HalfFrame& frame, StageTimes&
 std::string describe(const FramePlan& plan, const StageTimes& t) {
   char line[256];
   std::string text, skies, tables;
-  for (const SeenSky which : kEverySky) {
+  for (const SkyRegion which : kEverySky) {
     const FramePlan::Sky& sky = plan[which];
     const std::string name = std::string("sky ") + name_of(which);
     skies += (skies.empty() ? "" : "; ") + name + ": " +
@@ -312,7 +309,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   std::snprintf(line, sizeof line, "grid    %8.4f s\n", t.grid_s);
   text += line;
   std::snprintf(line, sizeof line, "pixels  %8.4f s  %.1f %% looked at one by one; loops: %s\n",
-                t.pixels_s, 100 * t.exact_part, name_of(simd_in_use()));
+                t.pixels_s, 100 * t.traced_fraction, name_of(simd_in_use()));
   return text + line;
 }
 

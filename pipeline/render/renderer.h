@@ -9,16 +9,16 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/anti_aliasing.h"
-#include "pipeline/render/frame_plan.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/render/scene/frame_plan.h"
+#include "pipeline/render/scene/sky_store.h"
+#include "pipeline/render/sky/anti_aliasing.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
 
 struct StageTimes {
   double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;
-  double exact_part = 0;  // of the sky's pixels, those looked at one by one
+  double traced_fraction = 0;  // of the sky's pixels, those looked at one by one
   std::size_t table_nodes = 0, images = 0;
   int tables_made = 0;  // the others were kept from the frame before
   int pictures =
@@ -50,7 +50,7 @@ class Renderer {
   void load(const FramePlan& plan);
 
   // Reads a sky's files now instead of at the first frame that shows it.  Throws InputError.
-  void load_sky(SeenSky which);
+  void load_sky(SkyRegion which);
 
   int threads() const;
 
@@ -59,13 +59,13 @@ class Renderer {
   void make_bands(const SkyPass* pass, const Projection& projection, HalfFrame& frame);
   void render_one(const FrameState& state, HalfFrame& frame, StageTimes& times);
   double motion_between(const FrameState& from, const FrameState& to);
-  int pictures_for(const FrameState& state);
+  int instants_for(const FrameState& state);
   // made: gets the number of tables that were not there yet.
   const HoleOptics& optics_for(const FrameState& state, const FramePlan& plan, int* made = nullptr);
 
   struct Arena;
   const Show& show_;
-  Scene scene_;
+  SkyStore sky_store_;
   AntiAliasing anti_aliasing_;
   std::unique_ptr<Arena> arena_;
   std::optional<HoleOptics> optics_;  // kept while r stays the same

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/render/half_row.h"
+#include "pipeline/simd/half_row.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -28,8 +28,8 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       const PixelPosition pixel{(i + 0.5) * width / kPlaces + 0.5,
                                 (j + 0.5) * height / kPlaces + 0.5};
       if (!is_inside(from.projection, pixel)) continue;
-      const Look a = tracer_from.look(direction_at(from.projection, pixel));
-      const Look b = tracer_to.look(direction_at(to.projection, pixel));
+      const ViewRay a = tracer_from.trace(direction_at(from.projection, pixel));
+      const ViewRay b = tracer_to.trace(direction_at(to.projection, pixel));
       if (!a.known || !b.known || a.sky != b.sky) continue;
       const double longer = std::max(a.radial_scale, a.tangential_scale);
       const double shorter = std::min(a.radial_scale, a.tangential_scale);
@@ -46,9 +46,9 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
   return *exceeded;
 }
 
-int pictures_of(double motion_in_pixels) {
+int instants_for_motion(double motion_in_pixels) {
   return static_cast<int>(
-      std::clamp(std::ceil(motion_in_pixels / kPixelsPerPicture), 1.0, double{kMostPictures}));
+      std::clamp(std::ceil(motion_in_pixels / kPixelsPerInstant), 1.0, double{kMostInstants}));
 }
 
 void MeanFrame::add(const HalfFrame& picture) {

@@ -7,8 +7,8 @@
 
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/silhouette.h"
+#include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/renderer.h"
-#include "pipeline/render/view_tracer.h"
 #include "pipeline/report/extreme_cases.h"
 #include "pipeline/show/assets.h"
 
@@ -32,10 +32,10 @@ Show show_of(const Trajectory& trajectory, const Projection& projection, const A
   Show show;
   show.projection = projection;
   show.hole_at = {V3d(0, 0, 1)};  // the worst place: the pole of the grid is in line with the hole
-  show.sky_one.background = GridSky{};
-  show.sky_one.stars = StarField{shipped_asset(kNakedEyeStars), 5};
-  show.sky_three = show.sky_one;
-  show.sky_four.background = GridSky{};
+  show.sky[SkyRegion::kI].background = GridSky{};
+  show.sky[SkyRegion::kI].stars = StarField{shipped_asset(kNakedEyeStars), 5};
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
+  show.sky[SkyRegion::kIV].background = GridSky{};
   show.blobs.min_sigma = 0.002;
   show.blobs.max_sigma = 0.02;
   Segment segment;
@@ -132,7 +132,7 @@ ExtremeResult pixel_on_the_axis() {
       const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {true, true, true});
       const V3d axis =
           apply_transposed(state.observer.tetrad_from_camera, V3d(towards ? -1 : 1, 0, 0));
-      const Look look = ViewTracer(state, optics).look({axis});
+      const ViewRay look = ViewTracer(state, optics).trace({axis});
       unknown += !std::isfinite(look.sky_direction.length()) || !std::isfinite(look.radial_scale);
     }
   ExtremeResult result = frames.result("On the axis a look shows the point behind the observer");
@@ -172,10 +172,10 @@ ExtremeResult crowded_skies() {
   std::string outcome;
   for (const Series& series : all) {
     Show show = show_of(StaticObserver{10}, Domemaster{kSize + 1}, series.attitude);
-    show.sky_one = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
-    show.sky_three = show.sky_one;
-    if (series.name == all[0].name) show.sky_one.background = BlackSky{};
-    show.sky_four.background = BlackSky{};
+    show.sky[SkyRegion::kI] = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
+    show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
+    if (series.name == all[0].name) show.sky[SkyRegion::kI].background = BlackSky{};
+    show.sky[SkyRegion::kIV].background = BlackSky{};
     show.frames_per_second = 1;
     show.timeline.resize(kSteps, show.timeline[0]);
     for (int k = 0; k < kSteps; ++k) {
@@ -231,9 +231,9 @@ ExtremeResult zoom_to_the_seventh_ghost() {
       const double middle = (size + 1) / 2.0;
       // X runs along increasing vartheta, towards the hole.
       const double turn = 2 * std::atan((i - middle) * 2 * std::tan(fov / 4) / size);
-      const Look look =
-          tracer.look(direction_at(show.projection, {static_cast<double>(i), middle}));
-      if (look.sky != SeenSky::kOne || aside - turn <= 0) continue;
+      const ViewRay look =
+          tracer.trace(direction_at(show.projection, {static_cast<double>(i), middle}));
+      if (look.sky != SkyRegion::kI || aside - turn <= 0) continue;
       const NullRay ray = ray_off_edge(kRadius, Critical::kFirst, aside - turn);
       const V3d seen = apply_transposed(state.observer.sky_from_tetrad, look.sky_direction);
       const double phi = exact_azimuth(ray);

@@ -11,7 +11,7 @@
 #include "pipeline/report/scratch_folder.h"
 #include "pipeline/report/text.h"
 #include "pipeline/show/read_show.h"
-#include "pipeline/sky/star_file.h"
+#include "pipeline/sky/catalogue/star_file.h"
 
 namespace domefall {
 namespace {
@@ -101,7 +101,7 @@ double pixels_inside(const Projection& projection) {
 
 // Without its stars; what a renderer has read is kept for both.
 FrameState starless(FrameState state) {
-  state.picture.sky_one.star_gain = 0;
+  state.settings.sky[SkyRegion::kI].star_gain = 0;
   return state;
 }
 

@@ -74,10 +74,10 @@ Show show_of(const View& view, int size) {
   if (view.dome) segment.camera.elevation = 45 * kDegree;
   show.timeline = {segment};
   if (view.grid)
-    show.sky_one.background = GridSky{};
+    show.sky[SkyRegion::kI].background = GridSky{};
   else
-    show.sky_one.background = PanoramaSky{shipped_asset(kMilkyWay)};
-  show.sky_three = show.sky_one;
+    show.sky[SkyRegion::kI].background = PanoramaSky{shipped_asset(kMilkyWay)};
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   show.grade.config = shipped_asset(kDomeConfig);
   return show;
 }

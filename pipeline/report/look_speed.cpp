@@ -5,7 +5,7 @@
 #include <chrono>
 #include <limits>
 
-#include "pipeline/render/view_tracer.h"
+#include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
 namespace {
@@ -38,14 +38,14 @@ double nanoseconds(const Observer& observer) {
     looks.resize(before + static_cast<std::size_t>(std::max(0, inside.last - inside.first + 1)));
     inside_directions(state.projection, row, inside, looks.data() + before);
   }
-  LookBatch batch;
+  ViewRayBatch batch;
   double best = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kPasses; ++pass) {
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t k = 0; k < looks.size(); k += LookBatch::kSize) {
+    for (std::size_t k = 0; k < looks.size(); k += ViewRayBatch::kSize) {
       const auto count =
-          static_cast<int>(std::min<std::size_t>(LookBatch::kSize, looks.size() - k));
-      tracer.look(looks.data() + k, count, batch);
+          static_cast<int>(std::min<std::size_t>(ViewRayBatch::kSize, looks.size() - k));
+      tracer.trace(looks.data() + k, count, batch);
     }
     const auto passed = std::chrono::steady_clock::now() - start;
     best = std::min(best, std::chrono::duration<double, std::nano>(passed).count());

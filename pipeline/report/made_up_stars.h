@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "pipeline/sky/star_record.h"
+#include "pipeline/sky/catalogue/star_record.h"
 
 namespace domefall {
 

@@ -5,8 +5,8 @@
 #include <ctime>
 #include <limits>
 
-#include "pipeline/report/free_fall.h"
-#include "pipeline/report/reference_orbit.h"
+#include "pipeline/report/reference/free_fall.h"
+#include "pipeline/report/reference/reference_orbit.h"
 #include "trajectories/bound_orbit.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/infall.h"

@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-// Scene "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
+// SkyStore "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
 // is no hole to orbit; outward (R) for a target within 0.06 degrees of that axis.
 V3d up_across(const V3d& target, const ObserverState& o) {
   const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);

@@ -22,24 +22,24 @@ double value_of(const Segment& s, Channel channel, double t, double constant) {
   return curve ? value_at(*curve, t) : constant;
 }
 
-Picture picture_at(const Show& show, const Segment& s, double t) {
-  Picture picture;
-  picture.ev = value_of(s, Channel::kEv, t, show.exposure.ev);
-  const auto set = [&](Picture::Sky& sky, const RegionSky& own, Channel gain, Channel star_gain,
-                       Channel magnitude) {
+FrameSettings settings_at(const Show& show, const Segment& s, double t) {
+  FrameSettings settings;
+  settings.ev = value_of(s, Channel::kEv, t, show.exposure.ev);
+  const auto set = [&](FrameSettings::Sky& sky, const RegionSky& own, Channel gain,
+                       Channel star_gain, Channel magnitude) {
     sky.background_gain = value_of(s, gain, t, own.background_gain);
     sky.star_gain = value_of(s, star_gain, t, own.star_gain);
     sky.max_magnitude = value_of(s, magnitude, t, own.stars.value_or(StarField{}).max_magnitude);
     const auto& limit = curve_of(s, magnitude);
     sky.soft_limit = limit && limit->keys.size() > 1;
   };
-  set(picture.sky_one, show.sky_one, Channel::kGainOne, Channel::kStarGainOne,
-      Channel::kMagnitudeOne);
-  set(picture.sky_three, show.sky_three, Channel::kGainThree, Channel::kStarGainThree,
-      Channel::kMagnitudeThree);
-  picture.sky_four.background_gain =
-      value_of(s, Channel::kGainFour, t, show.sky_four.background_gain);
-  return picture;
+  set(settings.sky[SkyRegion::kI], show.sky[SkyRegion::kI], Channel::kGainOne,
+      Channel::kStarGainOne, Channel::kMagnitudeOne);
+  set(settings.sky[SkyRegion::kIII], show.sky[SkyRegion::kIII], Channel::kGainThree,
+      Channel::kStarGainThree, Channel::kMagnitudeThree);
+  settings.sky[SkyRegion::kIV].background_gain =
+      value_of(s, Channel::kGainFour, t, show.sky[SkyRegion::kIV].background_gain);
+  return settings;
 }
 
 FrameState state_in(const Show& show, int segment, int frame, double t) {
@@ -51,7 +51,7 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   state.projection = show.projection;
   if (auto* flat = std::get_if<Stereographic>(&state.projection))
     flat->fov = value_of(s, Channel::kFov, t, flat->fov);
-  state.picture = picture_at(show, s, t);
+  state.settings = settings_at(show, s, t);
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =
       camera_axes_at(show, segment, t, state.projection, state.observer);

@@ -10,7 +10,7 @@
 namespace domefall {
 
 // What keyframes may have changed of exposure and skies, at one instant.
-struct Picture {
+struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
     double max_magnitude = 6.5;
@@ -19,7 +19,7 @@ struct Picture {
     bool soft_limit = false;
   };
   double ev = 0;
-  Sky sky_one, sky_three, sky_four;  // region IV has no stars
+  PerSky<Sky> sky;  // region IV has no stars
 };
 
 struct FrameState {
@@ -28,7 +28,7 @@ struct FrameState {
   int segment = 0;  // index into the timeline; during a dissolve the later one
   ObserverState observer;
   Projection projection;
-  Picture picture;
+  FrameSettings settings;
   // During a dissolve the segment that vanishes, and the part it still has of the light.
   std::shared_ptr<const FrameState> vanishing;
   double vanishing_part = 0;

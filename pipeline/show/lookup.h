@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pipeline/show/item.h"
-#include "pipeline/sky/star_catalogue.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
 
 namespace domefall {
 

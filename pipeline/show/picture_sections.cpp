@@ -31,7 +31,7 @@ void read_channels(const Section& cdl, std::string_view key, const Range& range,
 
 }  // namespace
 
-StarBlobs read_star_blobs(const Section& show) {
+PointSpreadLaw read_star_blobs(const Section& show) {
   const Section s = subsection(show, "stars",
                                {"law", "min_sigma_deg", "growth", "reference_magnitude",
                                 "max_sigma_deg", "halo", "halo_sigma_deg", "white_core"});
@@ -43,7 +43,7 @@ StarBlobs read_star_blobs(const Section& show) {
       item->fail(std::string("belongs to stars.law: ") +
                  (psf ? "size, but the law is psf" : "psf, but the law is size"));
   const Range sigma = kDegrees.above(0).at_most(10);
-  StarBlobs blobs;
+  PointSpreadLaw blobs;
   const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
   const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
   if (!psf && most < least)

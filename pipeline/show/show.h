@@ -13,8 +13,9 @@
 #include "pipeline/show/camera.h"
 #include "pipeline/show/curve.h"
 #include "pipeline/show/placement.h"
-#include "pipeline/sky/star_catalogue.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
 #include "projections/projection.h"
+#include "trajectories/sky_region.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -122,7 +123,7 @@ struct PanoramaShift {
 // brightness: sigma = min_sigma * max(1, 10^(0.4 growth (reference_magnitude - m))), at most max_sigma.
 // With one, every star is of the width min_sigma, and bright ones show the halo.
 inline constexpr double kWhiteCore = 10;
-struct StarBlobs {
+struct PointSpreadLaw {
   double min_sigma = 0;            // radians; the renderer never goes below 0.9 pixel
   double growth = 0.2;             // 0: every star the same size; 0.5: every star the same peak
   double reference_magnitude = 5;  // up to here min_sigma
@@ -178,14 +179,13 @@ struct Show {
   SkyDirection hole_at;
   double heading = 0;
   std::vector<Segment> timeline;
-  RegionSky sky_one, sky_three;  // skies of regions I and III
-  // The past singularity, as a sphere seen by azimuth alone, without stars or redshift.
-  RegionSky sky_four{BlackSky{}, 1, std::nullopt, 1};
+  // The past singularity of region IV is a sphere seen by azimuth alone, without stars or redshift.
+  PerSky<RegionSky> sky;
   // Julian year: stars of catalogues that know their proper motion stand where they stand then.
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
   Effects effects;
-  StarBlobs blobs;
+  PointSpreadLaw blobs;
   Exposure exposure;
   GradeSettings grade;
   GradedFormat graded_format = GradedFormat::kPng;

@@ -111,13 +111,16 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   const Section three = subsection(sky, "region_III", {"background", "gain", "stars"});
   // The shipped files are asked for only where the show does not name others.
   if (!one.find("background"))
-    if (const auto background = milky_way(root, lookup)) show.sky_one.background = *background;
+    if (const auto background = milky_way(root, lookup))
+      show.sky[SkyRegion::kI].background = *background;
   if (!one.find("stars"))
-    if (const auto file = lookup.shipped(root, kNakedEyeStars)) show.sky_one.stars = {*file, 6.5};
-  read_region(one, lookup, show.sky_one);
-  show.sky_three = show.sky_one;
-  read_region(three, lookup, show.sky_three);
-  if (const Item* four = sky.find("region_IV")) read_region_four(*four, lookup, show.sky_four);
+    if (const auto file = lookup.shipped(root, kNakedEyeStars))
+      show.sky[SkyRegion::kI].stars = {*file, 6.5};
+  read_region(one, lookup, show.sky[SkyRegion::kI]);
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
+  read_region(three, lookup, show.sky[SkyRegion::kIII]);
+  if (const Item* four = sky.find("region_IV"))
+    read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);
   show.panorama_shift.blueshift_power =
       sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);
   show.star_epoch = sky.number("epoch", kEpochs, show.star_epoch);

@@ -99,21 +99,21 @@ class TimelineReader {
       case Channel::kEv:
         return show_.exposure.ev;
       case Channel::kGainOne:
-        return show_.sky_one.background_gain;
+        return show_.sky[SkyRegion::kI].background_gain;
       case Channel::kGainThree:
-        return show_.sky_three.background_gain;
+        return show_.sky[SkyRegion::kIII].background_gain;
       case Channel::kGainFour:
-        return show_.sky_four.background_gain;
+        return show_.sky[SkyRegion::kIV].background_gain;
       case Channel::kStarGainOne:
-        return show_.sky_one.star_gain;
+        return show_.sky[SkyRegion::kI].star_gain;
       case Channel::kStarGainThree:
-        return show_.sky_three.star_gain;
+        return show_.sky[SkyRegion::kIII].star_gain;
       case Channel::kMagnitudeOne:
-        return stars(show_.sky_one).max_magnitude;
+        return stars(show_.sky[SkyRegion::kI]).max_magnitude;
       case Channel::kMagnitudeThree:
         break;
     }
-    return stars(show_.sky_three).max_magnitude;
+    return stars(show_.sky[SkyRegion::kIII]).max_magnitude;
   }
 
   // Camera, exposure and skies, each from the nearest that says it: the segment's keyframes, the

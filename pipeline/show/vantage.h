@@ -1,4 +1,4 @@
-// Which observers a picture without all its effects is seen by.
+// Which observers a frame that leaves some effects out is drawn for.
 //
 // Directions without aberration are those of the observer at rest at the same place: in r outside a
 // horizon and in flat space, in t inside (T_II and T_IV of [Riazuelo] eq. TR_IV); at r = 2, where there

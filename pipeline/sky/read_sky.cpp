@@ -8,7 +8,8 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
 #include "pipeline/image/some_light.h"
-#include "pipeline/sky/sky_file.h"
+#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/maps/sky_file.h"
 
 namespace domefall {
 namespace {
@@ -36,7 +37,7 @@ std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file) {
     if (std::filesystem::file_size(file) <= kReadWhole) verify_sky_file(file);
     return std::make_shared<const SkyMap>(std::move(opened.map));
   }
-  return std::make_shared<const SkyMap>(read_panorama(file));
+  return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file)));
 }
 
 std::string sky_digest(const std::filesystem::path& file) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "pipeline/sky/sky_map.h"
+#include "pipeline/sky/maps/sky_map.h"
 
 namespace domefall {
 

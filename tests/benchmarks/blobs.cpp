@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/render/photometry.h"
-#include "pipeline/render/star_layer.h"
+#include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/scene/photometry.h"
 #include "pipeline/report/frame_timing.h"
 
 namespace domefall {
@@ -53,7 +53,7 @@ std::vector<StarImage> stars(const Projection& p, std::size_t count, double with
         p, {{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}});
     const double lux =
         kMagnitudeZeroLux * std::pow(10, -0.4 * magnitude_of(2.0 * static_cast<double>(k + 1)));
-    const double flux = gain * lux * exposure_scale(Picture{});
+    const double flux = gain * lux * exposure_scale(FrameSettings{});
     images[k] = {static_cast<float>(at->i - 1),
                  static_cast<float>(at->j - 1),
                  {static_cast<float>(flux), static_cast<float>(0.95 * flux),
@@ -73,11 +73,11 @@ struct Cost {
   double place = 1e9, sort = 1e9, draw = 1e9;
 };
 
-void measure(const std::vector<StarImage>& images, const Projection& p, const BlobWidths& widths,
+void measure(const std::vector<StarImage>& images, const Projection& p, const PointSpread& widths,
              std::vector<float>& rgb, Cost& least) {
-  StarLayer layer(p);
-  DotCanvas dots;
-  if (StarLayer::are_many(static_cast<double>(images.size()), p)) layer.use_dots(widths);
+  BlobLayer layer(p);
+  SplatCanvas dots;
+  if (BlobLayer::are_many(static_cast<double>(images.size()), p)) layer.use_splats(widths);
   const double start = cpu_seconds();
   layer.add(images, widths);
   const double placed = cpu_seconds();
@@ -98,10 +98,10 @@ void draw_stars(benchmark::State& state, double within, double gain) {
   const Projection p = Domemaster{size};
   const auto count = static_cast<std::size_t>(state.range(1));
   const std::vector<StarImage> images = stars(p, count, within, gain);
-  StarBlobs law;
+  PointSpreadLaw law;
   law.min_sigma = 0.05 * pi / 180, law.max_sigma = 0.3 * pi / 180, law.white_core = 10;
   if (state.range(2) == kPsf) law.halo = 0.15, law.halo_sigma = 0.2 * pi / 180;
-  const BlobWidths widths(law, p, exposure_scale(Picture{}));
+  const PointSpread widths(law, p, exposure_scale(FrameSettings{}));
   std::vector<float> rgb(static_cast<std::size_t>(3 * size) * kBandRows);
   Cost cost;
   for (auto _ : state) measure(images, p, widths, rgb, cost);

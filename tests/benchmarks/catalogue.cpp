@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/sky/star_catalogue.h"
-#include "pipeline/sky/star_file.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sky/catalogue/star_file.h"
 
 namespace domefall {
 namespace {

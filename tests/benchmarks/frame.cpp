@@ -99,15 +99,15 @@ void render_catalogue(benchmark::State& state) {
   const char* catalogue = std::getenv("DOMEFALL_STARS");
   if (catalogue == nullptr) return state.SkipWithError("DOMEFALL_STARS names no catalogue");
   Show show = first_light(static_cast<int>(state.range(0)));
-  show.sky_one.stars = StarField{catalogue, 40};
-  show.sky_three.stars = show.sky_one.stars;
+  show.sky[SkyRegion::kI].stars = StarField{catalogue, 40};
+  show.sky[SkyRegion::kIII].stars = show.sky[SkyRegion::kI].stars;
   render_again(state, show);
 }
 
 // The sky alone, without a star.
 void render_sky(benchmark::State& state) {
   Show show = first_light(static_cast<int>(state.range(0)));
-  show.sky_one.stars.reset(), show.sky_three.stars.reset();
+  show.sky[SkyRegion::kI].stars.reset(), show.sky[SkyRegion::kIII].stars.reset();
   render_again(state, show);
 }
 

@@ -15,7 +15,7 @@
 #include <random>
 
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/render/star_images.h"
+#include "pipeline/render/stars/star_images.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
 

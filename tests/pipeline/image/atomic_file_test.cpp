@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "pipeline/image/errors.h"
-#include "test_folder.h"
+#include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
 namespace {

@@ -8,7 +8,7 @@
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/graded_file.h"
-#include "test_folder.h"
+#include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
 namespace {

@@ -15,7 +15,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
-#include "test_folder.h"
+#include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
 namespace {

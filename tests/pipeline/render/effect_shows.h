@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "pipeline/render/view_tracer.h"
-#include "scenes.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
 
@@ -67,7 +67,7 @@ inline bool is_outside(const Trajectory& t) { return point_at(t, 0).r > 2; }
 inline Show at_rest_at(double r, const Effects& effects) {
   Show show = show_of(StaticObserver{r}, Stereographic{120, 90, 90 * kDegree});
   show.timeline[0].camera.attitude = EulerAngles{0.3, std::numbers::pi - 0.2, 0.1};
-  show.sky_one = {GridSky{}, 1, std::nullopt, 1};
+  show.sky[SkyRegion::kI] = {GridSky{}, 1, std::nullopt, 1};
   show.effects = effects;
   return show;
 }

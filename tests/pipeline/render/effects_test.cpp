@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "effect_shows.h"
 #include "pipeline/colour/blackbody.h"
+#include "tests/pipeline/render/effect_shows.h"
 
 namespace domefall {
 namespace {
@@ -19,7 +19,7 @@ Show ship(const Effects& effects, double speed = kV, double look = 1) {
   show.effects = effects;
   // Phi, Theta and back: Z along +-Phi.
   show.timeline[0].camera.attitude = EulerAngles{90 * kDegree, look * 90 * kDegree, 0};
-  show.sky_one = {GridSky{}, 1, std::nullopt, 1};
+  show.sky[SkyRegion::kI] = {GridSky{}, 1, std::nullopt, 1};
   return show;
 }
 
@@ -35,7 +35,7 @@ TEST(Effects, AberrationMovesTheSkyByTheHalfAngleAndItsLackByNothing) {
   for (int k = 0; k < 200; ++k) {
     const CameraDirection n{random_direction(random)};
     const V3d m = apply(axes, n.v);
-    const Look moved = with.tracer.look(n), unmoved = without.tracer.look(n);
+    const ViewRay moved = with.tracer.trace(n), unmoved = without.tracer.trace(n);
     EXPECT_NEAR(half_tangent(moved.sky_direction, ahead) / half_tangent(m, kAhead), std::sqrt(3),
                 1e-13);
     EXPECT_LT((unmoved.sky_direction - apply(with.state.observer.sky_from_tetrad, m)).length(),
@@ -124,7 +124,8 @@ TEST(Effects, AllThreeTogetherAreTheirProductAndNature) {
 
 TEST(Effects, APanoramaWithoutIntensityOrAberrationIsTheOneAtRest) {
   Show moving = ship(kOnlyColour), rest = ship({}, 0);
-  moving.sky_one.background = rest.sky_one.background = PanoramaSky{small_panorama()};
+  moving.sky[SkyRegion::kI].background = rest.sky[SkyRegion::kI].background =
+      PanoramaSky{small_panorama()};
   const HalfFrame a = render(moving), b = render(rest);
   for (int y = 0; y < a.height; ++y)
     for (int k = 0; k < 3 * a.width; ++k) ASSERT_EQ(a.row(y)[k], b.row(y)[k]);
@@ -141,11 +142,11 @@ TEST(Effects, WithoutAberrationEveryPlaceKeepsItsFrequencyAndOnlyStandsElsewhere
     const V3d rest = vantage_of(o, {}).rest;
     for (int k = 0; k < 100; ++k) {
       const CameraDirection n{random_direction(random)};
-      const Look there = nature.tracer.look(n);
+      const ViewRay there = nature.tracer.trace(n);
       const V3d tetrad = to_tetrad(o.celerity, apply(o.tetrad_from_camera, n.v)).direction;
       const CameraDirection moved{
           apply_transposed(r.tetrad_from_camera, to_observer(rest, tetrad).direction)};
-      const Look here = resting.tracer.look(moved);
+      const ViewRay here = resting.tracer.trace(moved);
       // A boost by a Lorentz factor of 1e3 or 1e4 and back loses digits by it, at the edge all.
       if (there.to_edge < 1e-6 || here.to_edge < 1e-6) continue;
       ASSERT_EQ(here.sky, there.sky);
@@ -164,12 +165,12 @@ TEST(Effects, TheBatchSeesWhatTheSingleLookSees) {
       Show show = show_of(t, Domemaster{64});
       show.effects = effects;
       const Traced traced(show);
-      LookBatch batch;
-      std::array<CameraDirection, LookBatch::kSize> n;
+      ViewRayBatch batch;
+      std::array<CameraDirection, ViewRayBatch::kSize> n;
       for (auto& direction : n) direction.v = random_direction(random);
-      traced.tracer.look(n.data(), LookBatch::kSize, batch);
-      for (int k = 0; k < LookBatch::kSize; ++k) {
-        const Look look = traced.tracer.look(n[static_cast<std::size_t>(k)]);
+      traced.tracer.trace(n.data(), ViewRayBatch::kSize, batch);
+      for (int k = 0; k < ViewRayBatch::kSize; ++k) {
+        const ViewRay look = traced.tracer.trace(n[static_cast<std::size_t>(k)]);
         ASSERT_EQ(batch.sky[k], look.sky);
         const double scale = 1 + look.radial_scale + look.tangential_scale;
         ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 4e-15 * scale);
@@ -183,8 +184,10 @@ TEST(Effects, LeaveNoPixelThatIsNotFinite) {
     for (const Effects& effects : settings(is_outside(t)))
       for (const bool grid : {true, false}) {
         Show show = starry(show_of(t, Domemaster{48}));
-        if (grid) show.sky_one.background = show.sky_three.background = GridSky{};
-        show.sky_one.stars->max_magnitude = show.sky_three.stars->max_magnitude = 3;
+        if (grid)
+          show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
+        show.sky[SkyRegion::kI].stars->max_magnitude =
+            show.sky[SkyRegion::kIII].stars->max_magnitude = 3;
         show.effects = effects;
         EXPECT_NO_THROW(render(show));
       }

@@ -4,12 +4,12 @@
 
 #include <set>
 
-#include "effect_shows.h"
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/frame_key.h"
-#include "pipeline/render/photometry.h"
-#include "pipeline/render/star_images.h"
+#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/stars/star_images.h"
 #include "pipeline/show/attitude.h"
+#include "tests/pipeline/render/effect_shows.h"
 
 namespace domefall {
 namespace {
@@ -42,13 +42,13 @@ TEST(Effects, WithoutLensingMotionIsThatAgainstTheObserverAtRest) {
   for (const double angle : {0.0, 0.4, 1.5, 3.0}) {
     const V3d m =
         ahead * std::cos(angle) + ahead.cross(V3d(1, 0, 0)).normalized() * std::sin(angle);
-    const Look look = traced.tracer.look({apply_transposed(o.tetrad_from_camera, m)});
+    const ViewRay look = traced.tracer.trace({apply_transposed(o.tetrad_from_camera, m)});
     const V3d motion = apply(o.sky_from_tetrad, V3d(0, 0, 1));  // along Phi
     EXPECT_NEAR(look.sky_direction.dot(motion), (std::cos(angle) - kV) / (1 - kV * std::cos(angle)),
                 1e-14);
     EXPECT_NEAR(look.frequency_ratio, std::sqrt(6 / 4.0) / (kGamma * (1 - kV * std::cos(angle))),
                 1e-14);
-    EXPECT_EQ(look.sky, SeenSky::kOne);
+    EXPECT_EQ(look.sky, SkyRegion::kI);
   }
 }
 
@@ -61,7 +61,7 @@ TEST(Effects, CamerasFindTheirTargetWhereItIsDrawn) {
       Show show = show_of(t, Stereographic{64, 48, 1});
       show.effects = effects;
       show.timeline[0].camera.attitude = LookAtSky{target};
-      const Look look = Traced(show).tracer.look({V3d(0, 0, 1)});
+      const ViewRay look = Traced(show).tracer.trace({V3d(0, 0, 1)});
       const double scale = 1 + look.radial_scale + look.tangential_scale;
       EXPECT_LT((look.sky_direction - target.v).length(), 1e-8 * scale);
     }
@@ -72,7 +72,7 @@ TEST(Effects, WithoutAberrationMotionIsStillAhead) {
   show.effects = {false, true, true, false, Amplification::kStars};
   show.timeline[0].camera.attitude = LookAlongMotion{};
   const Traced traced(show);
-  const Look look = traced.tracer.look({V3d(0, 0, 1)});
+  const ViewRay look = traced.tracer.trace({V3d(0, 0, 1)});
   const V3d along_phi = apply(traced.state.observer.sky_from_tetrad, V3d(0, 0, 1));
   EXPECT_LT((look.sky_direction - along_phi).length(), 1e-14);
   EXPECT_NEAR(look.frequency_ratio, std::sqrt(6 / 4.0) * std::sqrt(3), 1e-14);
@@ -86,7 +86,7 @@ std::vector<StarImage> images_of(const Show& show, const V3d& sky) {
   const bool bent = show.effects.lensing && optics.home_sky;
   const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
   std::vector<StarImage> images;
-  StarImages(show, state, state.picture.sky_one, bent ? &*optics.home_sky : nullptr)
+  StarImages(show, state, state.settings.sky[SkyRegion::kI], bent ? &*optics.home_sky : nullptr)
       .append(star, images);
   return images;
 }
@@ -108,14 +108,14 @@ TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
       int seen = 0;
       for (int k = 0; k < 40; ++k) {
         const CameraDirection n{random_direction(random)};
-        const Look look = traced.tracer.look(n);
-        if (n.v.z < -0.5 || look.sky != SeenSky::kOne || look.bundle.azimuth > 2.5) continue;
+        const ViewRay look = traced.tracer.trace(n);
+        if (n.v.z < -0.5 || look.sky != SkyRegion::kI || look.bundle.azimuth > 2.5) continue;
         const auto images = images_of(show, look.sky_direction);
         ASSERT_FALSE(images.empty());
         const StarImage& image = images[0];
         EXPECT_LT((centre_of(image, show.projection) - n.v).length(), 1e-6);
         const double g = look.frequency_ratio;
-        double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
+        double flux = 1e-6 * exposure_scale(frame_state(show, 0).settings);
         if (effects.intensity) flux *= g * g * g * g;
         if (effects.amplification != Amplification::kNone)
           flux /= look.radial_scale * look.tangential_scale;
@@ -140,7 +140,7 @@ TEST(Effects, WithoutAmplificationBothImagesOfAStarAreAsBrightAsTheStar) {
                 .dot(centre_of(images[1], show.projection).cross(ahead)),
             0)
       << "on either side of the hole";
-  const double flux = 1e-6 * exposure_scale(frame_state(show, 0).picture);
+  const double flux = 1e-6 * exposure_scale(frame_state(show, 0).settings);
   for (const StarImage& image : images)
     EXPECT_NEAR(image.rgb[1] / (flux * blackbody_colours().per_flux(6500).g), 1, 1e-6);
   show.effects.amplification = Amplification::kStars;
@@ -154,7 +154,7 @@ TEST(Effects, AnAmplifiedBackgroundHasASmoothRingAndNoSpecks) {
   Show show = at_rest_at(30, {});
   show.projection = Stereographic{480, 360, 90 * kDegree};
   show.timeline[0].camera.attitude = LookAtHole{};
-  show.sky_one.background = PanoramaSky{small_panorama()};
+  show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
   const HalfFrame plain = render(show);
   show.effects.amplification = Amplification::kEverything;
   const HalfFrame amplified = render(show);
@@ -163,8 +163,8 @@ TEST(Effects, AnAmplifiedBackgroundHasASmoothRingAndNoSpecks) {
   std::vector<double> peaks(360, 0);  // by the angle about the hole
   for (int y = 0; y < 360; ++y)
     for (int x = 0; x < 480; ++x) {
-      const Look look = traced.tracer.look(direction_at(show.projection, {x + 1.0, y + 1.0}));
-      if (look.sky != SeenSky::kOne || look.to_edge < 15 * pixel) continue;
+      const ViewRay look = traced.tracer.trace(direction_at(show.projection, {x + 1.0, y + 1.0}));
+      if (look.sky != SkyRegion::kI || look.to_edge < 15 * pixel) continue;
       const double ratio = amplified.row(y)[3 * x + 1] / double(plain.row(y)[3 * x + 1]);
       const double off = std::abs(look.bundle.azimuth - std::numbers::pi) /
                          (look.bundle.slope * look.bundle.doppler * pixel);

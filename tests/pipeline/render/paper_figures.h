@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "pipeline/render/view_tracer.h"
+#include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/read_show.h"
 
@@ -30,8 +30,7 @@ class Panel {
  public:
   Panel(const Show& show, int frame)
       : state(frame_state(show, frame)),
-        optics(
-            make_hole_optics(state.observer.r, state.observer.tetrad, {.home = true, .far = true})),
+        optics(make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, false})),
         tracer(state, optics, show.effects) {}
 
   // The tracer looks at the optics beside it.
@@ -44,10 +43,10 @@ class Panel {
   PixelPosition pixel(double x, double y) const {
     return {0.5 + x * columns(state.projection), 0.5 + y * rows(state.projection)};
   }
-  Look look(double x, double y) const {
-    return tracer.look(direction_at(state.projection, pixel(x, y)));
+  ViewRay trace(double x, double y) const {
+    return tracer.trace(direction_at(state.projection, pixel(x, y)));
   }
-  double z(double x, double y) const { return 1 / look(x, y).frequency_ratio - 1; }
+  double z(double x, double y) const { return 1 / trace(x, y).frequency_ratio - 1; }
 
   // Where a direction in the observer's frame stands in the camera's; X to the right, Y down.
   V3d in_camera(const V3d& seen) const {

@@ -1,8 +1,8 @@
 // What the captions of [Riazuelo] say of their pictures without an orbit in them, against the shows of
 // shows/paper/.  Tolerances are half of a caption's last digit where no other reason is given.
-#include "paper_figures.h"
 #include "pipeline/optics/silhouette.h"
 #include "pipeline/sky/grid_sky.h"
+#include "tests/pipeline/render/paper_figures.h"
 
 namespace domefall {
 namespace {
@@ -14,8 +14,9 @@ TEST(PaperFigAberr1, TheEdgesAreAsManyDegreesOfSkyApartAsTheCaptionSays) {
   for (int k = 0; k < 4; ++k) {
     const Panel panel(show, k);
     // By way of the middle, since the last is more than half a circle.
-    const V3d left = panel.look(0, 0.5).sky_direction, middle = panel.look(0.5, 0.5).sky_direction,
-              right = panel.look(1, 0.5).sky_direction;
+    const V3d left = panel.trace(0, 0.5).sky_direction,
+              middle = panel.trace(0.5, 0.5).sky_direction,
+              right = panel.trace(1, 0.5).sky_direction;
     EXPECT_NEAR((angle_between(left, middle) + angle_between(middle, right)) / kOneDegree,
                 captioned[k], 0.05);
   }
@@ -28,7 +29,7 @@ TEST(PaperFigAberr1, ThePolesEndUp517DegreesApartInThePicture) {
   EXPECT_TRUE(panel.shows(north) && panel.shows(south));
   EXPECT_LT(north.y, 0);
   // And the picture is drawn so.
-  EXPECT_LT((panel.tracer.look({north}).sky_direction - V3d(0, 0, 1)).length(), 1e-12);
+  EXPECT_LT((panel.tracer.trace({north}).sky_direction - V3d(0, 0, 1)).length(), 1e-12);
 }
 
 // Square by square of the grid, each in the middle of one: a quarter turn or a half is 18 or 36 of them.
@@ -42,7 +43,7 @@ TEST(PaperFigAberr2, WithoutTheMotionTheThreeViewsWouldBeTheStaticOne) {
     EXPECT_NEAR(panel.state.observer.celerity.length(), 0.5 / std::sqrt(0.75), 1e-15);
     for (double x = 0.05; x < 1; x += 0.1)
       for (double y = 0.05; y < 1; y += 0.1) {
-        const V3d a = panel.look(x, y).sky_direction, b = still.look(x, y).sky_direction;
+        const V3d a = panel.trace(x, y).sky_direction, b = still.trace(x, y).sky_direction;
         EXPECT_NEAR(a.z, b.z, 1e-14);
         const double turn = std::atan2(b.y, b.x) - std::atan2(a.y, a.x) - k * std::numbers::pi / 2;
         EXPECT_NEAR(std::sin(turn / 2), 0, 1e-14) << "frame " << k;
@@ -74,16 +75,16 @@ TEST(PaperFigDev2, TheSquareInFrontIsDarkAndTheShiftIsMinus339TenThousandths) {
   ASSERT_EQ(frame_count(show), 2);
   const Panel without(show, 0), with(show, 1);
   // Beside the hole itself, which is a point.
-  const V3d centre = without.look(0.501, 0.5).sky_direction;
+  const V3d centre = without.trace(0.501, 0.5).sky_direction;
   EXPECT_NEAR(std::asin(centre.z) / kOneDegree, -32.4, 1e-3);
   const auto light = [&](double x) {
-    return grid_light({without.look(x, 0.5).sky_direction}, 1e-4, 1).g;
+    return grid_light({without.trace(x, 0.5).sky_direction}, 1e-4, 1).g;
   };
   EXPECT_NEAR(light(0.501) / light(0.5 + 5.5 / 90), 0.25, 1e-3);  // its neighbour
   EXPECT_NEAR(without.z(0.2, 0.3), 0, 2e-9);                      // 1/r
   EXPECT_NEAR(with.z(0.2, 0.3), -0.0339, 5e-5);
   EXPECT_EQ(with.state.observer.r, 30);
-  EXPECT_EQ(with.look(0.5, 0.5).sky, SeenSky::kFour);
+  EXPECT_EQ(with.trace(0.5, 0.5).sky, SkyRegion::kIV);
 }
 
 // Radians from the hole to where a star behind it, just beside the axis, is seen.
@@ -110,7 +111,7 @@ double horizon_line(const Panel& panel, double x) {
   double above = 0, below = 1;
   for (int k = 0; k < 50; ++k) {
     const double y = (above + below) / 2;
-    (panel.look(x, y).sky == SeenSky::kFour ? below : above) = y;
+    (panel.trace(x, y).sky == SkyRegion::kIV ? below : above) = y;
   }
   return above;
 }
@@ -138,9 +139,9 @@ TEST(PaperFigBlue, TheShiftsAreThoseOfTheCaptionAndTheSilhouetteTurnsFromConvexT
       EXPECT_LT(sag, -0.02);
     }
   }
-  EXPECT_EQ(Panel(show, 2).look(0.5, 0.05).sky, SeenSky::kThree);
-  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky_three.background));
-  EXPECT_FALSE(show.sky_three.stars);
+  EXPECT_EQ(Panel(show, 2).trace(0.5, 0.05).sky, SkyRegion::kIII);
+  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky[SkyRegion::kIII].background));
+  EXPECT_FALSE(show.sky[SkyRegion::kIII].stars);
 }
 
 TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
@@ -156,7 +157,7 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
     return hole * std::cos(edge + beyond) + aside * std::sin(edge + beyond);
   };
   const auto magnified = [&](double beyond) {
-    const Look look = near.tracer.look({at(beyond)});
+    const ViewRay look = near.tracer.trace({at(beyond)});
     return 1 / (look.radial_scale * look.tangential_scale);
   };
   double largest = 0, ring = 0;
@@ -172,7 +173,7 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
   const double einstein = einstein_ring(far, show) - edge;
   EXPECT_GT(magnified(einstein - kOneDegree), 2);
   EXPECT_GT(magnified(einstein + kOneDegree), 2);
-  const Look corner = far.look(0, 0);  // farther away slightly de-amplified
+  const ViewRay corner = far.trace(0, 0);  // farther away slightly de-amplified
   EXPECT_LT(1 / (corner.radial_scale * corner.tangential_scale), 1);
   EXPECT_GT(1 / (corner.radial_scale * corner.tangential_scale), 0.9);
 }

@@ -1,5 +1,5 @@
 // What the captions of [Riazuelo] say of moving and falling observers, against the shows of shows/paper/.
-#include "paper_figures.h"
+#include "tests/pipeline/render/paper_figures.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/parabolic_orbit.h"
 
@@ -107,16 +107,16 @@ TEST(PaperFigHor, JustBeforeJustBehindAndAtATenth) {
   const auto edge = [](const Panel& panel) {
     double in = 0.5, out = 1;
     for (int k = 0; k < 50; ++k)
-      (panel.look((in + out) / 2, 0.5).sky == SeenSky::kOne ? out : in) = (in + out) / 2;
+      (panel.trace((in + out) / 2, 0.5).sky == SkyRegion::kI ? out : in) = (in + out) / 2;
     return in - 0.5;
   };
   EXPECT_NEAR(edge(before) / edge(behind), 1, 0.01);
   // z = -cos(delta) sqrt(2/r), and no redshift to the side.
   EXPECT_NEAR(last.z(0.5, 0.5), 0, 1e-12);
-  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky_three.background));
-  EXPECT_EQ(last.look(0.9, 0.5).sky, SeenSky::kThree);
-  EXPECT_EQ(last.state.picture.sky_one.background_gain, 0);
-  EXPECT_EQ(behind.state.picture.sky_three.background_gain, 0);
+  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky[SkyRegion::kIII].background));
+  EXPECT_EQ(last.trace(0.9, 0.5).sky, SkyRegion::kIII);
+  EXPECT_EQ(last.state.settings.sky[SkyRegion::kI].background_gain, 0);
+  EXPECT_EQ(behind.state.settings.sky[SkyRegion::kIII].background_gain, 0);
 }
 
 TEST(PaperFigHor2, TheLastViewHasTheSkyOfFigHorToTheRightAndAnotherToTheLeft) {
@@ -127,17 +127,17 @@ TEST(PaperFigHor2, TheLastViewHasTheSkyOfFigHorToTheRightAndAnotherToTheLeft) {
   EXPECT_NEAR(frame_state(show, 2).observer.r, 0.1, 1e-12);
   const Panel point(show, 0), disc(show, 1), both(show, 2), same(single, 2);
   // Region III ahead, 1 + z = sqrt(2/r) - 1.
-  EXPECT_EQ(point.look(0.5, 0.5).sky, SeenSky::kThree);
-  EXPECT_EQ(point.look(0.51, 0.5).sky, SeenSky::kFour);  // almost pointlike
+  EXPECT_EQ(point.trace(0.5, 0.5).sky, SkyRegion::kIII);
+  EXPECT_EQ(point.trace(0.51, 0.5).sky, SkyRegion::kIV);  // almost pointlike
   EXPECT_NEAR(1 + point.z(0.5, 0.5), std::sqrt(2 / 1.994) - 1, 1e-12);
   EXPECT_NEAR(1 + disc.z(0.5, 0.5), std::sqrt(2 / 0.8) - 1, 1e-12);
-  EXPECT_EQ(disc.look(0.7, 0.5).sky, SeenSky::kThree);
+  EXPECT_EQ(disc.trace(0.7, 0.5).sky, SkyRegion::kIII);
   EXPECT_LT(disc.z(0.7, 0.5), disc.z(0.5, 0.5));  // its edge is bluer than its middle
-  EXPECT_EQ(both.look(0.1, 0.5).sky, SeenSky::kThree);
+  EXPECT_EQ(both.trace(0.1, 0.5).sky, SkyRegion::kIII);
   for (const double x : {0.6, 0.8, 0.95})
     for (const double y : {0.1, 0.5, 0.9}) {
-      const Look a = both.look(x, y), b = same.look(x, y);
-      EXPECT_EQ(a.sky, SeenSky::kOne);
+      const ViewRay a = both.trace(x, y), b = same.trace(x, y);
+      EXPECT_EQ(a.sky, SkyRegion::kI);
       EXPECT_NEAR(a.frequency_ratio, b.frequency_ratio, 1e-12);
       EXPECT_LT((a.sky_direction - b.sky_direction).length(), 1e-9);
     }
@@ -149,14 +149,14 @@ TEST(PaperFigWh, FromOutsideAndFromTheMiddle) {
   const Show one = figure("fig_wh_1"), two = figure("fig_wh_2");
   EXPECT_EQ(frame_state(one, 0).observer.r, 20);
   EXPECT_NEAR(Panel(one, 0).local_speed(), 0, 1e-7);
-  EXPECT_EQ(Panel(one, 0).look(0.5, 0.5).sky, SeenSky::kFour);
-  EXPECT_TRUE(std::holds_alternative<GridSky>(one.sky_four.background));
-  EXPECT_FALSE(std::holds_alternative<GridSky>(one.sky_one.background));
+  EXPECT_EQ(Panel(one, 0).trace(0.5, 0.5).sky, SkyRegion::kIV);
+  EXPECT_TRUE(std::holds_alternative<GridSky>(one.sky[SkyRegion::kIV].background));
+  EXPECT_FALSE(std::holds_alternative<GridSky>(one.sky[SkyRegion::kI].background));
   const Panel inside(two, 0);
   EXPECT_EQ(inside.state.observer.r, 1);
   EXPECT_NEAR(angle_between(inside.hole(), V3d(0, 0, 1)), 45 * kOneDegree, 1e-12);
-  EXPECT_EQ(inside.look(0.9, 0.5).sky, SeenSky::kOne);
-  EXPECT_EQ(inside.look(0.2, 0.5).sky, SeenSky::kThree);
+  EXPECT_EQ(inside.trace(0.9, 0.5).sky, SkyRegion::kI);
+  EXPECT_EQ(inside.trace(0.2, 0.5).sky, SkyRegion::kIII);
 }
 
 TEST(PaperFigIv, TheOutgoingObserverPassesTheOneOfFigIvImgAtSqrtOfHalfR) {

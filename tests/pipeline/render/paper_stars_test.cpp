@@ -1,6 +1,6 @@
 // What the captions of [Riazuelo] say of stars and their ghosts, against the shows of shows/paper/.
-#include "paper_figures.h"
 #include "pipeline/optics/silhouette.h"
+#include "tests/pipeline/render/paper_figures.h"
 
 namespace domefall {
 namespace {
@@ -63,10 +63,10 @@ TEST(PaperMult, TheStarBehindTheHoleIsTwoOnTheRingAtEqualDistances) {
     // On opposite sides: a hundred times less than those distances out of line.
     EXPECT_NEAR(angle_between(first, second), one + other, 1e-9) << label;
     // The catalogue that the show draws has the star.
-    ASSERT_TRUE(show.sky_one.stars);
-    EXPECT_TRUE(find_star(
-        read_star_catalogue(show.sky_one.stars->catalogue, show.sky_one.stars->max_magnitude),
-        "HD 49359"));
+    ASSERT_TRUE(show.sky[SkyRegion::kI].stars);
+    EXPECT_TRUE(find_star(read_star_catalogue(show.sky[SkyRegion::kI].stars->catalogue,
+                                              show.sky[SkyRegion::kI].stars->max_magnitude),
+                          "HD 49359"));
   }
 }
 
@@ -90,7 +90,7 @@ TEST(PaperHD49359, TwoGhostsStandOnTheSegmentOneInEachPicture) {
     EXPECT_GT(hole.x * (k == 0 ? 1 : -1), 0);
     // The picture is drawn so: the star is seen where the ghost stands.
     const V3d ghost = panel.image(star("HD 49359"), 2);
-    EXPECT_LT(angle_between(panel.tracer.look({ghost}).sky_direction, star("HD 49359")), 1e-4);
+    EXPECT_LT(angle_between(panel.tracer.trace({ghost}).sky_direction, star("HD 49359")), 1e-4);
   }
   EXPECT_EQ(in_picture[0], 1);
   EXPECT_EQ(in_picture[1], 1);
@@ -114,11 +114,11 @@ TEST(PaperFigZ, EachZoomEndsAtTheEdgeAndTheLastIs160MilliarcsecondsWide) {
     }
     before = fov;
     // Sky to the left, the silhouette from 70 % of the width on; in the first it is in the middle.
-    EXPECT_EQ(panel.look(0, 0.5).sky, SeenSky::kOne) << k;
+    EXPECT_EQ(panel.trace(0, 0.5).sky, SkyRegion::kI) << k;
     if (k > 0) {
-      EXPECT_EQ(panel.look(0.69, 0.5).sky, SeenSky::kOne) << k;
+      EXPECT_EQ(panel.trace(0.69, 0.5).sky, SkyRegion::kI) << k;
     }
-    EXPECT_EQ(panel.look(k > 0 ? 0.71 : 0.5, 0.5).sky, SeenSky::kFour) << k;
+    EXPECT_EQ(panel.trace(k > 0 ? 0.71 : 0.5, 0.5).sky, SkyRegion::kIV) << k;
   }
 }
 
@@ -153,7 +153,7 @@ TEST(PaperFigCirc, SpeedsShiftsAndConstellations) {
   EXPECT_NEAR(near.local_speed(), 0.5, 1e-14);
   EXPECT_NEAR(near.z(0.5, 0.5), -0.529, 5e-4);
   const V3d back = -near.in_camera(motion_direction(near.state.observer).normalized());
-  EXPECT_NEAR(1 / near.tracer.look({back}).frequency_ratio - 1, 0.414, 5e-4);
+  EXPECT_NEAR(1 / near.tracer.trace({back}).frequency_ratio - 1, 0.414, 5e-4);
   EXPECT_GT(far.in_camera(motion_direction(far.state.observer).normalized()).x, 0.95);
   expect_quadrants(far, {{"Betelgeuse", -1, 1},
                          {"Rigel", -1, 1},

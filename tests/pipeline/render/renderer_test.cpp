@@ -6,8 +6,8 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/render/frame_key.h"
-#include "pipeline/render/view_tracer.h"
-#include "scenes.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
 namespace {
@@ -44,7 +44,7 @@ TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
   EXPECT_EQ(times.images, 0u);
 
   const Show outside = starry(show_of(StaticObserver{10}, Domemaster{32}));
-  EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0))[SeenSky::kThree].lit())
+  EXPECT_FALSE(plan_frame(outside, frame_state(outside, 0))[SkyRegion::kIII].lit())
       << "region III is not seen from outside";
 }
 
@@ -65,16 +65,16 @@ TEST(Renderer, MakesOneTableForACameraThatStandsStill) {
 
 TEST(Renderer, ReadsNoFileThatAFrameDoesNotShow) {
   Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
-  show.sky_one.stars = StarField{"no/such/catalogue.csv", 6.5};
-  show.sky_three.background = PanoramaSky{"no/such/panorama.exr"};
-  show.sky_three.stars = StarField{"nor/this.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = StarField{"no/such/catalogue.csv", 6.5};
+  show.sky[SkyRegion::kIII].background = PanoramaSky{"no/such/panorama.exr"};
+  show.sky[SkyRegion::kIII].stars = StarField{"nor/this.csv", 6.5};
   EXPECT_THROW(Renderer(show, 1).render(frame_state(show, 0)), InputError);
-  show.sky_one.star_gain = 0;
+  show.sky[SkyRegion::kI].star_gain = 0;
   StageTimes times;
   EXPECT_NO_THROW(Renderer(show, 1).render(frame_state(show, 0), &times));
   EXPECT_EQ(times.images, 0u);
-  show.sky_one.background_gain = 0;
-  show.sky_one.background = PanoramaSky{"no/such/panorama.exr"};
+  show.sky[SkyRegion::kI].background_gain = 0;
+  show.sky[SkyRegion::kI].background = PanoramaSky{"no/such/panorama.exr"};
   EXPECT_NO_THROW(Renderer(show, 1).render(frame_state(show, 0), &times));
   EXPECT_EQ(times.tables_made, 0);
 }
@@ -83,7 +83,8 @@ TEST(Renderer, LooksAtNothingWhereAllIsDark) {
   // In region IV without a light every direction is the past singularity.
   Show show = starry(
       show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.0, V3d(0, 0, 0)}, Domemaster{128}));
-  show.sky_one.stars = show.sky_three.stars = StarField{"no/such/catalogue.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = show.sky[SkyRegion::kIII].stars =
+      StarField{"no/such/catalogue.csv", 6.5};
   StageTimes times;
   const HalfFrame frame = Renderer(show, 1).render(frame_state(show, 0), &times);
   EXPECT_EQ(times.tables_made, 0);
@@ -92,7 +93,7 @@ TEST(Renderer, LooksAtNothingWhereAllIsDark) {
   // And a silhouette is no work: of the pixels with light few are looked at one by one.
   const Show outside = starry(show_of(StaticObserver{4}, Domemaster{2048}));
   Renderer(outside, 2).render(frame_state(outside, 0), &times);
-  EXPECT_LT(times.exact_part, 0.25);
+  EXPECT_LT(times.traced_fraction, 0.25);
 }
 
 TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
@@ -106,14 +107,14 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
     for (int x = 0; x < 256; ++x) {
       const PixelPosition pixel{x + 1.0, y + 1.0};
       const float light = frame.row(y)[3 * x] + frame.row(y)[3 * x + 1] + frame.row(y)[3 * x + 2];
-      const Look look = tracer.look(direction_at(show.projection, pixel));
+      const ViewRay look = tracer.trace(direction_at(show.projection, pixel));
       if (!is_inside(show.projection, pixel)) {
         ++outside;
         EXPECT_EQ(light, 0);
-      } else if (look.sky == SeenSky::kFour && look.to_edge > 0.1) {
+      } else if (look.sky == SkyRegion::kIV && look.to_edge > 0.1) {
         ++dark;
         EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
-      } else if (look.sky == SeenSky::kOne) {
+      } else if (look.sky == SkyRegion::kI) {
         EXPECT_GT(light, 0) << "a black speck at " << x << " " << y;
       }
     }
@@ -138,9 +139,10 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
     for (const bool grid : {false, true}) {
       Show show = starry(show_of(trajectory, Domemaster{48}));
       if (grid)
-        show.sky_one.background = show.sky_three.background = show.sky_four.background = GridSky{};
+        show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background =
+            show.sky[SkyRegion::kIV].background = GridSky{};
       EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
-      show.sky_four.background = RingsSky{1e-3};
+      show.sky[SkyRegion::kIV].background = RingsSky{1e-3};
       EXPECT_NO_THROW(Renderer(show, 2).render(frame_state(show, 0))) << trajectory.index();
     }
   }
@@ -150,7 +152,7 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
 // the mean of four pixels of the larger one.
 TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
   Show show = show_of(StaticObserver{20}, Domemaster{512});
-  show.sky_one.background = GridSky{};
+  show.sky[SkyRegion::kI].background = GridSky{};
   const HalfFrame large = Renderer(show, 2).render(frame_state(show, 0));
   show.projection = Domemaster{256};
   const HalfFrame small = Renderer(show, 2).render(frame_state(show, 0));
@@ -169,7 +171,7 @@ TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
 // rings of a period less than what the pixels show leave their mean.
 TEST(Renderer, DrawsTheSingularitysTimeAsRingsAboutTheAxis) {
   Show show = show_of(StaticObserver{20}, Stereographic{257, 257, 40 * kDegree});
-  show.sky_four.background = RingsSky{4};
+  show.sky[SkyRegion::kIV].background = RingsSky{4};
   const auto green = [&show](int frame) {
     const HalfFrame picture = Renderer(show, 2).render(frame_state(show, frame));
     return [picture](int x, int y) { return static_cast<float>(picture.row(y)[3 * x + 1]); };
@@ -195,16 +197,16 @@ TEST(Renderer, DrawsTheSingularitysTimeAsRingsAboutTheAxis) {
   show.timeline[0].timing.tau_end = 2 * 2 * std::sqrt(0.9);
   EXPECT_NEAR(green(1)(128, 128) + still(128, 128), most + least, 5e-3f * most);
 
-  show.sky_four.background = RingsSky{0.001};
+  show.sky[SkyRegion::kIV].background = RingsSky{0.001};
   EXPECT_NEAR(green(0)(128 + 60, 128), (most + least) / 2, 1e-2f * most);
 }
 
 TEST(Renderer, TabulatesEmissionTimesForRingsOnly) {
   Show show = show_of(StaticObserver{20}, Domemaster{32});
   StageTimes grid, rings;
-  show.sky_four.background = GridSky{};
+  show.sky[SkyRegion::kIV].background = GridSky{};
   Renderer(show, 1).render(frame_state(show, 0), &grid);
-  show.sky_four.background = RingsSky{};
+  show.sky[SkyRegion::kIV].background = RingsSky{};
   Renderer(show, 1).render(frame_state(show, 0), &rings);
   EXPECT_GT(rings.table_nodes, grid.table_nodes);
   const HoleOptics optics = make_hole_optics(20, Tetrad::kRain, {true, false, true});
@@ -213,15 +215,15 @@ TEST(Renderer, TabulatesEmissionTimesForRingsOnly) {
 
 TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   Show show = show_of(StaticObserver{10}, Domemaster{64});
-  show.sky_four.background = RingsSky{4};
+  show.sky[SkyRegion::kIV].background = RingsSky{4};
   const std::string key = FrameKeys(show).scene(frame_state(show, 0));
   FrameState later = frame_state(show, 0);
   later.observer.null_time = 1;
   EXPECT_NE(FrameKeys(show).scene(later), key);
   Show other = show;
-  other.sky_four.background = RingsSky{5};
+  other.sky[SkyRegion::kIV].background = RingsSky{5};
   EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
-  show.sky_four.background = GridSky{};
+  show.sky[SkyRegion::kIV].background = GridSky{};
   EXPECT_EQ(FrameKeys(show).scene(later), FrameKeys(show).scene(frame_state(show, 0)));
 }
 
@@ -253,14 +255,14 @@ TEST(FrameKeys, AreOfAllThatAFrameDependsOnAndNothingElse) {
   other.exposure.ev = 0.5;
   EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
   other = show;
-  other.sky_one.stars->max_magnitude = 5;
+  other.sky[SkyRegion::kI].stars->max_magnitude = 5;
   EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
   other = show;
   other.timeline[0].camera.roll = 0.1;
   EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
 
   other = show;
-  other.sky_three.background_gain = 2;
+  other.sky[SkyRegion::kIII].background_gain = 2;
   EXPECT_EQ(FrameKeys(other).scene(frame_state(other, 0)), key) << "not seen from outside";
   other = show;
   Segment later = show.timeline[0];

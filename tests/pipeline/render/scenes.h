@@ -67,9 +67,9 @@ inline Show show_of(const Trajectory& trajectory, const Projection& projection) 
 }
 
 inline Show starry(Show show) {
-  show.sky_one.background = PanoramaSky{small_panorama()};
-  show.sky_one.stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
-  show.sky_three = show.sky_one;
+  show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   return show;
 }
 

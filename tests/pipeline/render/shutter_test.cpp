@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/render/frame_key.h"
-#include "scenes.h"
+#include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 // The dome turns about its zenith, `degrees` a frame; 30 frames.
 Show turning(double degrees, const Projection& projection) {
   Show show = show_of(StaticObserver{kFlatSpace}, projection);
-  show.sky_one.stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
   show.timeline[0].camera.elevation = 90 * kDegree;
   show.timeline[0].curves[static_cast<std::size_t>(Channel::kRoll)] =
       Curve{{{0, 0, Ease::kLinear}, {1, 30 * degrees * kDegree, Ease::kLinear}}};
@@ -42,7 +42,7 @@ TEST(Shutter, StreaksWithoutLosingLight) {
   StageTimes times;
   const HalfFrame streaked = frame_of(show, 10, &times);
   // 4 degrees at the rim, 256 pixels from the zenith: 17.9 pixels.
-  EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerPicture, 2);
+  EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerInstant, 2);
   // Blobs on the rim end at its staircase of pixels, another one at each instant.
   EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 6e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));

@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "pipeline/render/simd.h"
-#include "pipeline/sky/sky_pyramid.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/sky/maps/sky_pyramid.h"
 
 namespace domefall {
 

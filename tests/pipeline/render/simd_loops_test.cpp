@@ -4,14 +4,14 @@
 
 #include <bit>
 
-#include "drawn_blobs.h"
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/half_row.h"
-#include "pipeline/render/sky_sampler.h"
-#include "pipeline/render/small_blobs.h"
-#include "pipeline/render/view_tracer.h"
-#include "simd_levels.h"
-#include "star_scene.h"
+#include "pipeline/render/blobs/ellipse_blob.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/sky/sky_sampler.h"
+#include "pipeline/simd/half_row.h"
+#include "tests/pipeline/render/blobs/drawn_blobs.h"
+#include "tests/pipeline/render/simd_levels.h"
+#include "tests/pipeline/render/stars/star_scene.h"
 
 namespace domefall {
 namespace {
@@ -50,10 +50,10 @@ TEST_P(SimdLoops, MakesTheSameHalves) {
     }
 }
 
-SkyPlaces random_places(std::mt19937& random, double gain) {
+FootprintBatch random_places(std::mt19937& random, double gain) {
   std::uniform_real_distribution<double> octave(-14, 1);
-  SkyPlaces places{};
-  for (std::size_t k = 0; k < SkyPlaces::kSize; ++k) {
+  FootprintBatch places{};
+  for (std::size_t k = 0; k < FootprintBatch::kSize; ++k) {
     const V3d d = random_direction(random) * (1 + 1e-3 * octave(random));
     places.x[k] = static_cast<float>(d.x), places.y[k] = static_cast<float>(d.y);
     places.z[k] = static_cast<float>(d.z);
@@ -79,11 +79,11 @@ TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
     const SkyMap map = pyramid.map();
     const SkySampler sampler(map);
     std::mt19937 random(1);
-    const SkyPlaces places = random_places(random, 1e-9);
-    std::array<LookKind, SkyPlaces::kSize> kinds;
-    for (const int count : {SkyPlaces::kSize, SkyPlaces::kSize - 3, 17, 1}) {
+    const FootprintBatch places = random_places(random, 1e-9);
+    std::array<SampleKind, FootprintBatch::kSize> kinds;
+    for (const int count : {FootprintBatch::kSize, FootprintBatch::kSize - 3, 17, 1}) {
       const auto colours = [&](const auto& sample) {
-        std::vector<float> rgb(3 * SkyPlaces::kSize + 1);
+        std::vector<float> rgb(3 * FootprintBatch::kSize + 1);
         sample(rgb.data());
         Bytes bytes;
         bytes.add(rgb);
@@ -91,7 +91,7 @@ TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
       };
       for (const int taps : {1, 2, 4, 8, SkySampler::kMostTaps})
         for (const bool minified : {false, true}) {
-          kinds.fill(LookKind(taps, minified));
+          kinds.fill(SampleKind(taps, minified));
           compare(std::to_string(taps) + " taps of " + std::to_string(count), [&] {
             return colours([&](float* rgb) { sampler.sample(places, count, kinds.data(), rgb); });
           });
@@ -124,14 +124,14 @@ std::vector<Trajectory> observers() {
 
 Bytes looks(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
   Bytes bytes;
-  LookBatch b;
+  ViewRayBatch b;
   const auto count = static_cast<int>(n.size());
   // Skies without a table leave their columns alone.
   for (auto* column :
        {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
         &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
     column->fill(0);
-  tracer.look(n.data(), count, b);
+  tracer.trace(n.data(), count, b);
   for (const auto* column :
        {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
         &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
@@ -179,13 +179,14 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
        {Projection(Domemaster{512}), Projection(Stereographic{640, 360, 2.0})}) {
     const Show show = show_of(trajectory, p);
     FrameState state = frame_state(show, 0);
-    state.picture.sky_one.max_magnitude = 99, state.picture.ev = 8;
+    state.settings.sky[SkyRegion::kI].max_magnitude = 99, state.settings.ev = 8;
     const ObserverState& o = state.observer;
     const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
     for (const auto* table : {&optics.home_sky, &optics.far_sky})
       if (*table || is_flat(o))
         bytes.add(all_images(
-            StarImages(show, state, state.picture.sky_one, *table ? &**table : nullptr), stars));
+            StarImages(show, state, state.settings.sky[SkyRegion::kI], *table ? &**table : nullptr),
+            stars));
   }
   return bytes;
 }
@@ -269,22 +270,22 @@ TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
     for (std::size_t k = 0; k < images.size(); ++k)
       sigma.push_back(width(random) * central_pixel_angle(p));
     compare("places", [&] {
-      std::vector<SmallBlob> blobs(images.size());
+      std::vector<EllipseBlob> blobs(images.size());
       std::vector<int> first_row(images.size());
       std::vector<Placed> kind(images.size());
-      place_small_blobs(p, images.data(), sigma.data(), images.size(), 50, blobs.data(),
-                        first_row.data(), kind.data());
-      EXPECT_GT(std::count(kind.begin(), kind.end(), Placed::kSmall), 500);
+      place_ellipses(p, images.data(), sigma.data(), images.size(), 50, blobs.data(),
+                     first_row.data(), kind.data());
+      EXPECT_GT(std::count(kind.begin(), kind.end(), Placed::kEllipse), 500);
       Bytes bytes;
       bytes.add(blobs), bytes.add(first_row), bytes.add(kind);
       return bytes;
     });
-    StarBlobs plain{0.05 * kDegree, 0.3, 2, 3 * kDegree}, haloes = plain;
+    PointSpreadLaw plain{0.05 * kDegree, 0.3, 2, 3 * kDegree}, haloes = plain;
     haloes.halo = 0.3, haloes.halo_sigma = 2 * kDegree, haloes.white_core = kWhiteCore;
-    for (const StarBlobs& law : {plain, haloes})
+    for (const PointSpreadLaw& law : {plain, haloes})
       compare("drawn", [&] {
         Bytes bytes;
-        bytes.add(drawn(images, p, BlobWidths(law, p, 1e3)).rgb);
+        bytes.add(drawn(images, p, PointSpread(law, p, 1e3)).rgb);
         return bytes;
       });
   }

@@ -1,13 +1,12 @@
-#include "pipeline/render/simd.h"
-
 #include <set>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/render/look_grid.h"
-#include "pipeline/render/sky_pass.h"
-#include "pipeline/sky/sky_file.h"
-#include "scenes.h"
-#include "simd_levels.h"
+#include "pipeline/render/sky/ray_grid.h"
+#include "pipeline/render/sky/sky_pass.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/sky/maps/sky_file.h"
+#include "tests/pipeline/render/scenes.h"
+#include "tests/pipeline/render/simd_levels.h"
 
 namespace domefall {
 namespace {
@@ -98,8 +97,8 @@ std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
   const auto with = [&](const Trajectory& trajectory, const SkyBackground& one,
                         const SkyBackground& three, const SkyBackground& four) {
     Show show = starry(show_of(trajectory, projection));
-    show.sky_one.background = one, show.sky_three.background = three;
-    show.sky_four.background = four;
+    show.sky[SkyRegion::kI].background = one, show.sky[SkyRegion::kIII].background = three;
+    show.sky[SkyRegion::kIV].background = four;
     return show;
   };
   const PanoramaSky colour = colour_sky(), thermal = thermal_sky();
@@ -151,23 +150,23 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;
   const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
   const Sky sky{std::make_shared<const SkyMap>(map), nullptr};
-  const PixelLight light(show, state, optics, {&sky, &sky, nullptr});
-  LookGrid grid;
+  const PixelShader light(show, state, optics, {&sky, &sky, nullptr});
+  RayGrid grid;
   grid.make(state.projection, light, special_directions(show, state, optics));
   Bytes bytes;
   for (int j = 0; j < grid.cell_rows(); ++j)
     for (int i = 0; i < grid.cell_columns(); ++i) {
-      const LookGrid::Cell& cell = grid.cell(j, i);
+      const RayGrid::Cell& cell = grid.cell(j, i);
       bytes.add(&cell, 1);
-      if (cell.kind != LookGrid::Kind::kSmooth) continue;
-      SkyPlaces places{};
-      grid.row_places(j, j % LookGrid::kStep, i, i + 1, places);
+      if (cell.kind != RayGrid::Kind::kSmooth) continue;
+      FootprintBatch places{};
+      grid.interpolate_row(j, j % RayGrid::kStep, i, i + 1, places);
       for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone})
-        bytes.add(column->data(), LookGrid::kStep);
-      grid.block_places(j, i, i + 1, places);
+        bytes.add(column->data(), RayGrid::kStep);
+      grid.interpolate_block(j, i, i + 1, places);
       for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone,
                                  &places.wide, &places.narrow, &places.ax, &places.ay, &places.az})
-        bytes.add(column->data(), std::size_t{LookGrid::kStep} * LookGrid::kStep);
+        bytes.add(column->data(), std::size_t{RayGrid::kStep} * RayGrid::kStep);
     }
   return bytes;
 }

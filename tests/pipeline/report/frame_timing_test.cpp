@@ -36,7 +36,7 @@ TEST(FrameDifference, LeavesOutWhatIsOutsideTheDome) {
 TEST(TimedFrames, AreThoseThatTheRendererMakes) {
   Show show;
   show.projection = Domemaster{64};
-  show.sky_one.background = GridSky{};
+  show.sky[SkyRegion::kI].background = GridSky{};
   Segment segment;
   segment.duration_s = 1;
   segment.trajectory = StaticObserver{10};

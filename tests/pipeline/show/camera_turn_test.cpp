@@ -4,7 +4,7 @@
 #include "pipeline/optics/aberration.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/frame_state.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {

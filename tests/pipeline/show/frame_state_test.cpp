@@ -7,7 +7,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/placement.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -228,7 +228,7 @@ TEST_F(FrameStates, AStarThatIsLookedAtStandsWhereItsPrimaryImageIs) {
                           "camera: {elevation_deg: 60, look_at: " + std::string(star) + "}\n");
       const FrameState f = frame_state(s, 20);
       const ObserverState& o = f.observer;
-      const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {true, false, false});
+      const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {true, true, false});
       const V3d target = std::get<LookAtSky>(s.timeline[0].camera.attitude).target.v;
       const SkyImage image =
           image_of(&*optics.home_sky, apply_transposed(o.sky_from_tetrad, target), 0, 1e-9);

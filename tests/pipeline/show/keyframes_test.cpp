@@ -5,7 +5,7 @@
 #include "pipeline/optics/aberration.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/frame_state.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -41,7 +41,7 @@ TEST_F(Keyframes, ValuesComeFromTheNearestThatSaysThem) {
       "  - {duration_s: 2, trajectory: {type: static, r: 9}, exposure: {ev: -5}}\n"
       "  - {duration_s: 4, trajectory: {type: static, r: 9}, keyframes: [{at_s: 2, exposure: {ev: "
       "7}}]}\n");
-  const auto ev = [&](int frame) { return frame_state(s, frame).picture.ev; };
+  const auto ev = [&](int frame) { return frame_state(s, frame).settings.ev; };
   EXPECT_DOUBLE_EQ(ev(0), 1);  // the show's own value is there without keyframes
   EXPECT_DOUBLE_EQ(ev(1), 2);
   EXPECT_DOUBLE_EQ(ev(3), 3);
@@ -63,13 +63,13 @@ TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
       "  - {duration_s: 3, trajectory: {type: static, r: 9}}\n");
   const FrameState f = frame_state(s, 1);
   EXPECT_DOUBLE_EQ(std::get<Stereographic>(f.projection).fov, 60 * kDegree);
-  EXPECT_DOUBLE_EQ(f.picture.sky_one.background_gain, 2);
-  EXPECT_DOUBLE_EQ(f.picture.sky_one.star_gain, 1.5);
-  EXPECT_DOUBLE_EQ(f.picture.sky_one.max_magnitude, 5.5);
-  EXPECT_TRUE(f.picture.sky_one.soft_limit);
-  EXPECT_DOUBLE_EQ(f.picture.sky_three.background_gain, 0.5);
-  EXPECT_FALSE(f.picture.sky_three.soft_limit);
-  EXPECT_DOUBLE_EQ(f.picture.sky_four.background_gain, 3);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].background_gain, 2);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].star_gain, 1.5);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].max_magnitude, 5.5);
+  EXPECT_TRUE(f.settings.sky[SkyRegion::kI].soft_limit);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kIII].background_gain, 0.5);
+  EXPECT_FALSE(f.settings.sky[SkyRegion::kIII].soft_limit);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kIV].background_gain, 3);
   EXPECT_DOUBLE_EQ(std::get<Stereographic>(frame_state(s, 2).projection).fov, 30 * kDegree);
 }
 

@@ -1,6 +1,6 @@
 // Keyframes, cameras and dissolves that cannot be.
 // Every message in full, with its line and column.
-#include "show_mistakes.h"
+#include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {
 namespace {

@@ -1,6 +1,6 @@
 // Orbits that do not exist, and clocks that no trajectory has.
 // Every message in full, with its line and column.
-#include "show_mistakes.h"
+#include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {
 namespace {

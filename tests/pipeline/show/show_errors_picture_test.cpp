@@ -1,6 +1,6 @@
 // Cameras, skies and grades that cannot be had.
 // Every message in full, with its line and column.
-#include "show_mistakes.h"
+#include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {
 namespace {

@@ -2,7 +2,7 @@
 // Every message in full, with its line and column.
 #include <algorithm>
 
-#include "show_mistakes.h"
+#include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {
 namespace {

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "pipeline/show/frame_state.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "pipeline/show/frame_state.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -146,7 +146,7 @@ void expect_finite_numbers(const Show& show) {
                               show.grade.saturation};
   for (const auto& channels : {show.grade.slope, show.grade.offset, show.grade.power})
     numbers.insert(numbers.end(), channels.begin(), channels.end());
-  for (const RegionSky& sky : {show.sky_one, show.sky_three})
+  for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]})
     numbers.insert(numbers.end(), {sky.background_gain, sky.star_gain,
                                    sky.stars.value_or(StarField{}).max_magnitude});
   for (const Segment& s : show.timeline) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 

@@ -1,5 +1,5 @@
 // What each key of a show file means, in inside units, and what is meant where it is left out.
-#include "show_keys.h"
+#include "tests/pipeline/show/show_keys.h"
 
 #include <cmath>
 #include <numbers>
@@ -37,7 +37,7 @@ TEST_F(ShowKeys, SixLinesMakeAShowForADome) {
 
 TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
   const Show show = read(kSixLines);
-  for (const RegionSky& sky : {show.sky_one, show.sky_three}) {
+  for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]}) {
     EXPECT_EQ(std::get<PanoramaSky>(sky.background).image, asset("milky_way.exr"));
     EXPECT_EQ(sky.background_gain, 1);
     ASSERT_TRUE(sky.stars);
@@ -174,38 +174,40 @@ TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
       "  region_III: {background: grid, stars: {max_magnitude: 4}}\n"
       "  blueshift_power: 3.5\n"
       "  epoch: 2026.5\n");
-  EXPECT_EQ(std::get<PanoramaSky>(show.sky_one.background).image, folder_ / "art/sky.png");
-  EXPECT_EQ(show.sky_one.background_gain, 2);
-  EXPECT_EQ(show.sky_one.stars->catalogue, folder_ / "art/stars.csv");
-  EXPECT_EQ(show.sky_one.stars->max_magnitude, 9);
-  EXPECT_EQ(show.sky_one.star_gain, 3);
-  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky_three.background));
-  EXPECT_EQ(show.sky_three.background_gain, 2);
-  EXPECT_EQ(show.sky_three.stars->catalogue, folder_ / "art/stars.csv");
-  EXPECT_EQ(show.sky_three.stars->max_magnitude, 4);
-  EXPECT_EQ(show.sky_three.star_gain, 3);
+  EXPECT_EQ(std::get<PanoramaSky>(show.sky[SkyRegion::kI].background).image,
+            folder_ / "art/sky.png");
+  EXPECT_EQ(show.sky[SkyRegion::kI].background_gain, 2);
+  EXPECT_EQ(show.sky[SkyRegion::kI].stars->catalogue, folder_ / "art/stars.csv");
+  EXPECT_EQ(show.sky[SkyRegion::kI].stars->max_magnitude, 9);
+  EXPECT_EQ(show.sky[SkyRegion::kI].star_gain, 3);
+  EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky[SkyRegion::kIII].background));
+  EXPECT_EQ(show.sky[SkyRegion::kIII].background_gain, 2);
+  EXPECT_EQ(show.sky[SkyRegion::kIII].stars->catalogue, folder_ / "art/stars.csv");
+  EXPECT_EQ(show.sky[SkyRegion::kIII].stars->max_magnitude, 4);
+  EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 3);
   EXPECT_EQ(show.panorama_shift.blueshift_power, 3.5);
   EXPECT_EQ(show.star_epoch, 2026.5);
 }
 
 TEST_F(ShowKeys, SkiesMayBeBlackAndStarless) {
   const Show show = with("sky: {region_I: {background: black, stars: none}}\n");
-  for (const RegionSky& sky : {show.sky_one, show.sky_three}) {
+  for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]}) {
     EXPECT_TRUE(std::holds_alternative<BlackSky>(sky.background));
     EXPECT_FALSE(sky.stars);
   }
   const Show back = with(
       "sky: {region_I: {background: black, stars: none},"
       " region_III: {background: milky_way, stars: naked_eye}}\n");
-  EXPECT_EQ(std::get<PanoramaSky>(back.sky_three.background).image, asset("milky_way.exr"));
-  EXPECT_EQ(back.sky_three.stars->catalogue, asset("naked_eye_stars.csv"));
+  EXPECT_EQ(std::get<PanoramaSky>(back.sky[SkyRegion::kIII].background).image,
+            asset("milky_way.exr"));
+  EXPECT_EQ(back.sky[SkyRegion::kIII].stars->catalogue, asset("naked_eye_stars.csv"));
 }
 
 TEST_F(ShowKeys, TheSingularityMayGlowInRings) {
   const auto rings = [this](const std::string& value) {
     const Show show = with("sky: {region_IV: " + value + "}\n");
-    return std::pair(std::get<RingsSky>(show.sky_four.background).period,
-                     show.sky_four.background_gain);
+    return std::pair(std::get<RingsSky>(show.sky[SkyRegion::kIV].background).period,
+                     show.sky[SkyRegion::kIV].background_gain);
   };
   EXPECT_EQ(rings("rings"), std::pair(4.0, 1.0));
   EXPECT_EQ(rings("{background: rings}"), std::pair(4.0, 1.0));
@@ -225,7 +227,8 @@ TEST_F(ShowKeys, FilesBesideTheShowComeBeforeThoseOfTheWorkingFolder) {
   std::filesystem::current_path(folder_ / "elsewhere");
   const auto image = [&](const std::string& name) {
     const Show show = with("sky: {region_I: {background: " + name + "}}\n");
-    return std::filesystem::canonical(std::get<PanoramaSky>(show.sky_one.background).image);
+    return std::filesystem::canonical(
+        std::get<PanoramaSky>(show.sky[SkyRegion::kI].background).image);
   };
   EXPECT_EQ(image("sky.png"), std::filesystem::canonical(folder_ / "sky.png"));
   EXPECT_EQ(image("only_here.png"),
@@ -260,10 +263,10 @@ TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
 }
 
 TEST_F(ShowKeys, StarsWithAHalo) {
-  const StarBlobs own = with("stars: {law: psf}\n").blobs;
+  const PointSpreadLaw own = with("stars: {law: psf}\n").blobs;
   EXPECT_EQ(own.halo, 0.15);
   EXPECT_DOUBLE_EQ(own.halo_sigma, 0.2 * kDegree);
-  const StarBlobs given =
+  const PointSpreadLaw given =
       with("stars: {law: psf, min_sigma_deg: 0.06, halo: 0.3, halo_sigma_deg: 1, white_core: 0}\n")
           .blobs;
   EXPECT_DOUBLE_EQ(given.min_sigma, 0.06 * kDegree);

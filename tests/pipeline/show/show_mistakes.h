@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 

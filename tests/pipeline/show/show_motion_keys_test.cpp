@@ -1,5 +1,5 @@
 // What the keys of a trajectory mean, in inside units.
-#include "show_keys.h"
+#include "tests/pipeline/show/show_keys.h"
 
 namespace domefall {
 namespace {

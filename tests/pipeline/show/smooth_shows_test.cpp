@@ -18,7 +18,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/observer_track.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -62,7 +62,7 @@ Look look_of(const FrameState& s) {
   Look look;
   look.place = column(o.sky_from_tetrad, 0);
   look.log_r = std::log(o.r);
-  look.ev = s.picture.ev;
+  look.ev = s.settings.ev;
   look.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
   const bool sky = !(is_outgoing(o.tetrad) && o.r <= 2);
   for (int k = 0; k < 27; ++k) {
@@ -182,8 +182,8 @@ TEST_P(SmoothShows, LastsOneToThreeMinutesBetweenDarkAndDark) {
   const int frames = frame_count(show);
   EXPECT_GE(frames, 60 * kFramesPerSecond);
   EXPECT_LE(frames, 180 * kFramesPerSecond);
-  EXPECT_LE(frame_state(show, 0).picture.ev, kDark);
-  EXPECT_LE(frame_state(show, frames - 1).picture.ev, kDark);
+  EXPECT_LE(frame_state(show, 0).settings.ev, kDark);
+  EXPECT_LE(frame_state(show, frames - 1).settings.ev, kDark);
 }
 
 INSTANTIATE_TEST_SUITE_P(Productions, SmoothShows,

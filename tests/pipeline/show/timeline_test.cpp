@@ -4,7 +4,7 @@
 
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/observer_track.h"
-#include "show_file.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {

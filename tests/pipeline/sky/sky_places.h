@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipeline/sky/importers.h"
+#include "pipeline/sky/catalogue/import/importers.h"
 
 namespace domefall {
 

@@ -7,9 +7,10 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/sky_map.h"
-#include "pipeline/sky/star_catalogue.h"
+#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/maps/sky_map.h"
 
 namespace domefall {
 namespace {
@@ -35,7 +36,7 @@ TEST(SkyMap, RightAscensionGrowsToTheLeftFromTheMiddleAndNorthIsUp) {
   };
   paint(127, 63), paint(128, 63), paint(127, 64), paint(128, 64);  // RA 0h, Dec 0
   paint(63, 31), paint(64, 31), paint(63, 32), paint(64, 32);      // RA 6h, Dec +45
-  const SkyMap map(image);
+  const SkyMap map = map_of_panorama(image);
   EXPECT_GT(luminance_of(map.sample(at(0, 0).v, 0)), 0.9 * kPanoramaUnit);
   EXPECT_GT(luminance_of(map.sample(at(90, 45).v, 0)), 0.9 * kPanoramaUnit);
   EXPECT_EQ(luminance_of(map.sample(at(270, 45).v, 0)), 0);
@@ -52,7 +53,7 @@ TEST(SkyMap, HasNoSeamAndNoPole) {
       for (int c = 0; c < 3; ++c)
         image.row(y)[3 * x + c] = static_cast<float>(smooth_sky(at(ra, dec).v));
     }
-  const SkyMap map(image);
+  const SkyMap map = map_of_panorama(image);
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   std::vector<V3d> directions{{0, 0, 1},  {0, 0, -1}, {-1, 0, 0},    {-1, 1e-9, 0},
@@ -70,7 +71,7 @@ TEST(SkyMap, HasNoSeamAndNoPole) {
 }
 
 TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
-  const SkyMap map(read_image(kAssets + "milky_way.exr"));
+  const SkyMap map = map_of_panorama(read_image(kAssets + "milky_way.exr"));
   const auto light = [&map](double ra, double dec) {
     return luminance_of(map.sample(at(ra, dec).v, 0.02)) / kPanoramaUnit;
   };

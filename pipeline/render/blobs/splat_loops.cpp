@@ -1,0 +1,261 @@
+#include "pipeline/render/blobs/splat_loops.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "pipeline/simd/dispatch.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kBatch = 64;
+constexpr int kChannels = kSplatChannels, kFloats = 16, kBlocks = 4;
+static_assert(kBlocks * kFloats == kSplatFloatsBeyond);
+using Block = float __attribute__((vector_size(4 * kFloats)));
+using Pixel = float __attribute__((vector_size(4 * kChannels)));
+using Pair = float __attribute__((vector_size(8 * kChannels)));
+
+// Where a star is dropped, in widths of what is missing, and the parts of its light.
+struct Point {
+  float along, across, share;
+};
+// Gauss and Hermite's points, and for both directions a triangle, and a cross without and with its middle.
+constexpr Point kOne[] = {{0, 0, 1}};
+constexpr Point kTwo[] = {{-1, 0, 0.5f}, {1, 0, 0.5f}};
+constexpr Point kThree[] = {
+    {-1.7320508f, 0, 1.0f / 6}, {0, 0, 2.0f / 3}, {1.7320508f, 0, 1.0f / 6}};
+constexpr Point kFour[] = {{-2.3344142f, 0, 0.045875855f},
+                           {-0.74196378f, 0, 0.454124145f},
+                           {0.74196378f, 0, 0.454124145f},
+                           {2.3344142f, 0, 0.045875855f}};
+constexpr Point kFive[] = {{-2.8569700f, 0, 0.011257411f},
+                           {-1.3556262f, 0, 0.222075922f},
+                           {0, 0, 0.533333333f},
+                           {1.3556262f, 0, 0.222075922f},
+                           {2.8569700f, 0, 0.011257411f}};
+constexpr Point kTriangle[] = {{1.4142136f, 0, 1.0f / 3},
+                               {-0.70710678f, 1.2247449f, 1.0f / 3},
+                               {-0.70710678f, -1.2247449f, 1.0f / 3}};
+constexpr Point kCross[] = {{1.4142136f, 0, 0.25f},
+                            {-1.4142136f, 0, 0.25f},
+                            {0, 1.4142136f, 0.25f},
+                            {0, -1.4142136f, 0.25f}};
+constexpr Point kStar[] = {
+    {0, 0, 0.5f}, {2, 0, 0.125f}, {-2, 0, 0.125f}, {0, 2, 0.125f}, {0, -2, 0.125f}};
+
+// The fewest points that err by less than 1e-2 of the peak (at the outskirts of a flat picture 2e-2) where
+// so much of the blob's variance, in parts, is missing; on a dome along one direction.
+struct Rule {
+  const Point* points;
+  int count;
+};
+constexpr Rule line_rule(float missing) {
+  if (missing < 0.02f) return {kOne, 1};
+  if (missing < 0.2f) return {kTwo, 2};
+  if (missing < 0.43f) return {kThree, 3};
+  if (missing < 0.63f) return {kFour, 4};
+  return {kFive, 5};
+}
+constexpr Rule plane_rule(float missing) {
+  if (missing < 0.02f) return {kOne, 1};
+  if (missing < 0.09f) return {kTriangle, 3};
+  if (missing < 0.15f) return {kCross, 4};
+  return {kStar, 5};
+}
+// Dots on their way to the pixels, in columns of kBatch: the last ones may be there twice.
+using Column = std::array<float, kBatch>;
+struct Drops {
+  alignas(64) Column x, y, along_x, along_y, across_x, across_y, density;
+  struct At {
+    alignas(64) Column x0, x1, x2, x3, y0, y1, y2, y3;
+    alignas(64) std::array<int, kBatch> column, row;
+  };
+  At at;
+};
+
+// u = (1 - sinc theta) / theta^2; the next term is below 2e-9 at 1.9.
+constexpr std::array<float, 6> kSinc{1.0f / 6,       -1.0f / 120,     1.0f / 5040,
+                                     -1.0f / 362880, 1.0f / 39916800, -1.0f / 6227020800.0f};
+
+// The missing variance as vectors of one width each, and what a pixel's solid angle makes of the light.
+// Returns the largest part of a blob's variance that is missing.
+template <bool kDome>
+[[gnu::always_inline]] inline float shape(const SplatFrame& frame, Drops& d) {
+  const SplatFrame f = frame;
+  std::int32_t most =
+      0;  // a positive float's bits are in its order, and their maximum is SIMD code
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    const float cx = d.x[k] - f.middle_x, cy = d.y[k] - f.middle_y;
+    const float t = f.unit2 * (cx * cx + cy * cy);
+    if constexpr (kDome) {
+      float u = kSinc[5];
+      for (std::size_t n = 5; n-- > 0;) u = u * t + kSinc[n];
+      const float sinc = 1 - t * u, inverse = 1 / sinc, missing = 1 - sinc * sinc;
+      const auto bits = std::bit_cast<std::int32_t>(missing);
+      most = bits > most ? bits : most;
+      // variance (1/sinc^2 - 1) along the tangent (-cy, cx)
+      const float long_one = std::sqrt(f.variance * f.unit2 * u * (1 + sinc)) * inverse;
+      d.along_x[k] = -cy * long_one, d.along_y[k] = cx * long_one;
+      d.across_x[k] = d.across_y[k] = 0;
+      d.density[k] = f.density * inverse;
+    } else {
+      const float grown = 1 + t, wide = std::sqrt(f.variance * t * (1 + grown));
+      const float missing = 1 - 1 / (grown * grown);
+      const auto bits = std::bit_cast<std::int32_t>(missing);
+      most = bits > most ? bits : most;
+      d.along_x[k] = wide, d.along_y[k] = 0;
+      d.across_x[k] = 0, d.across_y[k] = wide;
+      d.density[k] = f.density * (grown * grown);
+    }
+  }
+  return std::bit_cast<float>(most);
+}
+
+constexpr int kPositive = 256;  // makes numbers positive, so that truncation rounds down
+
+// The spline's weights along both axes, across the rows with the point's light.
+[[gnu::always_inline]] inline void place(const Point& point, const Drops& d, Drops::At& at) {
+  const Point p = point;
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    const float x = d.x[k] + (p.along * d.along_x[k] + p.across * d.across_x[k]);
+    const float y = d.y[k] + (p.along * d.along_y[k] + p.across * d.across_y[k]);
+    const int column = static_cast<int>(x + kPositive) - kPositive;
+    const int row = static_cast<int>(y + kPositive) - kPositive;
+    const float g = y - static_cast<float>(row), h = 1 - g;
+    const float sixth = p.share * d.density[k] * (1.0f / 6), whole = 4 * sixth;
+    const float f = x - static_cast<float>(column), e = 1 - f;
+    at.x0[k] = (1.0f / 6) * (e * e * e), at.x3[k] = (1.0f / 6) * (f * f * f);
+    at.x1[k] = (2.0f / 3) + (1.0f / 6) * (f * f * (3 * f - 6));
+    at.x2[k] = (2.0f / 3) + (1.0f / 6) * (e * e * (3 * e - 6));
+    at.column[k] = column - 1, at.row[k] = row - 1;
+    at.y0[k] = sixth * (h * h * h), at.y3[k] = sixth * (g * g * g);
+    at.y1[k] = whole + sixth * (g * g * (3 * g - 6));
+    at.y2[k] = whole + sixth * (h * h * (3 * h - 6));
+  }
+}
+
+[[gnu::always_inline]] inline void add_to(float* out, const Pair& light) {
+  Pair sum;
+  std::memcpy(&sum, out, sizeof sum);
+  sum += light;
+  std::memcpy(out, &sum, sizeof sum);
+}
+
+[[gnu::always_inline]] inline void add_drops(const Pixel* light, std::size_t count,
+                                             const Drops::At& at, const SplatRows& rows) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Pixel x0 = light[k] * at.x0[k], x1 = light[k] * at.x1[k], x2 = light[k] * at.x2[k],
+                x3 = light[k] * at.x3[k];
+    const Pair left = __builtin_shufflevector(x0, x1, 0, 1, 2, 3, 4, 5, 6, 7);
+    const Pair right = __builtin_shufflevector(x2, x3, 0, 1, 2, 3, 4, 5, 6, 7);
+    const std::ptrdiff_t column = kChannels * std::ptrdiff_t{at.column[k]};
+    float* const* row = rows.row + (at.row[k] - rows.first);
+    const float y[4] = {at.y0[k], at.y1[k], at.y2[k], at.y3[k]};
+    for (int j = 0; j < 4; ++j) {
+      float* out = row[j] + column;
+      add_to(out, left * y[j]);
+      add_to(out + 2 * kChannels, right * y[j]);
+    }
+  }
+}
+
+template <bool kDome>
+[[gnu::always_inline]] inline void drop_batch(const SplatFrame& frame, const StarImage* images,
+                                              std::size_t count, const SplatRows& rows) {
+  Drops drops;
+  alignas(64) Pixel light[kBatch];
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    const StarImage& image = images[k < count ? k : count - 1];
+    drops.x[k] = image.x, drops.y[k] = image.y;
+    light[k] = Pixel{image.rgb[0], image.rgb[1], image.rgb[2], 0};
+  }
+  const float missing = shape<kDome>(frame, drops);
+  const Rule rule = kDome ? line_rule(missing) : plane_rule(missing);
+  for (int p = 0; p < rule.count; ++p) {
+    place(rule.points[p], drops, drops.at);
+    add_drops(light, count, drops.at, rows);
+  }
+}
+
+[[gnu::always_inline]] inline void drop_on_dome(const SplatFrame& frame, const StarImage* images,
+                                                std::size_t count, const SplatRows& rows) {
+  drop_batch<true>(frame, images, count, rows);
+}
+[[gnu::always_inline]] inline void drop_on_flat(const SplatFrame& frame, const StarImage* images,
+                                                std::size_t count, const SplatRows& rows) {
+  drop_batch<false>(frame, images, count, rows);
+}
+Dispatched<drop_on_dome> to_dome;
+Dispatched<drop_on_flat> to_flat;
+
+[[gnu::always_inline]] inline void blur_blocks(const SplatBlur& blur, const float* const* rows,
+                                               std::ptrdiff_t step, std::ptrdiff_t k, float* out) {
+  Block sum[kBlocks];
+  for (int b = 0; b < kBlocks; ++b) {
+    std::memcpy(&sum[b], rows[blur.taps] + k + b * kFloats, sizeof sum[b]);
+    sum[b] *= blur.tap[0];
+  }
+  for (int n = 1; n <= blur.taps; ++n) {
+    const float* before = rows[blur.taps - n] + k - n * step;
+    const float* after = rows[blur.taps + n] + k + n * step;
+    for (int b = 0; b < kBlocks; ++b) {
+      Block p, q;
+      std::memcpy(&p, before + b * kFloats, sizeof p);
+      std::memcpy(&q, after + b * kFloats, sizeof q);
+      sum[b] += blur.tap[n] * (p + q);
+    }
+  }
+  for (int b = 0; b < kBlocks; ++b) std::memcpy(out + k + b * kFloats, &sum[b], sizeof sum[b]);
+}
+
+// Down `lines` rows at once, which have most of what they read in common.  rows: lines + 2 taps
+// pointers; out: lines, `stride` apart.  Goes on to a whole number of blocks.
+[[gnu::always_inline]] inline void blur_down_loop(const SplatBlur& blur, const float* const* rows,
+                                                  int lines, int count, float* out,
+                                                  std::ptrdiff_t stride) {
+  for (int k = 0; k < count; k += kBlocks * kFloats)
+    for (int line = 0; line < lines; ++line)
+      blur_blocks(blur, rows + line, 0, k, out + line * stride);
+}
+Dispatched<blur_down_loop> down;
+
+// Along a row of `count` pixels, added to what is in `out`.  between: room for as much as is read.
+[[gnu::always_inline]] inline void blur_along_loop(const SplatBlur& blur, const float* row,
+                                                   int count, float* between,
+                                                   float* __restrict out) {
+  const float* rows[2 * kMostSplatTaps + 1];
+  for (int n = 0; n <= 2 * blur.taps; ++n) rows[n] = row;
+  for (int k = 0; k < kChannels * count; k += kBlocks * kFloats)
+    blur_blocks(blur, rows, kChannels, k, between);
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < 3; ++c) out[3 * k + c] += between[kChannels * k + c];
+}
+Dispatched<blur_along_loop> along;
+
+}  // namespace
+
+void drop_splats(bool dome, const SplatFrame& frame, const StarImage* images, std::size_t count,
+                 const SplatRows& rows) {
+  for (std::size_t k = 0; k < count; k += kBatch) {
+    const std::size_t n = std::min(kBatch, count - k);
+    if (dome)
+      to_dome(frame, images + k, n, rows);
+    else
+      to_flat(frame, images + k, n, rows);
+  }
+}
+
+void blur_down(const SplatBlur& blur, const float* const* rows, int lines, int count, float* out,
+               std::ptrdiff_t stride) {
+  down(blur, rows, lines, count, out, stride);
+}
+
+void blur_along(const SplatBlur& blur, const float* row, int count, float* between, float* rgb) {
+  along(blur, row, count, between, rgb);
+}
+
+}  // namespace domefall

@@ -1,0 +1,38 @@
+#include "pipeline/render/rays/footprint_batch.h"
+
+#include "pipeline/simd/dispatch.h"
+
+namespace domefall {
+namespace {
+
+[[gnu::always_inline]] inline void set_loop(const ViewRayBatch& batch, const double* angle,
+                                            int count, const FootprintColumns& places) {
+  const ViewRayBatch& b = batch;
+  const FootprintColumns out = places;
+  for (int k = 0; k < count; ++k) {
+    const double sx = b.sky_x[k], sy = b.sky_y[k], sz = b.sky_z[k];
+    const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
+    const double across_x = y * sz - z * sy, across_y = z * sx - x * sz, across_z = x * sy - y * sx;
+    const double r = b.radial_scale[k], t = b.tangential_scale[k];
+    const bool radial = r >= t;
+    const double wide = angle[k] * (radial ? r : t), narrow = angle[k] * (radial ? t : r);
+    out.x[k] = static_cast<float>(sx);
+    out.y[k] = static_cast<float>(sy);
+    out.z[k] = static_cast<float>(sz);
+    out.wide[k] = static_cast<float>(wide);
+    out.narrow[k] = static_cast<float>(narrow);
+    out.ax[k] = static_cast<float>((radial ? x : across_x) * wide);
+    out.ay[k] = static_cast<float>((radial ? y : across_y) * wide);
+    out.az[k] = static_cast<float>((radial ? z : across_z) * wide);
+  }
+}
+Dispatched<set_loop> set;
+
+}  // namespace
+
+void set_footprints(const ViewRayBatch& batch, const double* angle, int count,
+                    const FootprintColumns& places) {
+  set(batch, angle, count, places);
+}
+
+}  // namespace domefall

@@ -1,0 +1,87 @@
+#include "pipeline/render/rays/view_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "pipeline/render/rays/lensed_ray_parts.h"
+
+namespace domefall {
+
+ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects)
+    : tetrad_from_camera_(state.observer.tetrad_from_camera),
+      sky_from_tetrad_(state.observer.sky_from_tetrad),
+      celerity_(state.observer.celerity),
+      optics_(optics),
+      flat_(is_flat(state.observer)),
+      outgoing_(is_outgoing(state.observer.tetrad)),
+      home_(home_sky(state.observer.tetrad)),
+      far_(far_sky(state.observer.tetrad)),
+      s_(std::sqrt(2 / state.observer.r)),
+      one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {
+  const Vantage vantage = vantage_of(state.observer, effects);
+  celerity_ = vantage.celerity;
+  if (vantage.measured) to_measured_.emplace(-*vantage.measured);
+  if (effects.lensing || flat_) return;
+  to_rest_.emplace(-vantage.rest);
+  gravitational_ratio_ = gravitational_ratio(state.observer.r);
+}
+
+ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
+  const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
+  ViewRay look;
+  if (flat_) {
+    look.sky = SkyRegion::kI;
+    look.known = true;
+    look.sky_direction = apply(sky_from_tetrad_, in.direction);
+    look.frequency_ratio = look.radial_scale = look.tangential_scale = 1 / in.frequency_ratio;
+    look.bundle.doppler = look.frequency_ratio;
+    return look;
+  }
+  const V3d& d = in.direction;
+  const double sin_alpha = std::hypot(d.y, d.z);
+  const HalfAngle half = half_angle(outgoing_ ? d.x : -d.x, sin_alpha);
+  const SkyTable* table = nullptr;
+  double x = -1;
+  const auto try_sky = [&](const std::optional<SkyEdge>& edge, const std::optional<SkyTable>& its,
+                           SkyRegion name) {
+    if (!edge) return;
+    const double away = edge->distance(half.sine, half.cosine);
+    if (its || optics_.white_hole)
+      look.to_edge = std::min(look.to_edge, 2 * std::abs(away) * in.frequency_ratio);
+    if (!(away > 0) || look.sky != SkyRegion::kIV) return;
+    look.sky = name;
+    x = away;
+    table = its ? &*its : nullptr;
+  };
+  try_sky(optics_.home_edge, optics_.home_sky, home_);
+  try_sky(optics_.far_edge, optics_.far_sky, far_);
+  double phi = 0, slope = 0;
+  if (look.sky == SkyRegion::kIV) {
+    if (!optics_.white_hole) return look;
+    const WhiteHoleTable::Place place = optics_.white_hole->place_of(half.sine, half.cosine);
+    phi = optics_.white_hole->azimuth(place);
+    slope = std::min(std::abs(optics_.white_hole->slope(place)), kSteepest);
+    if (optics_.emission_times) {
+      const auto value = emission_of(optics_, half.sine, half.cosine, phi, slope);
+      look.emission_time = value.time;
+      look.time_scale = value.slope / in.frequency_ratio;
+    }
+  } else {
+    if (!table) return look;
+    phi = table->azimuth(x);
+    slope = table->slope(x);
+    look.bundle = {2 * std::atan2(half.sine, half.cosine), phi, slope, 1 / in.frequency_ratio};
+    const double energy =
+        std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
+    look.frequency_ratio = 1 / (energy * in.frequency_ratio);
+  }
+  look.known = true;
+  const double across = sin_alpha > 0 ? std::sin(phi) / sin_alpha : 0;
+  look.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), d.y * across, d.z * across));
+  look.radial_scale = slope / in.frequency_ratio;
+  look.tangential_scale = std::abs(across) / in.frequency_ratio;
+  return look;
+}
+
+}  // namespace domefall

@@ -1,0 +1,41 @@
+#include "pipeline/render/scene/frame_plan.h"
+
+#include <algorithm>
+
+namespace domefall {
+namespace {
+
+bool shows_anything(const RegionSky& sky, const FrameSettings::Sky& now) {
+  return !std::holds_alternative<BlackSky>(sky.background) && now.background_gain > 0;
+}
+
+bool has_stars(const RegionSky& sky, const FrameSettings::Sky& now) {
+  return sky.stars && now.star_gain > 0;
+}
+
+FramePlan::Sky plan_sky(const RegionSky& sky, const FrameSettings::Sky& now) {
+  return {shows_anything(sky, now), has_stars(sky, now),
+          std::holds_alternative<RingsSky>(sky.background)};
+}
+
+}  // namespace
+
+bool FramePlan::background() const {
+  return std::any_of(sky.begin(), sky.end(), [](const Sky& s) { return s.background; });
+}
+
+FramePlan plan_frame(const Show& show, const FrameState& state) {
+  const ObserverState& o = state.observer;
+  const bool inside = o.region == Region::kII && o.r < 2;
+  FramePlan plan;
+  plan.gravity = !is_flat(o) && show.effects.lensing;
+  const auto set = [&](SkyRegion which) {
+    plan.sky[which] = plan_sky(show.sky[which], state.settings.sky[which]);
+  };
+  if (o.region != Region::kIV) set(home_sky(o.tetrad));
+  if (inside) set(far_sky(o.tetrad));
+  if (plan.gravity) set(SkyRegion::kIV);
+  return plan;
+}
+
+}  // namespace domefall

@@ -1,0 +1,118 @@
+#include "pipeline/render/scene/scene_stars.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "pipeline/colour/blackbody.h"
+
+namespace domefall {
+namespace {
+
+// ln bolometric_flux_at_v_zero against ln T.  Measured: within 4e-5 from 1000 K on.
+class FluxOfVZero {
+ public:
+  double operator()(double temperature) const {
+    if (!(temperature > kCoolest && temperature < kHottest))
+      return bolometric_flux_at_v_zero(temperature);
+    const double at = std::log(temperature / kCoolest) / step();
+    const auto k = std::min(static_cast<std::size_t>(at), kNodes - 2);
+    const double w = at - static_cast<double>(k);
+    return std::exp(logarithm_[k] + w * (logarithm_[k + 1] - logarithm_[k]));
+  }
+
+  FluxOfVZero() {
+    for (std::size_t k = 0; k < kNodes; ++k)
+      logarithm_[k] =
+          std::log(bolometric_flux_at_v_zero(kCoolest * std::exp(step() * static_cast<double>(k))));
+  }
+
+ private:
+  static constexpr double kCoolest = 500, kHottest = 1e6;
+  static constexpr std::size_t kNodes = 4096;
+  static double step() { return std::log(kHottest / kCoolest) / (kNodes - 1); }
+  std::array<double, kNodes> logarithm_;
+};
+
+const FluxOfVZero& flux_of_v_zero() {
+  static const FluxOfVZero table;
+  return table;
+}
+
+// flux = surface radiance * pi rho^2
+double angular_radius(double flux, double temperature) {
+  return std::sqrt(flux / (blackbody_radiance(temperature) * std::numbers::pi));
+}
+
+}  // namespace
+
+SceneStars::SceneStars(const std::vector<Star>& stars) {
+  std::vector<std::uint32_t> order(stars.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto brighter = [&](std::uint32_t a, std::uint32_t b) {
+    return stars[a].v_magnitude < stars[b].v_magnitude;
+  };
+  if (!std::is_sorted(order.begin(), order.end(), brighter))
+    std::stable_sort(order.begin(), order.end(), brighter);
+  reserve(stars.size());
+  for (const std::uint32_t k : order) {
+    const Star& s = stars[k];
+    const double flux = std::pow(10, -0.4 * s.v_magnitude) * flux_of_v_zero()(s.temperature);
+    push_back(s.direction.v, s.v_magnitude, flux, s.temperature);
+  }
+  find_most_flux();
+}
+
+SceneStars::SceneStars(std::vector<SceneStar> stars) {
+  std::stable_sort(stars.begin(), stars.end(), [](const SceneStar& a, const SceneStar& b) {
+    return a.magnitude < b.magnitude;
+  });
+  reserve(stars.size());
+  for (const SceneStar& s : stars) {
+    push_back(s.direction.v, s.magnitude, s.flux, s.temperature);
+    angular_radius_.back() = static_cast<float>(s.angular_radius);
+  }
+  find_most_flux();
+}
+
+void SceneStars::reserve(std::size_t count) {
+  for (auto* column : {&x_, &y_, &z_, &magnitude_, &flux_, &temperature_, &angular_radius_})
+    column->reserve(count);
+}
+
+void SceneStars::push_back(const V3d& d, double magnitude, double flux, double temperature) {
+  x_.push_back(static_cast<float>(d.x));
+  y_.push_back(static_cast<float>(d.y));
+  z_.push_back(static_cast<float>(d.z));
+  magnitude_.push_back(static_cast<float>(magnitude));
+  flux_.push_back(static_cast<float>(flux));
+  temperature_.push_back(static_cast<float>(temperature));
+  angular_radius_.push_back(static_cast<float>(angular_radius(flux, temperature)));
+}
+
+void SceneStars::find_most_flux() {
+  most_flux_.assign(size() / kBlock + 1, 0);
+  for (std::size_t k = 0; k < size(); ++k)
+    most_flux_[k / kBlock] = std::max(most_flux_[k / kBlock], double{flux_[k]});
+  for (std::size_t b = most_flux_.size() - 1; b-- > 0;)
+    most_flux_[b] = std::max(most_flux_[b], most_flux_[b + 1]);
+}
+
+SceneStar SceneStars::operator[](std::size_t k) const {
+  return {{straightened(V3d(x_[k], y_[k], z_[k]))},
+          magnitude_[k],
+          flux_[k],
+          temperature_[k],
+          angular_radius_[k]};
+}
+
+std::size_t SceneStars::brighter_than(double limit) const {
+  const auto end = std::partition_point(magnitude_.begin(), magnitude_.end(), [limit](float v) {
+    return v <= static_cast<float>(limit);
+  });
+  return static_cast<std::size_t>(end - magnitude_.begin());
+}
+
+}  // namespace domefall

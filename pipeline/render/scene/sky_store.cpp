@@ -1,0 +1,79 @@
+#include "pipeline/render/scene/sky_store.h"
+
+#include <algorithm>
+
+#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sky/read_sky.h"
+
+namespace domefall {
+namespace {
+
+bool same_background(const RegionSky& a, const RegionSky& b) {
+  const auto *p = std::get_if<PanoramaSky>(&a.background),
+             *q = std::get_if<PanoramaSky>(&b.background);
+  return p && q && p->image == q->image;
+}
+
+bool same_stars(const RegionSky& a, const RegionSky& b) {
+  return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
+}
+
+// The faintest stars of a sky that any frame takes.
+double deepest_magnitude(const Show& show, SkyRegion which, double constant) {
+  const auto channel = static_cast<std::size_t>(which == SkyRegion::kI ? Channel::kMagnitudeOne
+                                                                       : Channel::kMagnitudeThree);
+  double deepest = constant;
+  for (const Segment& segment : show.timeline)
+    if (const auto& curve = segment.curves[channel]) deepest = std::max(deepest, largest(*curve));
+  return deepest;
+}
+
+}  // namespace
+
+const RegionSky& SkyStore::region(SkyRegion which) const { return show_.sky[which]; }
+
+double SkyStore::limit_of(SkyRegion which) const {
+  return deepest_magnitude(show_, which, region(which).stars.value_or(StarField{}).max_magnitude);
+}
+
+// What another sky has loaded already is shared with it.
+void SkyStore::load_background(SkyRegion which) {
+  const RegionSky& own = region(which);
+  auto& background = skies_[which].sky.background;
+  if (std::holds_alternative<GridSky>(own.background)) background = Grid{};
+  if (const auto* rings = std::get_if<RingsSky>(&own.background)) background = *rings;
+  const auto* panorama = std::get_if<PanoramaSky>(&own.background);
+  if (!panorama) return;
+  for (const SkyRegion other : kEverySky) {
+    const Loaded& loaded = skies_[other];
+    if (!loaded.background || !same_background(own, region(other))) continue;
+    background = loaded.sky.background;
+    return;
+  }
+  background = read_sky(panorama->image);
+}
+
+void SkyStore::load_stars(SkyRegion which) {
+  const RegionSky& own = region(which);
+  if (!own.stars) return;
+  auto& stars = skies_[which].sky.stars;
+  for (const SkyRegion other : kEverySky) {
+    const Loaded& loaded = skies_[other];
+    if (!loaded.stars || !same_stars(own, region(other)) || limit_of(which) != limit_of(other))
+      continue;
+    stars = loaded.sky.stars;
+    return;
+  }
+  stars = std::make_shared<const SceneStars>(
+      read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch).stars);
+}
+
+const Sky& SkyStore::sky(SkyRegion which, bool background, bool stars) {
+  const std::scoped_lock lock(loading_);
+  Loaded& kept = skies_[which];
+  if (background && !kept.background) load_background(which), kept.background = true;
+  if (stars && !kept.stars) load_stars(which), kept.stars = true;
+  return kept.sky;
+}
+
+}  // namespace domefall

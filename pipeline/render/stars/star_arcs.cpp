@@ -1,0 +1,158 @@
+#include "pipeline/render/stars/star_arcs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/render/stars/lens_curve.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kMostPieces = 4096;
+// Chords of a disc whose light is summed: the sum converges like a power unless the axis is about as far
+// from the middle as the rim is.
+constexpr int kChords = 8, kChordsAtRim = 64;
+constexpr double kAtRim = 1.5;  // radii from the axis up to which that is so
+
+// The disc in polar coordinates about the axis, which is small enough to be flat.
+class Disc {
+ public:
+  Disc(double from_axis, double radius)
+      : from_axis_(from_axis),
+        radius_(radius),
+        gathered_(std::clamp((kPoint - from_axis / radius) / (kPoint - 1), 0.0, 1.0)) {}
+
+  bool is_ring() const { return from_axis_ < radius_; }
+  bool is_at_rim() const { return from_axis_ < kAtRim * radius_; }
+  // The angle about the axis that its image takes, at most.
+  double extent() const { return gathered_ * (is_ring() ? 2 * pi : pi * radius_ / from_axis_); }
+
+  struct Chord {
+    double azimuth;    // about the axis, from the disc's middle, where it is drawn
+    double near, far;  // distances from the axis
+    double width;      // of azimuth
+  };
+  // The k-th of `count`, all equally wide in tau: azimuth itself where the axis lies in the disc, else
+  // sin(azimuth) = radius/from_axis sin(tau).
+  Chord chord(int k, int count) const {
+    const double share = (k + 0.5) / count;
+    if (is_ring()) {
+      const double azimuth = 2 * pi * share - pi, across = from_axis_ * std::sin(azimuth);
+      const double half = std::sqrt(radius_ * radius_ - across * across);
+      return {azimuth, 0, from_axis_ * std::cos(azimuth) + half, 2 * pi / count};
+    }
+    const double tau = pi * share - pi / 2, s = radius_ / from_axis_ * std::sin(tau);
+    const double c = std::sqrt((1 - s) * (1 + s)), half = radius_ * std::cos(tau);
+    return {gathered_ * std::asin(s), std::max(0.0, from_axis_ * c - half), from_axis_ * c + half,
+            radius_ / from_axis_ * std::cos(tau) / c * pi / count};
+  }
+
+ private:
+  static constexpr double kPoint = 3;  // radii from the axis where arcs are points
+
+  double from_axis_, radius_, gathered_;
+};
+
+// The images of one order of what lies about the axis, on the source's side of the observer.
+class Caustic {
+ public:
+  Caustic(const SkyTable& table, const V3d& source, int order)
+      : table_(table), frame_(psi_frame(table)), side_(order % 2 == 0 ? 1 : -1) {
+    const bool below = source.x < 0, even = order % 2 == 0;
+    // phi = k pi + phi_star for even, (k + 1) pi - phi_star for odd orders.
+    axis_ = pi * (order + (below == even ? 1 : 0));
+    sign_ = below == even ? -1 : 1;
+    const double sine = std::hypot(source.y, source.z);
+    if (sine > 0) across_ = V3d(0, source.y, source.z) / sine;
+  }
+
+  // Part of the angle from a sky's edge, as x.
+  double distance(double from_axis) const { return table_.distance(axis_ + sign_ * from_axis); }
+
+  // One chord's image; amplification: its solid angle.
+  SkyImage image(const Disc::Chord& chord) const {
+    const double a = std::atan(distance(chord.near) / 2), b = std::atan(distance(chord.far) / 2);
+    const NullRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
+    const double psi = 4 * std::atan(table_.x_max() / 2) - 2 * (a + b);
+    SkyImage image;
+    // The integral of the sine of the angle of view.
+    image.amplification = 2 * std::sin(psi) * std::sin(2 * std::abs(a - b)) * chord.width;
+    image.frequency_ratio = 1 / one_plus_z(ray);
+    image.direction = direction(psi, chord.azimuth);
+    return image;
+  }
+
+  TetradDirection direction(double psi, double azimuth) const {
+    const V3d left(0, -across_.z, across_.y);
+    const V3d e = (across_ * std::cos(azimuth) + left * std::sin(azimuth)) * side_;
+    return {V3d(frame_.outward * std::cos(psi), 0, 0) + e * std::sin(psi)};
+  }
+
+  double psi(double from_axis) const {
+    return 4 * (std::atan(table_.x_max() / 2) - std::atan(distance(from_axis) / 2));
+  }
+
+ private:
+  const SkyTable& table_;
+  PsiFrame frame_;
+  double side_, axis_, sign_;
+  V3d across_{0, 1, 0};
+};
+
+// How many pieces the arc is long, its spacing taken where that is least.
+int pieces(const Caustic& caustic, const Disc& disc, double from_axis,
+           const std::function<double(const V3d&)>& spacing) {
+  constexpr int kLooks = 16;
+  const double psi = caustic.psi(from_axis), length = disc.extent() * std::sin(psi);
+  double least = HUGE_VAL;
+  for (int k = 0; k < kLooks; ++k) {
+    const double azimuth = disc.extent() * ((k + 0.5) / kLooks - 0.5);
+    least = std::min(least, spacing(caustic.direction(psi, azimuth).v));
+  }
+  const double count = std::ceil(length / least);
+  return count < kMostPieces ? std::max(1, static_cast<int>(count)) : kMostPieces;
+}
+
+// Several chords as one image, in the middle of their light.
+class Piece {
+ public:
+  void add(const SkyImage& image) {
+    light_ += image.amplification;
+    direction_ += image.direction.v * image.amplification;
+    // Light goes with the fourth power of the frequency ratio.
+    const double g2 = image.frequency_ratio * image.frequency_ratio;
+    fourth_ += image.amplification * g2 * g2;
+  }
+  SkyImage image(double disc_angle) const {
+    return {{direction_.normalized()}, std::sqrt(std::sqrt(fourth_ / light_)), light_ / disc_angle};
+  }
+  bool lit() const { return light_ > 0; }
+
+ private:
+  double light_ = 0, fourth_ = 0;
+  V3d direction_{0, 0, 0};
+};
+
+}  // namespace
+
+std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order, double radius,
+                             const std::function<double(const V3d&)>& spacing) {
+  const double from_axis = std::hypot(source.y, source.z);
+  const Caustic caustic(table, source, order);
+  const Disc disc(from_axis, radius);
+  const int count = pieces(caustic, disc, from_axis, spacing);
+  const int chords = disc.is_at_rim() ? kChordsAtRim : kChords, each = (chords + count - 1) / count;
+  std::vector<SkyImage> arc;
+  for (int p = 0; p < count; ++p) {
+    Piece piece;
+    for (int k = p * each; k < (p + 1) * each; ++k)
+      piece.add(caustic.image(disc.chord(k, count * each)));
+    if (piece.lit()) arc.push_back(piece.image(pi * radius * radius));
+  }
+  return arc;
+}
+
+}  // namespace domefall

@@ -1,0 +1,36 @@
+#include "pipeline/render/stars/star_colours.h"
+
+#include <algorithm>
+
+#include "pipeline/colour/blackbody.h"
+
+namespace domefall {
+namespace {
+
+// Beyond, blackbody_colours() is asked itself.
+constexpr double kCoolest = 512, kHottest = 0x1p26;
+
+StarColours::Light light_at(double temperature) {
+  const WorkingRgb c = blackbody_colours().per_flux(temperature);
+  return {c.r, c.g, c.b, static_cast<float>(luminance(c))};
+}
+
+}  // namespace
+
+StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kCoolest) >> kShift) {
+  const std::uint64_t last = std::bit_cast<std::uint64_t>(kHottest) >> kShift;
+  for (std::uint64_t key = first_; key <= last; ++key)
+    table_.push_back(light_at(std::bit_cast<double>(key << kShift)));
+  // Per flux a blackbody is brightest near 6600 K, where the table has nodes 0.1 per cent apart.
+  for (const Light& light : table_) most_ = std::max(most_, double{light.luminance});
+  most_ *= 1 + 1e-5;
+}
+
+StarColours::Light StarColours::outside(double temperature) { return light_at(temperature); }
+
+const StarColours& star_colours() {
+  static const StarColours colours;
+  return colours;
+}
+
+}  // namespace domefall

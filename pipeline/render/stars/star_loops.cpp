@@ -1,0 +1,235 @@
+#include "pipeline/render/stars/star_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/transpose_quads.h"
+#include "pipeline/simd/vector_math.h"
+#include "projections/angle_over_sine.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+struct Input {
+  const float *x, *y, *z, *magnitude, *flux, *temperature;
+};
+
+[[gnu::always_inline]] inline void into_tetrad_loop(const StarFrame& frame, const Input& input,
+                                                    int count, StarSources& s) {
+  const M33d matrix = frame.sky_from_tetrad;
+  const double gain = frame.gain, limit = frame.limit, inverse_fade = frame.inverse_fade;
+  const Input in = input;
+  for (int k = 0; k < count; ++k) {
+    const V3d v = straightened(
+        apply_transposed(matrix, V3d(double{in.x[k]}, double{in.y[k]}, double{in.z[k]})));
+    const double part = (limit - in.magnitude[k]) * inverse_fade;
+    const double whole = part < 1 ? part : 1;
+    s.x[k] = v.x, s.y[k] = v.y, s.z[k] = v.z;
+    s.flux[k] = in.flux[k] * (gain * (whole > 0 ? whole : 0));
+    s.temperature[k] = in.temperature[k];
+  }
+}
+Dispatched<into_tetrad_loop> into_tetrad;
+
+// sine and v.  With c and s the cosine and sine of half the angle from +R,
+// tan((pi - angle)/4) = (1 + c - s)/(1 + c + s).
+[[gnu::always_inline]] inline void to_lens_loop(int count, StarSources& sources) {
+  for (int k = 0; k < count; ++k) {
+    const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
+    const double sine = std::sqrt(y * y + z * z);
+    const double larger = std::sqrt((1 + std::abs(x)) * 0.5), smaller = 0.5 * sine / larger;
+    const double c = x < 0 ? smaller : larger, s = x < 0 ? larger : smaller;
+    sources.sine[k] = sine;
+    sources.v[k] = (1 + c - s) / (1 + c + s);
+  }
+}
+Dispatched<to_lens_loop> to_lens;
+
+// A tetrad's direction with what gravity does to its light, as the moving camera has it.
+inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
+                    double frequency_ratio, double amplification, const StarSources& sources, int k,
+                    StarViews& views) {
+  const AberratedLight seen = boost.to_rest(direction);
+  const V3d n = apply_transposed(camera, seen.direction);
+  const double g = frequency_ratio * seen.frequency_ratio, g2 = g * frequency_ratio;
+  // amplification/doppler^2 g^4
+  views.flux[k] = sources.flux[k] * amplification * (g2 * g2);
+  views.temperature[k] = sources.temperature[k] * g;
+  views.x[k] = n.x, views.y[k] = n.y, views.z[k] = n.z;
+}
+
+struct TexelIndices {
+  alignas(64) StarColumn<std::int64_t> interval;
+  alignas(64) StarColumn<double> v, share;
+  alignas(64) std::array<StarColumn<double>, LensCurve::kTerms> coefficient;
+};
+
+// count: a multiple of four.
+[[gnu::always_inline]] inline void fetch(const LensCurve::Lookup& curve, int count,
+                                         TexelIndices& spots) {
+  for (int k = 0; k < count; k += 4) {
+    const double* at[4];
+    double* out[4];
+    for (int m = 0; m < 4; ++m) {
+      at[m] = curve.coefficients + LensCurve::kTerms * spots.interval[k + m];
+      out[m] = &spots.coefficient[m][k];
+    }
+    turn_quads(at, out);
+  }
+}
+
+[[gnu::always_inline]] inline void look_up_loop(const LensCurve::Lookup& lookup, double side,
+                                                const double* v, int count, double* __restrict psi,
+                                                double* __restrict slope) {
+  const LensCurve::Lookup curve = lookup;
+  TexelIndices spots;
+  for (int k = 0; k < count; ++k) {
+    spots.v[k] = side * v[k];
+    const LensCurve::Lookup::Spot at = curve(spots.v[k]);
+    spots.interval[k] = at.interval;
+    spots.share[k] = at.share;
+  }
+  const int whole = (count + 3) / 4 * 4;
+  for (int k = count; k < whole; ++k) spots.interval[k] = 0;
+  fetch(curve, whole, spots);
+  const auto& c = spots.coefficient;
+  for (int k = 0; k < count; ++k) {
+    const LensCurve::View view =
+        curve.view(spots.v[k], spots.share[k], c[0][k], c[1][k], c[2][k], c[3][k]);
+    psi[k] = view.psi;
+    slope[k] = view.slope;
+  }
+}
+Dispatched<look_up_loop> look_up;
+
+[[gnu::always_inline]] inline void bend_all_loop(const StarFrame& frame, double side,
+                                                 const double* psis, const double* slopes,
+                                                 const StarSources& sources, int count,
+                                                 StarViews& views) {
+  const Aberration boost = frame.from_tetrad;
+  const M33d camera = frame.tetrad_from_camera;
+  const PsiFrame psi = frame.psi;
+  for (int k = 0; k < count; ++k) {
+    const SineCosine half = sin_cos(0.5 * psis[k]);
+    const double s2 = half.sine * half.sine, c2 = half.cosine * half.cosine;
+    const double energy = std::abs(psi.sine2 * s2 + psi.cosine2 * c2);
+    const double across = 2 * half.sine * half.cosine / sources.sine[k];
+    const V3d direction(psi.outward * (c2 - s2), sources.y[k] * (side * across),
+                        sources.z[k] * (side * across));
+    receive(boost, camera, direction, 1 / energy, across * slopes[k], sources, k, views);
+  }
+}
+Dispatched<bend_all_loop> bend_all;
+
+[[gnu::always_inline]] inline void go_straight_all_loop(const StarFrame& frame,
+                                                        const StarSources& sources, int count,
+                                                        StarViews& views) {
+  const Aberration boost = frame.from_tetrad;
+  const M33d camera = frame.tetrad_from_camera;
+  for (int k = 0; k < count; ++k)
+    receive(boost, camera, V3d(sources.x[k], sources.y[k], sources.z[k]), 1, 1, sources, k, views);
+}
+Dispatched<go_straight_all_loop> go_straight_all;
+
+[[gnu::always_inline]] inline void onto_dome_loop(double scale, double middle, int count,
+                                                  StarViews& views) {
+  for (int k = 0; k < count; ++k) {
+    const double m = scale * angle_over_sine(views.z[k]);
+    views.i[k] = middle + m * views.x[k];
+    views.j[k] = middle + m * views.y[k];
+  }
+}
+Dispatched<onto_dome_loop> onto_dome;
+
+[[gnu::always_inline]] inline void onto_plane_loop(double scale, double middle_i, double middle_j,
+                                                   int count, StarViews& views) {
+  for (int k = 0; k < count; ++k) {
+    const double x = views.x[k], y = views.y[k], z = views.z[k];
+    // 1 + cos(theta), from the sine where the sum would cancel.
+    const double behind = (x * x + y * y) / (1 + std::abs(z));
+    const double m = scale / (z < 0 ? behind : 1 + z);
+    views.i[k] = middle_i + m * x;
+    views.j[k] = middle_j + m * y;
+  }
+}
+Dispatched<onto_plane_loop> onto_plane;
+
+// 1 for the views in front that lie within half_i and half_j of the middle.
+[[gnu::always_inline]] inline void flag_loop(const StarViews& views, double least_z,
+                                             double middle_i, double middle_j, double half_i,
+                                             double half_j, int count, int* __restrict seen) {
+  for (int k = 0; k < count; ++k) {
+    const bool across = std::abs(views.i[k] - middle_i) <= half_i;
+    const bool down = std::abs(views.j[k] - middle_j) <= half_j;
+    const bool ahead = views.z[k] >= least_z;
+    seen[k] = int{ahead} & int{across} & int{down};
+  }
+}
+Dispatched<flag_loop> flag;
+
+// Pixels per radian of the flat picture, and of any, in its middle.
+double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
+
+}  // namespace
+
+void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
+                  StarSources& sources) {
+  into_tetrad(frame,
+              {stars.x() + first, stars.y() + first, stars.z() + first, stars.magnitude() + first,
+               stars.flux() + first, stars.temperature() + first},
+              count, sources);
+  to_lens(count, sources);
+}
+
+void bend(const StarFrame& frame, const LensCurve& curve, double side, const StarSources& sources,
+          int count, StarViews& views) {
+  StarColumn<double> psi, slope;
+  look_up(curve.lookup(), side, sources.v.data(), count, psi.data(), slope.data());
+  bend_all(frame, side, psi.data(), slope.data(), sources, count, views);
+}
+
+void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views) {
+  go_straight_all(frame, sources, count, views);
+}
+
+StarPlane::StarPlane(const Projection& projection, double reach)
+    : dome_(std::holds_alternative<Domemaster>(projection)),
+      scale_(pixels_per_radian(projection)),
+      middle_i_((columns(projection) - 1) / 2.0),
+      middle_j_((rows(projection) - 1) / 2.0) {
+  if (dome_) {
+    // A blob is seen if it reaches over the rim.
+    least_z_ = -std::sin(std::min(reach, pi / 2));
+    usable_ = least_z_ >= kLeastCosine;
+    half_i_ = half_j_ = HUGE_VAL;
+    return;
+  }
+  // A blob that touches the picture has its middle no farther from it than `reach`, at no more pixels
+  // per radian than there are that far beyond the corners.
+  scale_ *= 2;
+  const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
+  const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);
+  const double margin = reach * pixels_per_radian(projection) / (c * c) + 1;
+  half_i_ = middle_i_ + margin, half_j_ = middle_j_ + margin;
+}
+
+int StarPlane::place(StarViews& views, int count, int* listed) const {
+  if (dome_)
+    onto_dome(scale_, middle_i_, count, views);
+  else
+    onto_plane(scale_, middle_i_, middle_j_, count, views);
+  StarColumn<int> seen;
+  flag(views, least_z_, middle_i_, middle_j_, half_i_, half_j_, count, seen.data());
+  int number = 0;
+  for (int k = 0; k < count; ++k) {
+    listed[number] = k;
+    number += seen[static_cast<std::size_t>(k)];
+  }
+  return number;
+}
+
+}  // namespace domefall

@@ -1,0 +1,63 @@
+#include "pipeline/report/reference/reference_orbit.h"
+
+#include <boost/math/quadrature/gauss.hpp>
+
+namespace domefall {
+namespace {
+
+using Rule = boost::math::quadrature::gauss<Real50, 20>;
+
+struct Gained {
+  Real50 tau = 0, azimuth = 0;
+};
+
+// From r = from + sign low^2 to from + sign high^2.
+Gained gained(const ReferenceOrbit& orbit, const Real50& from, int sign, const Real50& low,
+              const Real50& high) {
+  Gained sums;
+  const Real50 middle = (low + high) / 2, half = (high - low) / 2;
+  const auto add = [&](const Real50& node, const Real50& weight) {
+    const Real50 x = middle + half * node, r = from + sign * x * x;
+    const Real50 rate = 2 * x * half * weight / orbit.radial_speed(r);
+    sums.tau += rate;
+    sums.azimuth += rate * orbit.angular_momentum / (r * r);
+  };
+  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+    add(Rule::abscissa()[k], Rule::weights()[k]);
+    add(-Rule::abscissa()[k], Rule::weights()[k]);
+  }
+  return sums;
+}
+
+}  // namespace
+
+Real50 ReferenceOrbit::energy() const { return sqrt(Real50(1 + excess_energy)); }
+
+Real50 ReferenceOrbit::radial_speed(const Real50& r) const {
+  const Real50 w = 1 / r, lw = angular_momentum * w;
+  return sqrt(Real50(excess_energy + w * (2 - lw * lw * (r - 2))));
+}
+
+// E^2 = (1 - 2w)(1 + L^2 w^2) at both.
+ReferenceOrbit orbit_between(const Real50& near, const Real50& far) {
+  const Real50 a = 1 / near, b = isinf(far) ? Real50(0) : Real50(1 / far);
+  const Real50 l2 = 2 / (a + b - 2 * (a * a + a * b + b * b));
+  return {(1 - 2 * a) * (1 + l2 * a * a) - 1, sqrt(l2)};
+}
+
+std::vector<ReferencePlace> reference_leg(const ReferenceOrbit& orbit, const Real50& from,
+                                          const std::vector<Real50>& radii) {
+  std::vector<ReferencePlace> places;
+  places.reserve(radii.size());
+  Real50 low = 0, tau = 0, azimuth = 0;
+  for (const Real50& r : radii) {
+    const int sign = r > from ? 1 : -1;
+    const Real50 high = sqrt(Real50(sign * (r - from)));
+    const Gained step = gained(orbit, from, sign, low, high);
+    tau += step.tau, azimuth += step.azimuth, low = high;
+    places.push_back({tau, r, azimuth});
+  }
+  return places;
+}
+
+}  // namespace domefall

@@ -1,0 +1,191 @@
+#include "pipeline/report/reference/reference_ray.h"
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/special_functions/ellint_rf.hpp>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+using boost::math::ellint_rf;
+
+Wide pi() { return boost::math::constants::pi<Wide>(); }
+Wide square(const Wide& x) { return x * x; }
+
+struct Invariants {
+  Wide energy, angular_momentum, radial;
+};
+
+Invariants invariants(ReferenceObserver observer, const Wide& r, const Wide& delta) {
+  const Wide c = cos(delta), l = r * sin(delta), s = sqrt(2 / r);
+  const Wide at_rest = sqrt(abs(1 - 2 / r));
+  switch (observer) {
+    case ReferenceObserver::kStatic:
+      return {at_rest, l, at_rest * c};
+    case ReferenceObserver::kOutgoing:
+      return {1 + s * c, l, c + s};
+    case ReferenceObserver::kTwo:
+      return {-at_rest * c, l, -at_rest};
+    case ReferenceObserver::kFour:
+      return {-at_rest * c, l, at_rest};
+    case ReferenceObserver::kRain:
+      break;
+  }
+  return {1 - s * c, l, c - s};
+}
+
+// ---- Where the ray came from ----
+
+enum class Path { kFromSky, kFromSkyTurning, kFromSingularity, kFromSingularityTurning };
+
+struct Course {
+  ReferenceOrigin origin;
+  Path path;
+};
+
+Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k) {
+  using enum ReferenceOrigin;
+  const bool white_hole =
+      observer == ReferenceObserver::kFour || (observer == ReferenceObserver::kOutgoing && r <= 2);
+  if (white_hole) return {kPastSingularity, Path::kFromSingularity};
+  const bool captured = square(k.angular_momentum) < 27 * square(k.energy);  // b < b_c
+  if (r <= 2) {
+    if (!captured) return {kPastSingularity, Path::kFromSingularityTurning};
+    return {k.energy > 0 ? kSkyOne : kSkyThree, Path::kFromSky};
+  }
+  if (k.radial < 0) {
+    if (captured || r > 3) return {kSkyOne, Path::kFromSky};
+    return {kPastSingularity, Path::kFromSingularityTurning};
+  }
+  if (r > 3 && !captured) return {kSkyOne, Path::kFromSkyTurning};
+  return {kPastSingularity, Path::kFromSingularity};
+}
+
+// ---- The azimuth ----
+
+// Legendre's F(psi, k), 0 <= psi <= pi/2, DLMF 19.25.5.
+Wide legendre_f(const Wide& sin2_psi, const Wide& k2) {
+  return sqrt(sin2_psi) * ellint_rf(Wide(1 - sin2_psi), Wide(1 - k2 * sin2_psi), Wide(1));
+}
+
+// int from a to w of dw/sqrt(P), P = 2 (w - a)((w - m)^2 + n^2): Byrd and Friedman 239.00.
+class OneRealRoot {
+ public:
+  OneRealRoot(const Wide& inverse_b2, const Wide& a) : a_(a) {
+    const Wide m = (Wide(1) / 2 - a) / 2;         // the roots' sum is 1/2,
+    const Wide modulus2 = -inverse_b2 / (2 * a);  // their product -1/(2 b^2)
+    far_ = sqrt(square(a - m) + modulus2 - square(m));
+    k2_ = (far_ + m - a) / (2 * far_);
+    scale_ = 1 / sqrt(2 * far_);
+  }
+  Wide to(const Wide& w) const {
+    const Wide cosine = (far_ - (w - a_)) / (far_ + (w - a_));
+    const Wide f = legendre_f(1 - square(cosine), k2_);
+    return scale_ * (cosine >= 0 ? f : 2 * legendre_f(1, k2_) - f);
+  }
+  Wide to_infinity() const { return scale_ * 2 * legendre_f(1, k2_); }
+
+ private:
+  Wide a_, far_, k2_, scale_;
+};
+
+// w1 >= w2 >= w3.
+struct ThreeRealRoots {
+  Wide w1, w2, w3;
+
+  // int from w3 to w <= w2, with w = w3 + (w2 - w3) sin^2 psi.
+  Wide below(const Wide& w) const {
+    return sqrt(2 / (w1 - w3)) * legendre_f((w - w3) / (w2 - w3), (w2 - w3) / (w1 - w3));
+  }
+  // int from w >= w1 to infinity: the definition of R_F.
+  Wide above(const Wide& w) const {
+    return sqrt(Wide(2)) * ellint_rf(Wide(w - w1), Wide(w - w2), Wide(w - w3));
+  }
+  Wide swept(const Wide& w, Path path) const {
+    switch (path) {
+      case Path::kFromSky:
+        return below(w) - below(0);
+      case Path::kFromSkyTurning:
+        return 2 * below(w2) - below(w) - below(0);
+      case Path::kFromSingularityTurning:
+        return 2 * above(w1) - above(w);
+      case Path::kFromSingularity:
+        break;
+    }
+    return above(w);
+  }
+};
+
+// With w = t/3 + 1/6, P = 0 is 4 t^3 - 3 t = 1 - 54/b^2: t is a cosine, or minus a hyperbolic one.
+Wide swept_azimuth(const Invariants& k, const Wide& r, Path path) {
+  if (k.angular_momentum == 0) return 0;
+  const Wide inverse_b2 = square(k.energy / k.angular_momentum), w = 1 / r;
+  const Wide q = 1 - 54 * inverse_b2;
+  const auto root = [](const Wide& t) -> Wide { return t / 3 + Wide(1) / 6; };
+  if (q >= -1) {
+    const Wide psi = acos(q) / 3, third = 2 * pi() / 3;
+    return ThreeRealRoots{root(cos(psi)), root(cos(psi - third)), root(cos(psi + third))}.swept(
+        w, path);
+  }
+  const OneRealRoot g(inverse_b2, root(-cosh(acosh(Wide(-q)) / 3)));
+  return path == Path::kFromSky ? g.to(w) - g.to(0) : g.to_infinity() - g.to(w);
+}
+
+// Odd about the axis, as L is: delta may run over both ends of [0, pi].
+Wide signed_azimuth(ReferenceObserver observer, const Wide& r, const Wide& delta, Path path) {
+  const Invariants k = invariants(observer, r, delta);
+  const Wide swept = swept_azimuth(k, r, path);
+  return k.angular_momentum < 0 ? -swept : swept;
+}
+
+Wide half_angle_edge(const Wide& numerator, const Wide& r) {
+  return 2 * atan(numerator / (sqrt(Wide(27)) * (1 + sqrt(2 / r))));
+}
+
+void check(ReferenceObserver observer, const Wide& r) {
+  const bool inside = observer == ReferenceObserver::kTwo || observer == ReferenceObserver::kFour;
+  if (r <= 0 || (inside && r >= 2) || (observer == ReferenceObserver::kStatic && r <= 2))
+    throw std::domain_error("reference_ray: no such observer at this r");
+}
+
+}  // namespace
+
+Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge) {
+  check(observer, r);
+  const bool third = edge == ReferenceEdge::kRegionThree;
+  const Wide reach = (r - 3) * sqrt(1 + 6 / r);
+  switch (observer) {
+    case ReferenceObserver::kRain:
+      if (third && r > 2) break;
+      return third ? half_angle_edge(-r - reach, r) : half_angle_edge(r - reach, r);
+    case ReferenceObserver::kOutgoing:  // pi - delta stands in for delta, with the other root
+      if (third || r <= 2) break;
+      return pi() - half_angle_edge(r + reach, r);
+    case ReferenceObserver::kStatic:
+      if (third) break;
+      return atan2(sqrt(27 * (1 - 2 / r)), reach);
+    case ReferenceObserver::kTwo: {
+      const Wide angle = atan(sqrt(27 * (2 / r - 1)) / r);
+      return third ? angle : pi() - angle;
+    }
+    case ReferenceObserver::kFour:
+      break;
+  }
+  throw std::domain_error("reference_ray: no such edge for this observer");
+}
+
+ReferenceRay reference_ray(const ReferenceRequest& q) {
+  check(q.observer, q.r);
+  const Wide delta = q.edge ? reference_edge(q.observer, q.r, *q.edge) + q.offset : q.delta;
+  const Invariants k = invariants(q.observer, q.r, delta);
+  const Course course = course_of(q.observer, q.r, k);
+  const auto phi = [&](const Wide& at) { return signed_azimuth(q.observer, q.r, at, course.path); };
+  const Wide h("1e-40");
+  const Wide slope = (phi(delta + h) - phi(delta - h)) / (2 * h);
+  const Wide swept = phi(delta);
+  const bool far_end = swept == 0;
+  const Wide amplification = far_end ? 1 / square(slope) : abs(sin(delta) / (sin(swept) * slope));
+  return {delta, course.origin, swept, abs(k.energy), slope, amplification};
+}
+
+}  // namespace domefall

@@ -1,0 +1,53 @@
+#include "pipeline/report/reference/traced_reference.h"
+
+#include <cmath>
+
+namespace domefall {
+namespace {
+
+Wide exact_radius(const Radius& at) {
+  if (std::abs(at.above_horizon) < 0.1) return 2 + Wide(at.above_horizon);
+  if (std::abs(at.above_light_circle) < 0.1) return 3 + Wide(at.above_light_circle);
+  return at.r;
+}
+
+ReferenceObserver observer_from(TraceObserver observer) {
+  switch (observer) {
+    case TraceObserver::kStatic:
+      return ReferenceObserver::kStatic;
+    case TraceObserver::kOutgoing:
+      return ReferenceObserver::kOutgoing;
+    case TraceObserver::kTwo:
+      return ReferenceObserver::kTwo;
+    case TraceObserver::kFour:
+      return ReferenceObserver::kFour;
+    case TraceObserver::kRain:
+      break;
+  }
+  return ReferenceObserver::kRain;
+}
+
+}  // namespace
+
+ReferenceRequest reference_request(const RayRequest& q) {
+  ReferenceRequest exact{observer_from(q.observer), exact_radius(q.at), Wide(q.delta), std::nullopt,
+                         q.offset};
+  if (q.edge)
+    exact.edge =
+        *q.edge == Edge::kSilhouette ? ReferenceEdge::kSilhouette : ReferenceEdge::kRegionThree;
+  return exact;
+}
+
+Origin origin_from(ReferenceOrigin origin) {
+  switch (origin) {
+    case ReferenceOrigin::kSkyOne:
+      return Origin::kSkyOne;
+    case ReferenceOrigin::kSkyThree:
+      return Origin::kSkyThree;
+    case ReferenceOrigin::kPastSingularity:
+      break;
+  }
+  return Origin::kPastSingularity;
+}
+
+}  // namespace domefall

@@ -1,0 +1,71 @@
+#include "pipeline/simd/dispatch.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+constexpr const char* kVariable = "DOMEFALL_SIMD";
+
+void require(Simd level) {
+  if (!processor_has(level))
+    throw InputError(std::string(kVariable) + ": this processor has no " + name_of(level));
+}
+
+}  // namespace
+
+const char* name_of(Simd level) {
+  switch (level) {
+    case Simd::kAvx512:
+      return "avx512";
+    case Simd::kAvx2:
+      return "avx2";
+    case Simd::kPortable:
+      break;
+  }
+  return "portable";
+}
+
+bool processor_has(Simd level) {
+#if DOMEFALL_X86
+  __builtin_cpu_init();
+  if (level == Simd::kAvx512) return __builtin_cpu_supports("avx512f") != 0;
+  if (level == Simd::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+#endif
+  return level == Simd::kPortable;
+}
+
+Simd simd_named(const std::string& word) {
+  if (word.empty())
+    return *std::find_if(std::rbegin(kEverySimd), std::rend(kEverySimd), processor_has);
+  const auto* found = std::find_if(std::begin(kEverySimd), std::end(kEverySimd),
+                                   [&](Simd level) { return word == name_of(level); });
+  if (found == std::end(kEverySimd))
+    throw InputError(std::string(kVariable) + " is portable, avx2 or avx512, not '" + word + "'");
+  require(*found);
+  return *found;
+}
+
+void use_simd(Simd level) {
+  require(level);
+  simd_detail::level.store(static_cast<signed char>(level), std::memory_order_relaxed);
+}
+
+namespace simd_detail {
+
+std::atomic<signed char> level = kUndecided;
+
+Simd decide() {
+  const char* word = std::getenv(kVariable);
+  const Simd chosen = simd_named(word ? word : "");
+  use_simd(chosen);
+  return chosen;
+}
+
+}  // namespace simd_detail
+
+}  // namespace domefall

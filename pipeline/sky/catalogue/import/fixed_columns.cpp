@@ -1,0 +1,93 @@
+#include "pipeline/sky/catalogue/import/fixed_columns.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::string plain(double bound) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.12g", bound);
+  return text;
+}
+
+// What a message may repeat of a file that may hold anything.
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c >= ' ' && c <= '~' ? c : '?';
+  return out + "'";
+}
+
+}  // namespace
+
+FixedColumns::FixedColumns(const std::filesystem::path& file, std::size_t shortest,
+                           std::size_t longest)
+    : file_(file), shortest_(shortest), longest_(longest), rest_(file_.bytes()) {
+  if (rest_.empty()) throw InputError(file.string() + ": the file is empty");
+}
+
+void FixedColumns::fail(const std::string& what) const {
+  throw InputError(file_.path().string() + ":" + std::to_string(number_) + ": " + what);
+}
+
+bool FixedColumns::next() {
+  if (rest_.empty()) return false;
+  ++number_;
+  const std::size_t end = rest_.find('\n');
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  const bool cut = end == std::string_view::npos && line_.size() < longest_;
+  if (cut || line_.size() < shortest_ || line_.size() > longest_)
+    fail("a line has " +
+         (shortest_ < longest_ ? std::to_string(shortest_) + " to " : std::string()) +
+         std::to_string(longest_) + " bytes, this one " + std::to_string(line_.size()) +
+         (cut ? " at the end of the file, which is cut short" : ""));
+  return true;
+}
+
+std::string_view FixedColumns::text(const TextColumn& column) const {
+  const std::size_t first = static_cast<std::size_t>(column.first) - 1;
+  if (first >= line_.size()) return {};
+  return trimmed(line_.substr(first, static_cast<std::size_t>(column.last) - first));
+}
+
+std::optional<double> FixedColumns::number(const NumberColumn& column) const {
+  std::string_view cell = text({column.first, column.last});
+  if (cell.empty()) return std::nullopt;
+  const std::string_view whole = cell;
+  if (cell.front() == '+' && cell.size() > 1 && cell[1] != '-') cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() ||
+      !(value >= column.low && value <= column.high))
+    fail(std::string(column.name) + " (bytes " + std::to_string(column.first) + "-" +
+         std::to_string(column.last) + ") must be a number from " + plain(column.low) + " to " +
+         plain(column.high) + ", got " + quoted(whole));
+  return value;
+}
+
+double FixedColumns::required(const NumberColumn& column) const {
+  const auto value = number(column);
+  if (!value)
+    fail(std::string(column.name) + " (bytes " + std::to_string(column.first) + "-" +
+         std::to_string(column.last) + ") is blank");
+  return *value;
+}
+
+std::uint32_t FixedColumns::whole(const NumberColumn& column) const {
+  const double value = number(column).value_or(0);
+  if (value != std::floor(value)) fail(std::string(column.name) + " must be a whole number");
+  return static_cast<std::uint32_t>(value);
+}
+
+}  // namespace domefall

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "pipeline/sky/catalogue/import/fixed_columns.h"
+#include "pipeline/sky/catalogue/import/import_text.h"
+#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/spectral_type.h"
+
+// Byte-by-byte: the ReadMe of III/135A (Cannon & Pickering 1918-1924).
+namespace domefall {
+namespace {
+
+// Lines lose their trailing blanks on some ways; up to the type all of them have something.
+constexpr std::size_t kShortestLine = 41, kLongestLine = 48;
+constexpr NumberColumn kHd{1, 6, "HD", 1, 359083}, kRaHours{19, 20, "RAh", 0, 23},
+    kRaTenths{21, 23, "RAdm", 0, 599}, kDecDegrees{25, 26, "DEd", 0, 90},
+    kDecMinutes{27, 28, "DEm", 0, 59}, kVisual{30, 34, "Ptm", -2, 50},
+    kPhotographic{37, 41, "Ptg", -2, 50};
+constexpr TextColumn kType{43, 45};
+constexpr int kSign = 24, kRemark = 48;
+constexpr double kNebula = 20, kVariable = 30, kNova = 40, kCluster = 50;
+// Entered twice, says the ReadMe: the same as HD 194629.
+constexpr std::uint32_t kRepeated = 194648;
+
+// B1900 (FK4) to J2000 (FK5), columns of the rows below: Newcomb's precession to B1950, then Standish 1982.  The
+// terms left out (aberration's E-terms, 0.35 arcseconds) are far below the catalogue's 0.1 min.
+SkyDirection to_j2000(const SkyDirection& b1900) {
+  const V3d& p = b1900.v;
+  const V3d q(0.999702924 * p.x - 0.0223531344 * p.y - 0.00971607525 * p.z,
+              0.0223531339 * p.x + 0.999750132 * p.y - 0.000108653086 * p.z,
+              0.00971607628 * p.x - 0.000108563936 * p.y + 0.999952792 * p.z);
+  return {q / std::sqrt(q.dot(q))};
+}
+
+SkyDirection position(const FixedColumns& line) {
+  constexpr double kDegreesPerHour = 15, kMinutes = 60, kTenths = 600;
+  const double hours = line.required(kRaHours) + line.number(kRaTenths).value_or(0) / kTenths;
+  const double degrees =
+      line.required(kDecDegrees) + line.number(kDecMinutes).value_or(0) / kMinutes;
+  const char sign = line.letter(kSign);
+  if (sign != '+' && sign != '-') line.fail("the sign of the declination (byte 24) must be + or -");
+  if (degrees > 90) line.fail("the declination exceeds 90 degrees");
+  return to_j2000(star_direction(hours * kDegreesPerHour, sign == '-' ? -degrees : degrees));
+}
+
+// What cannot be a magnitude is one of the catalogue's codes.
+std::optional<double> measured(std::optional<double> magnitude) {
+  return magnitude && *magnitude < kNebula ? magnitude : std::nullopt;
+}
+
+struct Skipped {
+  std::size_t deleted = 0, repeated = 0, nebulae = 0, unmeasured = 0;
+};
+
+float magnitude(const FixedColumns& line, float colour) {
+  if (const auto visual = measured(line.number(kVisual))) return static_cast<float>(*visual);
+  const auto photographic = measured(line.number(kPhotographic));
+  if (!photographic) return kNoMagnitude;
+  // Its index photographic less visual is 0 at A0, 1 at K0: nearly B-V.
+  const double index = is_temperature(colour) ? 0
+                       : colour == kNoColour  ? kAssumedColour
+                                              : static_cast<double>(colour);
+  return static_cast<float>(*photographic - index);
+}
+
+bool is_nebula_or_cluster(const FixedColumns& line) {
+  for (const NumberColumn& column : {kVisual, kPhotographic}) {
+    const double m = line.number(column).value_or(0);
+    if (m == kNebula || m == kCluster) return true;
+    if (m > kNebula && m != kVariable && m != kNova)
+      line.fail(std::string(column.name) +
+                " must be a magnitude below 20 or one of the codes 20, 30, 40, 50");
+  }
+  return false;
+}
+
+std::vector<std::string> notes_of(const Skipped& skipped) {
+  std::vector<std::string> notes;
+  const auto note = [&notes](std::size_t count, const char* what, const char* why) {
+    if (count) notes.push_back(counted(count, what) + " " + why);
+  };
+  note(skipped.deleted, "row", "marked as deleted, left out");
+  note(skipped.repeated, "row", "repeating another number, left out");
+  note(skipped.nebulae, "row", "of nebulae and clusters, left out");
+  note(skipped.unmeasured, "star",
+       "without a magnitude (variables, novae, pairs), left out unless a correction gives one");
+  return notes;
+}
+
+}  // namespace
+
+ImportedCatalogue import_henry_draper(const Paths& inputs) {
+  ImportedCatalogue out;
+  Skipped skipped;
+  std::set<std::uint32_t> seen{kRepeated};
+  for (const std::filesystem::path& input : inputs) {
+    FixedColumns line(input, kShortestLine, kLongestLine);
+    while (line.next()) {
+      line.required(kHd);
+      CatalogueStar star;
+      const std::uint32_t hd = line.whole(kHd);
+      star.id = henry_draper_id(hd);
+      star.direction = position(line);
+      star.colour = colour_of_spectral_type(line.text(kType));
+      star.v = magnitude(line, star.colour);
+      const bool nebula = is_nebula_or_cluster(line);
+      if (line.letter(kRemark) == 'D') {
+        ++skipped.deleted;
+      } else if (nebula) {
+        ++skipped.nebulae;
+      } else if (!seen.insert(hd).second) {
+        ++skipped.repeated;
+      } else {
+        if (star.v == kNoMagnitude) ++skipped.unmeasured;
+        out.catalogue.stars.push_back(star);
+      }
+    }
+  }
+  out.notes = notes_of(skipped);
+  out.catalogue.text = {
+      "Henry Draper Catalogue and Extension, CDS III/135A (Cannon & Pickering 1918-1936)",
+      "as the catalogue service gives it", ""};
+  return out;
+}
+
+}  // namespace domefall

@@ -1,0 +1,57 @@
+#include <array>
+
+#include "pipeline/sky/catalogue/import/import_text.h"
+#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/table_star.h"
+
+namespace domefall {
+namespace {
+
+constexpr StarColumns kColumns{"ra", "dec", "mag", "ci", "pmra", "pmdec", 15, -kReddest};
+
+// "Alp", "Alp-1", "Kap-2" and the constellation: "alpha CMa", "alpha1 Cru".
+std::string bayer_name(std::string_view letter, std::string_view constellation) {
+  static constexpr std::array<std::string_view, 24> kLetters{
+      "alpha", "beta",  "gamma",  "delta",   "epsilon", "zeta", "eta",     "theta",
+      "iota",  "kappa", "lambda", "mu",      "nu",      "xi",   "omicron", "pi",
+      "rho",   "sigma", "tau",    "upsilon", "phi",     "chi",  "psi",     "omega"};
+  const std::string_view start = letter.substr(0, letter.find('-'));
+  if (start.size() < 2 || constellation.empty()) return "";
+  for (const std::string_view full : kLetters) {
+    std::string abbreviated(full.substr(0, start.size()));
+    abbreviated[0] = static_cast<char>(abbreviated[0] - 'a' + 'A');
+    if (abbreviated != start) continue;
+    const std::size_t dash = letter.find('-');
+    const std::string_view index = dash == std::string_view::npos ? "" : letter.substr(dash + 1);
+    return std::string(full) + std::string(index) + " " + std::string(constellation);
+  }
+  return "";
+}
+
+}  // namespace
+
+ImportedCatalogue import_hyg(const Paths& inputs) {
+  ImportedCatalogue out;
+  RawCatalogue& catalogue = out.catalogue;
+  for (const std::filesystem::path& input : inputs) {
+    QuotedTable row(input, {"ra", "dec", "mag", "ci"});
+    while (row.next()) {
+      const std::string_view proper = row.text("proper");
+      if (proper == "Sol") {
+        out.notes.emplace_back("the sun left out");
+        continue;
+      }
+      const auto place = static_cast<std::uint32_t>(catalogue.stars.size());
+      catalogue.stars.push_back(read_table_star(row, kColumns));
+      if (!proper.empty()) catalogue.names.push_back({place, std::string(proper)});
+      const std::string bayer = bayer_name(row.text("bayer"), row.text("con"));
+      if (!bayer.empty()) catalogue.names.push_back({place, bayer});
+    }
+  }
+  name_by_hipparcos(catalogue.stars);
+  catalogue.text = {"HYG database (D. Nash, astronexus.com), from Hipparcos, Yale and Gliese",
+                    "CC BY-SA 2.5 (versions 2 and 3) or 4.0 (version 4)", ""};
+  return out;
+}
+
+}  // namespace domefall

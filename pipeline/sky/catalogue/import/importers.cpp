@@ -1,0 +1,81 @@
+#include "pipeline/sky/catalogue/import/importers.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "pipeline/image/map_file.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kImporters{
+    Importer{"tycho2", "Tycho-2 (I/259)", import_tycho2},
+    Importer{"ascc", "ASCC-2.5 (I/280B)", import_ascc},
+    Importer{"hd", "Henry Draper Catalogue (III/135A)", import_henry_draper},
+    Importer{"hyg", "HYG database", import_hyg},
+    Importer{"stellarium", "Stellarium's catalogues", import_stellarium},
+    Importer{"d3-celestial", "d3-celestial's GeoJSON", import_d3_celestial},
+    Importer{"csv", "Domefall's CSV", import_table},
+};
+
+const Importer* named(std::string_view name) {
+  const auto found = std::find_if(kImporters.begin(), kImporters.end(),
+                                  [&](const Importer& each) { return each.name == name; });
+  return found == kImporters.end() ? nullptr : &*found;
+}
+
+const Importer* guess_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "tyc2.dat.00", ignored)) return named("tycho2");
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (entry->path().extension() == ".cat") return named("stellarium");
+  return nullptr;
+}
+
+bool is_bar(std::string_view line, std::size_t byte) { return line[byte - 1] == '|'; }
+
+// Tables by the lengths of their lines and what separates their columns.
+const Importer* guess_table(std::string_view line) {
+  constexpr std::size_t kTycho = 206, kSupplement = 122, kAscc = 210, kDraper = 48;
+  if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
+  if (line.size() == kSupplement && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
+  if (line.size() == kAscc && line[2] == '.') return named("ascc");
+  if (line.size() == kDraper) return named("hd");
+  return nullptr;
+}
+
+const Importer* guess_csv(std::string_view line) {
+  std::string plain(line);
+  std::erase(plain, '"');
+  if (plain.starts_with("id,hip,hd,hr,gl,bf,proper,ra,dec")) return named("hyg");
+  if (plain.starts_with("star,")) return nullptr;  // corrections
+  if (plain.find("ra_deg") != std::string::npos && plain.find("v_mag") != std::string::npos)
+    return named("csv");
+  return nullptr;
+}
+
+}  // namespace
+
+std::span<const Importer> importers() { return kImporters; }
+
+const Importer* guess_importer(const Paths& inputs) {
+  std::error_code ignored;
+  if (inputs.empty()) return nullptr;
+  if (fs::is_directory(inputs.front(), ignored)) return guess_folder(inputs.front());
+  const MappedFile file(inputs.front());
+  std::string_view bytes = file.bytes();
+  if (bytes.starts_with("\x0a\x04\x5f\x83")) return named("stellarium");
+  while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos)
+    bytes.remove_prefix(bytes.find('\n') + 1);
+  if (bytes.starts_with('{')) return named("d3-celestial");
+  std::string_view line = bytes.substr(0, bytes.find('\n'));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  const Importer* csv = guess_csv(line);
+  return csv ? csv : guess_table(line);
+}
+
+}  // namespace domefall

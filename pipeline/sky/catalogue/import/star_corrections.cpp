@@ -1,0 +1,159 @@
+#include "pipeline/sky/catalogue/import/star_corrections.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "pipeline/sky/catalogue/import/table_star.h"
+
+namespace domefall {
+namespace {
+
+// What a removed star has until the end, beyond every limit.
+constexpr float kRemoved = 2 * kNoMagnitude;
+
+std::string folded(std::string_view name) {
+  std::string out;
+  for (const char c : name)
+    if (c != ' ' && c != '_')
+      out.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
+  return out;
+}
+
+// "HD 174638 | HIP 92420" at its bars.
+std::vector<std::string_view> alternatives(std::string_view cell) {
+  std::vector<std::string_view> found;
+  for (;;) {
+    const std::size_t bar = cell.find('|');
+    found.push_back(cell.substr(0, bar));
+    if (bar == std::string_view::npos) return found;
+    cell.remove_prefix(bar + 1);
+  }
+}
+
+class Corrections {
+ public:
+  Corrections(RawCatalogue& catalogue, const std::filesystem::path& file)
+      : catalogue_(catalogue), row_(file, {"star"}) {
+    for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)
+      if (catalogue.stars[i].id != kNoStarId) by_id_.emplace(catalogue.stars[i].id, i);
+    for (const StarName& name : catalogue.names) {
+      const auto [at, first] = by_name_.emplace(folded(name.name), name.star);
+      if (!first && at->second != name.star) ambiguous_.insert(at->first);
+    }
+  }
+
+  std::size_t apply() {
+    std::size_t rows = 0;
+    for (; row_.next(); ++rows) {
+      const std::string_view action = row_.text("action");
+      if (action == "add")
+        add();
+      else if (action == "remove")
+        remove(wanted_once());
+      else if (action.empty())
+        change(wanted_once());
+      else
+        row_.fail("action must be add, remove or empty, got '" + std::string(action) + "'");
+    }
+    keep_brighter(catalogue_, kNoMagnitude);
+    return rows;
+  }
+
+ private:
+  std::optional<std::uint32_t> find(std::string_view alternative) const {
+    if (const auto id = parse_star_id(alternative)) {
+      const auto found = by_id_.find(*id);
+      if (found != by_id_.end()) return found->second;
+    }
+    const auto found = by_name_.find(folded(alternative));
+    if (found != by_name_.end() && ambiguous_.contains(found->first))
+      row_.fail("several stars are called '" + std::string(alternative) + "'; name its number");
+    return found == by_name_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  CatalogueStar& wanted() {
+    const std::string_view cell = row_.text("star");
+    if (folded(cell).empty()) row_.fail("star is empty");
+    for (const std::string_view alternative : alternatives(cell)) {
+      const auto place = find(alternative);
+      if (place && catalogue_.stars[*place].v != kRemoved) return catalogue_.stars[*place];
+    }
+    row_.fail("the catalogue has no star '" + std::string(cell) + "'");
+  }
+
+  // Of two rows about one star the later would undo the earlier without a word.
+  CatalogueStar& wanted_once() {
+    CatalogueStar& star = wanted();
+    if (!seen_.insert(&star - catalogue_.stars.data()).second)
+      row_.fail("the star '" + std::string(row_.text("star")) + "' is corrected twice");
+    return star;
+  }
+
+  // Whether the row gives any of a star's numbers, which are taken.
+  bool take_numbers(CatalogueStar& star) {
+    const auto v = row_.number("v_mag", kBrightestV, kFaintestV);
+    const auto b_v = row_.number("b_v", kBluest, kReddest);
+    const auto temperature = row_.number("temperature_k", kColdest, kHottest);
+    if (b_v && temperature) row_.fail("b_v and temperature_k exclude each other");
+    const auto ra = row_.number("ra_deg", 0, 360), dec = row_.number("dec_deg", -90, 90);
+    const auto pm_ra = row_.number("pm_ra_mas_yr", -kFastest, kFastest);
+    const auto pm_dec = row_.number("pm_dec_mas_yr", -kFastest, kFastest);
+    if (ra.has_value() != dec.has_value())
+      row_.fail("ra_deg and dec_deg are given both or neither");
+    if (pm_ra.has_value() != pm_dec.has_value())
+      row_.fail("pm_ra_mas_yr and pm_dec_mas_yr are given both or neither");
+    if (v) star.v = static_cast<float>(*v);
+    if (b_v) star.colour = static_cast<float>(*b_v);
+    if (temperature) star.colour = static_cast<float>(*temperature);
+    if (ra) star.direction = star_direction(*ra, *dec);
+    if (pm_ra) star.pm_ra = static_cast<float>(*pm_ra), star.pm_dec = static_cast<float>(*pm_dec);
+    return v || b_v || temperature || ra || pm_ra;
+  }
+
+  void change(CatalogueStar& star) {
+    if (!take_numbers(star)) row_.fail("the row changes nothing");
+  }
+
+  void remove(CatalogueStar& star) {
+    CatalogueStar other;
+    if (take_numbers(other)) row_.fail("a star that is removed has no numbers");
+    star.v = kRemoved;
+  }
+
+  void add() {
+    CatalogueStar star;
+    const std::string_view cell = row_.text("star");
+    star.id = parse_star_id(cell).value_or(kNoStarId);
+    for (const std::string_view alternative : alternatives(cell))
+      if (find(alternative))
+        row_.fail("the catalogue has a star '" + std::string(cell) + "' already");
+    row_.required("ra_deg", 0, 360), row_.required("dec_deg", -90, 90);
+    row_.required("v_mag", kBrightestV, kFaintestV);
+    take_numbers(star);
+    const auto place = static_cast<std::uint32_t>(catalogue_.stars.size());
+    catalogue_.stars.push_back(star);
+    if (star.id != kNoStarId) {
+      by_id_.emplace(star.id, place);
+    } else if (!folded(cell).empty()) {
+      catalogue_.names.push_back({place, std::string(cell)});
+      by_name_.emplace(folded(cell), place);
+    }
+  }
+
+  RawCatalogue& catalogue_;
+  QuotedTable row_;
+  std::unordered_map<StarId, std::uint32_t> by_id_;
+  std::unordered_map<std::string, std::uint32_t> by_name_;
+  std::unordered_set<std::string> ambiguous_;  // names of several stars
+  std::unordered_set<std::ptrdiff_t> seen_;    // stars that a row was about
+};
+
+}  // namespace
+
+std::size_t apply_corrections(RawCatalogue& catalogue, const std::filesystem::path& file) {
+  return Corrections(catalogue, file).apply();
+}
+
+}  // namespace domefall

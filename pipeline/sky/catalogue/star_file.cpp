@@ -1,0 +1,141 @@
+#include "pipeline/sky/catalogue/star_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "pipeline/image/digest.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/sky/catalogue/star_file_layout.h"
+
+namespace domefall {
+namespace {
+
+// Numbers in a file stand where they stand: copied out, they need no alignment.
+template <class T>
+T at(std::string_view bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+std::string next_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string line(text.substr(0, end));
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+std::size_t block_count(std::size_t stars) { return (stars + kBlockStars - 1) / kBlockStars; }
+
+}  // namespace
+
+bool is_star_file(std::string_view bytes) {
+  return bytes.starts_with(std::string_view(kStarMagic.data(), kStarMagic.size()));
+}
+
+void StarFile::fail(std::size_t byte, const std::string& what) const {
+  throw InputError(file_.path().string() + ": byte " + std::to_string(byte) + ": " + what);
+}
+
+void StarFile::fail_at(const StarRecord& record, const std::string& what) const {
+  fail(static_cast<std::size_t>(reinterpret_cast<const char*>(&record) - file_.bytes().data()),
+       what);
+}
+
+std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint64_t sum,
+                                const char* what) const {
+  const std::string_view bytes = file_.bytes();
+  if (at > bytes.size() || size > bytes.size() - at)
+    fail(at, std::string("the ") + what + " reaches beyond the end of the file");
+  const std::string_view found = bytes.substr(at, size);
+  if (checksum(found) != sum) fail(at, std::string("the ") + what + " is damaged");
+  return found;
+}
+
+StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
+  const std::string_view bytes = file_.bytes();
+  if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader)) ||
+      (is_star_file(bytes) && bytes.size() < sizeof(StarFileHeader)))
+    fail_cut_short(file, kStarExtension, bytes.size(), sizeof(StarFileHeader));
+  if (!is_star_file(bytes)) fail(0, "this is no star catalogue (.stars)");
+  const auto head = at<StarFileHeader>(bytes, 0);
+  if (head.byte_order != kByteOrder)
+    fail(offsetof(StarFileHeader, byte_order), "the numbers are in another order of bytes");
+  if (head.version != kStarFileVersion)
+    fail(offsetof(StarFileHeader, version),
+         "the star catalogue is of version " + std::to_string(head.version) +
+             "; this Domefall reads version " + std::to_string(kStarFileVersion));
+  if (checksum(bytes.substr(0, offsetof(StarFileHeader, head_sum))) != head.head_sum)
+    fail(0, "the header is damaged");
+  if (head.file_size != bytes.size())
+    fail(std::min<std::uint64_t>(head.file_size, bytes.size()),
+         "the star catalogue " +
+             std::string(bytes.size() < head.file_size ? "ends here" : "should end here") +
+             "; it has " + std::to_string(bytes.size()) + " bytes instead of " +
+             std::to_string(head.file_size));
+  if (head.stars > kMostStars || head.record_size != sizeof(StarRecord) ||
+      head.block_stars != kBlockStars || head.records_at % alignof(StarRecord) != 0 ||
+      head.records_at > bytes.size() ||
+      (bytes.size() - head.records_at) / sizeof(StarRecord) != head.stars)
+    fail(offsetof(StarFileHeader, stars), "the header contradicts itself");
+  stars_ = head.stars, records_at_ = head.records_at, epoch_ = head.epoch;
+  head_sum_ = head.head_sum;
+  index_ = part(head.index_at, block_count(stars_) * sizeof(StarBlock), head.index_sum, "index");
+  names_ = part(head.names_at, head.names_size, head.names_sum, "table of names");
+  const std::size_t end = head.names_at + head.names_size;
+  for (std::size_t i = end; i < records_at_; ++i)
+    if (bytes[i] != 0) fail(i, "the filling before the stars is damaged");
+  std::string_view text = part(head.text_at, head.text_size, head.text_sum, "text");
+  text_.source = next_line(text), text_.licence = next_line(text), text_.made = next_line(text);
+}
+
+// The header's checksum is over the checksums of all else.
+std::string StarFile::fingerprint() const {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(head_sum_));
+  return text;
+}
+
+void StarFile::check_block(std::size_t block) const {
+  const std::size_t first = block * kBlockStars,
+                    count = std::min<std::size_t>(kBlockStars, stars_ - first);
+  const std::size_t offset = records_at_ + first * sizeof(StarRecord);
+  if (checksum(file_.bytes().substr(offset, count * sizeof(StarRecord))) !=
+      at<StarBlock>(index_, block * sizeof(StarBlock)).sum)
+    fail(offset, "the block of stars that begins here is damaged");
+}
+
+std::span<const StarRecord> StarFile::up_to(double limit) const {
+  const auto faintest = static_cast<float>(limit);
+  const auto* records = reinterpret_cast<const StarRecord*>(file_.bytes().data() + records_at_);
+  const std::size_t blocks = block_count(stars_);
+  for (std::size_t block = 0; block < blocks; ++block) {
+    check_block(block);
+    if (at<StarBlock>(index_, block * sizeof(StarBlock)).faintest <= faintest) continue;
+    const auto* begin = records + block * kBlockStars;
+    const auto* end = records + std::min<std::size_t>((block + 1) * kBlockStars, stars_);
+    const auto* stop = std::upper_bound(begin, end, faintest,
+                                        [](float v, const StarRecord& star) { return v < star.v; });
+    return {records, stop};
+  }
+  return {records, stars_};
+}
+
+std::vector<StarName> StarFile::names(std::size_t stars) const {
+  std::vector<StarName> found;
+  for (std::size_t i = 0; i < names_.size();) {
+    const std::size_t place = static_cast<std::size_t>(names_.data() - file_.bytes().data()) + i;
+    constexpr std::size_t kNumbers = 2 * sizeof(std::uint32_t);
+    if (names_.size() - i < kNumbers) fail(place, "a name is cut short");
+    const auto star = at<std::uint32_t>(names_, i);
+    const auto length = at<std::uint32_t>(names_, i + sizeof star);
+    if (length > names_.size() - i - kNumbers) fail(place, "a name is cut short");
+    if (star >= stars) break;
+    found.push_back({star, std::string(names_.substr(i + kNumbers, length))});
+    i += kNumbers + length;
+  }
+  return found;
+}
+
+}  // namespace domefall

@@ -1,0 +1,91 @@
+// The binary star catalogue, *.stars: read by mapping it, so that a limit of magnitude touches only the
+// stars it needs.
+//
+// Little-endian.  Offsets and sizes are in bytes:
+//
+//   0    8  89 "STARS" 0D 0A          no text file begins so, and none survives a change of line ends
+//   8    4  0x01020304                in the order of the bytes of all numbers
+//   12   4  version, 1
+//   16   8  size of the file
+//   24   8  number of stars
+//   32   8  epoch of the positions, Julian year (double)
+//   40   4  size of a record, 32
+//   44   4  stars in a block, 4096
+//   48   8  where the index begins, 128
+//   56   8  where the text begins       64   8  its size
+//   72   8  where the names begin       80   8  their size
+//   88   8  where the records begin, a multiple of 64
+//   96   8  checksum of the text        104  8  of the names       112  8  of the index
+//   120  8  checksum of bytes 0 to 119
+//
+//   index    for each block of records: 8 bytes checksum, 4 bytes V of its faintest star, 4 bytes 0
+//   text     three lines, UTF-8: source, licence, how it was made
+//   names    for each name: 4 bytes number of the star (from 0, ascending), 4 bytes length, the name
+//   records  brightest first: the unit vector (equatorial J2000) as 3 int32 times 2^-31; proper motion in
+//            right ascension (times cos Dec) and declination, mas a year, float; V, float; colour, float
+//            (star_record.h); identifier (star_id.h)
+//
+// Checksums are XXH3, 64 bits; a block is checked when it is first read, so that nothing is used unchecked
+// and nothing is read for its checksum alone.
+//
+// Accuracy: directions to 0.1 mas.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "pipeline/image/map_file.h"
+#include "pipeline/sky/catalogue/star_record.h"
+
+namespace domefall {
+
+struct StarRecord {
+  std::int32_t x, y, z;
+  float pm_ra, pm_dec, v, colour;
+  StarId id;
+};
+static_assert(sizeof(StarRecord) == 32);
+
+// Whether a file's bytes begin as such a catalogue's do.
+bool is_star_file(std::string_view bytes);
+
+// Throws InputError naming the file and the byte for whatever is no such file, not whole, damaged or of
+// a newer version.
+class StarFile {
+ public:
+  explicit StarFile(const std::filesystem::path& file);
+
+  std::size_t size() const { return stars_; }
+  double epoch() const { return epoch_; }
+  const CatalogueText& text() const { return text_; }
+  // Of all that the file holds, as hexadecimal digits.
+  std::string fingerprint() const;
+
+  // The stars of V <= limit, compared as floats.  Checks the blocks that they are in.
+  std::span<const StarRecord> up_to(double limit) const;
+  // The names of the first `stars` stars.
+  std::vector<StarName> names(std::size_t stars) const;
+
+  // Throws InputError naming the byte at which one of up_to()'s records begins.
+  [[noreturn]] void fail_at(const StarRecord& record, const std::string& what) const;
+
+ private:
+  [[noreturn]] void fail(std::size_t byte, const std::string& what) const;
+  std::string_view part(std::uint64_t at, std::uint64_t size, std::uint64_t sum,
+                        const char* what) const;
+  void check_block(std::size_t block) const;
+
+  MappedFile file_;
+  std::size_t stars_ = 0, records_at_ = 0;
+  double epoch_ = 2000;
+  std::string_view index_, names_;
+  std::uint64_t head_sum_ = 0;
+  CatalogueText text_;
+};
+
+// Its stars sorted by brightness (sort_by_brightness); finite numbers in their ranges, unit vectors.
+// Written atomically.  Throws as write_atomically.
+void write_star_file(const std::filesystem::path& file, const RawCatalogue& catalogue);
+
+}  // namespace domefall

@@ -1,0 +1,101 @@
+#include "pipeline/sky/make/equirectangular.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/sky/maps/sky_pyramid.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kLargestOfImage = 4096;
+
+// Catmull-Rom weights at t in [0, 1) between the second and the third of four samples.
+std::array<double, 4> catmull_rom(double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  return {(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2,
+          (t3 - t2) / 2};
+}
+
+// Cubic look into an equirectangular image with its middle at +x, its left quarter at +y and its top
+// at +z; a row beyond a pole is the one across it.
+template <class T>
+std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d) {
+  const int w = image.width, h = image.height;
+  const double x = (0.5 - std::atan2(d.y, d.x) / (2 * pi)) * w - 0.5;
+  const double y = (0.5 - std::atan2(d.z, std::hypot(d.x, d.y)) / pi) * h - 0.5;
+  const double x0 = std::floor(x), y0 = std::floor(y);
+  const auto wx = catmull_rom(x - x0), wy = catmull_rom(y - y0);
+  std::array<double, 3> sum{};
+  for (int j = 0; j < 4; ++j) {
+    int row = static_cast<int>(y0) - 1 + j, turn = 0;
+    if (row < 0) row = -1 - row, turn = w / 2;
+    if (row >= h) row = 2 * h - 1 - row, turn = w / 2;
+    const T* line = image.row(row);
+    for (int i = 0; i < 4; ++i) {
+      const int column = (static_cast<int>(x0) - 1 + i + turn + 2 * w) % w;
+      const T* texel = line + 3 * column;
+      for (int c = 0; c < 3; ++c) sum[c] += wx[i] * wy[j] * static_cast<float>(texel[c]);
+    }
+  }
+  for (double& c : sum) c = std::max(c, 0.0);  // a cubic undershoots beside a bright spot
+  return sum;
+}
+
+// The greatest value of any channel in the working space; a cubic overshoots it by less than 1.6.
+template <class T>
+double greatest_working(const ImageRgb<T>& image) {
+  const ColourMatrix& m = working_from_rec709();
+  double greatest = 0;
+  for (std::size_t k = 0; k < image.pixels.size(); k += 3) {
+    const float r = image.pixels[k], g = image.pixels[k + 1], b = image.pixels[k + 2];
+    for (int c = 0; c < 3; ++c)
+      greatest = std::max(greatest, m[c][0] * r + m[c][1] * g + m[c][2] * b);
+  }
+  return greatest;
+}
+
+template <class T>
+void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
+                 const SkyPyramid::Level& level) {
+  const ColourMatrix& m = working_from_rec709();
+  const int looks = std::max(panorama_face(image.width) / level.size, 1);
+  const auto painter = [&image, &to_picture, &m, scale](const V3d& d, float* channel) {
+    const auto c = equirectangular_at(image, apply(to_picture, d));
+    for (int k = 0; k < 3; ++k)
+      channel[k] = static_cast<float>(scale * (m[k][0] * c[0] + m[k][1] * c[1] + m[k][2] * c[2]));
+  };
+  paint(level, painter, looks);
+}
+
+}  // namespace
+
+int panorama_face(int width) {
+  int size = 4;
+  while (size < width / 2) size *= 2;
+  return std::min(size, kLargestOfImage);
+}
+
+double panorama_unit(const LightImage& image, double luminance) {
+  return sky_unit(luminance * image.unit * greatest_working(image.pixels));
+}
+
+void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
+                    const SkyPyramid& pyramid) {
+  paint_image(image.pixels, picture_from_equatorial(orientation),
+              luminance * image.unit / pyramid.unit, pyramid.levels[0]);
+}
+
+SkyMap map_of_panorama(const FloatImage& image) {
+  const double unit = sky_unit(kPanoramaUnit * greatest_working(image));
+  const SkyPyramid pyramid(SkyMapKind::kColour, unit, panorama_face(image.width));
+  paint_image(image, M33d(), kPanoramaUnit / unit, pyramid.levels[0]);
+  pyramid.finish();
+  return pyramid.map();
+}
+
+}  // namespace domefall

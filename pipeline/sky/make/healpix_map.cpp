@@ -1,0 +1,120 @@
+#include "pipeline/sky/make/healpix_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kLargestOfHealpix = 4096;
+
+// Every other bit of a number, from its lowest.
+long every_other_bit(long bits) {
+  long out = 0;
+  for (int k = 0; bits >> (2 * k) != 0; ++k) out |= ((bits >> (2 * k)) & 1) << k;
+  return out;
+}
+
+}  // namespace
+
+// Gorski et al. 2005, sec. 5.2: a base pixel's southern corner has the coordinates (0, 0), from which
+// x grows to the north-east and y to the north-west; it is kRing/4 of the way to the south pole and
+// kEast eighths of a turn from longitude 0.
+long ring_from_nested(int nside, long pixel) {
+  static constexpr std::array<int, 12> kRing{2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
+  static constexpr std::array<int, 12> kEast{1, 3, 5, 7, 0, 2, 4, 6, 1, 3, 5, 7};
+  const long n = nside, base = pixel / (n * n), inside = pixel % (n * n);
+  const long x = every_other_bit(inside), y = every_other_bit(inside >> 1);
+  const long ring = kRing[static_cast<std::size_t>(base)] * n - x - y - 1;
+  const long north = std::min(ring, 4 * n - ring), length = 4 * std::min(north, n);
+  const long shifted = north >= n && (ring - n) % 2 != 0 ? 0 : 1;
+  const long before = ring < n        ? 2 * ring * (ring - 1)
+                      : ring <= 3 * n ? 2 * n * (n - 1) + (ring - n) * 4 * n
+                                      : 12 * n * n - 2 * north * (north + 1);
+  // Twice the place along the ring, from 1 at the first pixel.
+  const long east = kEast[static_cast<std::size_t>(base)] * (length / 4) + x - y + 2 - shifted;
+  return before + (east / 2 - 1 + length) % length;
+}
+
+HealpixMap::HealpixMap(HealpixFile file, float missing) : file_(std::move(file)) {
+  for (float& v : file_.values)
+    if (std::isnan(v)) v = missing;
+  if (!file_.nested) return;
+  std::vector<float> rings(file_.values.size());
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const long at = ring_from_nested(file_.nside, static_cast<long>(k));
+    rings[static_cast<std::size_t>(at)] = file_.values[k];
+  }
+  file_.values = std::move(rings);
+  file_.nested = false;
+}
+
+// The caps' rings have 4, 8, ... pixels and are all shifted by half a pixel; those between have
+// 4 nside and are shifted every other time.
+HealpixMap::Ring HealpixMap::ring(long number) const {
+  const long n = file_.nside, north = std::min(number, 4 * n - number);
+  const auto nn = static_cast<double>(n);
+  if (north >= n)
+    return {2 * n * (n - 1) + (number - n) * 4 * n, 4 * n,
+            std::acos(static_cast<double>(2 * n - number) * 2 / (3 * nn)),
+            (number - n) % 2 == 0 ? 0.5 : 0.0};
+  const auto k = static_cast<double>(north);
+  // 1 - z = k^2 / (3 n^2), as twice a sine squared: exact near the pole.
+  const double theta = 2 * std::asin(k / (nn * std::sqrt(6.0)));
+  if (number == north) return {2 * north * (north - 1), 4 * north, theta, 0.5};
+  return {12 * n * n - 2 * north * (north + 1), 4 * north, pi - theta, 0.5};
+}
+
+double HealpixMap::on_ring(const Ring& r, double phi) const {
+  const double at = phi / (2 * pi) * static_cast<double>(r.count) - r.shift;
+  const double low = std::floor(at);
+  const long k = (static_cast<long>(low) + r.count) % r.count;
+  const double a = file_.values[static_cast<std::size_t>(r.first + k)],
+               b = file_.values[static_cast<std::size_t>(r.first + (k + 1) % r.count)];
+  return a + (at - low) * (b - a);
+}
+
+double HealpixMap::pole(std::size_t first) const {
+  const float* v = &file_.values[first];
+  return (static_cast<double>(v[0]) + v[1] + v[2] + v[3]) / 4;
+}
+
+// The last ring at or north of a place; 0 beyond the first.
+long HealpixMap::ring_above(double z, double across) const {
+  const double n = file_.nside, from_pole = across * across / (1 + std::abs(z));
+  if (std::abs(z) <= 2.0 / 3) return static_cast<long>(n * (2 - 1.5 * z));
+  const auto north = static_cast<long>(n * std::sqrt(3 * from_pole));
+  return z > 0 ? north : 4L * file_.nside - north - 1;
+}
+
+double HealpixMap::at(const V3d& direction) const {
+  const V3d d = direction.normalized();
+  const double across = std::hypot(d.x, d.y), theta = std::atan2(across, d.z);
+  double phi = std::atan2(d.y, d.x);
+  if (phi < 0) phi += 2 * pi;
+  const long last = 4L * file_.nside - 1, above = ring_above(d.z, across);
+  double from = 0, to = pi, a = 0, b = 0;
+  if (above >= 1) {
+    const Ring r = ring(above);
+    from = r.theta, a = on_ring(r, phi);
+  } else {
+    a = pole(0);
+  }
+  if (above < last) {
+    const Ring r = ring(above + 1);
+    to = r.theta, b = on_ring(r, phi);
+  } else {
+    b = pole(file_.values.size() - 4);
+  }
+  // On a ring itself rounding may have found its neighbour.
+  return a + std::clamp((theta - from) / (to - from), 0.0, 1.0) * (b - a);
+}
+
+int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestOfHealpix); }
+
+}  // namespace domefall

@@ -1,0 +1,121 @@
+#include "pipeline/sky/make/import_sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/image/some_light.h"
+#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/maps/sky_file.h"
+
+namespace domefall {
+namespace {
+
+[[noreturn]] void fail(const SkyImport& import, const std::string& what) {
+  throw InputError(import.image.string() + ": " + what);
+}
+
+bool is_fits(const std::filesystem::path& path) {
+  constexpr std::string_view kStart = "SIMPLE  =";
+  std::array<char, kStart.size()> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return std::string_view(start.data(), start.size()) == kStart;
+}
+
+SkyOrigin origin_of(const SkyImport& import, const Orientation& orientation) {
+  return {"source: " + import.image.filename().string() + "\n" + import.text, orientation};
+}
+
+Orientation import_panorama(const SkyImport& import) {
+  if (import.cmb) fail(import, "the microwave background comes as a HEALPix map");
+  const LightImage image = read_light_image(import.image, import.encoding);
+  const int width = image.pixels.width, height = image.pixels.height;
+  if (width < 4 || height < 2 || width != 2 * height)
+    fail(import,
+         "an equirectangular picture is twice as wide as high, at least 4 x 2 pixels; "
+         "this one is " +
+             std::to_string(width) + " x " + std::to_string(height));
+  const double luminance = import.unit.value_or(kPanoramaUnit);
+  NewSkyFile file(import.out, SkyMapKind::kColour, panorama_unit(image, luminance),
+                  import.size ? import.size : panorama_face(width),
+                  origin_of(import, import.orientation));
+  paint_panorama(image, import.orientation, luminance, file.pyramid());
+  file.finish();
+  return import.orientation;
+}
+
+SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
+  if (import.frame_given) return import.orientation.frame;
+  const std::string& c = file.coordinates;
+  if (c.starts_with('G') || c.starts_with('g')) return SkyFrame::kGalactic;
+  if (c.starts_with('C') || c.starts_with('Q') || c.starts_with("EQ")) return SkyFrame::kEquatorial;
+  if (c.empty()) fail(import, "it does not say in which coordinates it is; give --frame");
+  fail(import, "its coordinates (COORDSYS) are '" + c + "'; only galactic and equatorial are read");
+}
+
+// Of "K", "mK,thermodynamic", "uK_CMB" and the like.
+double kelvin_of(const SkyImport& import, const std::string& units) {
+  if (import.unit) return *import.unit;
+  if (units.starts_with('K')) return 1;
+  if (units.starts_with("mK") || units.starts_with("milliK")) return 1e-3;
+  if (units.starts_with("uK") || units.starts_with("microK") || units.starts_with("muK"))
+    return 1e-6;
+  fail(import, "it does not say in what its temperatures are (TUNIT is '" + units +
+                   "'); give the kelvin of a value of 1 as --unit");
+}
+
+std::string cmb_text(const CmbLook& look) {
+  return "microwave background: at redshift " + std::to_string(look.redshift) + ", contrast " +
+         std::to_string(look.contrast) + "\n";
+}
+
+// Bad pixels are NaN.  A microwave background's fluctuations may be negative.
+void check_values(const SkyImport& import, const HealpixFile& healpix) {
+  bool good = false;
+  float least = 0, most = 0;
+  for (const float v : healpix.values) {
+    if (std::isnan(v)) continue;
+    good = true, least = std::min(least, v), most = std::max(most, v);
+  }
+  if (!good)
+    fail(import, "column " + std::to_string(import.column) + " holds no value: all " +
+                     std::to_string(healpix.values.size()) +
+                     " pixels are missing (UNSEEN, NaN or infinite)");
+  if (!import.cmb) check_light(import.image, least, most);
+}
+
+Orientation import_healpix(const SkyImport& import) {
+  HealpixFile healpix = read_healpix(import.image, import.column);
+  check_values(import, healpix);
+  Orientation orientation;
+  orientation.frame = frame_of(import, healpix);
+  CmbLook look = import.cmb.value_or(CmbLook{});
+  if (import.cmb) look.kelvin = kelvin_of(import, healpix.units);
+  const HealpixMap map(std::move(healpix), 0);
+  const double luminance = import.unit.value_or(kPanoramaUnit);
+  SkyOrigin origin = origin_of(import, orientation);
+  if (import.cmb) origin.text += cmb_text(look);
+  NewSkyFile file(import.out, import.cmb ? SkyMapKind::kThermal : SkyMapKind::kColour,
+                  import.cmb ? cmb_unit(look) : healpix_unit(map, luminance),
+                  import.size ? import.size : healpix_face(map.nside()), std::move(origin));
+  if (import.cmb)
+    paint_cmb(map, orientation.frame, look, file.pyramid());
+  else
+    paint_healpix(map, orientation.frame, luminance, file.pyramid());
+  file.finish();
+  return orientation;
+}
+
+}  // namespace
+
+Orientation import_sky(const SkyImport& import) {
+  const bool healpix = import.projection == SkyProjection::kHealpix ||
+                       (import.projection == SkyProjection::kOfFile && is_fits(import.image));
+  return healpix ? import_healpix(import) : import_panorama(import);
+}
+
+}  // namespace domefall

@@ -1,0 +1,245 @@
+#include "pipeline/sky/make/sky_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "pipeline/sky/maps/cube_face.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kBrightest = 150, kDensest = 40'000;
+constexpr double kStandsOut = 1.3;  // a point over its surroundings
+constexpr double kCloudStandsOut = 1.15;
+constexpr double kStarsEnough = 0.5, kStarsMargin = 0.15, kBandEnough = 0.3, kBandMargin = 0.1;
+constexpr int kBandFace = 16;
+constexpr double kBandBlur = 5 * kDegree;
+constexpr double kKernelEnd = 8;  // as an exponent
+constexpr int kNamedStars = 10;
+
+double light(const SkyMap& map, const V3d& direction, double footprint) {
+  return luminance(map.sample(direction, footprint));
+}
+
+V3d beside(const V3d& d, double angle, double turn) {
+  const V3d aside = d.cross(std::abs(d.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
+  const V3d across = d.cross(aside);
+  return std::cos(angle) * d + std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * across);
+}
+
+std::vector<double> ring(const SkyMap& map, const V3d& d, double angle, double footprint) {
+  constexpr int kPlaces = 12;
+  std::vector<double> around;
+  around.reserve(kPlaces);
+  for (int k = 0; k < kPlaces; ++k)
+    around.push_back(light(map, beside(d, angle, 2 * std::numbers::pi * k / kPlaces), footprint));
+  std::sort(around.begin(), around.end());
+  return around;
+}
+
+double ratio(double inside, double around) {
+  if (!(inside > 0)) return around > 0 ? 0 : 1;
+  return around > 0 ? inside / around : HUGE_VAL;
+}
+
+struct NamedPlace {
+  const char* name;
+  double ra_deg, dec_deg, radius_deg;
+  bool dark = false;
+
+  V3d direction() const {
+    const double ra = ra_deg * kDegree, dec = dec_deg * kDegree;
+    return {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+  }
+  double radius() const { return radius_deg * kDegree; }
+  bool stands_out(double contrast) const {
+    return dark ? contrast < 1 / kCloudStandsOut : contrast > kCloudStandsOut;
+  }
+};
+
+// NED and SIMBAD, J2000; the radius is what stands out of the surroundings.
+constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -69.8, 2.5},
+                                             {"Small Magellanic Cloud", 13.2, -72.8, 1.2},
+                                             {"M 31", 10.68, 41.27, 0.5},
+                                             {"Carina Nebula", 161.3, -59.7, 0.8},
+                                             {"Large Sagittarius Cloud", 271, -28.5, 2},
+                                             {"Small Sagittarius Cloud", 274.2, -18.5, 0.8},
+                                             {"Scutum Cloud", 281.3, -6.5, 1.5},
+                                             {"Coalsack (dark)", 192.5, -62.9, 1.5, true}}};
+
+// Of a disc to the median of a ring around it.
+double contrast(const SkyMap& map, const V3d& d, double radius) {
+  const std::vector<double> around = ring(map, d, 2.5 * radius, radius);
+  return ratio(light(map, d, radius), around[around.size() / 2]);
+}
+
+// Whether there is a point of light at a place, give or take a texel or a tenth of a degree.
+bool stands_out(const SkyMap& map, const V3d& d) {
+  const double texel = std::numbers::pi / 2 / map.levels()[0].size;
+  const double near = std::max(texel, 0.1 * kDegree);
+  const double peak = std::max(light(map, d, texel), ring(map, d, near, texel).back());
+  const std::vector<double> around = ring(map, d, 4 * near, texel);
+  return ratio(peak, around[around.size() / 2]) > kStandsOut;
+}
+
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&values](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> rank(values.size());
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
+    for (std::size_t k = first; k < end; ++k)
+      rank[order[k]] = static_cast<double>(first + end - 1) / 2;
+  }
+  return rank;
+}
+
+// Pearson's.  0 if either is all the same.
+double correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto mean = [](const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  };
+  const double x0 = mean(x), y0 = mean(y);
+  double xx = 0, yy = 0, xy = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - x0) * (x[k] - x0);
+    yy += (y[k] - y0) * (y[k] - y0);
+    xy += (x[k] - x0) * (y[k] - y0);
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+// Places all over the sky, and how densely the stars stand there, by rank.
+struct Band {
+  std::vector<V3d> places;
+  std::vector<double> density;
+};
+
+double density_at(const V3d& d, const StarCatalogue& catalogue) {
+  const std::size_t count = std::min(catalogue.stars.size(), kDensest);
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = (1 - d.dot(catalogue.stars[k].direction.v)) / (kBandBlur * kBandBlur);
+    if (x < kKernelEnd) sum += std::exp(-x);
+  }
+  return sum;
+}
+
+Band band_of(const StarCatalogue& catalogue) {
+  Band band;
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < kBandFace; ++j)
+      for (int i = 0; i < kBandFace; ++i) {
+        const V3d d = direction_of(texel_centre(face, i, j, kBandFace)).normalized();
+        band.places.push_back(d);
+        band.density.push_back(density_at(d, catalogue));
+      }
+  band.density = ranks(band.density);
+  return band;
+}
+
+class Judge {
+ public:
+  Judge(const SkyMap& map, const Orientation& stated, const StarCatalogue& catalogue)
+      : map_(map),
+        catalogue_(catalogue),
+        band_(band_of(catalogue)),
+        map_from_picture_(picture_from_equatorial(stated)) {}
+
+  OrientationFit fit(const Orientation& orientation) const {
+    const M33d picture = picture_from_equatorial(orientation);
+    const auto in_map = [&](const V3d& d) {
+      return apply_transposed(map_from_picture_, apply(picture, d));
+    };
+    const std::size_t count = std::min(catalogue_.stars.size(), kBrightest);
+    int found = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      found += stands_out(map_, in_map(catalogue_.stars[k].direction.v));
+    std::vector<double> seen;
+    seen.reserve(band_.places.size());
+    for (const V3d& d : band_.places) seen.push_back(light(map_, in_map(d), 2 * kBandBlur));
+    int clouds = 0;
+    for (const NamedPlace& cloud : kClouds)
+      clouds += cloud.stands_out(contrast(map_, in_map(cloud.direction()), cloud.radius()));
+    return {orientation, count ? found / static_cast<double>(count) : 0,
+            correlation(ranks(seen), band_.density), clouds / static_cast<double>(kClouds.size())};
+  }
+
+ private:
+  const SkyMap& map_;
+  const StarCatalogue& catalogue_;
+  Band band_;
+  M33d map_from_picture_;
+};
+
+std::vector<Orientation> alternatives(const Orientation& stated) {
+  std::vector<Orientation> all;
+  for (const SkyFrame frame : {SkyFrame::kEquatorial, SkyFrame::kGalactic})
+    for (const bool right : {false, true})
+      for (const bool south : {false, true})
+        for (const double turn : {0.0, 90.0, 180.0, 270.0}) {
+          const Orientation o{frame, right, south, std::fmod(stated.centre_deg + turn, 360)};
+          if (turn != 0 || frame != stated.frame || right != stated.longitude_right ||
+              south != stated.south_up)
+            all.push_back(o);
+        }
+  return all;
+}
+
+KnownPlace place_at(const SkyMap& map, const std::string& name, const SkyDirection& at,
+                    double radius) {
+  return {name, at, radius, contrast(map, at.v, radius)};
+}
+
+}  // namespace
+
+SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
+                           const StarCatalogue& catalogue) {
+  const Judge judge(map, stated, catalogue);
+  SkyCheck check{SkyVerdict::kUnclear, false, judge.fit(stated), {}};
+  for (const Orientation& o : alternatives(stated)) check.others.push_back(judge.fit(o));
+  // Pictures with stars: somewhere most of the bright ones are found, which elsewhere are not.
+  double most = check.stated.stars, least = most;
+  for (const OrientationFit& f : check.others)
+    most = std::max(most, f.stars), least = std::min(least, f.stars);
+  check.by_stars = most >= kStarsEnough && most - least >= 2 * kStarsMargin;
+  const auto score = [&check](const OrientationFit& f) {
+    return check.by_stars ? f.stars : (f.band + f.clouds) / 2;
+  };
+  std::stable_sort(check.others.begin(), check.others.end(),
+                   [&](const auto& a, const auto& b) { return score(a) > score(b); });
+  const double own = score(check.stated), best = score(check.others[0]);
+  const double enough = check.by_stars ? kStarsEnough : kBandEnough;
+  const double margin = check.by_stars ? kStarsMargin : kBandMargin;
+  if (best >= enough && best - own >= margin)
+    check.verdict = SkyVerdict::kOther;
+  else if (own >= enough && own >= best)
+    check.verdict = SkyVerdict::kAgrees;
+  return check;
+}
+
+std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& catalogue) {
+  std::vector<KnownPlace> places;
+  const double texel = std::numbers::pi / 2 / map.levels()[0].size;
+  // Names lie exactly where their stars do.
+  for (const Star& star : catalogue.stars) {
+    if (places.size() == kNamedStars) break;
+    const auto name = std::find_if(
+        catalogue.names.begin(), catalogue.names.end(),
+        [&star](const NamedStar& n) { return (n.direction.v - star.direction.v).length() < 1e-6; });
+    if (name != catalogue.names.end())
+      places.push_back(
+          place_at(map, name->name, star.direction, std::max(1.5 * texel, 0.1 * kDegree)));
+  }
+  for (const NamedPlace& p : kClouds)
+    places.push_back(place_at(map, p.name, {p.direction()}, p.radius()));
+  return places;
+}
+
+}  // namespace domefall

@@ -1,0 +1,227 @@
+#include "pipeline/sky/make/starlight_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/sky/maps/cube_face.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kCut = 4;  // standard deviations
+constexpr int kKernelSteps = 4096;
+constexpr double kBlurStep = 1.5;  // between classes
+
+// Stars that stand close together.
+struct Cell {
+  V3d direction{0, 0, 0};  // weighted by flux
+  double flux = 0, weighted = 0;
+};
+
+// The coarsest grid whose cells are within two thirds of the blur.
+int cell_grid(double blur, int size) {
+  int n = 1;
+  while (n < size && std::numbers::pi / 2 / n > blur / 1.5) n *= 2;
+  return n;
+}
+
+// By cell, then in the catalogue's order: the sums do not depend on anything else.
+std::vector<Cell> gather(const std::vector<FaintStar>& stars, int n) {
+  std::vector<Cell> cells(6 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  for (const FaintStar& star : stars) {
+    const FacePoint at = face_of(star.direction);
+    const auto place = [n](double u) {
+      return static_cast<std::size_t>(std::clamp(static_cast<int>((u + 1) / 2 * n), 0, n - 1));
+    };
+    Cell& cell =
+        cells[(static_cast<std::size_t>(at.face) * static_cast<std::size_t>(n) + place(at.v)) *
+                  static_cast<std::size_t>(n) +
+              place(at.u)];
+    cell.direction += star.flux * star.direction;
+    cell.flux += star.flux;
+    cell.weighted += star.flux * std::log2(star.temperature / kThermalBase);
+  }
+  return cells;
+}
+
+struct Span {
+  int first, last;  // texels; none if last < first
+};
+
+// Texels of one axis of a face that a cap of radius `angle` may touch.  Seen along the other axis the
+// cap is within asin(sin(angle) / length of its centre's projection) of the centre.
+Span texels_within(double ahead, double aside, double angle, int n) {
+  const double length = std::hypot(ahead, aside);
+  double low = -1, high = 1;
+  if (std::sin(angle) < length) {
+    const double centre = std::atan2(aside, ahead), half = std::asin(std::sin(angle) / length);
+    constexpr double kQuarter = std::numbers::pi / 4;
+    if (centre - half > kQuarter || centre + half < -kQuarter) return {0, -1};
+    low = std::tan(std::max(centre - half, -kQuarter));
+    high = std::tan(std::min(centre + half, kQuarter));
+  }
+  const auto texel = [n](double u) { return static_cast<int>(std::floor((u + 1) / 2 * n)); };
+  return {std::max(texel(low), 0), std::min(texel(high), n - 1)};
+}
+
+struct FaceBox {
+  Span columns, rows;
+  std::array<float, 3> centre;  // of the cap: ahead, along u, along v
+};
+
+FaceBox box_of(const V3d& d, int face, double angle, int n) {
+  const int axis = face / 2;
+  const double ahead = face % 2 ? -d[axis] : d[axis];
+  const double u = d[(axis + 1) % 3], v = d[(axis + 2) % 3];
+  // The farthest texel of a face is 54.74 degrees from its middle.
+  if (ahead < std::cos(0.9554 + angle)) return {{0, -1}, {0, -1}, {}};
+  return {texels_within(ahead, u, angle, n),
+          texels_within(ahead, v, angle, n),
+          {static_cast<float>(ahead), static_cast<float>(u), static_cast<float>(v)}};
+}
+
+std::size_t flat(int row, int column, int n) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(n) +
+         static_cast<std::size_t>(column);
+}
+
+double place(int k, int n) { return (2 * k + 1.0) / n - 1; }
+
+}  // namespace
+
+double texel_solid_angle(int size, double u, double v) {
+  const double s = 1 + u * u + v * v;
+  return 4.0 / size / size / (s * std::sqrt(s));
+}
+
+std::vector<FaintStar> fainter_stars(const StarCatalogue& catalogue, double v_magnitude) {
+  std::vector<FaintStar> stars;
+  for (const Star& s : catalogue.stars) {
+    if (!(s.v_magnitude > v_magnitude)) continue;
+    const double flux =
+        std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(s.temperature);
+    stars.push_back({s.direction.v, flux, s.temperature, s.v_magnitude});
+  }
+  return stars;
+}
+
+std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double blur,
+                                    double smooth_to) {
+  const auto most = static_cast<std::size_t>(std::log(kWidestBlur / blur) / std::log(kBlurStep));
+  std::vector<BlurClass> classes;
+  for (std::size_t k = 0; k <= most; ++k)
+    classes.push_back({blur * std::pow(kBlurStep, static_cast<double>(k)), {}});
+  for (const FaintStar& star : stars) {
+    // The peak is flux over blur squared.
+    const double wider = std::pow(10, 0.2 * std::max(smooth_to - star.v_magnitude, 0.0));
+    const auto k = static_cast<std::size_t>(std::lround(std::log(wider) / std::log(kBlurStep)));
+    classes[std::min(k, most)].stars.push_back(star);
+  }
+  return classes;
+}
+
+int starlight_face(double blur) {
+  int size = 64;
+  while (size < kLargestStarlightFace && std::numbers::pi / 2 / size > blur / 3) size *= 2;
+  return size;
+}
+
+StarlightMap::StarlightMap(int size)
+    : size_(size), inverse_length_(flat(size, 0, size)), light_(6 * flat(size, 0, size)) {
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i) {
+      const double u = place(i, size), v = place(j, size);
+      inverse_length_[flat(j, i, size)] = static_cast<float>(1 / std::sqrt(1 + u * u + v * v));
+    }
+  // Of 1 - cos(angle), which for small angles is half its square; less what it is at the cut, so that
+  // it ends without a step.  A step beyond the end holds 0.
+  const double end = std::exp(-kCut * kCut / 2);
+  for (int k = 0; k <= kKernelSteps; ++k)
+    kernel_.push_back(static_cast<float>(std::exp(-kCut * kCut / 2 * k / kKernelSteps) - end));
+  kernel_.back() = 0;
+  kernel_.push_back(0);
+}
+
+void StarlightMap::add(const std::vector<FaintStar>& stars, double blur) {
+  if (stars.empty()) return;
+  for (const Cell& cell : gather(stars, cell_grid(blur, size_)))
+    if (cell.flux > 0) spread(cell.direction.normalized(), cell.flux, cell.weighted, blur);
+}
+
+// Twice over the texels of the cap: their weights and what these sum up to, then the light.
+void StarlightMap::spread(const V3d& direction, double flux, double weighted, double blur) {
+  const double reach = kCut * kCut * blur * blur / 2;  // of 1 - cos
+  const double angle = std::acos(1 - reach);
+  const auto steps = static_cast<float>(kKernelSteps / (2 * reach));
+  std::array<FaceBox, 6> boxes;
+  weights_.clear();
+  double sum = 0;
+  const auto step = static_cast<float>(2.0 / size_);
+  for (int face = 0; face < 6; ++face) {
+    boxes[face] = box_of(direction, face, angle, size_);
+    const auto& [columns, rows, centre] = boxes[face];
+    for (int j = rows.first; j <= rows.last; ++j) {
+      const auto v = static_cast<float>(place(j, size_));
+      const float* inverse = &inverse_length_[flat(j, 0, size_)];
+      for (int i = columns.first; i <= columns.last; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) * step - 1;
+        // The chord from the components' differences: 1 - cos(angle) itself would lose all digits.
+        const float x = centre[0] - inverse[i], y = centre[1] - u * inverse[i],
+                    z = centre[2] - v * inverse[i];
+        const float at = (x * x + y * y + z * z) * steps;
+        const float inside = std::clamp(at, 0.0f, static_cast<float>(kKernelSteps));
+        const auto k = static_cast<int>(inside);
+        const float w =
+            kernel_[k] + (inside - static_cast<float>(k)) * (kernel_[k + 1] - kernel_[k]);
+        weights_.push_back(w);
+        sum += w * inverse[i] * inverse[i] * inverse[i];
+      }
+    }
+  }
+  const double scale = 1 / (sum * 4 / size_ / size_);
+  const auto radiance = static_cast<float>(flux * scale);
+  const auto thermal = static_cast<float>(weighted * scale);
+  const float* weight = weights_.data();
+  for (int face = 0; face < 6; ++face)
+    for (int j = boxes[face].rows.first; j <= boxes[face].rows.last; ++j) {
+      Light* row = &light_[flat(face * size_ + j, 0, size_)];
+      for (int i = boxes[face].columns.first; i <= boxes[face].columns.last; ++i, ++weight) {
+        row[i].radiance += *weight * radiance;
+        row[i].weighted += *weight * thermal;
+      }
+    }
+}
+
+double StarlightMap::greatest() const {
+  float greatest = 0;
+  for (const Light& l : light_) greatest = std::max({greatest, l.radiance, l.weighted});
+  return greatest;
+}
+
+double StarlightMap::flux() const {
+  double sum = 0;
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < size_; ++j)
+      for (int i = 0; i < size_; ++i)
+        sum += light_[flat(face * size_ + j, i, size_)].radiance *
+               texel_solid_angle(size_, place(i, size_), place(j, size_));
+  return sum;
+}
+
+void StarlightMap::write(const SkyPyramid& pyramid, double gain) const {
+  const double scale = gain / pyramid.unit;
+  const SkyPyramid::Level& level = pyramid.levels[0];
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < size_; ++j)
+      for (int i = 0; i < size_; ++i) {
+        const Light& l = light_[flat(face * size_ + j, i, size_)];
+        level.at(face, i, j) = {half_bits(static_cast<float>(l.radiance * scale)),
+                                half_bits(static_cast<float>(l.weighted * scale)), 0, 0};
+      }
+  fill_border(level);
+}
+
+}  // namespace domefall

@@ -1,0 +1,35 @@
+#include "pipeline/sky/maps/orientation.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace domefall {
+
+M33d galactic_from_equatorial() {
+  return from_columns({-0.0548755604, 0.4941094279, -0.8676661490},
+                      {-0.8734370902, -0.4448296300, -0.1980763734},
+                      {-0.4838350155, 0.7469822445, 0.4559837762});
+}
+
+M33d picture_from_equatorial(const Orientation& o) {
+  const double turn = o.centre_deg * std::numbers::pi / 180;
+  const double c = std::cos(turn), s = std::sin(turn);
+  const double left = o.longitude_right ? -1 : 1, up = o.south_up ? -1 : 1;
+  // Rows: the middle, the left quarter and the top of the picture, in the frame's axes.
+  const M33d own = from_columns({c, -s * left, 0}, {s, c * left, 0}, {0, 0, up});
+  const M33d frame = o.frame == SkyFrame::kGalactic ? galactic_from_equatorial() : M33d();
+  return from_columns(apply(own, column(frame, 0)), apply(own, column(frame, 1)),
+                      apply(own, column(frame, 2)));
+}
+
+std::string told(const Orientation& o) {
+  const bool galactic = o.frame == SkyFrame::kGalactic;
+  char text[120];
+  std::snprintf(text, sizeof text, "%s, %s %g deg in the middle, growing to the %s, %s up",
+                galactic ? "galactic" : "equatorial", galactic ? "longitude" : "RA", o.centre_deg,
+                o.longitude_right ? "right" : "left", o.south_up ? "south" : "north");
+  return text;
+}
+
+}  // namespace domefall

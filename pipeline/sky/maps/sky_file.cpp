@@ -1,0 +1,265 @@
+#include "pipeline/sky/maps/sky_file.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/image/map_file.h"
+
+namespace domefall {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "maps are used as they lie on the disk");
+
+constexpr std::array<char, 8> kMagic{'D', 'O', 'M', 'E', 'S', 'K', 'Y', 0};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kPage = 4096, kMostText = 65536;
+constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPicture = 8;
+
+constexpr std::string_view kExtension = ".sky";
+
+struct Header {
+  std::array<char, 8> magic = kMagic;
+  std::uint32_t version = kVersion, header_bytes = 0;
+  std::uint64_t checksum = 0, file_bytes = 0;
+  double unit = 1;
+  std::uint32_t kind = 0, levels = 0, picture = kNoPicture, text_bytes = 0;
+  double centre_deg = 0;
+};
+static_assert(sizeof(Header) == 64);
+
+struct LevelEntry {
+  std::uint32_t size, zero;
+  std::uint64_t offset;
+  std::array<std::uint64_t, 6> checksum;
+};
+static_assert(sizeof(LevelEntry) == 64);
+
+constexpr std::size_t kMostLevels = std::bit_width(static_cast<unsigned>(kLargestFace));
+constexpr std::size_t kMostHeader =
+    (sizeof(Header) + kMostLevels * sizeof(LevelEntry) + kMostText + kPage - 1) / kPage * kPage;
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
+
+std::size_t level_bytes(int size) { return 6 * SkyLevel::face_texels(size) * sizeof(SkyTexel); }
+
+std::size_t header_bytes(std::size_t levels, std::size_t text) {
+  return whole_pages(sizeof(Header) + levels * sizeof(LevelEntry) + text);
+}
+
+std::size_t file_bytes(int size, std::size_t text) {
+  const std::vector<int> sizes = level_sizes(size);
+  std::size_t bytes = header_bytes(sizes.size(), text);
+  for (const int n : sizes) bytes += whole_pages(level_bytes(n));
+  return bytes;
+}
+
+// Of a header as it lies in memory.
+std::uint64_t header_checksum(std::string_view header) {
+  std::string copy(header);
+  std::memset(copy.data() + offsetof(Header, checksum), 0, sizeof Header::checksum);
+  return XXH3_64bits(copy.data(), copy.size());
+}
+
+std::uint64_t face_checksum(const SkyLevel& level, int face) {
+  return XXH3_64bits(level.face(face), SkyLevel::face_texels(level.size) * sizeof(SkyTexel));
+}
+
+std::vector<SkyPyramid::Level> lay_out(std::byte* file, int size, std::size_t text) {
+  const std::vector<int> sizes = level_sizes(size);
+  std::vector<SkyPyramid::Level> levels;
+  std::size_t offset = header_bytes(sizes.size(), text);
+  for (const int n : sizes) {
+    levels.push_back({n, reinterpret_cast<SkyTexel*>(file + offset)});
+    offset += whole_pages(level_bytes(n));
+  }
+  return levels;
+}
+
+std::uint32_t picture_flags(const std::optional<Orientation>& o) {
+  if (!o) return kNoPicture;
+  return (o->frame == SkyFrame::kGalactic ? kGalactic : 0) |
+         (o->longitude_right ? kLongitudeRight : 0) | (o->south_up ? kSouthUp : 0);
+}
+
+std::optional<Orientation> picture_of(const Header& h) {
+  if (h.picture & kNoPicture) return std::nullopt;
+  return Orientation{h.picture & kGalactic ? SkyFrame::kGalactic : SkyFrame::kEquatorial,
+                     (h.picture & kLongitudeRight) != 0, (h.picture & kSouthUp) != 0, h.centre_deg};
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::size_t byte,
+                       const std::string& what) {
+  throw InputError(path.string() + ": byte " + std::to_string(byte) + ": " + what);
+}
+
+// The fixed part, checked as far as it can be by itself.
+Header read_header(const std::filesystem::path& path, std::string_view file) {
+  Header h;
+  if (file.size() < sizeof h) fail_cut_short(path, kExtension, file.size(), sizeof h);
+  std::memcpy(&h, file.data(), sizeof h);
+  if (h.magic != kMagic) fail(path, 0, "this is not a .sky file");
+  if (h.version != kVersion)
+    fail(path, offsetof(Header, version),
+         "a .sky file of version " + std::to_string(h.version) + "; this Domefall reads version " +
+             std::to_string(kVersion));
+  if (h.header_bytes < sizeof h || h.header_bytes > kMostHeader || h.header_bytes % kPage)
+    fail(path, offsetof(Header, header_bytes), "the header is damaged: its size makes no sense");
+  if (file.size() < h.header_bytes) fail(path, file.size(), "the file ends within its header");
+  if (header_checksum(file.substr(0, h.header_bytes)) != h.checksum)
+    fail(path, offsetof(Header, checksum), "the header is damaged: its checksum is off");
+  if (file.size() != h.file_bytes)
+    fail(path, std::min(file.size(), static_cast<std::size_t>(h.file_bytes)),
+         "the file has " + std::to_string(file.size()) + " bytes instead of " +
+             std::to_string(h.file_bytes));
+  return h;
+}
+
+// A header whose checksum is right may still come from a program that is wrong.
+void check_sense(const std::filesystem::path& path, const Header& h) {
+  if (h.kind > static_cast<std::uint32_t>(SkyMapKind::kThermal))
+    fail(path, offsetof(Header, kind), "unknown kind of map " + std::to_string(h.kind));
+  if (h.levels < 1 || h.levels > kMostLevels)
+    fail(path, offsetof(Header, levels), "a map has 1 to 14 levels");
+  if (!(h.unit > 0) || !std::isfinite(h.unit))
+    fail(path, offsetof(Header, unit), "the unit must exceed 0");
+  if (h.text_bytes > kMostText || header_bytes(h.levels, h.text_bytes) != h.header_bytes)
+    fail(path, offsetof(Header, text_bytes), "the header's parts do not add up");
+  if (!std::isfinite(h.centre_deg))
+    fail(path, offsetof(Header, centre_deg), "the middle must be a number");
+}
+
+std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const Header& h,
+                                     std::string_view file) {
+  std::vector<LevelEntry> entries(h.levels);
+  std::memcpy(entries.data(), file.data() + sizeof h, h.levels * sizeof(LevelEntry));
+  std::size_t offset = h.header_bytes;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const LevelEntry& e = entries[k];
+    const std::size_t at = sizeof h + k * sizeof e;
+    if (e.size != 1u << (entries.size() - 1 - k)) fail(path, at, "a level is of the wrong size");
+    if (e.offset != offset) fail(path, at + offsetof(LevelEntry, offset), "a level is misplaced");
+    offset += whole_pages(level_bytes(static_cast<int>(e.size)));
+  }
+  if (offset != h.file_bytes) fail(path, offsetof(Header, file_bytes), "the levels do not add up");
+  return entries;
+}
+
+struct OpenFile {
+  std::shared_ptr<const MappedFile> file;
+  Header header;
+  std::vector<LevelEntry> entries;
+};
+
+OpenFile open_file(const std::filesystem::path& path) {
+  OpenFile open{std::make_shared<const MappedFile>(path), {}, {}};
+  open.header = read_header(path, open.file->bytes());
+  check_sense(path, open.header);
+  open.entries = read_entries(path, open.header, open.file->bytes());
+  return open;
+}
+
+SkyLevel level_of(const OpenFile& open, const LevelEntry& e) {
+  return {static_cast<int>(e.size),
+          reinterpret_cast<const SkyTexel*>(open.file->bytes().data() + e.offset)};
+}
+
+Header header_of(const SkyMap& map, const SkyOrigin& origin) {
+  Header h;
+  h.levels = static_cast<std::uint32_t>(map.levels().size());
+  h.text_bytes = static_cast<std::uint32_t>(origin.text.size());
+  h.header_bytes = static_cast<std::uint32_t>(header_bytes(h.levels, h.text_bytes));
+  h.unit = map.unit();
+  h.kind = static_cast<std::uint32_t>(map.kind());
+  h.picture = picture_flags(origin.picture);
+  h.centre_deg = origin.picture ? origin.picture->centre_deg : 0;
+  return h;
+}
+
+LevelEntry entry_of(const SkyLevel& level, const std::byte* file) {
+  const auto* start = reinterpret_cast<const std::byte*>(level.texels);
+  LevelEntry e{
+      static_cast<std::uint32_t>(level.size), 0, static_cast<std::uint64_t>(start - file), {}};
+  for (int face = 0; face < 6; ++face)
+    e.checksum[static_cast<std::size_t>(face)] = face_checksum(level, face);
+  return e;
+}
+
+}  // namespace
+
+NewSkyFile::NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, double unit, int size,
+                       SkyOrigin origin)
+    : origin_(std::move(origin)),
+      file_(std::make_shared<NewMappedFile>(path, file_bytes(size, origin_.text.size()))),
+      pyramid_(kind, unit, lay_out(file_->data(), size, origin_.text.size()), file_) {
+  if (origin_.text.size() > kMostText)
+    throw InputError(path.string() + ": the text about a map's source is at most 65536 bytes");
+}
+
+void NewSkyFile::finish() {
+  pyramid_.finish();
+  const SkyMap map = pyramid_.map();
+  Header h = header_of(map, origin_);
+  h.file_bytes = file_->size();
+  std::byte* at = file_->data() + sizeof h;
+  for (const SkyLevel& level : map.levels()) {
+    const LevelEntry e = entry_of(level, file_->data());
+    std::memcpy(at, &e, sizeof e);
+    at += sizeof e;
+  }
+  std::memcpy(at, origin_.text.data(), origin_.text.size());
+  std::memcpy(file_->data(), &h, sizeof h);
+  h.checksum = header_checksum({reinterpret_cast<const char*>(file_->data()), h.header_bytes});
+  std::memcpy(file_->data(), &h, sizeof h);
+  file_->commit();
+}
+
+bool is_sky_file(const std::filesystem::path& path) {
+  if (is_cut_short(path, kExtension, sizeof(Header))) return true;
+  std::array<char, kMagic.size()> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return start == kMagic;
+}
+
+SkyFile open_sky_file(const std::filesystem::path& path) {
+  const OpenFile open = open_file(path);
+  std::vector<SkyLevel> levels;
+  levels.reserve(open.entries.size());
+  for (const LevelEntry& e : open.entries) levels.push_back(level_of(open, e));
+  const std::string_view text = open.file->bytes().substr(
+      sizeof(Header) + open.entries.size() * sizeof(LevelEntry), open.header.text_bytes);
+  return {SkyMap(static_cast<SkyMapKind>(open.header.kind), open.header.unit, std::move(levels),
+                 open.file),
+          {std::string(text), picture_of(open.header)}};
+}
+
+std::string sky_file_digest(const std::filesystem::path& path) {
+  std::array<char, 17> text;
+  std::snprintf(text.data(), text.size(), "%016llx",
+                static_cast<unsigned long long>(open_file(path).header.checksum));
+  return text.data();
+}
+
+void verify_sky_file(const std::filesystem::path& path) {
+  const OpenFile open = open_file(path);
+  for (const LevelEntry& e : open.entries)
+    for (int face = 0; face < 6; ++face) {
+      const SkyLevel level = level_of(open, e);
+      if (face_checksum(level, face) == e.checksum[static_cast<std::size_t>(face)]) continue;
+      const auto* start = reinterpret_cast<const char*>(level.face(face));
+      fail(path, static_cast<std::size_t>(start - open.file->bytes().data()),
+           "face " + std::to_string(face) + " of the level of size " + std::to_string(level.size) +
+               " is damaged: its checksum is off");
+    }
+}
+
+}  // namespace domefall

@@ -1,0 +1,71 @@
+// Sky maps on the disk (.sky), laid out so that a map of any size is used without being read: its
+// levels are mapped, and the pages that looks touch are all that the disk is asked for.
+//
+// Little-endian.  A header of whole pages, then the levels, finest first, each at a multiple of 4096
+// bytes and as SkyLevel has it in memory.  The header:
+//
+//   0  8 bytes  "DOMESKY", 0            32  f64  unit (SkyMap::unit)
+//   8  u32      version, 1              40  u32  kind (SkyMapKind)    44  u32  number of levels
+//   12 u32      bytes of the header     48  u32  picture: 1 galactic, 2 longitude to the right,
+//   16 u64      checksum of the header           4 south up, 8 not from a picture
+//   24 u64      bytes of the file       52  u32  bytes of the text    56  f64  centre_deg
+//   64 and on: per level u32 size, u32 0, u64 place in the file, 6 x u64 checksums of its faces;
+//   then the text (UTF-8, lines "source: ...", "licence: ..."), then zeros.
+//
+// Checksums are XXH3, 64 bits; that of the header is taken with 0 in its own place.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "pipeline/image/new_mapped_file.h"
+#include "pipeline/sky/maps/orientation.h"
+#include "pipeline/sky/maps/sky_map.h"
+#include "pipeline/sky/maps/sky_pyramid.h"
+
+namespace domefall {
+
+// Where a map came from.
+struct SkyOrigin {
+  std::string text;                    // source and licence, for people; up to 64 KiB
+  std::optional<Orientation> picture;  // of the picture it was made from; none if it was no picture
+};
+
+// A file in the making: fill the finest level of pyramid(), border and all, then finish().
+class NewSkyFile {
+ public:
+  // `size` is that of a face: a power of two to kLargestFace.  Throws as NewMappedFile does.
+  NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, double unit, int size,
+             SkyOrigin origin);
+
+  const SkyPyramid& pyramid() const { return pyramid_; }
+  // Makes the coarser levels, adds the checksums and puts the file in place, whole.
+  void finish();
+
+ private:
+  SkyOrigin origin_;
+  std::shared_ptr<NewMappedFile> file_;
+  SkyPyramid pyramid_;
+};
+
+// Whether the file begins as a .sky file does, or should: it is named so and shorter than a header.
+// False if it cannot be read.
+bool is_sky_file(const std::filesystem::path& path);
+
+struct SkyFile {
+  SkyMap map;  // the file stays mapped as long as this or a copy of it lives
+  SkyOrigin origin;
+};
+// Checks the header, and that the file is as long as it says.  Throws InputError with file and byte
+// for a file that is none, damaged, cut short or of a newer version.
+SkyFile open_sky_file(const std::filesystem::path& path);
+
+// The checksum in the header, which stands for the whole file: frames are known by it.
+std::string sky_file_digest(const std::filesystem::path& path);
+
+// Reads everything.  Throws InputError with file and byte of the first face whose checksum is off.
+void verify_sky_file(const std::filesystem::path& path);
+
+}  // namespace domefall

@@ -1,0 +1,83 @@
+#include "pipeline/sky/maps/sky_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/sky/maps/cube_face.h"
+#include "pipeline/sky/maps/sky_pyramid.h"
+
+namespace domefall {
+
+using std::numbers::pi;
+
+SkyMap::SkyMap(SkyMapKind kind, double unit, std::vector<SkyLevel> levels,
+               std::shared_ptr<const void> owner)
+    : kind_(kind), unit_(unit), levels_(std::move(levels)), owner_(std::move(owner)) {}
+
+SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double v) {
+  const int n = level.size;
+  const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // texel 0 is the border
+  const int i = std::min(static_cast<int>(x), n), j = std::min(static_cast<int>(y), n);
+  const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
+  const SkyTexel* a = level.face(face) + static_cast<std::size_t>(j) * (n + 2) + i;
+  const SkyTexel* b = a + (n + 2);
+  const auto between = [fx](const SkyTexel* row, int k) {
+    const float left = half_value(row[0].channel[k]), right = half_value(row[1].channel[k]);
+    return left + fx * (right - left);
+  };
+  Value out;
+  for (int k = 0; k < 4; ++k) {
+    const float top = between(a, k), bottom = between(b, k);
+    out.channel[k] = top + fy * (bottom - top);
+  }
+  return out;
+}
+
+SkyMap::Value SkyMap::filtered(const V3d& direction, double footprint) const {
+  const FacePoint at = face_of(direction);
+  const double texels = footprint * levels_[0].size / (pi / 2);
+  if (texels <= 1) return bilinear(levels_[0], at.face, at.u, at.v);
+  // The logarithm, straight between powers of two: as good a passage between levels.
+  const auto octave = static_cast<std::size_t>(std::ilogb(texels));
+  const std::size_t last = levels_.size() - 1;
+  const std::size_t fine = std::min(octave, last), coarse = std::min(octave + 1, last);
+  const auto w = static_cast<float>(std::ldexp(texels, -static_cast<int>(octave)) - 1);
+  const Value a = bilinear(levels_[fine], at.face, at.u, at.v);
+  const Value b = bilinear(levels_[coarse], at.face, at.u, at.v);
+  Value out;
+  for (int k = 0; k < 4; ++k) out.channel[k] = a.channel[k] + w * (b.channel[k] - a.channel[k]);
+  return out;
+}
+
+ThermalLight SkyMap::thermal(const Value& value) const {
+  if (!(value.channel[0] > 0)) return {0, kThermalBase};
+  return {unit_ * value.channel[0], kThermalBase * std::exp2(value.channel[1] / value.channel[0])};
+}
+
+ThermalLight SkyMap::sample_thermal(const V3d& direction, double footprint) const {
+  return thermal(filtered(direction, footprint));
+}
+
+WorkingRgb SkyMap::sample(const V3d& direction, double footprint) const {
+  const Value value = filtered(direction, footprint);
+  if (kind_ == SkyMapKind::kThermal) {
+    const ThermalLight light = thermal(value);
+    const WorkingRgb c = blackbody_colours().per_flux(light.temperature);
+    const auto f = static_cast<float>(light.radiance);
+    return {c.r * f, c.g * f, c.b * f};
+  }
+  const auto f = static_cast<float>(unit_);
+  return {value.channel[0] * f, value.channel[1] * f, value.channel[2] * f};
+}
+
+std::size_t SkyMap::bytes() const {
+  std::size_t sum = 0;
+  for (const SkyLevel& level : levels_)
+    sum += 6 * SkyLevel::face_texels(level.size) * sizeof(SkyTexel);
+  return sum;
+}
+
+}  // namespace domefall

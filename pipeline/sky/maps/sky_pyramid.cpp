@@ -1,0 +1,172 @@
+#include "pipeline/sky/maps/sky_pyramid.h"
+
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "pipeline/sky/maps/cube_face.h"
+#include "pipeline/sky/maps/large_pages.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::uint16_t kSmallestNormal = 0x0400;  // 2^-14
+constexpr int kGreatestExponent = 14;
+constexpr unsigned kMostThreads = 64;
+
+// Of four texels that become one.
+SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
+  SkyTexel out{};
+  for (int k = 0; k < 4; ++k)
+    out.channel[k] = half_bits((half_value(a.channel[k]) + half_value(b.channel[k]) +
+                                half_value(c.channel[k]) + half_value(d.channel[k])) /
+                               4);
+  return out;
+}
+
+// Between which two inner texels a place is, and how far from the first: 0 to 1.
+struct Between {
+  int first, second;
+  float part;
+};
+
+Between between(double u, int n) {
+  const double x = std::clamp((u + 1) / 2 * n - 0.5, 0.0, n - 1.0);
+  const int first = static_cast<int>(x);
+  return {first, std::min(first + 1, n - 1), static_cast<float>(x - first)};
+}
+
+// What the neighbouring face has where a texel of the border looks, between its inner texels.
+SkyTexel looked_across(const SkyPyramid::Level& level, int face, int i, int j) {
+  const int n = level.size;
+  const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
+  const Between x = between(at.u, n), y = between(at.v, n);
+  const SkyTexel &a = level.at(at.face, x.first, y.first),
+                 &b = level.at(at.face, x.second, y.first),
+                 &c = level.at(at.face, x.first, y.second),
+                 &d = level.at(at.face, x.second, y.second);
+  SkyTexel out{};
+  for (int k = 0; k < 4; ++k) {
+    const auto mix = [](float from, float to, float part) { return from + part * (to - from); };
+    out.channel[k] =
+        half_bits(mix(mix(half_value(a.channel[k]), half_value(b.channel[k]), x.part),
+                      mix(half_value(c.channel[k]), half_value(d.channel[k]), x.part), y.part));
+  }
+  return out;
+}
+
+void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < coarse.size; ++j) {
+      const SkyTexel* a = &fine.at(face, 0, 2 * j);
+      const SkyTexel* b = &fine.at(face, 0, 2 * j + 1);
+      SkyTexel* out = &coarse.at(face, 0, j);
+      for (int i = 0; i < coarse.size; ++i, a += 2, b += 2) out[i] = mean(a[0], a[1], b[0], b[1]);
+    }
+  fill_border(coarse);
+}
+
+// Row j - 1 of face k, where `row` counts all rows of all faces.
+void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painter, int looks) {
+  const int n = level.size, fine = n * looks, face = row / (n + 2), j = row % (n + 2) - 1;
+  for (int i = -1; i <= n; ++i) {
+    std::array<float, 4> sum{};
+    for (int y = 0; y < looks; ++y)
+      for (int x = 0; x < looks; ++x) {
+        std::array<float, 4> channel{};
+        painter(direction_of(texel_centre(face, i * looks + x, j * looks + y, fine)),
+                channel.data());
+        for (int k = 0; k < 4; ++k) sum[k] += channel[k];
+      }
+    SkyTexel& texel = level.at(face, i, j);
+    for (int k = 0; k < 4; ++k)
+      texel.channel[k] = half_bits(sum[k] / static_cast<float>(looks * looks));
+  }
+}
+
+}  // namespace
+
+std::uint16_t half_bits(float value) {
+  const std::uint16_t bits = Imath::half(value).bits();
+  return bits < kSmallestNormal ? 0 : bits;
+}
+
+float half_value(std::uint16_t bits) {
+  Imath::half h;
+  h.setBits(bits);
+  return h;
+}
+
+double sky_unit(double greatest) {
+  if (!(greatest > 0)) return 1;
+  return std::ldexp(1.0, std::ilogb(greatest) + 1 - kGreatestExponent);
+}
+
+std::vector<int> level_sizes(int size) {
+  std::vector<int> sizes;
+  for (; size >= 1; size /= 2) sizes.push_back(size);
+  return sizes;
+}
+
+SkyTexel& SkyPyramid::Level::at(int face_number, int i, int j) const {
+  return face(face_number)[static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(size + 2) +
+                           static_cast<std::size_t>(i + 1)];
+}
+
+SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, int size)
+    : kind(of_kind), unit(in_unit) {
+  const std::vector<int> sizes = level_sizes(size);
+  std::size_t total = 0;
+  for (const int n : sizes) total += 6 * SkyLevel::face_texels(n);
+  owner = large_pages(total * sizeof(SkyTexel));
+  auto* next = static_cast<SkyTexel*>(owner.get());
+  for (const int n : sizes) {
+    levels.push_back({n, next});
+    next += 6 * SkyLevel::face_texels(n);
+  }
+}
+
+SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, std::vector<Level> in,
+                       std::shared_ptr<void> of_owner)
+    : kind(of_kind), unit(in_unit), levels(std::move(in)), owner(std::move(of_owner)) {}
+
+void SkyPyramid::finish() const {
+  for (std::size_t k = 1; k < levels.size(); ++k) halve(levels[k - 1], levels[k]);
+}
+
+SkyMap SkyPyramid::map() const {
+  std::vector<SkyLevel> read;
+  read.reserve(levels.size());
+  for (const Level& level : levels) read.push_back({level.size, level.texels});
+  return {kind, unit, std::move(read), owner};
+}
+
+void fill_border(const SkyPyramid::Level& level) {
+  const int n = level.size;
+  for (int face = 0; face < 6; ++face)
+    for (int k = -1; k <= n; ++k) {
+      level.at(face, k, -1) = looked_across(level, face, k, -1);
+      level.at(face, k, n) = looked_across(level, face, k, n);
+      level.at(face, -1, k) = looked_across(level, face, -1, k);
+      level.at(face, n, k) = looked_across(level, face, n, k);
+    }
+}
+
+void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks) {
+  const int rows = 6 * (level.size + 2);
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int row = next++; row < rows; row = next++) paint_row(level, row, painter, looks);
+  };
+  std::vector<std::jthread> others;
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  for (unsigned k = 1; k < threads; ++k) others.emplace_back(work);
+  work();
+}
+
+}  // namespace domefall

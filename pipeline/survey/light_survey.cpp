@@ -1,0 +1,113 @@
+#include "pipeline/survey/light_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/colour/colour_space.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kWidth = 48, kMostInstants = 60, kLeastWidth = 16;
+constexpr double kFadeStops = 3;
+// Of white's code value: the last steps before it are not seen.
+constexpr double kNearWhite = 0.99;
+
+// The code value of the brightest grey there is, by the grade.
+double white_of(const Grader& grader) {
+  HalfFrame grey(1, 1);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), Imath::half(65504.0f));
+  const GradedFrame graded = grader.grade(grey);
+  return *std::max_element(graded.pixels.begin(), graded.pixels.end());
+}
+
+// The picture's parts of a projection, by pixel.
+std::vector<std::size_t> inside_pixels(const Projection& p) {
+  std::vector<std::size_t> inside;
+  for (int row = 0; row < rows(p); ++row) {
+    const ColumnRange range = inside_columns(p, row);
+    for (int k = range.first; k <= range.last; ++k)
+      inside.push_back(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns(p)) +
+                       static_cast<std::size_t>(k));
+  }
+  return inside;
+}
+
+class LightMeter {
+ public:
+  explicit LightMeter(const Grader* grader) : grader_(grader) {
+    if (grader) white_ = white_of(*grader);
+  }
+
+  void measure(const HalfFrame& frame, const Projection& p, FrameLight& light) const {
+    const std::vector<std::size_t> inside = inside_pixels(p);
+    std::vector<double> values;
+    std::size_t white = 0;
+    GradedFrame graded;
+    if (grader_) graded = grader_->grade(frame);
+    for (const std::size_t k : inside) {
+      const Imath::half* rgb = &frame.pixels[3 * k];
+      values.push_back(luminance({rgb[0], rgb[1], rgb[2]}));
+      light.mean += values.back() / static_cast<double>(inside.size());
+      if (grader_) {
+        const unsigned short* code = &graded.pixels[3 * k];
+        white += std::max({code[0], code[1], code[2]}) >= kNearWhite * white_;
+      } else {
+        white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
+      }
+    }
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
+    std::nth_element(values.begin(), rank, values.end());
+    light.percentile99 = *rank;
+    light.white = static_cast<double>(white) / static_cast<double>(inside.size());
+  }
+
+ private:
+  const Grader* grader_;
+  double white_ = 0;
+};
+
+}  // namespace
+
+Projection shrunk(const Projection& projection, int width) {
+  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
+    const double height = static_cast<double>(width) * flat->rows / flat->columns;
+    return Stereographic{width, std::max(kLeastWidth, static_cast<int>(std::lround(height))),
+                         flat->fov};
+  }
+  return Domemaster{width};
+}
+
+FrameState shrunk(FrameState state, int width) {
+  state.projection = shrunk(state.projection, width);
+  if (state.vanishing)
+    state.vanishing = std::make_shared<const FrameState>(shrunk(*state.vanishing, width));
+  return state;
+}
+
+LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
+  const int count = frame_count(show);
+  const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
+  const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostInstants));
+  const LightMeter meter(grader);
+  std::vector<FrameLight> lights;
+  for (int k = 0; k < samples; ++k) {
+    const int frame =
+        samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
+    const FrameState state = shrunk(frame_state(show, frame), kWidth);
+    FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, 0, 0, 0};
+    meter.measure(renderer.render(state), state.projection, light);
+    lights.push_back(light);
+  }
+  const auto darker = [](const FrameLight& a, const FrameLight& b) { return a.mean < b.mean; };
+  LightSurvey found;
+  found.frames = samples;
+  found.brightest = *std::max_element(lights.begin(), lights.end(), darker);
+  double highest = -HUGE_VAL;
+  for (const FrameLight& light : lights) highest = std::max(highest, light.ev);
+  std::erase_if(lights, [&](const FrameLight& light) { return light.ev < highest - kFadeStops; });
+  found.darkest = *std::min_element(lights.begin(), lights.end(), darker);
+  return found;
+}
+
+}  // namespace domefall

@@ -1,0 +1,168 @@
+#include "pipeline/render/blobs/splat_canvas.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/pipeline/render/blobs/drawn_blobs.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+struct Law {
+  const char* name;
+  Projection projection;
+  double min_sigma_deg, most_theta;
+  double misshapen;  // at most, parts of the peak
+};
+
+const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
+                     {"dome at the floor", Domemaster{1024}, 0.05, 85 * kDegree, 0.05},
+                     {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
+                     {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
+                     {"wider dome", Domemaster{1024}, 0.65, 75 * kDegree, 0.05},
+                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.05},
+                     {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
+
+PointSpread widths_of(const Law& law) {
+  PointSpreadLaw blobs;
+  blobs.min_sigma = law.min_sigma_deg * kDegree, blobs.max_sigma = 2 * kDegree;
+  blobs.reference_magnitude = -30;
+  return {blobs, law.projection, 1e3};
+}
+
+BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool dots) {
+  BlobLayer layer(law.projection);
+  const PointSpread widths = widths_of(law);
+  if (dots) layer.use_splats(widths);
+  EXPECT_EQ(layer.has_splats(), dots);
+  layer.place(layer.new_tasks(1), images, widths);
+  layer.sort_into_bands();
+  return layer;
+}
+
+StarImage star_at(const Law& law, double theta, double azimuth, double peak) {
+  return image_at(law.projection, theta, azimuth, flux_of_peak(widths_of(law), peak));
+}
+
+std::vector<StarImage> scattered(const Law& law, int count, double peak) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  std::vector<StarImage> images;
+  for (int k = 0; k < count; ++k) {
+    const double theta = law.most_theta * u(random), azimuth = 2 * pi * u(random);
+    images.push_back(star_at(law, theta, azimuth, peak));
+  }
+  return images;
+}
+
+double flux_of(const DrawnBlobs& picture) {
+  double flux = 0;
+  const int width = columns(picture.projection);
+  for (std::size_t k = 0; k < picture.rgb.size() / 3; ++k) {
+    const auto column = static_cast<int>(k) % width, row = static_cast<int>(k) / width;
+    const double value = picture.rgb[3 * k];
+    if (value != 0)
+      flux += value * pixel_solid_angle(picture.projection, {column + 1.0, row + 1.0});
+  }
+  return flux;
+}
+
+TEST(StarDots, BringTheirLightWhereverTheyLie) {
+  for (const Law& law : kLaws)
+    for (const StarImage& image : scattered(law, 60, 0.3)) {
+      const DrawnBlobs picture = drawn(layer_of({image}, law, true), law.projection);
+      EXPECT_NEAR(flux_of(picture) / image.rgb[0], 1, 1e-3)
+          << law.name << " " << image.x << " " << image.y;
+    }
+}
+
+// The rim of a dome, and the edges of a flat picture, cut dots as they cut blobs; what is beyond them and
+// reaches in is there.
+TEST(StarDots, LookLikeSmallBlobs) {
+  for (const Law& law : kLaws) {
+    const double rim =
+        std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : law.most_theta + 0.1;
+    for (double theta = 0.004; theta < rim; theta += 0.043) {
+      const StarImage image = star_at(law, theta, 2.3 * theta, 0.5);
+      const DrawnBlobs dot = drawn(layer_of({image}, law, true), law.projection);
+      const DrawnBlobs blob = drawn(layer_of({image}, law, false), law.projection);
+      double worst = 0;
+      for (std::size_t k = 0; k < dot.rgb.size(); ++k)
+        worst = std::max(worst, std::abs(double{dot.rgb[k]} - blob.rgb[k]));
+      const float peak = *std::max_element(blob.rgb.begin(), blob.rgb.end());
+      if (peak < 0.2f) continue;
+      EXPECT_LT(worst / peak, law.misshapen) << law.name << " " << theta;
+    }
+  }
+}
+
+TEST(StarDots, KeepTheirLightAndTheirPeakWhileTheyDrift) {
+  const Law& law = kLaws[1];
+  for (const double start : {500.3, 60.2}) {
+    double low = 1e9, high = 0;
+    for (int k = 0; k < 40; ++k) {
+      StarImage image = star_at(law, 0, 0, 0.1);
+      image.x = static_cast<float>(start + 0.0717 * k),
+      image.y = static_cast<float>(511.3 + 0.0793 * k);
+      const DrawnBlobs picture = drawn(layer_of({image}, law, true), law.projection);
+      EXPECT_NEAR(flux_of(picture) / image.rgb[0], 1, 1e-3);
+      const float peak = *std::max_element(picture.rgb.begin(), picture.rgb.end());
+      low = std::min(low, double{peak}), high = std::max(high, double{peak});
+    }
+    EXPECT_LT(high / low, 1.34) << start;  // 1.32 for small blobs
+  }
+}
+
+// Bands by themselves, in any order, and by several canvases; and however tasks divide the stars.
+TEST(StarDots, AreTheSameHoweverTheyAreDrawn) {
+  for (const Law& law : kLaws) {
+    const Projection& p = law.projection;
+    const PointSpread widths = widths_of(law);
+    const std::vector<StarImage> images = scattered(law, 3000, 0.01);
+    const BlobLayer whole = layer_of(images, law, true);
+    EXPECT_GT(whole.size(), 2000u);
+    const std::vector<float> expected = drawn(whole, p).rgb;
+    BlobLayer split(p);
+    split.use_splats(widths);
+    const std::size_t first = split.new_tasks(30);
+    for (std::size_t t = 0; t < 30; ++t) {
+      std::vector<StarImage> own(images.begin() + 100 * t, images.begin() + 100 * (t + 1));
+      split.place(first + t, own, widths);
+    }
+    split.sort_into_bands();
+    EXPECT_EQ(drawn(split, p).rgb, expected) << law.name;
+    std::vector<float> alone(expected.size());
+    const std::size_t band_floats = std::size_t{3} * columns(p) * kBandRows;
+    for (std::size_t band = expected.size() / band_floats; band-- > 0;) {
+      SplatCanvas canvas;
+      whole.start_canvas(canvas);
+      whole.draw_band(static_cast<int>(band), canvas, alone.data() + band * band_floats);
+    }
+    EXPECT_EQ(alone, expected) << law.name;
+  }
+}
+
+TEST(StarDots, AreForThoseThatAreMany) {
+  EXPECT_FALSE(BlobLayer::are_many(300000, Domemaster{4096}));
+  EXPECT_TRUE(BlobLayer::are_many(600000, Domemaster{4096}));
+  // Bright stars, and blobs too wide to blur, are not dots.
+  const PointSpread widths = widths_of(kLaws[1]);
+  BlobLayer layer(kLaws[1].projection);
+  layer.use_splats(widths);
+  std::vector<StarImage> images = scattered(kLaws[1], 50, 20);
+  layer.place(layer.new_tasks(1), images, widths);
+  layer.sort_into_bands();
+  EXPECT_EQ(layer.size(), 50u);
+  EXPECT_EQ(drawn(layer, kLaws[1].projection).rgb,
+            drawn(layer_of(scattered(kLaws[1], 50, 20), kLaws[1], false), kLaws[1].projection).rgb);
+  EXPECT_TRUE(SplatBrush(Domemaster{1024}, 0.65 * kDegree).usable());
+  EXPECT_FALSE(SplatBrush(Domemaster{4096}, 0.2).usable());
+  EXPECT_FALSE(SplatBrush(Domemaster{32}, 0.1).usable());
+}
+
+}  // namespace
+}  // namespace domefall

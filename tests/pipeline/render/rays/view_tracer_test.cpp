@@ -1,0 +1,108 @@
+#include "pipeline/render/rays/view_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+// Observers of every kind in all four regions, with aberration from none to a Lorentz factor of 1000.
+std::vector<Show> observers() {
+  const Projection dome = Domemaster{64};
+  return {show_of(StaticObserver{3}, dome),
+          show_of(StaticObserver{1e7}, dome),
+          show_of(StaticObserver{}, dome),
+          show_of(CircularOrbit{6}, dome),
+          show_of(RadialInfall{2}, dome),
+          show_of(RadialInfall{1.2}, dome),
+          show_of(RadialInfall{0.05}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(300, -800, 500)}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, V3d(0, 0, 0)}, dome),
+          show_of(GivenVelocity{Region::kII, Tetrad::kRainOfThree, 1.3, V3d(0, 1, 0)}, dome),
+          show_of(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)}, dome),
+          show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, V3d(0, 0, 0)}, dome),
+          show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.99,
+                                resting_celerity(1.99, Tetrad::kOutgoing)},
+                  dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}, dome)};
+}
+
+TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (const Show& show : observers()) {
+    const FrameState state = frame_state(show, 0);
+    const HoleOptics optics =
+        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});
+    const ViewTracer tracer(state, optics);
+    ViewRayBatch batch;
+    std::array<CameraDirection, ViewRayBatch::kSize> n;
+    for (int round = 0; round < 50; ++round) {
+      for (auto& direction : n)
+        direction.v = V3d(normal(random), normal(random), normal(random)).normalized();
+      n[0].v = apply_transposed(state.observer.tetrad_from_camera, V3d(-1, 0, 0));
+      n[1].v = -n[0].v;
+      tracer.trace(n.data(), ViewRayBatch::kSize, batch);
+      for (int k = 0; k < ViewRayBatch::kSize; ++k) {
+        const ViewRay look = tracer.trace(n[static_cast<std::size_t>(k)]);
+        ASSERT_EQ(batch.sky[k], look.sky);
+        ASSERT_TRUE(look.known);
+        // Near the axis of a lens sin(phi)/sin(delta) amplifies the last bits of both.
+        const double scale = 1 + look.radial_scale + look.tangential_scale;
+        ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 2e-15 * scale);
+        if (look.sky == SkyRegion::kIV) {
+          ASSERT_NEAR(batch.emission_time[k], look.emission_time,
+                      1e-9 * (1 + std::abs(look.emission_time)));
+          ASSERT_NEAR(batch.time_scale[k], look.time_scale, 1e-9 + 1e-6 * look.time_scale);
+        }
+        ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-13);
+        ASSERT_NEAR(batch.radial_scale[k] / look.radial_scale, 1, 1e-11);
+        ASSERT_NEAR(batch.tangential_scale[k], look.tangential_scale, 1e-12 * scale);
+        ASSERT_NEAR(batch.sky_direction(k).length(), 1, 1e-14);
+      }
+    }
+  }
+}
+
+// The hole's edge as the renderer draws it, from the light side and from the dark.
+TEST(ViewTracer, TheSilhouetteAtTheHorizonHas84Point2DegreesAcross) {
+  const Show show = show_of(RadialInfall{2}, Domemaster{64});
+  const FrameState state = frame_state(show, 0);
+  const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
+  const ViewTracer tracer(state, optics);
+  const double edge = std::acos(23.0 / 31);
+  for (const double side : {-1e-9, 1e-9}) {
+    const double delta = edge + side;
+    const V3d n(-std::cos(delta), std::sin(delta), 0);
+    const ViewRay look = tracer.trace({apply_transposed(state.observer.tetrad_from_camera, n)});
+    EXPECT_EQ(look.sky, side > 0 ? SkyRegion::kI : SkyRegion::kIV);
+    EXPECT_NEAR(look.to_edge, 1e-9, 1e-13);
+  }
+}
+
+// A sky seen from inside, north up: Betelgeuse to the upper left of Rigel.  A mirrored one would fool
+// nobody who has looked up.
+TEST(ViewTracer, OrionStandsUprightAndUnmirrored) {
+  Show show = show_of(StaticObserver{}, Stereographic{800, 600, 40 * kDegree});
+  const auto star = [](double ra, double dec) {
+    return V3d(std::cos(dec * kDegree) * std::cos(ra * kDegree),
+               std::cos(dec * kDegree) * std::sin(ra * kDegree), std::sin(dec * kDegree));
+  };
+  show.timeline[0].camera.attitude = LookAtSky{{star(84, 0)}};
+  const FrameState state = frame_state(show, 0);
+  const auto pixel = [&](const V3d& sky) {
+    const V3d tetrad = apply_transposed(state.observer.sky_from_tetrad, sky);
+    return pixel_of(show.projection, {apply_transposed(state.observer.tetrad_from_camera, tetrad)})
+        .value();
+  };
+  const PixelPosition betelgeuse = pixel(star(88.79, 7.41)), rigel = pixel(star(78.63, -8.20));
+  EXPECT_NEAR(betelgeuse.i, 306, 2);
+  EXPECT_NEAR(betelgeuse.j, 153, 2);
+  EXPECT_NEAR(rigel.i, 506, 2);
+  EXPECT_NEAR(rigel.j, 463, 2);
+}
+
+}  // namespace
+}  // namespace domefall

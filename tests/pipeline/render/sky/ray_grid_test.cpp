@@ -1,0 +1,197 @@
+#include "pipeline/render/sky/ray_grid.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/render/sky/sky_pass.h"
+#include "pipeline/sky/make/equirectangular.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+FloatImage clouds() {
+  FloatImage image(256, 128);
+  for (std::size_t k = 0; k < image.pixels.size(); ++k)
+    image.pixels[k] = static_cast<float>(1.1 + std::sin(static_cast<double>(k) * 0.05) *
+                                                   std::cos(static_cast<double>(k) * 7e-4));
+  return image;
+}
+
+struct Gridded {
+  Show show;
+  FrameState state;
+  HoleOptics optics;
+  Sky sky;
+  PixelShader light;
+  RayGrid grid;
+
+  explicit Gridded(const Show& of)
+      : show(of),
+        state(frame_state(show, 0)),
+        optics(make_hole_optics(is_flat(state.observer) ? kFlatSpace : state.observer.r,
+                                state.observer.tetrad, {})),
+        sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr},
+        light(show, state, optics, {&sky, &sky, nullptr}) {
+    grid.make(state.projection, light, special_directions(show, state, optics));
+  }
+};
+
+// Floats hold a place on the sky so well: a thousandth of a texel of a map 16k wide.
+constexpr double kRounding = 3e-7;
+
+struct Worst {
+  double place = 0, gain = 0;  // pixels, relative
+  std::size_t pixels = 0;
+};
+
+// Against a look at every pixel of the cells that are interpolated.
+Worst worst_of(const Gridded& g) {
+  Worst worst;
+  FootprintBatch places;
+  for (int j = 0; j < g.grid.cell_rows(); ++j)
+    for (int row = 0; row < RayGrid::kStep; row += 3) {
+      const int y = j * RayGrid::kStep + row;
+      if (y >= rows(g.state.projection)) continue;
+      const ColumnRange inside = inside_columns(g.state.projection, y);
+      for (int i = 0; i < g.grid.cell_columns(); ++i) {
+        if (g.grid.cell(j, i).kind != RayGrid::Kind::kSmooth) continue;
+        g.grid.interpolate_row(j, row, i, i + 1, places);
+        for (std::size_t k = 0; k < RayGrid::kStep; ++k) {
+          const int x = i * RayGrid::kStep + static_cast<int>(k);
+          if (x < inside.first || x > inside.last) continue;
+          const PixelPosition pixel{x + 1.0, y + 1.0};
+          const ViewRay look = g.light.tracer().trace(direction_at(g.state.projection, pixel));
+          const double width = pixel_angle(g.state.projection, pixel) *
+                               std::max(std::min(look.radial_scale, look.tangential_scale),
+                                        0.1 * std::max(look.radial_scale, look.tangential_scale));
+          V3d at(places.x[k], places.y[k], places.z[k]);
+          EXPECT_NEAR(at.length(), 1, 0.01);
+          at.normalize();
+          EXPECT_EQ(look.sky, g.grid.cell(j, i).sky);
+          const double off = (at - look.sky_direction).length() - kRounding;
+          worst.place = std::max(worst.place, off / width);
+          const MapShift shift = g.light.shift(look.sky, look.frequency_ratio);
+          if (shift.gain > 1e-9f)
+            worst.gain =
+                std::max(worst.gain, std::abs(double{places.gain[k]} / double{shift.gain} - 1));
+          ++worst.pixels;
+        }
+      }
+    }
+  return worst;
+}
+
+void expect_close(const Show& show, const std::string& what, double least_part = 0) {
+  const Gridded g(show);
+  const Worst worst = worst_of(g);
+  EXPECT_LT(worst.place, RayGrid::kTolerance) << what;
+  EXPECT_LT(worst.gain, 2e-3) << what;
+  EXPECT_GE(1 - g.grid.traced_fraction(), least_part) << what;
+  EXPECT_GT(worst.pixels + (least_part > 0 ? 0u : 1u), 0u) << what;
+}
+
+const std::vector<Projection>& projections() {
+  static const std::vector<Projection> all{Domemaster{512}, Domemaster{1500},
+                                           Stereographic{640, 360, 2.0},
+                                           Stereographic{700, 700, 300 * kDegree}};
+  return all;
+}
+
+TEST(RayGrid, IsRightToAHundredthOfAPixelOutsideTheHole) {
+  for (const double r : {2.0001, 2.5, 3.0, 7.0, 30.0, 1e4, 1e8})
+    for (const Projection& p : projections())
+      expect_close(show_of(StaticObserver{r}, p), "r = " + std::to_string(r));
+}
+
+TEST(RayGrid, IsRightToAHundredthOfAPixelOnTheWayIn) {
+  for (const double r : {30.0, 6.0, 2.1, 2.0, 1.9, 1.0, 0.1, 1e-3})
+    for (const Projection& p : projections())
+      expect_close(show_of(RadialInfall{r}, p), "r = " + std::to_string(r));
+}
+
+TEST(RayGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
+  for (const double celerity : {0.1, 1.0, 3.1, 30.0, 1e3, 1e6})
+    for (const double r : {kFlatSpace, 10.0, 1.0})
+      for (const Projection& p : projections()) {
+        const V3d along = V3d(0.3, 1, -0.5).normalized() * celerity;
+        expect_close(
+            show_of(GivenVelocity{r < 2 ? Region::kII : Region::kI, Tetrad::kRain, r, along}, p),
+            "u = " + std::to_string(celerity) + ", r = " + std::to_string(r));
+      }
+}
+
+// A block of cells holds what their rows do.
+TEST(RayGrid, BlocksAreMadeOfRows) {
+  const Gridded g(show_of(StaticObserver{10}, Domemaster{512}));
+  FootprintBatch block, line;
+  int blocks = 0;
+  for (int j = 0; j < g.grid.cell_rows(); ++j)
+    for (int i = 0; i + RayGrid::kBlock <= g.grid.cell_columns(); i += RayGrid::kBlock) {
+      int end = i;
+      while (end < i + RayGrid::kBlock && g.grid.cell(j, end).kind == RayGrid::Kind::kSmooth) ++end;
+      if (end == i) continue;
+      g.grid.interpolate_block(j, i, end, block);
+      ++blocks;
+      for (int row = 0; row < RayGrid::kStep; ++row) {
+        g.grid.interpolate_row(j, row, i, end, line);
+        for (int k = 0; k < (end - i) * RayGrid::kStep; ++k) {
+          const int cell = k / RayGrid::kStep, column = k % RayGrid::kStep;
+          const auto at =
+              static_cast<std::size_t>((cell * RayGrid::kStep + row) * RayGrid::kStep + column);
+          const auto in_line = static_cast<std::size_t>(k);
+          ASSERT_EQ(block.x[at], line.x[in_line]);
+          ASSERT_EQ(block.gain[at], line.gain[in_line]);
+          // The footprint stands where the place is, as wide as its longer side.
+          const V3d along(block.ax[at], block.ay[at], block.az[at]);
+          ASSERT_NEAR(along.length(), block.wide[at], 0.02 * block.wide[at]);
+        }
+      }
+    }
+  EXPECT_GT(blocks, 100);
+}
+
+// What it is for.
+TEST(RayGrid, SparesNearlyAllLooksOfALargePicture) {
+  expect_close(show_of(StaticObserver{10}, Domemaster{4096}), "a dome", 0.95);
+  expect_close(show_of(RadialInfall{1}, Domemaster{4096}), "inside", 0.85);
+}
+
+// ---- what is made of it ----
+
+Show without_stars(const Trajectory& t, const Projection& p) {
+  Show show = starry(show_of(t, p));
+  show.sky[SkyRegion::kI].stars = show.sky[SkyRegion::kIII].stars = std::nullopt;
+  return show;
+}
+
+TEST(SkyPass, MakesThePictureThatLooksAtEveryPixelMake) {
+  for (const Projection& p : projections())
+    for (const Trajectory& t :
+         {Trajectory(StaticObserver{10}), Trajectory(RadialInfall{1}),
+          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})}) {
+      const Show show = without_stars(t, p);
+      const FrameState state = frame_state(show, 0);
+      const HalfFrame quick = Renderer(show, 2).render(state),
+                      slow = Renderer(show, 2, {4, false, true}).render(state);
+      for (std::size_t k = 0; k < quick.pixels.size(); ++k)
+        ASSERT_NEAR(quick.pixels[k], slow.pixels[k], 0.01 * slow.pixels[k] + 1e-6)
+            << k / 3 % static_cast<std::size_t>(quick.width) << " "
+            << k / 3 / static_cast<std::size_t>(quick.width);
+    }
+}
+
+// Memory that is used again keeps nothing of the frame before.
+TEST(SkyPass, LeavesNothingBehindForTheNextFrame) {
+  const Show show = without_stars(RadialInfall{0.5}, Domemaster{256});
+  Show other = without_stars(StaticObserver{3}, Domemaster{256});
+  const FrameState state = frame_state(show, 0), before = frame_state(other, 0);
+  Renderer renderer(show, 2);
+  const HalfFrame fresh = renderer.render(state);
+  HalfFrame frame;
+  renderer.render(before, frame);
+  renderer.render(state, frame);
+  EXPECT_EQ(std::memcmp(frame.pixels.data(), fresh.pixels.data(), 2 * fresh.pixels.size()), 0);
+}
+
+}  // namespace
+}  // namespace domefall

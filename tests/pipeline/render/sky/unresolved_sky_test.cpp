@@ -1,0 +1,121 @@
+// Skies that are smaller than a pixel keep their light.
+#include "pipeline/render/sky/unresolved_sky.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+std::filesystem::path even_panorama() {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("domefall_even_" + std::to_string(getpid()) + ".tif");
+  const OIIO::ImageSpec spec(64, 32, 3, OIIO::TypeDesc::FLOAT);
+  const std::vector<float> pixels(64 * 32 * 3, 0.5f);
+  const auto out = OIIO::ImageOutput::create(path.string());
+  EXPECT_TRUE(out->open(path.string(), spec) &&
+              out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && out->close());
+  return path;
+}
+
+// Region III alone, seen in the middle of the picture or a part of a pixel beside it.
+double light_of_region_three(double depth, double aside_pixels, int size) {
+  Show show = show_of(RadialInfall{2 - depth}, Domemaster{size});
+  show.sky[SkyRegion::kIII].background = PanoramaSky{small_panorama()};
+  // Domemaster pixels are pi/size wide.
+  show.timeline[0].camera.elevation = (90 * kDegree) - aside_pixels * std::numbers::pi / size;
+  const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
+  double sum = 0;
+  for (const Imath::half value : frame.pixels) sum += value;
+  return sum / (size * size);
+}
+
+TEST(UnresolvedSkies, RegionThreeBringsTheSameLightHoweverSmallItIs) {
+  // Its panorama's intensity grows like the frequency squared, its size falls as much.
+  const double last = light_of_region_three(1e-9, 0, 128);
+  EXPECT_GT(last, 0);
+  for (const double depth : {1e-3, 1e-4, 1e-6})
+    EXPECT_NEAR(light_of_region_three(depth, 0, 128) / last, 1, 0.01) << depth;
+  // And in a picture of another size: pixels of a quarter of the area.
+  EXPECT_NEAR(light_of_region_three(1e-6, 0, 256) / last, 1, 0.01);
+}
+
+TEST(UnresolvedSkies, DoNotTwinkleBetweenPixels) {
+  const double middle = light_of_region_three(1e-6, 0, 128);
+  for (const double aside : {0.25, 0.5, 0.75, 3.3})
+    EXPECT_NEAR(light_of_region_three(1e-6, aside, 128) / middle, 1, 2e-3) << aside;
+}
+
+TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
+  const Show show = starry(show_of(StaticObserver{10}, Domemaster{128}));
+  const FrameState state = frame_state(show, 0);
+  SkyStore scene(show);
+  const HoleOptics optics = make_hole_optics(10, Tetrad::kRain, {});
+  const UnresolvedSkies spots =
+      find_unresolved_skies(show, state, optics, {&scene.sky(SkyRegion::kI), nullptr, nullptr});
+  EXPECT_TRUE(spots.blobs.empty());
+  EXPECT_TRUE(spots.darkened.empty());
+}
+
+// Of red, over all of the dome; a panorama of one value ahead of and around an observer of this Lorentz
+// factor in flat space, or without lensing at r.
+double light_of_an_even_sky(double gamma, double aside_pixels, int size, double r = kFlatSpace) {
+  Show show =
+      show_of(GivenVelocity{Region::kI, Tetrad::kRain, r, V3d(0, 0, std::sqrt(gamma * gamma - 1))},
+              Domemaster{size});
+  // The zenith along the motion, or beside it.
+  show.timeline[0].camera.attitude =
+      EulerAngles{90 * kDegree, 90 * kDegree - aside_pixels * std::numbers::pi / size, 0};
+  const std::filesystem::path panorama = even_panorama();
+  show.sky[SkyRegion::kI].background = PanoramaSky{panorama};
+  show.effects.lensing = r == kFlatSpace;
+  const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
+  std::filesystem::remove(panorama);
+  double sum = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double value = frame.row(y)[3 * x];
+      if (value > 0) sum += value * pixel_solid_angle(show.projection, {x + 1.0, y + 1.0});
+    }
+  return sum;
+}
+
+// With a panorama's law ([Riazuelo] sec. ssec_rgb: g^2, and exp(1 - 1/g) below 1) each steradian of the
+// sky ahead brings 1/g^2 of itself times that.  The dome, the half space ahead, takes in the sky out to
+// tan(alpha/2) = gamma + |celerity|, where g = 1/gamma.
+double aberrated(double gamma) {
+  const double beta = std::sqrt(1 - 1 / (gamma * gamma));
+  double sum = 0;
+  constexpr int kSteps = 2'000'000;
+  const double end = (1 + beta) * gamma, step = std::log(end * gamma) / kSteps;
+  for (int k = 0; k < kSteps; ++k) {  // by g = gamma (1 + beta cos alpha), from 1/gamma on
+    const double g = std::exp((k + 0.5) * step) / gamma;
+    sum += 2 * std::numbers::pi * step / (beta * gamma) * (g < 1 ? std::exp(1 - 1 / g) / g : g);
+  }
+  return sum;
+}
+
+TEST(UnresolvedSkies, InFlatSpaceTheLightAheadFollowsTheAberration) {
+  const double at_rest = light_of_an_even_sky(1, 0, 128) / (2 * std::numbers::pi);
+  EXPECT_GT(at_rest, 0);
+  const auto ratio = [at_rest](double gamma, double aside, int size, double r = kFlatSpace) {
+    return light_of_an_even_sky(gamma, aside, size, r) / at_rest / aberrated(gamma);
+  };
+  for (const double gamma : {1e1, 1e3, 1e4, 1e5, 1e9})
+    EXPECT_NEAR(ratio(gamma, 0, 128), 1, 0.01) << gamma;
+  // Around a spot that is hardly smaller than its pixels they are looked at in their middles, where there
+  // is less light than the mean.
+  EXPECT_NEAR(ratio(1e2, 0, 128), 1, 0.025);
+  EXPECT_NEAR(ratio(1e3, 0, 1024), 1, 0.025);
+  EXPECT_NEAR(ratio(1e4, 0, 1024), 1, 0.01);
+  for (const double aside : {0.25, 0.5, 3.3}) EXPECT_NEAR(ratio(1e4, aside, 128), 1, 0.01) << aside;
+}
+
+// Light goes straight there too; a hole so far away makes no other difference.
+TEST(UnresolvedSkies, WithoutLensingAreThoseOfFlatSpace) {
+  EXPECT_NEAR(light_of_an_even_sky(1e4, 0, 128, 1e8) / light_of_an_even_sky(1e4, 0, 128), 1, 0.01);
+}
+
+}  // namespace
+}  // namespace domefall

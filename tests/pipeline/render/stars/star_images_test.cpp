@@ -1,0 +1,224 @@
+#include "pipeline/render/stars/star_images.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/stars/star_colours.h"
+#include "tests/pipeline/render/stars/star_scene.h"
+
+namespace domefall {
+namespace {
+
+SceneStar star_of(const SkyDirection& direction, double v, double temperature) {
+  return {direction, v, std::pow(10, -0.4 * v) * bolometric_flux_at_v_zero(temperature),
+          temperature, 1e-9};
+}
+
+struct Case {
+  Region region;
+  Tetrad tetrad;
+  double r;
+  V3d celerity;
+};
+
+const V3d kAtRest(0, 0, 0), kBrisk(0.2, 0.6, 0.3), kFast(-3, 8, 5);
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const double r : {1e8, 1e4, 300.0, 12.0, 6.0, 3.0, 2.5, 2.000001})
+    for (const V3d& c : {kAtRest, kBrisk, kFast}) all.push_back({Region::kI, Tetrad::kRain, r, c});
+  for (const double r : {1.999999, 1.9, 1.0, 0.1, 1e-3, 1e-6})
+    for (const V3d& c : {kAtRest, kBrisk}) all.push_back({Region::kII, Tetrad::kRain, r, c});
+  for (const V3d& c : {V3d(1e4, 0, 0), V3d(-7e3, 5e3, 5e3)})
+    for (const double r : {1e3, 4.0}) all.push_back({Region::kI, Tetrad::kRain, r, c});
+  for (const double r : {2.001, 8.0}) {
+    all.push_back({Region::kI, Tetrad::kOutgoing, r, kBrisk});
+    all.push_back({Region::kIII, Tetrad::kRainOfThree, r, kBrisk});
+    // At rest: as much outward as rain falls inward.
+    const double s = std::sqrt(2 / r);
+    all.push_back({Region::kI, Tetrad::kRain, r, V3d(s / std::sqrt(1 - s * s), 0, 0)});
+  }
+  all.push_back({Region::kI, Tetrad::kRain, kFlatSpace, kFast});
+  return all;
+}
+
+bool is_in_picture(const Projection& projection, const PointSpread& widths,
+                   const StarImage& image) {
+  CapBlob blob{};
+  blob.x = image.x, blob.y = image.y;
+  blob.sigma = static_cast<float>(widths.of(image));
+  std::copy_n(image.rgb, 3, blob.rgb);
+  return place_cap(projection, blob);
+}
+
+// Every image of up to 24 orders, whatever its flux, by the paper's formulas and nothing else.
+struct Expected {
+  StarImage image;
+  double peak;
+};
+std::vector<Expected> expected(const StarScene& scene, const SkyTable* table,
+                               const SceneStar& star) {
+  const ObserverState& o = scene.state.observer;
+  const Projection& projection = scene.state.projection;
+  const double scale = exposure_scale(scene.state.settings);
+  const PointSpread widths(scene.show.blobs, projection, scale);
+  const V3d source = apply_transposed(o.sky_from_tetrad, star.direction.v);
+  std::vector<Expected> all;
+  for (int order = 0; order < (table ? 24 : 1); ++order) {
+    const SkyImage at = image_of(table, source, order, star.angular_radius);
+    const AberratedLight seen = to_observer(o.celerity, at.direction.v);
+    const double d = seen.frequency_ratio, g = at.frequency_ratio * d;
+    const double flux = star.flux * at.amplification / (d * d) * g * g * g * g;
+    const WorkingRgb c = blackbody_colours().per_flux(star.temperature * g);
+    const auto pixel =
+        pixel_of(projection, {apply_transposed(o.tetrad_from_camera, seen.direction)});
+    if (!pixel) continue;
+    Expected e;
+    e.image = {static_cast<float>(pixel->i - 1),
+               static_cast<float>(pixel->j - 1),
+               {static_cast<float>(c.r * flux * scale), static_cast<float>(c.g * flux * scale),
+                static_cast<float>(c.b * flux * scale)}};
+    e.peak = luminance(c) * flux * scale / (2 * std::numbers::pi * widths.least() * widths.least());
+    if (e.peak > kFaintestPeak && is_in_picture(projection, widths, e.image)) all.push_back(e);
+  }
+  return all;
+}
+
+double apart(const StarImage& a, const StarImage& b) {
+  return std::hypot(double{a.x} - b.x, double{a.y} - b.y);
+}
+
+// Each image that is there is found, where it is and as bright, and nothing else but what is too
+// faint or beside the picture.
+void compare(const StarScene& scene, bool far, const SceneStar& star) {
+  std::vector<StarImage> found = all_images(scene.images(far), SceneStars({star}));
+  const Projection& projection = scene.state.projection;
+  for (const Expected& e : expected(scene, scene.table(far), SceneStars({star})[0])) {
+    const auto nearest =
+        std::min_element(found.begin(), found.end(), [&](const StarImage& a, const StarImage& b) {
+          const auto off = [&](const StarImage& c) {
+            return apart(c, e.image) + std::abs(std::log(light(c) / light(e.image)));
+          };
+          return off(a) < off(b);
+        });
+    if (nearest == found.end()) {
+      EXPECT_LT(e.peak, 1.002 * kFaintestPeak) << "lost";
+      continue;
+    }
+    EXPECT_LT(apart(*nearest, e.image), 0.012) << "order by order";
+    EXPECT_NEAR(light(*nearest) / light(e.image), 1, 1e-3);
+    found.erase(nearest);
+  }
+  const double scale = exposure_scale(scene.state.settings);
+  const PointSpread widths(scene.show.blobs, projection, scale);
+  for (const StarImage& extra : found) {
+    const double peak = light(extra) / (2 * std::numbers::pi * widths.least() * widths.least());
+    EXPECT_TRUE(peak < 1.002 * kFaintestPeak || !is_in_picture(projection, widths, extra)) << peak;
+  }
+}
+
+TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> magnitude(-3, 14), temperature(2500, 30000);
+  std::uniform_real_distribution<double> decades(-5, 0.4);
+  const std::vector<Projection> projections{Domemaster{1024}, Stereographic{960, 540, 1.2}};
+  for (const Case& c : cases())
+    for (const Projection& projection : projections) {
+      const StarScene scene({c.region, c.tetrad, c.r, c.celerity}, projection, 2);
+      const double disc =
+          PointSpread(scene.show.blobs, projection, exposure_scale(scene.state.settings)).least();
+      for (const bool far : {false, true}) {
+        if (far && !scene.has(true)) continue;
+        SCOPED_TRACE("r " + std::to_string(c.r) + " celerity " +
+                     std::to_string(c.celerity.length()) + " tetrad " + tetrad_name(c.tetrad) +
+                     (far ? " far" : " home"));
+        for (int k = 0; k < 60; ++k) {
+          V3d source = random_direction(random);
+          if (k % 3 == 0) {  // about the axis
+            const double angle = std::pow(10, decades(random));
+            source = V3d((k % 2 ? -1 : 1) * std::cos(angle), std::sin(angle) * std::cos(k),
+                         std::sin(angle) * std::sin(k));
+          }
+          if (std::hypot(source.y, source.z) < 1.01 * kNearAxis * disc) continue;
+          compare(scene, far, star_of(scene.sky(source), magnitude(random), temperature(random)));
+          if (testing::Test::HasFailure()) return;
+        }
+      }
+    }
+}
+
+// A list of stars gives what its stars give, in an order that depends on nothing else; the faint ones
+// left out, the magnitude limit kept.
+TEST(StarImages, OfManyStarsAreThoseOfEach) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> magnitude(-1, 12), temperature(2500, 30000);
+  StarScene scene({Region::kI, Tetrad::kRain, 9, kBrisk}, Domemaster{512});
+  scene.state.settings.sky[SkyRegion::kI].max_magnitude = 10;
+  for (const bool soft : {false, true}) {
+    scene.state.settings.sky[SkyRegion::kI].soft_limit = soft;
+    std::vector<SceneStar> stars;
+    for (int k = 0; k < 1500; ++k)
+      stars.push_back(star_of({random_direction(random)}, magnitude(random), temperature(random)));
+    const StarImages maker = scene.images();
+    std::vector<StarImage> each, all = all_images(maker, SceneStars(stars));
+    for (const SceneStar& star : stars)
+      for (const StarImage& image : all_images(maker, SceneStars({star}))) each.push_back(image);
+    const auto before = [](const StarImage& a, const StarImage& b) {
+      return std::tie(a.x, a.y, a.rgb[0]) < std::tie(b.x, b.y, b.rgb[0]);
+    };
+    std::sort(each.begin(), each.end(), before), std::sort(all.begin(), all.end(), before);
+    ASSERT_GT(all.size(), 1000u);
+    ASSERT_EQ(all.size(), each.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      ASSERT_EQ(all[k].x, each[k].x);
+      ASSERT_EQ(all[k].rgb[1], each[k].rgb[1]);
+    }
+    // By the one-star way, which asks each star for its part of the light.
+    std::vector<StarImage> exact;
+    for (const SceneStar& star : stars) maker.append(star, exact);
+    EXPECT_GE(exact.size(), all.size());
+    EXPECT_LT(scene.images().count(SceneStars(stars)), 1400u);
+  }
+}
+
+// What the light of a star at no redshift says of its V.
+TEST(StarImages, AtNoRedshiftHaveTheirMagnitude) {
+  const StarScene scene({Region::kI, Tetrad::kRain, kFlatSpace, kAtRest}, Domemaster{1024}, 8);
+  const V3d ahead = apply(scene.state.observer.tetrad_from_camera, V3d(0.3, 0.2, 0.9));
+  for (double t = 3000; t <= 30000; t *= 1.07)
+    for (const float v : {-1.46f, 5.0f, 11.3f}) {
+      const SceneStars stars(std::vector<Star>{{scene.sky(ahead), v, static_cast<float>(t)}});
+      const auto images = all_images(scene.images(), stars);
+      ASSERT_EQ(images.size(), 1u);
+      const Xyz per_radiance = blackbody_xyz(t);
+      const double flux = light(images[0]) / exposure_scale(scene.state.settings) *
+                          blackbody_radiance(t) / per_radiance.y;
+      EXPECT_NEAR(-2.5 * std::log10(flux / bolometric_flux_at_v_zero(t)), v, 0.005) << t;
+    }
+}
+
+TEST(StarImages, HaveTheColoursOfBlackbodies) {
+  for (double t = 1000; t < 1e10; t *= 1.0013) {
+    const StarColours::Light seen = star_colours()(t);
+    const WorkingRgb wanted = blackbody_colours().per_flux(t);
+    EXPECT_NEAR(seen.luminance / luminance(wanted), 1, t < 3000 ? 5e-4 : 1e-4) << t;
+    EXPECT_NEAR(seen.b, wanted.b, 1e-4 * std::max(wanted.r, wanted.b)) << t;
+    EXPECT_LE(luminance(wanted), star_colours().most_luminance());
+  }
+  EXPECT_EQ(star_colours()(10).luminance, 0);
+  EXPECT_EQ(star_colours()(0).r, 0);
+}
+
+// A limit that a star has to the last digit takes it, though one is a float and the other is not.
+TEST(SceneStars, AreTakenUpToTheLimitItself) {
+  for (const double v : {8.3, 6.5, 0.1, -1.44, 12.123}) {
+    const SceneStars stars({SceneStar{{V3d(0, 0, 1)}, v, 1e-12, 6000, 1e-9}});
+    EXPECT_EQ(stars.brighter_than(v), 1u) << v;
+    EXPECT_EQ(stars.brighter_than(v - 1e-3), 0u) << v;
+  }
+}
+
+}  // namespace
+}  // namespace domefall

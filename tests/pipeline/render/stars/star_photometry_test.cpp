@@ -1,0 +1,182 @@
+// A million stars are as bright as the even sky that they make up.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/scene/photometry.h"
+#include "tests/pipeline/render/stars/star_scene.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+#if defined(__SANITIZE_ADDRESS__)
+#define DOMEFALL_SLOW_BUILD
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define DOMEFALL_SLOW_BUILD
+#endif
+#endif
+#ifdef DOMEFALL_SLOW_BUILD
+constexpr int kStars = 50'000, kSize = 256;
+constexpr double kTolerance = 0.04, kNoise = 0.02;
+#else
+constexpr int kStars = 1'000'000, kSize = 1024;
+constexpr double kTolerance = 0.01, kNoise = 0.005;
+#endif
+constexpr int kDrawn = kStars / 3;  // in a picture
+constexpr double kMagnitude = 8, kColour = 0.6;
+// Stops: so that what is left out as too faint, millions of ghosts, is no part of the light to speak of.
+// (At 0 stops it is 4 per cent of that within 50 degrees of the hole at 6 M.)
+constexpr double kExposure = kSize < 1024 ? 8 : 4;
+
+// Light by the angle from the hole, or from the axis of the boost: lux times the pixel value of 1 cd/m^2.
+struct Bins {
+  explicit Bins(const std::vector<double>& degrees)
+      : limits(degrees), sum(degrees.size() + 1), square(degrees.size() + 1) {}
+  void add(double angle, double light) {
+    const auto after = std::upper_bound(limits.begin(), limits.end(), angle / kDegree);
+    const auto k = static_cast<std::size_t>(after - limits.begin());
+    sum[k] += light, square[k] += light * light;
+    total += light, total_square += light * light;
+  }
+  std::vector<double> limits, sum, square;
+  double total = 0, total_square = 0;
+};
+
+double angle_between(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
+
+V3d hole_of(const FrameState& state) {
+  return apply_transposed(state.observer.tetrad_from_camera,
+                          to_observer(state.observer.celerity, V3d(-1, 0, 0)).direction);
+}
+
+// What a sky of that even bolometric radiance brings, look by look.
+Bins even_sky(const StarScene& scene, double radiance, double temperature,
+              const std::vector<double>& limits) {
+  constexpr int kFine = 3;  // looks to a pixel's side
+  const Projection fine = refined(scene.state.projection, kFine);
+  const ViewTracer tracer(scene.state, scene.optics);
+  const double scale = exposure_scale(scene.state.settings);
+  const V3d hole = hole_of(scene.state);
+  Bins bins(limits);
+  std::vector<CameraDirection> n(static_cast<std::size_t>(kSize) * kFine);
+  ViewRayBatch batch;
+  for (int row = 0; row < rows(fine); ++row) {
+    const ColumnRange range = inside_columns(fine, row);
+    inside_directions(fine, row, range, n.data());
+    for (int first = range.first; first <= range.last; first += ViewRayBatch::kSize) {
+      const int count = std::min(ViewRayBatch::kSize, range.last + 1 - first);
+      const CameraDirection* at = &n[static_cast<std::size_t>(first - range.first)];
+      tracer.trace(at, count, batch);
+      for (int k = 0; k < count; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        if (batch.sky[i] == SkyRegion::kIV) continue;
+        const double g = batch.frequency_ratio[i];
+        const double shine =
+            luminance(blackbody_colours().per_flux(temperature * g)) * g * g * g * g;
+        const double angle = pixel_solid_angle(fine, {first + k + 1.0, row + 1.0});
+        bins.add(angle_between(at[k].v, hole), radiance * shine * angle * scale);
+      }
+    }
+  }
+  return bins;
+}
+
+void compare(const Bins& stars, const Bins& sky) {
+  EXPECT_NEAR(stars.total / sky.total, 1, kTolerance);
+  for (std::size_t k = 0; k < sky.sum.size(); ++k) {
+    SCOPED_TRACE("bin " + std::to_string(k));
+    EXPECT_NEAR(stars.sum[k] / sky.sum[k], 1, kTolerance);
+    EXPECT_LT(std::sqrt(stars.square[k]) / stars.sum[k], kNoise) << "too few stars to tell";
+  }
+}
+
+// Of stars of this flux each, all over the sky.
+double radiance_of(double flux, int stars) { return stars * flux / (4 * pi); }
+
+struct Place {
+  const char* name;
+  GivenVelocity at;
+  std::vector<double> limits;  // degrees
+};
+
+TEST(StarPhotometry, StarsAreAsBrightAsTheSkyTheyMakeUp) {
+  const double s = std::sqrt(2 / 6.0), outward = s / std::sqrt(1 - s * s);
+  const std::vector<Place> places{
+      {"at rest", {Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0)}, {30, 60, 90}},
+      {"0.6 c", {Region::kI, Tetrad::kRain, kFlatSpace, V3d(-0.75, 0, 0)}, {25, 50, 75}},
+      {"static at 6 M", {Region::kI, Tetrad::kRain, 6, V3d(outward, 0, 0)}, {50, 75, 100}},
+      {"inside", {Region::kII, Tetrad::kRain, 1, V3d(0, 0, 0)}, {40, 80}}};
+  const double temperature = temperature_from_b_v(kColour);
+  const double flux = std::pow(10, -0.4 * kMagnitude) * bolometric_flux_at_v_zero(temperature);
+  std::mt19937 random(7);
+  std::vector<Star> list;
+  for (int k = 0; k < kStars; ++k)
+    list.push_back({{random_direction(random)}, kMagnitude, static_cast<float>(temperature)});
+  const SceneStars stars(list);
+  for (const Place& place : places) {
+    SCOPED_TRACE(place.name);
+    const StarScene scene(place.at, Domemaster{kSize}, kExposure);
+    const V3d hole = hole_of(scene.state);
+    Bins bins(place.limits);
+    for (const bool far : {false, true}) {
+      if (far && !scene.has(true)) continue;
+      for (const StarImage& image : all_images(scene.images(far), stars)) {
+        const PixelPosition at{image.x + 1.0, image.y + 1.0};
+        if (is_inside(scene.state.projection, at))
+          bins.add(angle_between(direction_at(scene.state.projection, at).v, hole), light(image));
+      }
+    }
+    compare(bins, even_sky(scene, radiance_of(flux, kStars), temperature, place.limits));
+  }
+}
+
+// The same in a picture, from a catalogue in a file to half floats.
+TEST(StarPhotometry, SoAreTheirBlobs) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("domefall_stars_" + std::to_string(getpid()) + ".csv");
+  std::mt19937 random(9);
+  std::FILE* out = std::fopen(file.c_str(), "w");
+  ASSERT_NE(out, nullptr);
+  std::fputs("ra_deg,dec_deg,v_mag,b_v\n", out);
+  for (int k = 0; k < kDrawn; ++k) {
+    const V3d n = random_direction(random);
+    std::fprintf(out, "%.5f,%.5f,8,0.6\n", std::atan2(n.y, n.x) / kDegree + 180,
+                 std::asin(n.z) / kDegree);
+  }
+  std::fclose(out);
+  const double s = std::sqrt(2 / 6.0), outward = s / std::sqrt(1 - s * s);
+  StarScene scene({Region::kI, Tetrad::kRain, 6, V3d(outward, 0, 0)}, Domemaster{kSize}, kExposure);
+  scene.show.blobs = {};
+  scene.show.sky[SkyRegion::kI].background = BlackSky{};
+  scene.show.sky[SkyRegion::kI].stars = StarField{file, 9};
+  scene.state.settings.sky[SkyRegion::kI].max_magnitude = 9;
+  const HalfFrame frame = Renderer(scene.show, 0).render(scene.state);
+  std::filesystem::remove(file);
+
+  const std::vector<double> limits{50, 75, 100};
+  const double temperature = temperature_from_b_v(kColour);
+  const double flux = std::pow(10, -0.4 * kMagnitude) * bolometric_flux_at_v_zero(temperature);
+  const Bins sky = even_sky(scene, radiance_of(flux, kDrawn), temperature, limits);
+  const V3d hole = hole_of(scene.state);
+  Bins drawn(limits);
+  for (int row = 0; row < kSize; ++row)
+    for (int column = 0; column < kSize; ++column) {
+      const PixelPosition at{column + 1.0, row + 1.0};
+      if (!is_inside(scene.state.projection, at)) continue;
+      const Imath::half* p = frame.row(row) + 3 * column;
+      drawn.add(angle_between(direction_at(scene.state.projection, at).v, hole),
+                luminance({float{p[0]}, float{p[1]}, float{p[2]}}) *
+                    pixel_solid_angle(scene.state.projection, at));
+    }
+  EXPECT_NEAR(drawn.total / sky.total, 1, kTolerance);
+  for (std::size_t k = 0; k < sky.sum.size(); ++k)
+    EXPECT_NEAR(drawn.sum[k] / sky.sum[k], 1, kTolerance) << k;
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,60 @@
+// An observer with its tables, for the tests of stars.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipeline/render/stars/star_images.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+
+// At r with that celerity against rain (or the outgoing tetrad); looks at the hole, which stands 45
+// degrees high on a dome.  Exposed by `ev`.
+class StarScene {
+ public:
+  StarScene(const GivenVelocity& at, const Projection& projection, double ev = 0)
+      : show(show_of(at, projection)), state(frame_state(show, 0)) {
+    state.settings.ev = ev;
+    state.settings.sky[SkyRegion::kI].max_magnitude =
+        state.settings.sky[SkyRegion::kIII].max_magnitude = 99;
+    optics = make_hole_optics(at.r, at.tetrad, {});
+  }
+
+  bool has(bool far) const { return (far ? optics.far_sky : optics.home_sky).has_value(); }
+  const SkyTable* table(bool far) const {
+    const auto& sky = far ? optics.far_sky : optics.home_sky;
+    return sky ? &*sky : nullptr;
+  }
+  StarImages images(bool far = false) const {
+    return StarImages(show, state, state.settings.sky[SkyRegion::kI], table(far));
+  }
+  // A place of the sky by its components along R, Theta, Phi.
+  SkyDirection sky(const V3d& source) const {
+    return {apply(state.observer.sky_from_tetrad, source.normalized())};
+  }
+
+  Show show;
+  FrameState state;
+  HoleOptics optics;
+};
+
+// As the frame does it.
+inline std::vector<StarImage> all_images(const StarImages& maker, const SceneStars& stars) {
+  std::vector<StarImage> images;
+  const std::size_t count = maker.count(stars);
+  for (std::size_t k = 0; k < count; k += kStarBatch) maker.append(stars, k, count, images);
+  return images;
+}
+
+inline double light(const StarImage& image) {
+  return luminance({image.rgb[0], image.rgb[1], image.rgb[2]});
+}
+
+inline double total_light(const std::vector<StarImage>& images) {
+  double sum = 0;
+  for (const StarImage& image : images) sum += light(image);
+  return sum;
+}
+
+}  // namespace domefall

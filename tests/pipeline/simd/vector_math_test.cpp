@@ -1,0 +1,34 @@
+#include "pipeline/simd/vector_math.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace domefall {
+namespace {
+
+TEST(VectorMath, SineAndCosineAreTheLibrarysToTheLastBits) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> sign(-1, 1), decades(-8, 5);
+  for (int k = 0; k < 200'000; ++k) {
+    const double x = std::pow(10, decades(random)) * (sign(random) < 0 ? -1 : 1);
+    const SineCosine seen = sin_cos(x);
+    ASSERT_NEAR(seen.sine, std::sin(x), 2.5e-16) << x;
+    ASSERT_NEAR(seen.cosine, std::cos(x), 2.5e-16) << x;
+  }
+}
+
+TEST(VectorMath, TheExponentialIsTheLibrarysAndVanishesFarDown) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-690, 690);
+  for (int k = 0; k < 200'000; ++k) {
+    const double x = exponent(random) / (k % 2 ? 1 : 100);
+    ASSERT_NEAR(exponential(x) / std::exp(x), 1, 4e-16) << x;
+  }
+  EXPECT_EQ(exponential(0), 1);
+  EXPECT_EQ(exponential(-1e300), 0);
+}
+
+}  // namespace
+}  // namespace domefall

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/sky/make/healpix_map.h"
+#include "pipeline/sky/make/healpix_sky.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// The whole table, summed up; the sums are those of chealpix 3.30's nest2ring.
+TEST(Healpix, NestedPixelsAreWhereTheReferenceHasThem) {
+  for (const auto& [nside, expected] : {std::pair<int, std::uint64_t>{1, 2349475607635895542u},
+                                        {2, 15279610896505409068u},
+                                        {4, 15787985093515338192u},
+                                        {8, 2280732109238695296u},
+                                        {64, 926101480829795840u}}) {
+    std::uint64_t sum = 0;
+    for (long p = 0; p < 12L * nside * nside; ++p)
+      sum = sum * 1000003 + static_cast<std::uint64_t>(ring_from_nested(nside, p));
+    EXPECT_EQ(sum, expected) << nside;
+  }
+}
+
+HealpixMap only(int nside, std::size_t pixel, bool nested = false) {
+  HealpixFile file;
+  file.nside = nside;
+  file.nested = nested;
+  file.values.assign(12 * static_cast<std::size_t>(nside * nside), 0.0f);
+  file.values[pixel] = 1;
+  return {file, 0};
+}
+
+// Centres as chealpix 3.30's pix2vec_ring gives them, one in each zone.
+TEST(Healpix, APixelIsSeenWholeInItsCentre) {
+  for (const auto& [pixel, centre] :
+       {std::pair<std::size_t, V3d>{0, {0.143583841, 0.143583841, 0.979166667}},
+        {37, {0.414097602, -0.619740858, 0.666666667}},
+        {74, {0.697216689, 0.697216689, 0.166666667}},
+        {111, {-0.910957504, 0.377330953, -0.166666667}},
+        {148, {0, -0.866025404, -0.5}},
+        {185, {-0.152940439, -0.369230882, -0.916666667}}})
+    EXPECT_NEAR(only(4, pixel).at(centre), 1, 1e-6) << pixel;
+  EXPECT_NEAR(only(4, 0, true).at({0.697216689, 0.697216689, 0.166666667}), 1, 1e-6)
+      << "nested 0 is 74 of the rings";
+}
+
+// A smooth function set at the pixels' centres comes back everywhere; poles and longitude 0 too.
+TEST(Healpix, LooksBetweenPixelsAreSmooth) {
+  const int nside = 32;
+  const auto f = [](const V3d& d) { return 1 + 0.5 * d.x - 0.3 * d.y * d.z + 0.2 * d.z; };
+  // Which pixel a place is nearest to is asked of the map itself, one ring at a time.
+  HealpixFile file;
+  file.nside = nside;
+  for (long ring = 1; ring < 4 * nside; ++ring) {
+    const long north = std::min(ring, 4L * nside - ring), count = 4 * std::min<long>(north, nside);
+    const double k = static_cast<double>(north), n = nside;
+    const double z = north < nside ? (1 - k * k / (3 * n * n)) * (ring == north ? 1 : -1)
+                                   : (2 * n - static_cast<double>(ring)) * 2 / (3 * n);
+    const double shift = north < nside || (ring - nside) % 2 == 0 ? 0.5 : 0;
+    for (long p = 0; p < count; ++p) {
+      const double phi = 2 * pi * (static_cast<double>(p) + shift) / static_cast<double>(count);
+      const double s = std::sqrt(1 - z * z);
+      file.values.push_back(static_cast<float>(f({s * std::cos(phi), s * std::sin(phi), z})));
+    }
+  }
+  ASSERT_EQ(file.values.size(), 12u * nside * nside);
+  const HealpixMap map(file, 0);
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<V3d> places{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {1, -1e-12, 0.3}, {1, 1e-12, -0.3}};
+  for (int k = 0; k < 20000; ++k)
+    places.emplace_back(normal(random), normal(random), normal(random));
+  for (const V3d& raw : places) {
+    const V3d d = raw.normalized();
+    // Half the curvature times a pixel squared.  About the poles, what a ring's square of four pixels
+    // misses of its circle: the slope, 0.58, times its radius, 0.0255, times 1 - cos 45 degrees.
+    EXPECT_NEAR(map.at(d), f(d), std::abs(d.z) > 0.97 ? 4.4e-3 : 6e-4) << d;
+  }
+}
+
+TEST(Healpix, MissingPixelsTakeTheirPlaceholder) {
+  HealpixFile file;
+  file.values.assign(12, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(HealpixMap(file, 0.25f).at({0.3, 0.2, -1}), 0.25);
+}
+
+TEST(MicrowaveBackground, IsABlackbodyWithItsFluctuationsEnlarged) {
+  HealpixFile file;  // in mK; even, but for a strong spot in the south
+  file.values.assign(12, 0.05f);
+  for (std::size_t k = 8; k < 12; ++k) file.values[k] = 100;
+  const HealpixMap map(file, 0);
+  CmbLook look;
+  look.kelvin = 1e-3;
+  const SkyPyramid pyramid(SkyMapKind::kThermal, cmb_unit(look), 16);
+  paint_cmb(map, SkyFrame::kEquatorial, look, pyramid);
+  pyramid.finish();
+  const SkyMap sky = pyramid.map();
+  const double warm = 2997.5 * (1 + 4000 * 0.05e-3 / 2.725), hot = 2997.5 * 1.5;
+  const ThermalLight north = sky.sample_thermal({0, 0, 1}, 0),
+                     south = sky.sample_thermal({0, 0, -1}, 0);
+  EXPECT_NEAR(north.temperature, warm, 3e-3 * warm);
+  EXPECT_NEAR(south.temperature, hot, 3e-3 * hot);
+  EXPECT_NEAR(south.radiance / north.radiance, std::pow(hot / warm, 4),
+              5e-3 * std::pow(hot / warm, 4));
+  file.values.assign(12, 0);
+  paint_cmb(HealpixMap(file, 0), SkyFrame::kGalactic, look, pyramid);
+  EXPECT_NEAR(luminance(sky.sample({1, 0, 0}, 0)), look.luminance, 0.02 * look.luminance);
+}
+
+}  // namespace
+}  // namespace domefall

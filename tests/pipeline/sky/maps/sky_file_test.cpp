@@ -1,0 +1,151 @@
+#include "pipeline/sky/maps/sky_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/sky/read_sky.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class SkyFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Channel 0 tells where a texel looks.
+  static void write(const fs::path& path, int size) {
+    NewSkyFile file(
+        path, SkyMapKind::kColour, 0x1p-20, size,
+        {"source: a test\nlicence: none\n", Orientation{SkyFrame::kGalactic, true, false, 266.5}});
+    paint(file.pyramid().levels[0], [](const V3d& d, float* channel) {
+      channel[0] = static_cast<float>(2 + d.normalized().z);
+      channel[1] = 1;
+    });
+    file.finish();
+  }
+
+  // What is said of the file after `damage` was done to its bytes.
+  std::string said_of(const std::function<void(std::string&)>& damage, bool verify = false) const {
+    const fs::path path = folder_ / "damaged.sky";
+    write(path, 4);
+    std::ostringstream bytes;
+    bytes << std::ifstream(path, std::ios::binary).rdbuf();
+    std::string contents = bytes.str();
+    damage(contents);
+    std::ofstream(path, std::ios::binary) << contents;
+    try {
+      open_sky_file(path);
+      if (verify) verify_sky_file(path);
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with(path.string() + ": ")) << error.what();
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("domefall_sky_files_" + std::to_string(getpid()));
+};
+
+TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
+  const fs::path path = folder_ / "map.sky";
+  write(path, 32);
+  const SkyFile file = open_sky_file(path);
+  EXPECT_EQ(file.map.kind(), SkyMapKind::kColour);
+  EXPECT_EQ(file.map.unit(), 0x1p-20);
+  EXPECT_EQ(file.map.levels().size(), 6u);
+  EXPECT_EQ(file.origin.text, "source: a test\nlicence: none\n");
+  EXPECT_EQ(file.origin.picture, (Orientation{SkyFrame::kGalactic, true, false, 266.5}));
+  for (const SkyLevel& level : file.map.levels())
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(level.texels) % 4096, 0u);
+  for (const V3d& d : {V3d(0, 0, 1), V3d(1, 0, 0), V3d(-0.6, 0, -0.8)})
+    EXPECT_NEAR(file.map.sample(d, 0).r, (2 + d.z) * 0x1p-20, 2e-3 * 0x1p-20);
+  EXPECT_NO_THROW(verify_sky_file(path));
+  EXPECT_NEAR(read_sky(path)->sample({0, 0, 1}, 0).r, 3 * 0x1p-20, 2e-3 * 0x1p-20);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary is left";
+}
+
+TEST_F(SkyFiles, AnAbandonedFileLeavesTheOldOneAndNothingElse) {
+  const fs::path path = folder_ / "map.sky";
+  write(path, 4);
+  const std::string before = sky_file_digest(path);
+  { const NewSkyFile unfinished(path, SkyMapKind::kColour, 1, 8, {}); }
+  EXPECT_EQ(sky_file_digest(path), before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+  EXPECT_THROW(NewSkyFile(folder_ / "nowhere" / "map.sky", SkyMapKind::kColour, 1, 8, {}),
+               InputError);
+}
+
+TEST_F(SkyFiles, WhatIsWrongIsToldWithItsByte) {
+  EXPECT_EQ(said_of([](std::string&) {}, true), "");
+  EXPECT_THAT(said_of([](std::string& s) { s[0] = 'X'; }), HasSubstr("byte 0: this is not a"));
+  EXPECT_THAT(said_of([](std::string& s) { s[8] = 2; }),
+              HasSubstr("byte 8: a .sky file of version 2"));
+  EXPECT_THAT(said_of([](std::string& s) { s[33] ^= 1; }),
+              HasSubstr("byte 16: the header is damaged"));
+  EXPECT_THAT(said_of([](std::string& s) { s[12] = 1; }), HasSubstr("byte 12: the header is"));
+  EXPECT_THAT(said_of([](std::string& s) { s.resize(s.size() - 1); }),
+              HasSubstr("bytes instead of"));
+  EXPECT_THAT(said_of([](std::string& s) { s += "more"; }), HasSubstr("bytes instead of"));
+}
+
+// The levels are not read when a map is opened; only a verification finds what is wrong there.
+TEST_F(SkyFiles, ADamagedTexelIsFoundByVerification) {
+  const auto damage = [](std::string& s) { s[4096 + 2 * 36 * 8 + 9] ^= 1; };
+  EXPECT_EQ(said_of(damage), "");
+  EXPECT_THAT(said_of(damage, true),
+              HasSubstr("byte 4672: face 2 of the level of size 4 is damaged"));
+}
+
+// Resident memory (KiB) of this process's mapping of a file.
+long resident(const fs::path& path) {
+  std::ifstream maps("/proc/self/smaps");
+  bool here = false;
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find(path.filename().string()) != std::string::npos) here = true;
+    if (here && line.starts_with("Rss:")) return std::stol(line.substr(4));
+  }
+  return -1;
+}
+
+TEST_F(SkyFiles, AMapIsMappedAndNotRead) {
+  const fs::path path = folder_ / "large.sky";
+  { NewSkyFile(path, SkyMapKind::kColour, 1, 1024, {}).finish(); }
+  const SkyFile file = open_sky_file(path);
+  ASSERT_GT(file.map.bytes(), 66'000'000u);
+  ASSERT_GE(resident(path), 0);
+  // A small cap looked at finely, and the whole sky looked at coarsely.
+  for (int k = 0; k < 1000; ++k) {
+    file.map.sample({1, 1e-4 * k, 0.01 * (k % 10)}, 0);
+    file.map.sample({std::cos(k), std::sin(k), std::sin(7.0 * k)}, 0.2);
+  }
+  EXPECT_LT(resident(path), 6000) << "KiB of 87,000";
+}
+
+// And not taken for a picture.
+TEST_F(SkyFiles, OneShorterThanItsHeaderIsToldAsSuch) {
+  const fs::path path = folder_ / "short.sky";
+  for (const std::size_t length : {0, 5, 63}) {
+    std::ofstream(path, std::ios::binary) << std::string(length, 'D');
+    for (const bool digest : {false, true}) try {
+        digest ? (void)sky_digest(path) : (void)read_sky(path);
+        FAIL() << length;
+      } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), path.string() + ": not a .sky file: shorter than its header (" +
+                                    std::to_string(length) + " bytes instead of 64 and more)");
+      }
+  }
+}
+
+}  // namespace
+}  // namespace domefall

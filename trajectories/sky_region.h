@@ -1,0 +1,39 @@
+// The skies that an observer can see light from: those of the two asymptotically flat regions, and
+// the past singularity of region IV, which counts as a sky wherever a show lights it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "trajectories/observer_state.h"
+
+namespace domefall {
+
+// The region in which light started that reaches the observer.
+enum class SkyRegion : char { kI, kIII, kIV };
+inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV};
+
+inline const char* name_of(SkyRegion sky) {
+  constexpr std::array kNames{"I", "III", "IV"};
+  return kNames[static_cast<std::size_t>(sky)];
+}
+
+// The region that a tetrad belongs to, and the opposite one.  An observer sees the home sky outside
+// the hole and, with rain, inside; the far sky is seen only inside the future horizon.
+constexpr SkyRegion home_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
+constexpr SkyRegion far_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kI : SkyRegion::kIII; }
+
+// One value for each sky.
+template <class T>
+struct PerSky {
+  std::array<T, kEverySky.size()> values{};  // in the order of kEverySky
+
+  constexpr T& operator[](SkyRegion sky) { return values[static_cast<std::size_t>(sky)]; }
+  constexpr const T& operator[](SkyRegion sky) const {
+    return values[static_cast<std::size_t>(sky)];
+  }
+  constexpr auto begin() const { return values.begin(); }
+  constexpr auto end() const { return values.end(); }
+};
+
+}  // namespace domefall
