@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/render/scene/point_spread.h"
 #include "pipeline/simd/vector_math.h"
 #include "projections/projection.h"
 
@@ -34,19 +35,6 @@ struct FlatGaussian {
   explicit FlatGaussian(double flat) : slope(1 + 7.5 * flat), dent(13.5 * flat) {}
   double operator()(double w) const { return w * (slope - dent * w); }
 };
-
-// A blob ends where its weight has fallen to `cut` of its peak; there what is left is taken off it, so
-// that it ends at 0.  This is a value that no display shows, 4.4e-5, but never further in than 3.5 sigma,
-// where the sums over pixels would begin to depend on the centre by 1e-3, nor further out than 6.3.
-inline constexpr double kUnseen = 4.4e-5;
-inline constexpr double kHighestCut = 0.002187491118182885;  // exp(-3.5^2 / 2)
-inline constexpr double kLowestCut = 2.061153622438558e-09;  // exp(-20)
-
-inline double cut_of(double peak) {
-  const double cut = kUnseen / peak;
-  const double low = cut < kHighestCut ? cut : kHighestCut;
-  return low > kLowestCut ? low : kLowestCut;
-}
 
 // Integral of a blob so cut over that of W.
 inline double share_left(const FlatGaussian& f, double cut) {

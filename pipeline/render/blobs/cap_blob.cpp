@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
-#include "pipeline/render/scene/photometry.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/lanes.h"
 
@@ -16,29 +15,12 @@ namespace {
 
 using std::numbers::pi;
 
-// A halo fainter than this peak value is left to the star's middle.
-constexpr double kFaintestHalo = 0.02;
-// Its two parts: a wide one makes it fall off like a wing, not like a Gaussian.
-constexpr double kWingSigma = 3, kWingShare = 0.3;
-
-// Blob widths are given for a dome, 180 degrees across the picture.  A flat picture of another
-// opening angle keeps the blob's share of its width.
-double width_factor(const Projection& p) {
-  const auto* flat = std::get_if<Stereographic>(&p);
-  return flat ? flat->fov / pi : 1;
-}
-
 // Pixels per radian at most, up to an angle `reach` from a direction `theta` off the middle.
 double densest(const Projection& p, double theta, double reach) {
   const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
   if (std::holds_alternative<Domemaster>(p)) return centre * std::max(1.0, far / std::sin(far));
   const double c = std::cos(far / 2);
   return centre / (c * c);
-}
-
-// A star's light (brightest channel) from which such a part of it is seen as a halo.
-double least_halo_light(double share, double sigma) {
-  return kFaintestHalo * 2 * pi * sigma * sigma / share;
 }
 
 bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
@@ -215,52 +197,6 @@ template <bool kDome, int kCount>
 Dispatched<add_span_loop> add_span;
 
 }  // namespace
-
-// ---- laws ----
-
-PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection,
-                         double exposure_scale)
-    : law_(law),
-      least_(std::max(law.min_sigma * width_factor(projection),
-                      kLeastSigmaPixels * central_pixel_angle(projection))),
-      most_(std::max(law.max_sigma * width_factor(projection), least_)),
-      reference_(kMagnitudeZeroLux * exposure_scale *
-                 exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
-      halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
-      plain_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
-      paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
-
-double PointSpread::reach() const {
-  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in widths
-  return farthest * std::max(most_, law_.halo > 0 ? kWingSigma * halo_sigma_ : 0.0);
-}
-
-double PointSpread::of(const StarImage& image) const {
-  if (law_.halo > 0) return least_;
-  const double brightness = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / reference_;
-  if (!(brightness > 1)) return least_;
-  return std::min(least_ * exponential(law_.growth * logarithm(brightness)), most_);
-}
-
-PointSpreadParts PointSpread::parts(const StarImage& image) const {
-  PointSpreadParts parts{image, of(image), {}};
-  if (!(law_.halo > 0)) return parts;
-  const double light = std::max({image.rgb[0], image.rgb[1], image.rgb[2]});
-  double left = 1;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
-    const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
-    // It grows from nothing, so that none appears at once.
-    const double seen = 1 - least_halo_light(share, sigma) / light;
-    if (!(seen > 0)) continue;
-    parts.halo[k] = {sigma, share * seen};
-    left -= share * seen;
-  }
-  for (float& c : parts.image.rgb) c *= static_cast<float>(left);
-  return parts;
-}
-
-// ---- blobs ----
 
 bool place_cap(const Projection& projection, CapBlob& blob) {
   blob.first_row = blob.first_column = 0;

@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "pipeline/render/blobs/ellipse_blob.h"
-#include "pipeline/show/frame_state.h"
+#include "pipeline/render/scene/point_spread.h"
 
 namespace domefall {
-
-// The peak of a narrower blob would change by half as it drifts across pixels: stars would twinkle.
-inline constexpr double kLeastSigmaPixels = 0.9;
 
 // A blob of any size: W = exp(-c^2 / (2 sigma^2)), c the chord to the centre, over the square of each
 // pixel and cut as blob_shape.h says.  Its sum over a picture without edges, each pixel times its solid
@@ -32,37 +29,5 @@ bool place_cap(const Projection& projection, CapBlob& blob);
 
 // Adds the part of a blob that lies on the canvas.
 void draw_cap(const CapBlob& blob, const Projection& projection, const Canvas& canvas);
-
-// A star as the blobs that its law makes of it.
-struct PointSpreadParts {
-  StarImage image;  // the middle, with what light the halo leaves it
-  double sigma;     // radians
-  struct Halo {
-    double sigma, share;  // share: of the star's light; 0: unseen
-  };
-  std::array<Halo, 2> halo;
-};
-
-// The widths of a frame's blobs, by the brightness of their stars.
-class PointSpread {
- public:
-  // exposure_scale: pixel value of 1 cd/m^2.
-  PointSpread(const PointSpreadLaw& law, const Projection& projection, double exposure_scale);
-  double least() const { return least_; }  // sigma, radians; at least 0.9 pixel
-  double most() const { return most_; }
-  // No blob or halo reaches farther from its middle (radians).
-  double reach() const;
-  double of(const StarImage& image) const;
-  PointSpreadParts parts(const StarImage& image) const;
-  // An image whose brightest channel is no more than this is one blob of the least width.
-  double plain() const { return plain_; }
-  float paling() const { return paling_; }
-
- private:
-  PointSpreadLaw law_;
-  double least_, most_, reference_;  // reference_: luminance of rgb from which blobs grow
-  double halo_sigma_, plain_;
-  float paling_;
-};
 
 }  // namespace domefall

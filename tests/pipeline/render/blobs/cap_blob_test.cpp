@@ -90,7 +90,7 @@ TEST(PointSpreadLaw, AreRoundOnTheDome) {
     along -= sum * pixel * pixel / 12, across -= sum * pixel * pixel * 0.705 * 0.705 / 12;
     EXPECT_NEAR(std::sqrt(along / across), 1, 2e-3) << m;
     // Cut at 3.5 sigma and lowered to 0 there, the Gaussian is 1 % narrower.
-    const double sigma = widths_of(show).of(image);
+    const double sigma = widths_of(show).sigma_of(image);
     EXPECT_NEAR(std::sqrt(across / sum) / sigma, 1, 0.03) << m;
   }
 }
@@ -98,7 +98,7 @@ TEST(PointSpreadLaw, AreRoundOnTheDome) {
 TEST(PointSpreadLaw, GrowWithBrightnessByTheLawOfTheShow) {
   const Show show = show_of(StaticObserver{}, Domemaster{8192});
   const auto sigma = [&show](double m) {
-    return widths_of(show).of(image_of_star(show, dome_direction(0.5, 1), m));
+    return widths_of(show).sigma_of(image_of_star(show, dome_direction(0.5, 1), m));
   };
   EXPECT_NEAR(sigma(6), 0.05 * kDegree, 1e-12);
   EXPECT_NEAR(sigma(1) / sigma(2), std::pow(10, 0.4 * show.blobs.growth), 1e-3);

@@ -48,7 +48,7 @@ bool is_in_picture(const Projection& projection, const PointSpread& widths,
                    const StarImage& image) {
   CapBlob blob{};
   blob.x = image.x, blob.y = image.y;
-  blob.sigma = static_cast<float>(widths.of(image));
+  blob.sigma = static_cast<float>(widths.sigma_of(image));
   std::copy_n(image.rgb, 3, blob.rgb);
   return place_cap(projection, blob);
 }

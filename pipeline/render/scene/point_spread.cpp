@@ -1,0 +1,76 @@
+#include "pipeline/render/scene/point_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/colour/colour_space.h"
+#include "pipeline/render/scene/photometry.h"
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// A halo part whose peak value is below this is left to the star's middle.
+constexpr double kFaintestHalo = 0.02;
+// A halo is two Gaussians.  The wide one makes it fall off like a wing and not like a Gaussian.
+constexpr double kWingSigma = 3, kWingShare = 0.3;
+
+// A law gives widths for a dome, which shows 180 degrees across the image.  A flat view of another
+// opening angle keeps the blob's share of the image's width.
+double width_factor(const Projection& p) {
+  const auto* flat = std::get_if<Stereographic>(&p);
+  return flat ? flat->fov / pi : 1;
+}
+
+// The light of a star's brightest channel from which this share of it is seen as a halo.
+double least_halo_light(double share, double sigma) {
+  return kFaintestHalo * 2 * pi * sigma * sigma / share;
+}
+
+}  // namespace
+
+PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection, double exposure)
+    : law_(law),
+      least_(std::max(law.min_sigma * width_factor(projection),
+                      kLeastSigmaPixels * central_pixel_angle(projection))),
+      most_(std::max(law.max_sigma * width_factor(projection), least_)),
+      reference_(kMagnitudeZeroLux * exposure *
+                 exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
+      halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
+      plain_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
+      paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
+
+double PointSpread::reach() const {
+  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in widths
+  return farthest * std::max(most_, law_.halo > 0 ? kWingSigma * halo_sigma_ : 0.0);
+}
+
+double PointSpread::sigma_of(const StarImage& image) const {
+  if (law_.halo > 0) return least_;
+  const double brightness = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / reference_;
+  if (!(brightness > 1)) return least_;
+  return std::min(least_ * exponential(law_.growth * logarithm(brightness)), most_);
+}
+
+PointSpreadParts PointSpread::parts(const StarImage& image) const {
+  PointSpreadParts parts{image, sigma_of(image), {}};
+  if (!(law_.halo > 0)) return parts;
+  const double light = std::max({image.rgb[0], image.rgb[1], image.rgb[2]});
+  double left = 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
+    const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
+    // A halo grows from nothing as the star brightens, so that none appears at once.
+    const double seen = 1 - least_halo_light(share, sigma) / light;
+    if (!(seen > 0)) continue;
+    parts.halo[k] = {sigma, share * seen};
+    left -= share * seen;
+  }
+  for (float& c : parts.image.rgb) c *= static_cast<float>(left);
+  return parts;
+}
+
+}  // namespace domefall
