@@ -1,10 +1,9 @@
 #include "pipeline/image/digest.h"
 
+#include <fmt/core.h>
 #include <xxhash.h>
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <vector>
 
@@ -57,11 +56,7 @@ Digest& Digest::add_file(const std::filesystem::path& file) {
 
 std::string Digest::hex() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh);
-  std::array<char, 33> text;
-  std::snprintf(text.data(), text.size(), "%016llx%016llx",
-                static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return text.data();
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 std::uint64_t checksum(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
