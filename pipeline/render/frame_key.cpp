@@ -38,7 +38,7 @@ void add_projection(Digest& digest, const Projection& p) {
 }
 
 // Keys of the law `size` without more are as they were before there were others.
-void add_blobs(Digest& digest, const PointSpreadLaw& b) {
+void add_point_spread(Digest& digest, const PointSpreadLaw& b) {
   for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) digest.add(v);
   if (b.halo > 0) digest.add("halo").add(b.halo).add(b.halo_sigma);
   if (b.white_core != kWhiteCore) digest.add("core").add(b.white_core);
@@ -79,7 +79,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   Digest common;
   common.add(DOMEFALL_VERSION).add(kPixelVersion).add(show.title).add(show.frames_per_second);
   add_sky(common, show.sky[SkyRegion::kI]);
-  add_blobs(common, show.blobs);
+  add_point_spread(common, show.point_spread);
   common.add(show.panorama_shift.blueshift_power);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);

@@ -49,7 +49,7 @@ double images_expected(std::size_t stars, bool gravity, const Projection& p) {
 void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
                const HoleOptics& optics, const PixelShader::Skies& skies, ImageLists& lists,
                BlobLayer& layer) {
-  const PointSpread widths(show.blobs, state.projection, exposure_scale(state.settings));
+  const PointSpread widths(show.point_spread, state.projection, exposure_scale(state.settings));
   PerSky<std::optional<StarImages>> makers;
   double many = 0;
   for (const SkyRegion which : kEverySky) {

@@ -36,8 +36,8 @@ Show show_of(const Trajectory& trajectory, const Projection& projection, const A
   show.sky[SkyRegion::kI].stars = StarField{shipped_asset(kNakedEyeStars), 5};
   show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   show.sky[SkyRegion::kIV].background = GridSky{};
-  show.blobs.min_sigma = 0.002;
-  show.blobs.max_sigma = 0.02;
+  show.point_spread.min_sigma = 0.002;
+  show.point_spread.max_sigma = 0.02;
   Segment segment;
   segment.duration_s = 1;
   segment.trajectory = trajectory;

@@ -31,7 +31,7 @@ void read_channels(const Section& cdl, std::string_view key, const Range& range,
 
 }  // namespace
 
-PointSpreadLaw read_star_blobs(const Section& show) {
+PointSpreadLaw read_point_spread(const Section& show) {
   const Section s = subsection(show, "stars",
                                {"law", "min_sigma_deg", "growth", "reference_magnitude",
                                 "max_sigma_deg", "halo", "halo_sigma_deg", "white_core"});
@@ -43,24 +43,23 @@ PointSpreadLaw read_star_blobs(const Section& show) {
       item->fail(std::string("belongs to stars.law: ") +
                  (psf ? "size, but the law is psf" : "psf, but the law is size"));
   const Range sigma = kDegrees.above(0).at_most(10);
-  PointSpreadLaw blobs;
+  PointSpreadLaw law;
   const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
   const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
   if (!psf && most < least)
     s.find("max_sigma_deg")
         ->fail("must be at least min_sigma_deg = " + short_number(least) + " (degrees), got " +
                short_number(most));
-  blobs.min_sigma = radians(least);
-  blobs.max_sigma = radians(most);
-  blobs.growth = s.number("growth", kPureNumber.within(0, 0.5), blobs.growth);
-  blobs.reference_magnitude = s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40),
-                                       blobs.reference_magnitude);
-  blobs.white_core = s.number("white_core", kPureNumber.within(0, 1e6), kWhiteCore);
-  if (!psf) return blobs;
-  blobs.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
-  blobs.halo_sigma =
-      radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
-  return blobs;
+  law.min_sigma = radians(least);
+  law.max_sigma = radians(most);
+  law.growth = s.number("growth", kPureNumber.within(0, 0.5), law.growth);
+  law.reference_magnitude =
+      s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40), law.reference_magnitude);
+  law.white_core = s.number("white_core", kPureNumber.within(0, 1e6), kWhiteCore);
+  if (!psf) return law;
+  law.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
+  law.halo_sigma = radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
+  return law;
 }
 
 Exposure read_exposure(const Section& show) {

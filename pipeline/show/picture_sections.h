@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-PointSpreadLaw read_star_blobs(const Section& show);
+PointSpreadLaw read_point_spread(const Section& show);
 Exposure read_exposure(const Section& show);
 GradeSettings read_grade(const Section& show, const Lookup& lookup);
 GradedFormat read_graded_format(const Section& show);

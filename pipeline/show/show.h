@@ -185,7 +185,7 @@ struct Show {
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
   Effects effects;
-  PointSpreadLaw blobs;
+  PointSpreadLaw point_spread;
   Exposure exposure;
   GradeSettings grade;
   GradedFormat graded_format = GradedFormat::kPng;

@@ -54,7 +54,7 @@ StarImages::StarImages(const Show& show, const FrameState& state, const FrameSet
       straight_ratio_(effects_.lensing ? 1 : gravitational_ratio(state.observer.r)),
       table_(table),
       scale_(exposure_scale(state.settings)),
-      widths_(show.blobs, projection_, scale_),
+      widths_(show.point_spread, projection_, scale_),
       peak_per_lux_(peak_per_lux(scale_, widths_)),
       stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
       disc_(widths_.least() / stretch_),

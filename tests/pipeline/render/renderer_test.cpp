@@ -229,18 +229,18 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
 
 TEST(FrameKeys, KnowHowStarsAreDrawn) {
   Show show = show_of(StaticObserver{10}, Domemaster{64});
-  show.blobs.white_core = kWhiteCore;
+  show.point_spread.white_core = kWhiteCore;
   const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
   Show other = show;
-  other.blobs.white_core = 0;
+  other.point_spread.white_core = 0;
   EXPECT_NE(key(other), key(show));
   other = show;
-  other.blobs.halo_sigma = 0.01;  // of no halo
+  other.point_spread.halo_sigma = 0.01;  // of no halo
   EXPECT_EQ(key(other), key(show));
-  other.blobs.halo = 0.1;
+  other.point_spread.halo = 0.1;
   EXPECT_NE(key(other), key(show));
   Show wider = other;
-  wider.blobs.halo_sigma = 0.02;
+  wider.point_spread.halo_sigma = 0.02;
   EXPECT_NE(key(wider), key(other));
 }
 

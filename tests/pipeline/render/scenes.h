@@ -61,8 +61,8 @@ inline Show show_of(const Trajectory& trajectory, const Projection& projection) 
   segment.trajectory = trajectory;
   segment.camera.elevation = 45 * kDegree;
   show.timeline = {segment};
-  show.blobs.min_sigma = 0.05 * kDegree;
-  show.blobs.max_sigma = 0.3 * kDegree;
+  show.point_spread.min_sigma = 0.05 * kDegree;
+  show.point_spread.max_sigma = 0.3 * kDegree;
   return show;
 }
 

@@ -47,12 +47,12 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
   }
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
   EXPECT_EQ(show.star_epoch, 2000);
-  EXPECT_DOUBLE_EQ(show.blobs.min_sigma, 0.05 * kDegree);
-  EXPECT_EQ(show.blobs.growth, 0.2);
-  EXPECT_EQ(show.blobs.reference_magnitude, 5);
-  EXPECT_DOUBLE_EQ(show.blobs.max_sigma, 0.3 * kDegree);
-  EXPECT_EQ(show.blobs.halo, 0);
-  EXPECT_EQ(show.blobs.white_core, 10);
+  EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.05 * kDegree);
+  EXPECT_EQ(show.point_spread.growth, 0.2);
+  EXPECT_EQ(show.point_spread.reference_magnitude, 5);
+  EXPECT_DOUBLE_EQ(show.point_spread.max_sigma, 0.3 * kDegree);
+  EXPECT_EQ(show.point_spread.halo, 0);
+  EXPECT_EQ(show.point_spread.white_core, 10);
   EXPECT_EQ(show.exposure.ev, 0);
   EXPECT_EQ(show.grade.config, asset("dome.ocio"));
   EXPECT_EQ(show.grade.display, "");
@@ -263,12 +263,12 @@ TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
 }
 
 TEST_F(ShowKeys, StarsWithAHalo) {
-  const PointSpreadLaw own = with("stars: {law: psf}\n").blobs;
+  const PointSpreadLaw own = with("stars: {law: psf}\n").point_spread;
   EXPECT_EQ(own.halo, 0.15);
   EXPECT_DOUBLE_EQ(own.halo_sigma, 0.2 * kDegree);
   const PointSpreadLaw given =
       with("stars: {law: psf, min_sigma_deg: 0.06, halo: 0.3, halo_sigma_deg: 1, white_core: 0}\n")
-          .blobs;
+          .point_spread;
   EXPECT_DOUBLE_EQ(given.min_sigma, 0.06 * kDegree);
   EXPECT_EQ(given.halo, 0.3);
   EXPECT_DOUBLE_EQ(given.halo_sigma, kDegree);
@@ -285,10 +285,10 @@ TEST_F(ShowKeys, StarsExposureAndGrade) {
       "  display: Dome\n"
       "  view: Dark\n"
       "  cdl: {slope: [1.1, 1, 0.9], offset: 0.01, power: [1, 1.2, 1], saturation: 0.8}\n");
-  EXPECT_DOUBLE_EQ(show.blobs.min_sigma, 0.1 * kDegree);
-  EXPECT_EQ(show.blobs.growth, 0.5);
-  EXPECT_EQ(show.blobs.reference_magnitude, 3);
-  EXPECT_DOUBLE_EQ(show.blobs.max_sigma, 2 * kDegree);
+  EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.1 * kDegree);
+  EXPECT_EQ(show.point_spread.growth, 0.5);
+  EXPECT_EQ(show.point_spread.reference_magnitude, 3);
+  EXPECT_DOUBLE_EQ(show.point_spread.max_sigma, 2 * kDegree);
   EXPECT_EQ(show.exposure.ev, -2.5);
   EXPECT_EQ(show.grade.config, folder_ / "house.ocio");
   EXPECT_EQ(show.grade.display, "Dome");

@@ -35,7 +35,7 @@ TEST(BlobLayer, DrawsTheSameHoweverItsImagesAreListed) {
   for (const Projection& p :
        {Projection(Domemaster{500}), Projection(Stereographic{300, 205, 1.5})}) {
     const Show show = show_of(StaticObserver{}, p);
-    const PointSpread widths(show.blobs, p, 1e3);
+    const PointSpread widths(show.point_spread, p, 1e3);
     const std::vector<StarImage> images = many_images(p, 400);
     BlobLayer whole(p), split(p), alone(p);
     whole.add(images, widths);

@@ -25,7 +25,7 @@ StarImage image_of_star(const Show& show, const V3d& camera_direction, double m)
 }
 
 PointSpread widths_of(const Show& show) {
-  return {show.blobs, frame_state(show, 0).projection, exposure_scale(FrameSettings{})};
+  return {show.point_spread, frame_state(show, 0).projection, exposure_scale(FrameSettings{})};
 }
 
 V3d dome_direction(double theta, double azimuth) {
@@ -71,7 +71,7 @@ TEST(PointSpreadLaw, AtTheRimAreCutNotDimmed) {
 TEST(PointSpreadLaw, AreRoundOnTheDome) {
   const Projection p = Domemaster{2048};
   Show show = show_of(StaticObserver{}, p);
-  show.blobs.min_sigma = 0.15 * kDegree;
+  show.point_spread.min_sigma = 0.15 * kDegree;
   for (const double m : {10.0, 0.0}) {
     const StarImage image = image_of_star(show, dome_direction(80 * kDegree, 0), m);
     const V3d centre = direction_at(p, {image.x + 1.0, image.y + 1.0}).v;
@@ -101,7 +101,7 @@ TEST(PointSpreadLaw, GrowWithBrightnessByTheLawOfTheShow) {
     return widths_of(show).sigma_of(image_of_star(show, dome_direction(0.5, 1), m));
   };
   EXPECT_NEAR(sigma(6), 0.05 * kDegree, 1e-12);
-  EXPECT_NEAR(sigma(1) / sigma(2), std::pow(10, 0.4 * show.blobs.growth), 1e-3);
+  EXPECT_NEAR(sigma(1) / sigma(2), std::pow(10, 0.4 * show.point_spread.growth), 1e-3);
   EXPECT_NEAR(sigma(-20), 0.3 * kDegree, 1e-12);
 }
 
@@ -109,7 +109,7 @@ TEST(PointSpreadLaw, GrowWithBrightnessByTheLawOfTheShow) {
 TEST(PointSpreadLaw, WithAHaloKeepTheirLight) {
   const Projection p = Domemaster{1024};
   Show show = show_of(StaticObserver{}, p);
-  show.blobs.halo = 0.2, show.blobs.halo_sigma = 0.5 * kDegree;
+  show.point_spread.halo = 0.2, show.point_spread.halo_sigma = 0.5 * kDegree;
   double before = 0;
   for (double m = 12; m > -6; m -= 0.25) {
     const StarImage image = image_of_star(show, dome_direction(0.5, 1), m);
@@ -204,15 +204,15 @@ TEST(PointSpreadLaw, OfACrowdThatHasNoPlaceAsOneStay) {
 // Sizes are angles: a picture of twice the size, averaged over 2 by 2 pixels, shows the same star.
 TEST(PointSpreadLaw, OfTwiceThePictureAreTheSame) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
-  show.blobs.min_sigma = 0.3 * kDegree, show.blobs.max_sigma = 0.6 * kDegree;
+  show.point_spread.min_sigma = 0.3 * kDegree, show.point_spread.max_sigma = 0.6 * kDegree;
   const Projection coarse = Domemaster{1024}, fine = Domemaster{2048};
   for (const double m : {9.0, 1.0}) {
     const StarImage image = image_of_star(show, dome_direction(1.1, 2), m);
     StarImage twice = image;
     twice.x = 2 * image.x + 0.5f, twice.y = 2 * image.y + 0.5f;
     const double scale = exposure_scale(FrameSettings{});
-    const DrawnBlobs one = drawn({image}, coarse, PointSpread(show.blobs, coarse, scale)),
-                     other = drawn({twice}, fine, PointSpread(show.blobs, fine, scale));
+    const DrawnBlobs one = drawn({image}, coarse, PointSpread(show.point_spread, coarse, scale)),
+                     other = drawn({twice}, fine, PointSpread(show.point_spread, fine, scale));
     const int y = static_cast<int>(image.y), x = static_cast<int>(image.x);
     const float peak = one.at(y, x);
     for (int j = y - 8; j < y + 8; ++j)

@@ -69,10 +69,10 @@ const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 84 * kDegree},
                      {"wide flat", Stereographic{1024, 1024, 5.0}, 0.05, 130 * kDegree}};
 
 PointSpread widths_of(const Law& law) {
-  PointSpreadLaw blobs;
-  blobs.min_sigma = law.min_sigma_deg * kDegree, blobs.max_sigma = 0.3 * kDegree;
-  blobs.reference_magnitude = -30;
-  return {blobs, law.projection, 1e3};
+  PointSpreadLaw point_spread;
+  point_spread.min_sigma = law.min_sigma_deg * kDegree, point_spread.max_sigma = 0.3 * kDegree;
+  point_spread.reference_magnitude = -30;
+  return {point_spread, law.projection, 1e3};
 }
 
 // The promise: 1e-3, wherever the centre lies, for faint stars and for bright ones.

@@ -28,10 +28,10 @@ const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
                      {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
 
 PointSpread widths_of(const Law& law) {
-  PointSpreadLaw blobs;
-  blobs.min_sigma = law.min_sigma_deg * kDegree, blobs.max_sigma = 2 * kDegree;
-  blobs.reference_magnitude = -30;
-  return {blobs, law.projection, 1e3};
+  PointSpreadLaw point_spread;
+  point_spread.min_sigma = law.min_sigma_deg * kDegree, point_spread.max_sigma = 2 * kDegree;
+  point_spread.reference_magnitude = -30;
+  return {point_spread, law.projection, 1e3};
 }
 
 BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool dots) {

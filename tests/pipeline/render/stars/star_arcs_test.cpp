@@ -60,7 +60,7 @@ TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
     const StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
     const StarImages maker = scene.images(s.far);
     const double scale = exposure_scale(scene.state.settings),
-                 disc = PointSpread(scene.show.blobs, scene.state.projection, scale).least();
+                 disc = PointSpread(scene.show.point_spread, scene.state.projection, scale).least();
     double before = 0;
     for (int k = -60; k <= 10; ++k) {
       const double from_axis = 0.2 * disc * std::abs(k);
@@ -119,7 +119,7 @@ TEST(StarArcs, InLineAreARing) {
 TEST(StarArcs, BecomePoints) {
   const StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
   const double disc =
-      PointSpread(scene.show.blobs, scene.state.projection, exposure_scale({})).least();
+      PointSpread(scene.show.point_spread, scene.state.projection, exposure_scale({})).least();
   const auto longest = [&](double radii) {
     std::vector<StarImage> images;
     const V3d source(-1, radii * disc * 0.6, radii * disc * 0.8);

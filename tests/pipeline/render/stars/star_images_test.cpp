@@ -63,7 +63,7 @@ std::vector<Expected> expected(const StarScene& scene, const SkyTable* table,
   const ObserverState& o = scene.state.observer;
   const Projection& projection = scene.state.projection;
   const double scale = exposure_scale(scene.state.settings);
-  const PointSpread widths(scene.show.blobs, projection, scale);
+  const PointSpread widths(scene.show.point_spread, projection, scale);
   const V3d source = apply_transposed(o.sky_from_tetrad, star.direction.v);
   std::vector<Expected> all;
   for (int order = 0; order < (table ? 24 : 1); ++order) {
@@ -112,7 +112,7 @@ void compare(const StarScene& scene, bool far, const SceneStar& star) {
     found.erase(nearest);
   }
   const double scale = exposure_scale(scene.state.settings);
-  const PointSpread widths(scene.show.blobs, projection, scale);
+  const PointSpread widths(scene.show.point_spread, projection, scale);
   for (const StarImage& extra : found) {
     const double peak = light(extra) / (2 * std::numbers::pi * widths.least() * widths.least());
     EXPECT_TRUE(peak < 1.002 * kFaintestPeak || !is_in_picture(projection, widths, extra)) << peak;
@@ -128,7 +128,8 @@ TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
     for (const Projection& projection : projections) {
       const StarScene scene({c.region, c.tetrad, c.r, c.celerity}, projection, 2);
       const double disc =
-          PointSpread(scene.show.blobs, projection, exposure_scale(scene.state.settings)).least();
+          PointSpread(scene.show.point_spread, projection, exposure_scale(scene.state.settings))
+              .least();
       for (const bool far : {false, true}) {
         if (far && !scene.has(true)) continue;
         SCOPED_TRACE("r " + std::to_string(c.r) + " celerity " +

@@ -151,7 +151,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
   std::fclose(out);
   const double s = std::sqrt(2 / 6.0), outward = s / std::sqrt(1 - s * s);
   StarScene scene({Region::kI, Tetrad::kRain, 6, V3d(outward, 0, 0)}, Domemaster{kSize}, kExposure);
-  scene.show.blobs = {};
+  scene.show.point_spread = {};
   scene.show.sky[SkyRegion::kI].background = BlackSky{};
   scene.show.sky[SkyRegion::kI].stars = StarField{file, 9};
   scene.state.settings.sky[SkyRegion::kI].max_magnitude = 9;
