@@ -30,20 +30,19 @@ std::string in_big_endian(std::uint32_t value) {
 std::string LateDigest::line() { return std::string(kStart) + std::string(kPlace); }
 
 // Both libraries write a text at once; libtiff does so after the pixels.
-size_t LateDigest::write(const void* bytes, size_t count) {
-  const std::string_view piece(static_cast<const char*>(bytes), count);
-  const std::uint64_t at = file().position();
+void LateDigest::write(std::string_view piece) {
+  const std::uint64_t at = file_.position();
   if (const auto found = piece.find(line()); found != std::string_view::npos)
     places_.push_back(at + found + kStart.size());
   if (at == 0) is_png_ = in_head_ = piece.starts_with(kPng);
   if (in_head_) head_ += piece;
   if (piece.find("IDAT") != std::string_view::npos) in_head_ = false;
-  return NewFileProxy::write(bytes, count);
+  file_.write(piece);
 }
 
 void LateDigest::put(std::uint64_t place, std::string_view bytes) {
-  file().seek(place);
-  file().write(bytes);
+  file_.seek(place);
+  file_.write(bytes);
 }
 
 // The PNG specification, 5.3: length of the data, name, data, CRC-32 of name and data.
@@ -64,12 +63,12 @@ void LateDigest::fill_in_png(std::uint64_t place, std::string_view digest) {
 }
 
 void LateDigest::fill_in(std::string_view digest) {
-  const std::uint64_t end = file().size();
-  if (places_.empty() && !file().failed())
+  const std::uint64_t end = file_.size();
+  if (places_.empty() && !file_.failed())
     throw std::logic_error("a graded file without its description");
   for (const std::uint64_t place : places_)
     is_png_ ? fill_in_png(place, digest) : put(place, digest);
-  file().seek(end);
+  file_.seek(end);
 }
 
 }  // namespace domefall

@@ -1,9 +1,6 @@
 // Small shows for the tests of rendering.
 #pragma once
 
-#include <OpenImageIO/imageio.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -11,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/render/renderer.h"
+#include "tests/pipeline/render/panorama_file.h"
 
 namespace domefall {
 
@@ -19,35 +17,10 @@ inline const std::string kTestAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
 
 // A panorama of a few clouds, small, so that a test spends its time on what it tests; gone with the
 // process.
-class SmallPanorama {
- public:
-  SmallPanorama()
-      : path_(std::filesystem::temp_directory_path() /
-              ("domefall_panorama_" + std::to_string(getpid()) + ".tif")) {
-    const OIIO::ImageSpec spec(128, 64, 3, OIIO::TypeDesc::FLOAT);
-    std::vector<float> pixels;
-    for (int k = 0; k < 128 * 64 * 3; ++k)
-      pixels.push_back(static_cast<float>(1 + std::sin(k * 0.05) * std::cos(k * 0.0007)) / 2 +
-                       0.1f);
-    const auto out = OIIO::ImageOutput::create(path_.string());
-    out->open(path_.string(), spec);
-    out->write_image(OIIO::TypeDesc::FLOAT, pixels.data());
-  }
-  ~SmallPanorama() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  SmallPanorama(const SmallPanorama&) = delete;
-  SmallPanorama& operator=(const SmallPanorama&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 inline std::filesystem::path small_panorama() {
-  static const SmallPanorama panorama;
+  static const PanoramaFile panorama("clouds", 128, [](int k) {
+    return static_cast<float>(1 + std::sin(k * 0.05) * std::cos(k * 0.0007)) / 2 + 0.1f;
+  });
   return panorama.path();
 }
 

@@ -108,30 +108,6 @@ TEST(AntiAliasing, MoreSamplesComeNearerToTheReference) {
   }
 }
 
-// A panorama that is the same everywhere, gone with the process.
-class EvenPanorama {
- public:
-  EvenPanorama()
-      : path_(std::filesystem::temp_directory_path() /
-              ("domefall_even_" + std::to_string(getpid()) + ".tif")) {
-    const std::vector<float> pixels(std::size_t{64} * 32 * 3, 1.0f);
-    const auto out = OIIO::ImageOutput::create(path_.string());
-    out->open(path_.string(), OIIO::ImageSpec(64, 32, 3, OIIO::TypeDesc::FLOAT));
-    out->write_image(OIIO::TypeDesc::FLOAT, pixels.data());
-  }
-  ~EvenPanorama() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  EvenPanorama(const EvenPanorama&) = delete;
-  EvenPanorama& operator=(const EvenPanorama&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // How much of each pixel is further than `edge` from the middle of the picture, row by row.
 std::vector<double> covered(int size, double fov, double edge) {
   constexpr int kPoints = 128;
@@ -158,7 +134,7 @@ std::vector<double> covered(int size, double fov, double edge) {
 TEST(AntiAliasing, TheSilhouettesEdgeComesNearerToTheCircleWithEachDoubling) {
   constexpr int kSize = 64;
   const double r = 10, edge = std::asin(3 * std::sqrt(3.0) / r * std::sqrt(1 - 2 / r));
-  const EvenPanorama panorama;
+  const PanoramaFile panorama("even", 64, [](int) { return 1.0f; });
   Show show = show_of(StaticObserver{r}, Stereographic{kSize, kSize, 3 * edge});
   show.sky[SkyRegion::kI].background = PanoramaSky{panorama.path()};
   const std::vector<double> exact = covered(kSize, 3 * edge, edge);

@@ -8,17 +8,6 @@
 namespace domefall {
 namespace {
 
-std::filesystem::path even_panorama() {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("domefall_even_" + std::to_string(getpid()) + ".tif");
-  const OIIO::ImageSpec spec(64, 32, 3, OIIO::TypeDesc::FLOAT);
-  const std::vector<float> pixels(64 * 32 * 3, 0.5f);
-  const auto out = OIIO::ImageOutput::create(path.string());
-  EXPECT_TRUE(out->open(path.string(), spec) &&
-              out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && out->close());
-  return path;
-}
-
 // Region III alone, seen in the middle of the picture or a part of a pixel beside it.
 double light_of_region_three(double depth, double aside_pixels, int size) {
   Show show = show_of(RadialInfall{2 - depth}, Domemaster{size});
@@ -67,11 +56,10 @@ double light_of_an_even_sky(double gamma, double aside_pixels, int size, double 
   // The zenith along the motion, or beside it.
   show.timeline[0].camera.attitude =
       EulerAngles{90 * kDegree, 90 * kDegree - aside_pixels * std::numbers::pi / size, 0};
-  const std::filesystem::path panorama = even_panorama();
-  show.sky[SkyRegion::kI].background = PanoramaSky{panorama};
+  const PanoramaFile panorama("even", 64, [](int) { return 0.5f; });
+  show.sky[SkyRegion::kI].background = PanoramaSky{panorama.path()};
   show.effects.lensing = r == kFlatSpace;
   const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
-  std::filesystem::remove(panorama);
   double sum = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {

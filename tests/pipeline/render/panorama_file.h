@@ -1,0 +1,53 @@
+// Panoramas made for a test.
+#pragma once
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace domefall {
+
+// An OpenEXR file of floats, which is removed at the end.  OpenEXR writes it, since OpenImageIO takes
+// longer to load than most tests run.
+class PanoramaFile {
+ public:
+  // value(k): of rgb[width / 2][width][3] at k.
+  template <class Value>
+  PanoramaFile(const std::string& name, int width, Value value)
+      : path_(std::filesystem::temp_directory_path() /
+              ("domefall_" + name + "_" + std::to_string(getpid()) + ".exr")) {
+    std::vector<float> rgb;
+    for (int k = 0; k < width * width / 2 * 3; ++k) rgb.push_back(value(k));
+    Imf::Header header(width, width / 2);
+    Imf::FrameBuffer buffer;
+    const char* names[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+      header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+      const std::size_t pixel = 3 * sizeof(float);
+      buffer.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(rgb.data() + c), pixel,
+                                         pixel * static_cast<std::size_t>(width)));
+    }
+    Imf::OutputFile file(path_.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(width / 2);
+  }
+  ~PanoramaFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  PanoramaFile(const PanoramaFile&) = delete;
+  PanoramaFile& operator=(const PanoramaFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace domefall
