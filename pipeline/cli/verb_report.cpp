@@ -5,6 +5,7 @@
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/report/gnuplot.h"
+#include "pipeline/report/paper_curves.h"
 #include "pipeline/report/report.h"
 
 namespace domefall {
@@ -18,18 +19,18 @@ void make_folder(const fs::path& folder) {
   if (error) throw_file_error(folder, error.value());
 }
 
-void write_drawings(const std::vector<Figure>& figures, const fs::path& folder) {
+void write_drawings(const std::vector<NamedPlot>& figures, const fs::path& folder) {
   make_folder(folder);
-  for (const Figure& figure : figures)
+  for (const NamedPlot& figure : figures)
     write_atomically(folder / (figure.name + ".svg"), draw(figure.plot));
 }
 
 void report(const fs::path& out, bool quick, bool with_figures) {
   gnuplot_version();  // before minutes of work, not after
   make_folder(out);
-  std::vector<Figure> figures;
+  std::vector<NamedPlot> figures;
   if (with_figures) {
-    figures = figures_of_the_paper();
+    figures = paper_curves();
     write_drawings(figures, out / "figures");
   }
   const Report measured = measure_report(
@@ -39,7 +40,7 @@ void report(const fs::path& out, bool quick, bool with_figures) {
   write_atomically(out / "orbits.csv", csv_of(measured.orbits));
   write_atomically(out / "costs.csv", csv_of(measured.costs));
   write_atomically(out / "benchmark.csv", csv_of(measured.costs.benchmark));
-  const std::vector<Figure> plots = error_plots(measured);
+  const std::vector<NamedPlot> plots = error_plots(measured);
   write_drawings(plots, out / "plots");
   write_drawings(cost_plots(measured.costs), out / "plots");
   write_atomically(out / "accuracy.md", accuracy_page(measured, plots, figures));

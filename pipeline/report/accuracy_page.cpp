@@ -35,7 +35,8 @@ std::string head(const Report& report) {
 constexpr const char* kRaysMeasured =
     "## Rays\n\n"
     "Random rays (fixed seed) of all observers, each against the same ray in 100-digit arithmetic\n"
-    "(`pipeline/report/reference_ray.h`). *ordinary*: r from 0.1 to 100 M, any angle; *edge*: "
+    "(`pipeline/report/reference/reference_ray.h`). *ordinary*: r from 0.1 to 100 M, any angle; "
+    "*edge*: "
     "1e-12 "
     "to\n1e-3 radians beside an edge between skies; *deep*: r from 1e-6 to 0.1 M; *far*: r from "
     "1e3 "
@@ -134,18 +135,18 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   return table + "\n";
 }
 
-std::string looks(const std::vector<LookSpeedRow>& rows) {
+std::string looks(const std::vector<ViewRaySpeedRow>& rows) {
   std::string page =
       "In a frame, where 128 looks go together, one look costs, from the pixel's direction to the "
       "place on the\nsky, aberration, redshift and footprint included, on one thread:\n\n"
       "| observer | ns per look |\n|---|---|\n";
-  for (const LookSpeedRow& row : rows)
+  for (const ViewRaySpeedRow& row : rows)
     page += "| " + row.from + " | " + formatted("%.1f", row.ns) + " |\n";
   return page + "\n";
 }
 
 std::string rays(const Report& report) {
-  std::string page = kRaysMeasured + default_of_rays(report.rays) + looks(report.looks) +
+  std::string page = kRaysMeasured + default_of_rays(report.rays) + looks(report.view_rays) +
                      quickest_table(report.rays);
   for (const RayClass& of : ray_classes()) {
     const std::string plot = std::string("plots/rays_") + of.region + "_" + of.name;
@@ -217,7 +218,7 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
          "![worst error against time](plots/frames_worst.svg)\n\n";
 }
 
-std::string orbits(const Report& report, const std::vector<Figure>& plots) {
+std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
   std::string page =
       "## Orbits\n\nStates along an orbit by its closed form, or the quadratures that stand for "
       "one, and "
@@ -238,26 +239,26 @@ std::string orbits(const Report& report, const std::vector<Figure>& plots) {
       "fall is the rounding of a proper time of 77 M,\nof which 1e-5 M are left (with angular "
       "momentum 2e-9 M). An integrated circle with an "
       "error of about 1 in r has left the circle.\n\n";
-  for (const Figure& plot : plots)
+  for (const NamedPlot& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
       page += "![error against time](plots/" + plot.name + ".svg)\n";
   return page + "\n";
 }
 
-std::string curves(const std::vector<Figure>& figures) {
+std::string curves(const std::vector<NamedPlot>& figures) {
   if (figures.empty()) return "";
   std::string page =
       "## The curves of the paper\n\nThe figures of A. Riazuelo, *Seeing relativity I*, by their "
       "LaTeX labels, from the tables that frames are\nrendered with.\n\n";
-  for (const Figure& figure : figures)
+  for (const NamedPlot& figure : figures)
     page += "![" + figure.plot.title + "](figures/" + figure.name + ".svg)\n";
   return page + "\n";
 }
 
 }  // namespace
 
-std::string accuracy_page(const Report& report, const std::vector<Figure>& plots,
-                          const std::vector<Figure>& figures) {
+std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& plots,
+                          const std::vector<NamedPlot>& figures) {
   std::string page = head(report) + rays(report) + frames(report.frames) + orbits(report, plots);
   if (!report.extremes.empty())
     page +=

@@ -108,13 +108,13 @@ std::string against_rk4(const Report& report) {
          " ns: " + amount(rk4->ns_per_ray / pixel_ns) + " times less.\n";
 }
 
-std::string against_table_walk(const std::vector<LookSpeedRow>& rows) {
+std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
   constexpr double kWalkNs = 100;
   std::string text = "* **A table in two dimensions** that a pixel walks through in " +
                      amount(kWalkNs) +
                      " ns, taken as the mark. A look, from the pixel's\n  direction "
                      "to place, redshift and footprint on the sky, takes";
-  for (const LookSpeedRow& row : rows)
+  for (const ViewRaySpeedRow& row : rows)
     text += (&row == rows.data() ? " " : ", ") + formatted("%.1f", row.ns) + " ns (" + row.from +
             ": " + amount(kWalkNs / row.ns) + " times less)";
   return text + ".\n";
@@ -177,7 +177,7 @@ std::string costs_page(const Report& report) {
       "before. A small frame's copy stays in the processor's cache, and is quicker by the pixel. "
       "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv).\n\n";
   return page + stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
-         against_rk4(report) + against_table_walk(report.looks) +
+         against_rk4(report) + against_table_walk(report.view_rays) +
          against_supersampling(report.frames) + benchmark(costs.benchmark);
 }
 

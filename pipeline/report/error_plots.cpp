@@ -69,7 +69,7 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
   return plot;
 }
 
-void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<Figure>& plots) {
+void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<NamedPlot>& plots) {
   constexpr double kStates = 1000, kMicroseconds = 1e6;
   std::vector<std::string> orbits;
   for (const OrbitErrorRow& row : rows)
@@ -99,15 +99,15 @@ Plot cost_plot(const std::vector<FrameCostRow>& rows, const char* title, const c
 
 }  // namespace
 
-std::vector<Figure> cost_plots(const FrameCosts& costs) {
+std::vector<NamedPlot> cost_plots(const FrameCosts& costs) {
   return {{"costs_stars", cost_plot(costs.stars, "A frame by the stars of its catalogue",
                                     "stars of the catalogue", &FrameCostRow::stars)},
           {"costs_pixels", cost_plot(costs.pixels, "A frame by its size", "pixels of the dome",
                                      &FrameCostRow::pixels)}};
 }
 
-std::vector<Figure> error_plots(const Report& report) {
-  std::vector<Figure> plots;
+std::vector<NamedPlot> error_plots(const Report& report) {
+  std::vector<NamedPlot> plots;
   for (const RayClass& of : ray_classes()) {
     const std::string name = std::string("rays_") + of.region + "_" + of.name;
     plots.push_back({name, ray_plot(report.rays, of, "error of φ, 99 of 100 rays below",

@@ -8,7 +8,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/report/extreme_cases.h"
 #include "pipeline/report/reference/reference_ray.h"
-#include "pipeline/report/reference/traced_reference.h"
+#include "pipeline/report/reference_request.h"
 
 namespace domefall {
 namespace {

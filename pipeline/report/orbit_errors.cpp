@@ -5,7 +5,7 @@
 #include <ctime>
 #include <limits>
 
-#include "pipeline/report/reference/free_fall.h"
+#include "pipeline/report/integrated_fall.h"
 #include "pipeline/report/reference/reference_orbit.h"
 #include "trajectories/bound_orbit.h"
 #include "trajectories/hyperbolic_orbit.h"

@@ -11,7 +11,7 @@ namespace domefall {
 // the largest of these states, evaluated with 50 digits.
 struct OrbitErrorRow {
   std::string orbit;
-  std::string method;  // "closed form", "quadrature", or a method of free_fall.h
+  std::string method;  // "closed form", "quadrature", or a method of integrated_fall.h
   double tolerance;    // of a step of the integration; 0 for the first two
   // What is left of the orbit's constants in an emitted state (r, gamma, celerity against the rain
   // tetrad): |gamma - s w - E|, |r v - L| (M) and |u.u - 1|, each absolute; s = sqrt(2/r), w and v the

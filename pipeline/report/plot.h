@@ -40,6 +40,12 @@ struct Plot {
   std::string legend = "top right";  // a place as gnuplot calls it, or below; empty: none
 };
 
+// A plot with the name of its file, without a suffix.
+struct NamedPlot {
+  std::string name;
+  Plot plot;
+};
+
 // What gnuplot needs to write the plot to its standard output as SVG.  Points that are not finite, or
 // not positive on a logarithmic axis, are left out.
 std::string gnuplot_script(const Plot& plot);

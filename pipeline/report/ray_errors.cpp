@@ -100,7 +100,7 @@ std::vector<RayErrorRow> measure_rays(bool quick) {
   std::vector<RayErrorRow> rows;
   for (const RayClass& of : ray_classes()) {
     const std::vector<RayGroup> groups = sample_rays(of, radii, per_radius);
-    for (const RayMethod& method : ray_methods(quick))
+    for (const RayMethod& method : compared_methods(quick))
       for (const double setting : method.settings)
         rows.push_back(measure_class(of, groups, method, setting, repeats));
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/report/ray_methods.h"
+#include "pipeline/report/compared_methods.h"
 #include "pipeline/report/ray_samples.h"
 
 namespace domefall {

@@ -7,7 +7,7 @@
 #include <random>
 #include <string_view>
 
-#include "pipeline/report/reference/traced_reference.h"
+#include "pipeline/report/reference_request.h"
 
 namespace domefall {
 namespace {

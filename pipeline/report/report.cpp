@@ -25,7 +25,7 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
   report.orbits = measure_orbits(quick);
   told("rays");
   report.rays = measure_rays(quick);
-  report.looks = measure_look_speed();
+  report.view_rays = measure_view_ray_speed();
   told("frames");
   report.frames = measure_frames(quick);
   told("costs of frames");

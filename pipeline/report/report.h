@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/report/figures.h"
 #include "pipeline/report/frame_costs.h"
 #include "pipeline/report/frame_errors.h"
-#include "pipeline/report/look_speed.h"
 #include "pipeline/report/orbit_errors.h"
+#include "pipeline/report/plot.h"
 #include "pipeline/report/ray_errors.h"
+#include "pipeline/report/view_ray_speed.h"
 
 namespace domefall {
 
 struct Report {
   bool quick = false;
   std::vector<RayErrorRow> rays;
-  std::vector<LookSpeedRow> looks;
+  std::vector<ViewRaySpeedRow> view_rays;
   std::vector<FrameErrorRow> frames;
   FrameCosts costs;
   std::vector<OrbitErrorRow> orbits;
@@ -37,14 +37,14 @@ std::string csv_of(const FrameCosts& costs);
 
 // Error against time: rays_REGION_DIFFICULTY and the same with _sky, frames_rms, frames_worst, and
 // orbit_NAME of every orbit that is integrated as well.
-std::vector<Figure> error_plots(const Report& report);
+std::vector<NamedPlot> error_plots(const Report& report);
 
 // Cost against size: costs_stars and costs_pixels.
-std::vector<Figure> cost_plots(const FrameCosts& costs);
+std::vector<NamedPlot> cost_plots(const FrameCosts& costs);
 
 // The page, in Markdown.  `figures`: those drawn beside it, under figures/; the plots under plots/.
-std::string accuracy_page(const Report& report, const std::vector<Figure>& plots,
-                          const std::vector<Figure>& figures);
+std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& plots,
+                          const std::vector<NamedPlot>& figures);
 
 // The page about costs, in Markdown, with the two plots under plots/.
 std::string costs_page(const Report& report);

@@ -62,7 +62,7 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
 
 TEST(RayMethods, HaveTheirDefaultOnceAmongTheirSettings) {
   for (const bool quick : {false, true})
-    for (const RayMethod& method : ray_methods(quick)) {
+    for (const RayMethod& method : compared_methods(quick)) {
       const std::set<double> different(method.settings.begin(), method.settings.end());
       EXPECT_EQ(different.size(), method.settings.size()) << method.name;
       EXPECT_EQ(different.count(method.default_setting), 1U) << method.name;
@@ -72,7 +72,7 @@ TEST(RayMethods, HaveTheirDefaultOnceAmongTheirSettings) {
 // A measure that cannot tell a wrong ray from a right one would be none.
 TEST(RayErrors, SeeAShiftedTruthAndAWrongOrigin) {
   const RayClass of = ray_classes().front();
-  const RayMethod exact = ray_methods(true).at(1);
+  const RayMethod exact = compared_methods(true).at(1);
   ASSERT_EQ(exact.name, "exact");
   std::vector<RayGroup> groups = sample_rays(of, 1, 8);
   for (SampleRay& ray : groups[0]) ray.phi += 1e-3;

@@ -37,9 +37,9 @@ Report small_report() {
   return report;
 }
 
-const Plot& plot_of(const std::vector<Figure>& plots, const std::string& name) {
+const Plot& plot_of(const std::vector<NamedPlot>& plots, const std::string& name) {
   const auto found = std::find_if(plots.begin(), plots.end(),
-                                  [&](const Figure& plot) { return plot.name == name; });
+                                  [&](const NamedPlot& plot) { return plot.name == name; });
   EXPECT_NE(found, plots.end()) << name;
   return found->plot;
 }
@@ -75,7 +75,7 @@ TEST(ReportTables, NamesOfFilesAreMadeOfOrbits) {
 }
 
 TEST(ErrorPlots, HaveOneCurveForEveryMethod) {
-  const std::vector<Figure> plots = error_plots(small_report());
+  const std::vector<NamedPlot> plots = error_plots(small_report());
   const Plot& rays = plot_of(plots, "rays_I_ordinary");
   ASSERT_EQ(rays.curves.size(), 3U);
   EXPECT_EQ(rays.curves[0].name, "table");
@@ -90,11 +90,11 @@ TEST(ErrorPlots, HaveOneCurveForEveryMethod) {
   EXPECT_EQ(frames.curves[2].colour, frames.curves[0].colour);
   EXPECT_EQ(plot_of(plots, "orbit_round").curves.size(), 2U);
   EXPECT_TRUE(std::none_of(plots.begin(), plots.end(),
-                           [](const Figure& plot) { return plot.name == "orbit_at-rest"; }));
+                           [](const NamedPlot& plot) { return plot.name == "orbit_at-rest"; }));
 }
 
 TEST(CostPlots, HaveOneCurveForEveryScene) {
-  const std::vector<Figure> plots = cost_plots(small_report().costs);
+  const std::vector<NamedPlot> plots = cost_plots(small_report().costs);
   const Plot &stars = plot_of(plots, "costs_stars"), &pixels = plot_of(plots, "costs_pixels");
   ASSERT_EQ(stars.curves.size(), 2U);
   EXPECT_EQ(stars.curves[1].name, "far");
@@ -121,7 +121,7 @@ TEST(CostsPage, ComparesWithTheQuickestGeodesicThatIsRightToAHundredthOfAPixel) 
   report.rays.push_back({"I", "ordinary", "rk4", 1e-4, false, 9, 0, 0, 0, 1, 1, 500, 0});
   report.rays.push_back({"I", "ordinary", "rk4", 1e-5, false, 9, 0, 0, 0, 1e-6, 1e-6, 1000, 0});
   report.rays.push_back({"I", "ordinary", "rk4", 1e-6, true, 9, 0, 0, 0, 1e-7, 1e-7, 2000, 0});
-  report.looks = {{"here", 12.5}};
+  report.view_rays = {{"here", 12.5}};
   const std::string page = costs_page(report);
   EXPECT_NE(page.find("1000 ns a ray"), std::string::npos) << page;
   EXPECT_NE(page.find("takes 17.5 ns: 57.1 times less"), std::string::npos) << page;

@@ -1,4 +1,4 @@
-#include "pipeline/report/look_speed.h"
+#include "pipeline/report/view_ray_speed.h"
 
 #include <algorithm>
 #include <array>
@@ -55,8 +55,8 @@ double nanoseconds(const Observer& observer) {
 
 }  // namespace
 
-std::vector<LookSpeedRow> measure_look_speed() {
-  std::vector<LookSpeedRow> rows;
+std::vector<ViewRaySpeedRow> measure_view_ray_speed() {
+  std::vector<ViewRaySpeedRow> rows;
   rows.reserve(kObservers.size());
   for (const Observer& observer : kObservers)
     rows.push_back({observer.name, nanoseconds(observer)});

@@ -7,12 +7,12 @@
 
 namespace domefall {
 
-struct LookSpeedRow {
+struct ViewRaySpeedRow {
   std::string from;  // the observer
   double ns;         // wall clock for one direction, one thread, the best of several passes
 };
 
 // Every sky lit.  About 0.2 s.
-std::vector<LookSpeedRow> measure_look_speed();
+std::vector<ViewRaySpeedRow> measure_view_ray_speed();
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-#include "pipeline/report/ray_methods.h"
+#include "pipeline/report/compared_methods.h"
 
 namespace domefall {
 namespace {
@@ -38,7 +38,7 @@ std::vector<double> tolerances(bool quick) {
 
 }  // namespace
 
-std::vector<RayMethod> ray_methods(bool quick) {
+std::vector<RayMethod> compared_methods(bool quick) {
   std::vector<RayMethod> methods{
       {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
       {"exact", "", {0}, 0, false, by_integral}};

@@ -1,4 +1,4 @@
-#include "pipeline/report/reference/traced_reference.h"
+#include "pipeline/report/reference_request.h"
 
 #include <cmath>
 

@@ -26,6 +26,6 @@ struct RayMethod {
 };
 
 // quick: few settings of each.
-std::vector<RayMethod> ray_methods(bool quick);
+std::vector<RayMethod> compared_methods(bool quick);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-#include "pipeline/report/reference/free_fall.h"
+#include "pipeline/report/integrated_fall.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/report/figures.h"
+#include "pipeline/report/paper_curves.h"
 
 #include <algorithm>
 #include <array>
@@ -172,7 +172,7 @@ Plot what_is_seen() {
 
 }  // namespace
 
-std::vector<Figure> figures_of_the_paper() {
+std::vector<NamedPlot> paper_curves() {
   return {
       {"fig_dev", far_away()},
       {"dev_III", rain_plot("Free fall at r = M: regions I and III", 1, {true, true, false})},

@@ -1,4 +1,4 @@
-#include "pipeline/report/figures.h"
+#include "pipeline/report/paper_curves.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-const Plot& plot_of(const std::vector<Figure>& figures, const std::string& name) {
+const Plot& plot_of(const std::vector<NamedPlot>& figures, const std::string& name) {
   return std::find_if(figures.begin(), figures.end(),
-                      [&](const Figure& f) { return f.name == name; })
+                      [&](const NamedPlot& f) { return f.name == name; })
       ->plot;
 }
 
@@ -34,9 +34,9 @@ double near(const Curve& curve, double x) {
 }
 
 TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
-  const std::vector<Figure> figures = figures_of_the_paper();
+  const std::vector<NamedPlot> figures = paper_curves();
   std::vector<std::string> names;
-  for (const Figure& figure : figures) {
+  for (const NamedPlot& figure : figures) {
     names.push_back(figure.name);
     for (const Curve& curve : figure.plot.curves)
       for (const PlotPoint& p : curve.points)
@@ -47,7 +47,7 @@ TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
 }
 
 TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
-  const auto figures = figures_of_the_paper();
+  const auto figures = paper_curves();
   const Curve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
   EXPECT_NEAR(near(curve, kPi), 0, 1e-8);
   EXPECT_LT(curve.points.front().y, -5.25 * kPi);
@@ -57,7 +57,7 @@ TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
 }
 
 TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
-  const auto figures = figures_of_the_paper();
+  const auto figures = paper_curves();
   const Curve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
   double most = -1e300;
   for (const PlotPoint& p : curve.points) most = std::max(most, p.y);
@@ -65,14 +65,14 @@ TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
 }
 
 TEST(Figures, RegionFourFromWithinReachesTheArcsine) {
-  const auto figures = figures_of_the_paper();
+  const auto figures = paper_curves();
   const Plot& plot = plot_of(figures, "fig_IV_dev");
   EXPECT_NEAR(near(curve_of(plot, "r = 0.2 M"), kPi / 2), std::asin(-0.8) + kPi / 2, 1e-6);
   EXPECT_NEAR(near(curve_of(plot, "r = 1.998 M"), kPi / 2), std::asin(0.998) + kPi / 2, 1e-6);
 }
 
 TEST(Plots, AreDrawnAsSvg) {
-  for (const Figure& figure : figures_of_the_paper()) {
+  for (const NamedPlot& figure : paper_curves()) {
     const std::string svg = draw(figure.plot);
     EXPECT_EQ(svg.rfind("<?xml", 0), 0U) << figure.name;
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
