@@ -1,5 +1,7 @@
 #include "trajectories/accelerated_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -9,7 +11,7 @@
 #include <string>
 
 #include "trajectories/chebyshev_panel.h"
-#include "trajectories/orbit_bounds.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
@@ -104,8 +106,8 @@ std::vector<double> slopes(const std::vector<double>& taus, const std::vector<do
 }
 
 [[noreturn]] void refuse(std::size_t key, double tau, const std::string& why) {
-  throw std::domain_error("key " + std::to_string(key) + ", at proper time " + bound_text(tau) +
-                          " (units of M): " + why);
+  throw std::domain_error(
+      fmt::format("key {}, at proper time {} (units of M): {}", key, short_number(tau), why));
 }
 
 // Of rates whose squares double precision does not hold well.
@@ -121,7 +123,7 @@ void check_keys(const std::vector<PathKey>& keys) {
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const PathKey& key = keys[k];
     if (!(key.r > 0) || !std::isfinite(key.r) || !std::isfinite(key.azimuth))
-      refuse(k + 1, key.tau, "r must exceed 0 (units of M), got " + bound_text(key.r));
+      refuse(k + 1, key.tau, "r must exceed 0 (units of M), got " + short_number(key.r));
     if (!std::isfinite(key.radial_rate.value_or(0)) || !std::isfinite(key.azimuth_rate.value_or(0)))
       refuse(k + 1, key.tau, "its rates must be finite numbers");
     if (!std::isfinite(key.tau) || (k > 0 && !(key.tau > keys[k - 1].tau)))
@@ -157,7 +159,7 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
   if (!(r > 0)) refuse(key, tau, "after it the path meets the singularity");
   const Rates p = rates_of(piece, t);
   if (r > 2) return;
-  const std::string place = "after it, at r = " + bound_text(r) + ", ";
+  const std::string place = "after it, at r = " + short_number(r) + ", ";
   if (!((outgoing ? p.radial : -p.radial) > 0))
     refuse(key, tau,
            place + (outgoing ? "nothing stops rising in region IV"
@@ -292,7 +294,8 @@ double AcceleratedPath::end() const { return tables_->pieces.back().end; }
 OrbitPoint AcceleratedPath::at(double tau) const {
   const double slack = kRounding * (end() - begin());
   if (!(tau >= begin() - slack && tau <= end() + slack))
-    throw std::domain_error("proper time " + bound_text(tau) + " (units of M) is not on the path");
+    throw std::domain_error("proper time " + short_number(tau) +
+                            " (units of M) is not on the path");
   const std::vector<Piece>& pieces = tables_->pieces;
   const auto after = std::upper_bound(pieces.begin() + 1, pieces.end(), tau,
                                       [](double value, const Piece& p) { return value < p.begin; });

@@ -5,6 +5,7 @@
 
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
@@ -31,7 +32,7 @@ Geodesic bound_by_turning_points(double periastron, double apoastron) {
   const double a = apoastron, least = 4 * a / (a - 2);
   require_above("apoastron", "units of M", apoastron, 6, "no stable orbit is smaller");
   require_above("periastron", "units of M", periastron, least,
-                "below it an orbit that rises to " + bound_text(a) + " falls into the hole");
+                "below it an orbit that rises to " + short_number(a) + " falls into the hole");
   require_at_least("apoastron", "units of M", apoastron, periastron,
                    "it is the farthest point of the orbit");
   const double sum = periastron + a, p = 2 * periastron * a / sum, e = (a - periastron) / sum;
@@ -42,7 +43,7 @@ Geodesic bound_by_turning_points(double periastron, double apoastron) {
 Geodesic bound_by_shape(double p, double e) {
   require_eccentricity(e);
   require_above("p", "units of M", p, 6 + 2 * e,
-                "at e = " + bound_text(e) + " a smaller orbit falls into the hole (p > 6 + 2e)");
+                "at e = " + short_number(e) + " a smaller orbit falls into the hole (p > 6 + 2e)");
   return bound_orbit(p / (1 + e), p / (1 - e), p, e, (p - 6) - 2 * e);
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_table.h"
+#include "trajectories/short_number.h"
 #include "trajectories/static_observer.h"
 
 namespace domefall {
@@ -104,7 +104,7 @@ OrbitPoint Geodesic::at(double tau) const {
     turns = std::floor((tau - table.begin().tau) / tables_->period());
     tau -= turns * tables_->period();
   } else if (!(tau >= table.begin().tau && tau <= table.end().tau)) {
-    throw std::domain_error("proper time " + bound_text(tau) +
+    throw std::domain_error("proper time " + short_number(tau) +
                             " (units of M) is beyond the orbit's ends");
   }
   OrbitPoint p = tables_->state(table.parameter(tau));

@@ -5,6 +5,7 @@
 
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
@@ -77,8 +78,8 @@ Geodesic hyperbolic_by_periastron(double speed, double periastron) {
   const double bound = slowest_speed_at_infinity(periastron);
   if (bound > 0)
     require_above("v_inf", "fraction of c", speed, bound,
-                  "to turn at r = " + bound_text(periastron) + " takes more than " +
-                      bound_text(bound * kLightSpeedKmPerS) + " km/s");
+                  "to turn at r = " + short_number(periastron) + " takes more than " +
+                      short_number(bound * kLightSpeedKmPerS) + " km/s");
   const double energy = excess_energy(speed);
   // Of a speed near its bound the difference is that of the speeds.
   const double over =
@@ -105,7 +106,7 @@ Geodesic hyperbolic_by_impact_parameter(double speed, double impact_parameter) {
   require_speed(speed);
   const double bound = capture_impact_parameter(speed);
   require_above("impact_parameter", "units of M", impact_parameter, bound,
-                "at v_inf = " + bound_text(speed) + " what comes closer is captured");
+                "at v_inf = " + short_number(speed) + " what comes closer is captured");
   return past_capture(speed, impact_parameter * std::sqrt(excess_energy(speed)),
                       (impact_parameter - bound) / bound);
 }

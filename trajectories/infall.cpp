@@ -7,6 +7,7 @@
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
@@ -33,7 +34,7 @@ Geodesic geodesic_through(const OrbitConstants& constants, double r, double spee
 void require_celerity(double radial, double tangential) {
   if (!std::isfinite(radial))
     throw std::domain_error("radial celerity must be a finite number (gamma v), got " +
-                            bound_text(radial));
+                            short_number(radial));
   require_at_least("tangential celerity", "gamma v", tangential, 0,
                    "Phi is the direction of the motion");
 }
@@ -57,7 +58,7 @@ Geodesic fall_with_speed(double speed, double impact_parameter, double from_r) {
   require_above("start_r", kUnitsOfM, from_r, 0, "the singularity is there");
   require_at_least("impact_parameter", kUnitsOfM, impact_parameter, 0, "it is a size");
   require_below("impact_parameter", kUnitsOfM, impact_parameter, capture_impact_parameter(speed),
-                "at v_inf = " + bound_text(speed) + " what passes farther out comes back");
+                "at v_inf = " + short_number(speed) + " what passes farther out comes back");
   const double excess = speed * speed / ((1 - speed) * (1 + speed)), w = 1 / from_r;
   const double l = impact_parameter * std::sqrt(excess);
   const double p = excess + w * (2 + l * l * w * (2 * w - 1));
@@ -77,7 +78,7 @@ Geodesic fall_from_rest(double from_r, double angular_momentum) {
   require_above("start_r", kUnitsOfM, from_r, 2, "nothing rests at the horizon or inside");
   require_at_least("angular_momentum", kUnitsOfM, l, 0, "it is a size");
   require_below("angular_momentum", kUnitsOfM, l, fall_bound(from_r),
-                "with more, what starts at r = " + bound_text(from_r) + " does not fall in");
+                "with more, what starts at r = " + short_number(from_r) + " does not fall in");
   const double w = 1 / from_r, over_two = from_r - 2;
   const double excess = w * (l * l * w * (1 - 2 * w) - 2);
   const double energy = std::sqrt(over_two * w * (1 + l * l * w * w));

@@ -1,26 +1,22 @@
 #include "trajectories/orbit_bounds.h"
 
-#include <array>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
 
 [[noreturn]] void refuse(const char* name, const char* must, const char* unit, double value,
                          double bound, const std::string& why) {
-  throw std::domain_error(std::string(name) + " must " + must + " " + bound_text(bound) + " (" +
-                          unit + "), got " + bound_text(value) + ": " + why);
+  throw std::domain_error(fmt::format("{} must {} {} ({}), got {}: {}", name, must,
+                                      short_number(bound), unit, short_number(value), why));
 }
 
 }  // namespace
-
-std::string bound_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.10g", value);
-  return text.data();
-}
 
 void require_above(const char* name, const char* unit, double value, double bound,
                    const std::string& why) {

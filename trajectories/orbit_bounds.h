@@ -1,5 +1,4 @@
-// What an orbit must keep to, and how a request that does not is refused: std::domain_error with one
-// line such as "periastron must exceed 4 (units of M), got 3.9: ...".
+// The bounds that the parameters of an orbit must keep.
 #pragma once
 
 #include <string>
@@ -9,10 +8,8 @@ namespace domefall {
 // c in km/s: errors name a bound on a speed in both units.
 inline constexpr double kLightSpeedKmPerS = 299792.458;
 
-// Ten digits, or fewer where they say as much.
-std::string bound_text(double value);
-
-// Throws unless value > bound (which no NaN does).  `why` follows the colon.
+// Each throws std::domain_error unless the finite value keeps its bound, which NaN never does.  The
+// message is one line, such as "periastron must exceed 4 (units of M), got 3.9: WHY".
 void require_above(const char* name, const char* unit, double value, double bound,
                    const std::string& why);
 void require_below(const char* name, const char* unit, double value, double bound,

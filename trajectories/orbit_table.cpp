@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trajectories/orbit_bounds.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
@@ -90,8 +90,8 @@ void OrbitTable::append(double low, double high, int depth) {
   panel.low = low, panel.high = high;
   if (panels_.size() > kMostPanels)
     throw std::runtime_error(
-        "an orbit of energy " + bound_text(curve_.constants().energy) + " and angular momentum " +
-        bound_text(curve_.constants().angular_momentum) + " takes too many panels");
+        "an orbit of energy " + short_number(curve_.constants().energy) + " and angular momentum " +
+        short_number(curve_.constants().angular_momentum) + " takes too many panels");
   const double middle = (low + high) / 2;
   const bool wide = curve_.kind() != OrbitCurve::Kind::kBound && high - low > kWidest;
   const bool splits = depth < kDepth && middle > low && middle < high;

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/yaml_document.h"
@@ -76,12 +75,6 @@ std::string kind_of(const Item& item) {
   return std::string(is_quoted(item) ? "the text '" : "'")
       .append(shown(item.node.Scalar()))
       .append("'");
-}
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
 }
 
 bool is_text_or_number(const Item& item) { return item.node.IsScalar(); }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/show/problems.h"
+#include "trajectories/short_number.h"
 
 namespace domefall {
 
@@ -53,9 +54,6 @@ struct Range {
 inline constexpr Range kPureNumber{};
 inline constexpr Range kDegrees{"degrees"};
 inline constexpr Range kUnitsOfM{"units of M"};
-
-// "1", "0.05", "1e+08".
-std::string short_number(double value);
 
 // For a message, what the item is: "a map", "a list", "nothing", the text '3' or 3 in quotes.
 std::string kind_of(const Item& item);
