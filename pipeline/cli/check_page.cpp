@@ -160,7 +160,10 @@ class Page {
   }
 
   void time() {
-    if (!r_.time) return line("to render", "not measured: no temporary file can be written");
+    if (!r_.time)
+      return line("to render", is_worth_measuring(show_)
+                                   ? "not measured: no temporary file can be written"
+                                   : "not measured: to render the show is almost as quick");
     line("to render",
          text_of("about %s on this machine with %d thread%s at %d x %d (%.3g s a frame)",
                  duration_text(r_.time->seconds).c_str(), r_.time->threads,

@@ -19,7 +19,7 @@ struct CheckReport {
   std::vector<SegmentJoint> joints;
   std::vector<ShowWarning> warnings;
   LightSurvey light;
-  std::optional<RenderTime> time;  // none where nothing can be written
+  std::optional<RenderTime> time;  // none where it was not measured
 };
 
 std::string check_page(const CheckReport& report);

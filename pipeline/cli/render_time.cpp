@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -19,6 +20,12 @@ namespace {
 // Pixels along the upper side of the largest of the three sizes; the others have a half and a quarter.
 constexpr int kLarge = 1024, kSmallest = 16;
 constexpr int kFrames = 3;  // of each
+constexpr double kWorth = 0.1;
+
+std::array<int, 3> measured_widths(const Show& show) {
+  const int large = std::min(columns(show.projection), kLarge);
+  return {std::max(kSmallest, large / 4), std::max(kSmallest, large / 2), large};
+}
 
 class TemporaryFolder {
  public:
@@ -93,17 +100,24 @@ class Run {
 
 }  // namespace
 
+bool is_worth_measuring(const Show& show) {
+  double measured = 0;  // frames of full size
+  for (const int width : measured_widths(show))
+    measured += (kFrames + 1) * std::pow(1.0 * width / columns(show.projection), 2);
+  return measured < kWorth * frame_count(show);
+}
+
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader) {
   set_file_threads(renderer.threads());
   const Run run(show, renderer, grader);
-  const int large = std::min(columns(show.projection), kLarge);
-  const Cost quarter = run.per_frame(std::max(kSmallest, large / 4)),
-             half = run.per_frame(std::max(kSmallest, large / 2)), whole = run.per_frame(large);
+  const auto widths = measured_widths(show);
+  const Cost quarter = run.per_frame(widths[0]), half = run.per_frame(widths[1]),
+             whole = run.per_frame(widths[2]);
   // Part of the work goes with the pixels, part with the length of edges and with stars.
   const double step = std::max(0.0, whole.processor - half.processor);
   const double growth =
       std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
-  const double doublings = std::log2(1.0 * columns(show.projection) / large);
+  const double doublings = std::log2(1.0 * columns(show.projection) / widths[2]);
   const double more = step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
   RenderTime time;
   time.threads = renderer.threads();

@@ -12,6 +12,10 @@ struct RenderTime {
   int threads = 0;
 };
 
+// Whether the estimate renders less than a tenth of the show's pixels.  A single frame of 4096 pixels
+// or a few seconds of tiny ones are rendered almost as soon as measured.
+bool is_worth_measuring(const Show& show);
+
 // Frames spread over the show are rendered, graded and written (to the system's temporary folder) as
 // domefall render does it, at three reduced sizes, each twice as wide as the one before.  What a doubling
 // adds grows by a constant factor, 2 to 4, that the three tell; by the clock the largest of them says how long

@@ -27,6 +27,7 @@ void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) 
 // Nothing where no temporary file can be written: that is no fault of the show's.
 std::optional<RenderTime> time_to_render(const Show& show, Renderer& renderer,
                                          const Grader* grader) {
+  if (!is_worth_measuring(show)) return std::nullopt;
   try {
     return estimate_render_time(show, renderer, grader);
   } catch (const InputError&) {

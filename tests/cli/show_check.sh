@@ -80,6 +80,14 @@ assert facts["display"] is None and facts["mass_solar"] is None'
 exits 0 env TMPDIR="$folder/nowhere/at/all" "$DOMEFALL" check flat.yaml
 tells '^to render +not measured'
 
+# A show that is rendered almost as soon as its time is measured has none.
+printf 'size: 64\nframes_per_second: 1\nsky: {region_I: {background: grid, stars: none}}\n%s\n' \
+  'timeline: [{duration_s: 2}]' >short.yaml
+exits 0 "$DOMEFALL" check short.yaml
+tells '^to render +not measured: to render the show is almost as quick$'
+exits 0 "$DOMEFALL" check short.yaml --json
+python3 -c 'import json; assert json.load(open("stdout"))["render"] is None'
+
 # Files that are there but damaged are told.
 printf 'not a picture' >broken.tif
 printf 'sky: {region_I: {background: broken.tif}}\ntimeline: [{duration_s: 2}]\n' >panorama.yaml
