@@ -1,0 +1,212 @@
+#include "pipeline/report/orbit_cases.h"
+
+#include <cmath>
+#include <limits>
+
+#include "trajectories/bound_orbit.h"
+#include "trajectories/hyperbolic_orbit.h"
+#include "trajectories/infall.h"
+#include "trajectories/kruskal_crossing.h"
+#include "trajectories/parabolic_orbit.h"
+
+namespace domefall {
+namespace {
+
+using Real = Real50;
+
+constexpr double kFallEnd = 1e-3;  // M
+
+// ---- orbits with a closed form ----
+
+struct Constants {
+  Real energy, angular_momentum;
+};
+
+// On a circle E = (1 - 2/r)/sqrt(1 - 3/r) and L^2 = r/(1 - 3/r), so dphi/dtau = L/r^2 is
+// 1/(r sqrt(r - 3)).
+Constants constants(const CircularOrbit& orbit) {
+  const Real r = orbit.r;
+  return {(1 - 2 / r) / sqrt(1 - 3 / r), sqrt(r / (1 - 3 / r))};
+}
+ExactPlace place(const CircularOrbit& orbit, double tau) {
+  const Real r = orbit.r;
+  return {r, tau / (r * sqrt(r - 3))};
+}
+
+// The rain falls by dr/dtau = -sqrt(2/r), so r^(3/2) = r_0^(3/2) - 3 tau/sqrt(2).
+Constants constants(const RadialInfall& /*fall*/) { return {1, 0}; }
+ExactPlace place(const RadialInfall& fall, double tau) {
+  const Real from = fall.from_r;
+  const Real root = cbrt(Real(from * sqrt(from) - 3 * Real(tau) / sqrt(Real(2))));
+  return {root * root, 0};
+}
+
+Constants constants(const StaticObserver& observer) { return {sqrt(1 - 2 / Real(observer.r)), 0}; }
+ExactPlace place(const StaticObserver& observer, double /*tau*/) { return {observer.r, 0}; }
+
+template <class Kind>
+OrbitCase closed_form_case(std::string name, const Kind& kind, const std::vector<double>& taus,
+                           bool integrated) {
+  const auto [energy, angular_momentum] = constants(kind);
+  OrbitCase orbit{std::move(name), kind, taus, integrated, energy, angular_momentum, {}};
+  orbit.places.reserve(taus.size());
+  for (const double tau : taus) orbit.places.push_back(place(kind, tau));
+  return orbit;
+}
+
+std::vector<double> evenly(double end, int states) {
+  std::vector<double> taus;
+  for (int k = 1; k <= states; ++k) taus.push_back(end * k / states);
+  return taus;
+}
+
+std::vector<double> evenly_in_log_r(const RadialInfall& fall, int states) {
+  std::vector<double> taus;
+  for (int k = 1; k <= states; ++k)
+    taus.push_back(
+        proper_time_to(fall, fall.from_r * std::pow(kFallEnd / fall.from_r, double(k) / states)));
+  return taus;
+}
+
+OrbitCase circle(std::string name, double r, int turns, int states, bool integrated) {
+  const CircularOrbit orbit{r};
+  return closed_form_case(std::move(name), orbit, evenly(turns * period(orbit), states),
+                          integrated);
+}
+
+// ---- geodesics without a closed form ----
+
+// The trajectory is asked at the proper times of the reference as doubles hold them.  What rounding
+// took from tau is added to the place by the reference's speed.  way is +1 outwards, -1 inwards.
+OrbitCase geodesic_case(std::string name, const Geodesic& geodesic, const ReferenceOrbit& reference,
+                        const std::vector<ReferencePlace>& path, int way, bool integrated) {
+  OrbitCase orbit{std::move(name),
+                  geodesic,
+                  {},
+                  integrated,
+                  reference.energy(),
+                  reference.angular_momentum,
+                  {}};
+  for (const ReferencePlace& at : path) {
+    const auto tau = static_cast<double>(at.tau);
+    const Real rest = tau - at.tau;
+    orbit.taus.push_back(tau);
+    orbit.places.push_back({at.r + way * rest * reference.radial_speed(at.r),
+                            at.azimuth + rest * reference.angular_momentum / (at.r * at.r)});
+  }
+  return orbit;
+}
+
+// Radii outside the turning point `turn`, whose distances from it are a geometric series.
+std::vector<Real> radii_beyond(const Real& turn, double first, double last, int states) {
+  std::vector<Real> radii;
+  radii.reserve(static_cast<std::size_t>(states));
+  for (int k = 0; k < states; ++k)
+    radii.emplace_back(turn + first * std::pow(last / first, double(k) / (states - 1)));
+  return radii;
+}
+
+// Radii that are a geometric series themselves.
+std::vector<Real> radii_to(double from, double to, int states) {
+  std::vector<Real> radii;
+  radii.reserve(static_cast<std::size_t>(states));
+  for (int k = 1; k <= states; ++k)
+    radii.emplace_back(from * std::pow(to / from, double(k) / states));
+  return radii;
+}
+
+constexpr double kBesideTheTurn = 1e-9;  // M
+constexpr double kFarAway = 1000;        // M
+
+OrbitCase parabola(int states) {
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  const ReferenceOrbit reference = orbit_between(10, infinity);
+  return geodesic_case(
+      "parabola from 10 M to 1000 M", parabolic_by_periastron(10), reference,
+      reference_leg(reference, 10, radii_beyond(10, kBesideTheTurn, kFarAway, states)), 1, true);
+}
+
+// The speed v at infinity gives E^2 - 1 = v^2/(1 - v^2).  At the turning point r the radial speed
+// is 0, so E^2 = (1 - 2/r)(1 + L^2/r^2), which is solved for L.
+OrbitCase hyperbola(int states) {
+  const double speed = 0.5, turn = 3.6;
+  const Real v = speed, r = turn, excess = v * v / (1 - v * v);
+  const ReferenceOrbit reference{excess, r * sqrt(Real((1 + excess) * r / (r - 2) - 1))};
+  return geodesic_case(
+      "hyperbola of c/2 from 3.6 M to 1000 M", hyperbolic_by_periastron(speed, turn), reference,
+      reference_leg(reference, r, radii_beyond(r, kBesideTheTurn, kFarAway, states)), 1, true);
+}
+
+// Every turn has equally many states, all on the way out between 11 and 15 M.
+OrbitCase ellipse(int states) {
+  const Real near = 10, far = 20;
+  const ReferenceOrbit reference = orbit_between(near, far);
+  constexpr int kTurns = 100, kSteps = 64;
+  const auto rising = reference_leg(reference, near, radii_beyond(near, kBesideTheTurn, 5, kSteps));
+  std::vector<Real> down = radii_beyond(far, kBesideTheTurn, 5, kSteps);
+  for (Real& r : down) r = 2 * far - r;
+  const auto falling = reference_leg(reference, far, down);
+  std::vector<ReferencePlace> path;
+  const int each = states / kTurns;
+  for (int turn = 0; turn < kTurns; ++turn)
+    for (int k = 0; k < each; ++k) {
+      ReferencePlace at = rising[static_cast<std::size_t>(kSteps - each + k)];
+      at.tau += 2 * turn * (rising.back().tau + falling.back().tau);
+      at.azimuth += 2 * turn * (rising.back().azimuth + falling.back().azimuth);
+      path.push_back(at);
+    }
+  return geodesic_case("bound from 10 to 20 M, 100 turns", bound_by_turning_points(10, 20),
+                       reference, path, 1, true);
+}
+
+// The orbit turns at p/(1 + e) and p/(1 - e).  With p = 6 + 2e it would whirl for ever.
+OrbitCase whirl(int states) {
+  const double e = 0.5, excess = 1e-8;
+  const Real p = 6 + 2 * Real(e) + Real(excess), near = p / (1 + Real(e));
+  const ReferenceOrbit reference = orbit_between(near, p / (1 - Real(e)));
+  const auto path = reference_leg(reference, near, radii_beyond(near, kBesideTheTurn, 9, states));
+  return geodesic_case("whirl at p - 6 - 2e = 1e-8 M, e = 1/2", bound_by_excess(e, excess),
+                       reference, path, 1, true);
+}
+
+OrbitCase plunge(int states) {
+  const ReferenceOrbit reference{0, 3.9};
+  return geodesic_case("fall with L = 3.9 M from 30 M to 0.001 M", fall_from_infinity(3.9, 30),
+                       reference, reference_leg(reference, 30, radii_to(30, kFallEnd, states)), -1,
+                       true);
+}
+
+// The orbit is not integrated: integrate_fall works in the rain tetrad, which region IV does not
+// have.
+OrbitCase crossing(int states) {
+  const double energy = 1.25, momentum = 1;
+  const ReferenceOrbit reference{Real(energy) * energy - 1, momentum};
+  std::vector<ReferencePlace> path = reference_leg(reference, 2, radii_to(2, 0.01, states / 2));
+  for (ReferencePlace& at : path) at.tau = -at.tau, at.azimuth = -at.azimuth;
+  for (const ReferencePlace& at : reference_leg(reference, 2, radii_to(2, 100, states / 2)))
+    path.push_back(at);
+  return geodesic_case("from 0.01 M in region IV to 100 M, E = 1.25, L = 1 M",
+                       kruskal_crossing(energy, momentum), reference, path, 1, false);
+}
+
+}  // namespace
+
+std::vector<OrbitCase> orbit_cases(int states) {
+  const RadialInfall fall{30};
+  const std::vector<double> minute = evenly(60, states);
+  return {circle("circular at 6 M, 100 turns", 6, 100, states, true),
+          circle("circular at 10 M, 100 turns", 10, 100, states, true),
+          circle("circular at 3.1 M, 3 turns", 3.1, 3, states, true),
+          circle("circular at 3.1 M, 100 turns", 3.1, 100, states, false),
+          closed_form_case("fall from 30 M to 0.001 M", fall, evenly_in_log_r(fall, states), true),
+          closed_form_case("static at 6 M", StaticObserver{6}, minute, false),
+          closed_form_case("static at 2.1 M", StaticObserver{2.1}, minute, false),
+          parabola(states),
+          hyperbola(states),
+          ellipse(states),
+          whirl(states),
+          plunge(states),
+          crossing(states)};
+}
+
+}  // namespace domefall
