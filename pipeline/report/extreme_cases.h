@@ -1,6 +1,6 @@
-// Stiff and extreme cases, measured: what happens to a ray or a frame where something diverges,
-// cancels or degenerates, and the bound that it must keep.  The tests hold every case to its bound;
-// docs/accuracy.md shows the same list.
+// Stiff and extreme cases: what a ray or a frame does where something diverges, cancels or
+// degenerates, and the bound that its error must keep there.  The tests hold every case to its
+// bound, and docs/accuracy.md shows the same list.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace domefall {
 
 struct ExtremeResult {
-  double worst;         // of the case's quantity; not finite: a failure of its own
+  double worst;         // of the case's quantity; a value that is not finite is a failure
   std::string outcome;  // what happens there, in words and numbers
 };
 
@@ -18,17 +18,22 @@ struct ExtremeCase {
   std::string name;      // CamelCase, as in the tests
   std::string tried;     // what is tried
   std::string quantity;  // what `worst` is
-  double bound;
+  double bound;          // of `worst`
   std::function<ExtremeResult()> measure;
 };
 
-// Rays, against the 100-digit reference.  About 2 s in all.
+// The azimuth of rays against the 100-digit reference.
 std::vector<ExtremeCase> extreme_rays();
-// Frames of 96 pixels, every sky lit and with stars.  About 3 s in all.  measure() throws InputError if
-// the shipped catalogue cannot be read.
+// Images of stars by the tables, against limits in closed form and the exact integral.  All rays
+// and images together take about 2 s.
+std::vector<ExtremeCase> extreme_images();
+// Frames of 96 pixels with every sky and stars, whose pixels must be finite.  measure() throws
+// InputError if the shipped catalogue cannot be read.
 std::vector<ExtremeCase> extreme_frames();
+// Frames of that size whose light or whose places are known.  All frames together take about 3 s.
+std::vector<ExtremeCase> extreme_frame_errors();
 
-// As a table in Markdown: what is tried, what happens, quantity, worst, bound.
+// All cases as a table in Markdown: what is tried, what happens, quantity, worst, bound.
 std::string extreme_table();
 
 }  // namespace domefall

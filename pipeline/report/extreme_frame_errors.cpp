@@ -1,0 +1,152 @@
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/optics/exact_azimuth.h"
+#include "pipeline/optics/silhouette.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/report/extreme_cases.h"
+#include "pipeline/report/extreme_show.h"
+#include "pipeline/show/assets.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// ---- light ----
+
+constexpr int kSteps = 4;  // of a series, from 1e-4 to 1e-9
+
+struct Series {
+  const char* name;
+  GivenVelocity (*at)(double step);
+  Attitude attitude;
+  bool sky_one;  // whether region I's sky is lit
+};
+
+GivenVelocity below_the_horizon(double depth) {
+  return {Region::kII, Tetrad::kRain, 2 - depth, {}};
+}
+
+GivenVelocity at_rest_above_the_horizon(double altitude) {
+  return {Region::kI, Tetrad::kRain, 2 + altitude, resting_celerity(2 + altitude)};
+}
+
+GivenVelocity moving_fast(double slowness) {
+  return {Region::kI, Tetrad::kRain, 10, V3d(0, 0.6, 0.8) / slowness};
+}
+
+// The Milky Way in an intensity that grows like the square of the frequency.
+Show show_of(const Series& series) {
+  Show show = extreme_show(StaticObserver{10}, Domemaster{kExtremeSize + 1}, series.attitude);
+  show.sky[SkyRegion::kI] = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
+  if (!series.sky_one) show.sky[SkyRegion::kI].background = BlackSky{};
+  show.sky[SkyRegion::kIV].background = BlackSky{};
+  show.frames_per_second = 1;
+  show.timeline.resize(kSteps, show.timeline[0]);
+  for (int k = 0; k < kSteps; ++k) {
+    Segment& segment = show.timeline[static_cast<std::size_t>(k)];
+    segment.trajectory = series.at(std::pow(10, -4 - 5.0 / 3 * k));
+    segment.camera.elevation = pi / 2;
+  }
+  return show;
+}
+
+// The sum of all values of each frame.
+std::array<double, kSteps> light_of(const Show& show) {
+  Renderer renderer(show, 0);
+  std::array<double, kSteps> light{};
+  for (int k = 0; k < kSteps; ++k)
+    for (const Imath::half value : renderer.render(frame_state(show, k)).pixels)
+      light[static_cast<std::size_t>(k)] += static_cast<double>(value);
+  return light;
+}
+
+// Three skies shrink to a point, or gather in one, and become ever brighter: region III after the
+// crossing, a static observer's sky above the horizon, and what lies ahead at ever higher speed.
+// With an intensity that grows like the square of the frequency, what the light gains by blueshift
+// it loses by size, so each frame of a series brings the same light.  The change from any frame to
+// the last is measured.
+ExtremeResult crowded_skies() {
+  const std::array<Series, 3> all{{{"region III", below_the_horizon, LookAtHole{}, false},
+                                   {"static", at_rest_above_the_horizon, EulerAngles{}, true},
+                                   {"ahead", moving_fast, LookAlongMotion{}, true}}};
+  double worst = 0;
+  std::string outcome;
+  for (const Series& series : all) {
+    const std::array<double, kSteps> light = light_of(show_of(series));
+    for (const double each : light)
+      worst = std::max(worst, light.back() > 0 ? std::abs(each / light.back() - 1) : 1e9);
+    outcome += fmt::format("{}{}: light {:.4g} to {:.4g}", outcome.empty() ? "" : "; ", series.name,
+                           light.front(), light.back());
+  }
+  return {worst, "From 1e-4 to 1e-9 " + outcome};
+}
+
+// ---- place ----
+
+constexpr double kRadius = 30;
+constexpr double kMilliarcsecond = pi / 180 / 3600e3;
+
+// The worst displacement of the view rays through the middle row, in pixels of the middle.  The
+// edge of the silhouette lies `aside` from the middle of the frame; each view ray is held against
+// the exact integral at the offset from that edge which the projection gives it.
+double worst_displacement(const Show& show, int size, double fov, double aside) {
+  const FrameState state = frame_state(show, 0);
+  const HoleOptics optics = make_hole_optics(kRadius, Tetrad::kRain, {});
+  const ViewTracer tracer(state, optics);
+  const double middle = (size + 1) / 2.0;
+  double worst = 0;
+  for (int i = 1; i <= size; ++i) {
+    // X runs along increasing vartheta, towards the hole.
+    const double turn = 2 * std::atan((i - middle) * 2 * std::tan(fov / 4) / size);
+    const ViewRay ray =
+        tracer.trace(direction_at(show.projection, {static_cast<double>(i), middle}));
+    if (ray.sky != SkyRegion::kI || aside - turn <= 0) continue;
+    const double phi = exact_azimuth(ray_off_edge(kRadius, Critical::kFirst, aside - turn));
+    const V3d seen = apply_transposed(state.observer.sky_from_tetrad, ray.sky_direction);
+    const double off =
+        std::hypot(seen.x - std::cos(phi), std::hypot(seen.y, seen.z) - std::abs(std::sin(phi)));
+    worst = std::max(worst, off / ray.radial_scale / (fov / size));
+  }
+  return worst;
+}
+
+// [Riazuelo] fig. fig_z: eight views from 90 degrees to 160 milliarcseconds wide at the
+// silhouette's edge seen from 30 M, in the last of which the seventh ghost is visible.
+ExtremeResult zoom_to_the_seventh_ghost() {
+  const int size = kExtremeSize + 1;
+  const double last = 160 * kMilliarcsecond, zoom = std::pow(pi / 2 / last, 1.0 / 7);
+  FrameTally frames;
+  double worst = 0;
+  for (int view = 0; view < 8; ++view) {
+    const double fov = pi / 2 / std::pow(zoom, view);
+    const double aside = view == 0 ? 0 : fov / 4;  // so that the edge is in the frame
+    const double vartheta = pi - silhouette_edge(kRadius) - aside;
+    const Show show = extreme_show(RadialInfall{kRadius}, Stereographic{size, size, fov},
+                                   EulerAngles{0, vartheta, 0});
+    frames.add(show);
+    worst = std::max(worst, worst_displacement(show, size, fov, aside));
+  }
+  ExtremeResult result = frames.result("Ghost by ghost appears, each 23 times nearer to the edge");
+  result.worst = std::max(result.worst, worst);
+  return result;
+}
+
+}  // namespace
+
+std::vector<ExtremeCase> extreme_frame_errors() {
+  return {
+      {"CrowdedSkies", "skies smaller than a pixel: r = 2 ∓ 1e-4 to 1e-9, gamma = 1e4 to 1e9",
+       "change of the light in the frame", 0.05, crowded_skies},
+      {"ZoomToTheSeventhGhost", "eight zooms to 160 mas across", "displacement, pixels", 0.01,
+       zoom_to_the_seventh_ghost},
+  };
+}
+
+}  // namespace domefall
