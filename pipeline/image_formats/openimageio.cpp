@@ -1,4 +1,4 @@
-// Image files by OpenImageIO: the library that image_formats.cpp loads.
+// The library that image_formats.cpp loads: image files by OpenImageIO, HEALPix maps by CFITSIO.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "pipeline/image/image_formats.h"
+#include "pipeline/image_formats/healpix_fits.h"
 
 namespace domefall {
 namespace {
@@ -119,7 +120,7 @@ class Writer : public ImageWriter {
   int row_ = 0;
 };
 
-class OpenImageIo : public ImageFormats {
+class LoadedFormats : public ImageFormats {
  public:
   std::unique_ptr<ImageReader> open(const std::filesystem::path& file) const override {
     auto in = OIIO::ImageInput::open(file.string());
@@ -132,12 +133,16 @@ class OpenImageIo : public ImageFormats {
                                       int height, const std::string& description) const override {
     return std::make_unique<Writer>(file, sink, spec_of(width, height, description));
   }
+
+  HealpixFile read_healpix(const std::filesystem::path& path, int column) const override {
+    return read_healpix_fits(path, column);
+  }
 };
 
 }  // namespace
 }  // namespace domefall
 
 extern "C" const domefall::ImageFormats* domefall_image_formats() {
-  static const domefall::OpenImageIo formats;
+  static const domefall::LoadedFormats formats;
   return &formats;
 }

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# OpenImageIO with its 240 libraries is loaded when an image is read or written, and not before; an
-# installed program finds it, and says so when it is missing.
+# OpenImageIO and CFITSIO with their 260 libraries are loaded when an image is read or written, and
+# not before; an installed program finds what calls them, and says so when it is missing.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
 
-# loads COMMAND...: it succeeds, and the dynamic linker then initialised OpenImageIO.
+# loads COMMAND...: it ends well; true if the dynamic linker initialised one of the two.
 loads() {
   rm -f linker.*
   exits 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$folder/linker" "$@"
   grep -q 'calling init: .*/libstdc++' linker.* || fail "the dynamic linker wrote nothing of use"
-  grep -q 'calling init: .*/libOpenImageIO' linker.*
+  grep -qE 'calling init: .*/lib(OpenImageIO|cfitsio)' linker.*
 }
 
 write_show show.yaml
@@ -19,7 +19,7 @@ sed 's/^timeline/output: {graded: none}\n&/' grid.yaml >linear.yaml
 for command in "--version" "render --help" "probe grid.yaml --pixel 40,50" "check grid.yaml" \
   "render linear.yaml --frames 3 --out linear"; do
   # shellcheck disable=SC2086
-  ! loads "$DOMEFALL" $command || fail "$command loads OpenImageIO"
+  ! loads "$DOMEFALL" $command || fail "$command loads the libraries of images"
 done
 loads "$DOMEFALL" render show.yaml --frames 3 --out built ||
   fail "a PNG was written without OpenImageIO"

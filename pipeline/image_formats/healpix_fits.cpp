@@ -1,0 +1,126 @@
+#include "pipeline/image_formats/healpix_fits.h"
+
+#include <fitsio.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kLargestNside = 8192;
+// What a HEALPix file marks missing pixels with, to within its rounding.
+constexpr float kBad = -1.6375e30f, kBadWithin = 1e25f;
+
+class Fits {
+ public:
+  explicit Fits(const std::filesystem::path& path) : path_(path) {
+    fits_open_diskfile(&file_, path.c_str(), READONLY, &status_);
+    check("this is not a FITS file");
+  }
+  ~Fits() {
+    int ignored = 0;
+    if (file_) fits_close_file(file_, &ignored);
+  }
+  Fits(const Fits&) = delete;
+  Fits(Fits&&) = delete;
+  Fits& operator=(const Fits&) = delete;
+  Fits& operator=(Fits&&) = delete;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(path_.string() + ": " + what);
+  }
+
+  // Moves to the first binary table with a keyword NSIDE.
+  void find_map() {
+    int count = 0;
+    fits_get_num_hdus(file_, &count, &status_);
+    for (int k = 1; k <= count; ++k) {
+      int type = 0;
+      fits_movabs_hdu(file_, k, &type, &status_);
+      check("the file is damaged");
+      if (type == BINARY_TBL && !text("NSIDE").empty()) return;
+    }
+    fail("there is no HEALPix map in it (no table with a keyword NSIDE)");
+  }
+
+  // Without quotes and spaces at the end; empty if there is no such keyword.
+  std::string text(const std::string& keyword) {
+    std::array<char, FLEN_VALUE> value{};
+    int status = 0;
+    fits_read_key(file_, TSTRING, keyword.c_str(), value.data(), nullptr, &status);
+    return status == 0 ? value.data() : "";
+  }
+
+  int integer(const std::string& keyword) {
+    int value = 0;
+    fits_read_key(file_, TINT, keyword.c_str(), &value, nullptr, &status_);
+    check("keyword " + keyword);
+    return value;
+  }
+
+  std::vector<float> column(int number, std::size_t count) {
+    int type = 0;
+    long repeat = 0, width = 0, rows = 0;
+    fits_get_coltype(file_, number, &type, &repeat, &width, &status_);
+    fits_get_num_rows(file_, &rows, &status_);
+    check("column " + std::to_string(number));
+    if (type == TSTRING || type < 0 || repeat < 1 || rows < 1 ||
+        static_cast<std::size_t>(repeat) * static_cast<std::size_t>(rows) != count)
+      fail("column " + std::to_string(number) + " does not hold the " + std::to_string(count) +
+           " numbers of a whole sky");
+    std::vector<float> values(count);
+    float bad = std::numeric_limits<float>::quiet_NaN();
+    int any = 0;
+    fits_read_col(file_, TFLOAT, number, 1, 1, static_cast<LONGLONG>(count), &bad, values.data(),
+                  &any, &status_);
+    check("column " + std::to_string(number) + " cannot be read to its end");
+    return values;
+  }
+
+ private:
+  void check(const std::string& what) const {
+    if (status_ == 0) return;
+    std::array<char, FLEN_STATUS> reason{};
+    fits_get_errstatus(status_, reason.data());
+    fits_clear_errmsg();
+    fail(what + ": " + reason.data());
+  }
+
+  std::filesystem::path path_;
+  fitsfile* file_ = nullptr;
+  int status_ = 0;
+};
+
+}  // namespace
+
+HealpixFile read_healpix_fits(const std::filesystem::path& path, int column) {
+  Fits fits(path);
+  fits.find_map();
+  HealpixFile map;
+  map.nside = fits.integer("NSIDE");
+  if (map.nside < 1 || map.nside > kLargestNside || (map.nside & (map.nside - 1)) != 0)
+    fits.fail("NSIDE must be a power of two from 1 to 8192, got " + std::to_string(map.nside));
+  const std::string ordering = fits.text("ORDERING");
+  if (!ordering.starts_with("RING") && !ordering.starts_with("NEST"))
+    fits.fail("ORDERING must be RING or NESTED, got '" + ordering + "'");
+  map.nested = ordering.starts_with("NEST");
+  if (fits.text("INDXSCHM") == "EXPLICIT")
+    fits.fail("it lists its pixels (INDXSCHM EXPLICIT); only maps of the whole sky can be read");
+  if (column < 1 || column > fits.integer("TFIELDS"))
+    fits.fail("it has no column " + std::to_string(column));
+  map.coordinates = fits.text("COORDSYS");
+  map.units = fits.text("TUNIT" + std::to_string(column));
+  const auto side = static_cast<std::size_t>(map.nside);
+  map.values = fits.column(column, 12 * side * side);
+  for (float& v : map.values)
+    if (!std::isfinite(v) || std::abs(v - kBad) < kBadWithin)
+      v = std::numeric_limits<float>::quiet_NaN();
+  return map;
+}
+
+}  // namespace domefall
