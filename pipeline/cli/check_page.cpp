@@ -1,18 +1,13 @@
 #include "pipeline/cli/check_page.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string_view>
 
 namespace domefall {
 namespace {
-
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-  const int length = std::snprintf(nullptr, 0, format, values...);
-  std::string text(static_cast<std::size_t>(std::max(length, 0)), ' ');
-  std::snprintf(text.data(), text.size() + 1, format, values...);
-  return text;
-}
 
 class Page {
  public:
@@ -31,27 +26,27 @@ class Page {
 
  private:
   void line(const std::string& name, const std::string& text) {
-    text_ += text_of("%-12s %s\n", name.c_str(), text.c_str());
+    text_ += fmt::format("{:<12} {}\n", name, text);
   }
 
   void head() {
     line("title", show_.title);
-    line("frames", text_of("%d at %g a second (%.6g s), %s of %d x %d", frame_count(show_),
-                           show_.frames_per_second, segment_times(show_).back(),
-                           std::string(projection_name(show_.projection)).c_str(),
-                           columns(show_.projection), rows(show_.projection)));
+    line("frames", fmt::format("{} at {:g} a second ({:.6g} s), {} of {} x {}", frame_count(show_),
+                               show_.frames_per_second, segment_times(show_).back(),
+                               projection_name(show_.projection), columns(show_.projection),
+                               rows(show_.projection)));
     if (r_.display.empty())
       line("graded for", "nothing: scene-linear frames alone");
     else
       line("graded for", r_.display + ", " + r_.view);
     if (show_.mass_solar)
-      line("black hole", text_of("%.6g solar masses: 1 M lasts %s", *show_.mass_solar,
-                                 duration_text(*show_.mass_solar * kSecondsPerSolarMass).c_str()));
+      line("black hole", fmt::format("{:.6g} solar masses: 1 M lasts {}", *show_.mass_solar,
+                                     duration_text(*show_.mass_solar * kSecondsPerSolarMass)));
     else
       line("black hole", "none: flat space");
   }
 
-  // What the pictures leave out of nature, or add to it.
+  // What the frames leave out of nature, or add to it.
   void effects() {
     const Effects& e = show_.effects;
     if (e == Effects{}) return;
@@ -66,37 +61,38 @@ class Page {
 
   static std::string regions_text(const std::vector<Region>& regions) {
     constexpr std::size_t kMost = 12;
-    std::string text;
+    std::vector<std::string_view> names;
     for (std::size_t k = 0; k < regions.size() && k < kMost; ++k)
-      text += std::string(k > 0 ? ", " : "") + region_name(regions[k]);
-    return text + (regions.size() > kMost ? ", ..." : "");
+      names.emplace_back(region_name(regions[k]));
+    if (regions.size() > kMost) names.emplace_back("...");
+    return fmt::format("{}", fmt::join(names, ", "));
   }
 
   std::string proper_time(double span) const {
     if (!show_.mass_solar) return duration_text(span);
-    return text_of("%.6g M (%s)", span,
-                   duration_text(span * *show_.mass_solar * kSecondsPerSolarMass).c_str());
+    return fmt::format("{:.6g} M ({})", span,
+                       duration_text(span * *show_.mass_solar * kSecondsPerSolarMass));
   }
 
   std::string rate(const SegmentSurvey& s) const {
     const char* unit = show_.mass_solar ? "M" : "s";
     const double mean = s.proper_time / (s.end_s - s.begin_s);
     const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean);
-    return steady ? text_of("%.4g %s a second", mean, unit)
-                  : text_of("%.4g %s a second (%.4g at first, %.4g at last)", mean, unit,
-                            s.rate_begin, s.rate_end);
+    return steady ? fmt::format("{:.4g} {} a second", mean, unit)
+                  : fmt::format("{:.4g} {} a second ({:.4g} at first, {:.4g} at last)", mean, unit,
+                                s.rate_begin, s.rate_end);
   }
 
   void segment(std::size_t k) {
     const SegmentSurvey& s = r_.survey.segments[k];
     if (k > 0) joint(r_.joints[k - 1]);
-    line("segment " + std::to_string(k),
-         text_of("%s, %.6g s to %.6g s", s.type.c_str(), s.begin_s, s.end_s));
+    line(fmt::format("segment {}", k),
+         fmt::format("{}, {:.6g} s to {:.6g} s", s.type, s.begin_s, s.end_s));
     std::string text = "flat space; ";
     if (show_.mass_solar) {
-      text = text_of("r = %.6g M to %.6g M", s.r_begin, s.r_end);
+      text = fmt::format("r = {:.6g} M to {:.6g} M", s.r_begin, s.r_end);
       if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
-        text += text_of(", closest %.6g M at %.5g s", s.closest.value, s.closest.time_s);
+        text += fmt::format(", closest {:.6g} M at {:.5g} s", s.closest.value, s.closest.time_s);
       line("", text + "; region " + regions_text(s.regions));
       text.clear();
     }
@@ -110,47 +106,49 @@ class Page {
   void joint(const SegmentJoint& j) {
     std::string changes;
     if (j.region_before != j.region_after)
-      add(changes,
-          text_of("region %s to %s", region_name(j.region_before), region_name(j.region_after)));
+      add(changes, fmt::format("region {} to {}", region_name(j.region_before),
+                               region_name(j.region_after)));
     if (j.place_jumps() && j.r_before != j.r_after)
-      add(changes, text_of("r jumps from %.6g M to %.6g M", j.r_before, j.r_after));
-    if (j.velocity_jumps()) add(changes, text_of("velocity jumps by %.4g of light's", *j.speed));
+      add(changes, fmt::format("r jumps from {:.6g} M to {:.6g} M", j.r_before, j.r_after));
+    if (j.velocity_jumps())
+      add(changes, fmt::format("velocity jumps by {:.4g} of light's", *j.speed));
     if (changes.empty()) changes = "the motion goes on";
-    const std::string name = j.dissolve_s > 0 ? text_of("dissolve of %.4g s", j.dissolve_s)
+    const std::string name = j.dissolve_s > 0 ? fmt::format("dissolve of {:.4g} s", j.dissolve_s)
                              : j.place_jumps() || j.velocity_jumps() ? "cut"
                                                                      : "joint";
-    line("", text_of("-- %s at %.6g s: ", name.c_str(), j.time_s) + changes);
+    line("", fmt::format("-- {} at {:.6g} s: ", name, j.time_s) + changes);
   }
 
   static std::string place(const Extreme& e) {
-    return text_of("frame %d (%.5g s)", e.frame, e.time_s);
+    return fmt::format("frame {} ({:.5g} s)", e.frame, e.time_s);
   }
 
   void whole() {
     text_ += "\nthe whole show\n";
     if (show_.mass_solar) line("regions", regions_text(r_.survey.regions));
     if (const auto& e = r_.survey.closest)
-      line("closest", text_of("r = %.6g M, ", e->value) + place(*e));
+      line("closest", fmt::format("r = {:.6g} M, ", e->value) + place(*e));
     if (const auto& e = r_.survey.fastest) {
       const double gamma = std::hypot(1.0, e->value);
-      line("fastest", text_of("%.6g of light's speed (Lorentz factor %.5g) against who is at rest "
-                              "there, ",
-                              e->value / gamma, gamma) +
-                          place(*e));
+      line("fastest",
+           fmt::format("{:.6g} of light's speed (Lorentz factor {:.5g}) against who is at rest "
+                       "there, ",
+                       e->value / gamma, gamma) +
+               place(*e));
     }
     if (const auto& e = r_.survey.bluest)
-      line("bluest sky", text_of("1 + z = %.5g, ", e->value) + place(*e));
+      line("bluest sky", fmt::format("1 + z = {:.5g}, ", e->value) + place(*e));
     if (const auto& e = r_.survey.reddest)
-      line("reddest sky", text_of("1 + z = %.5g, ", e->value) + place(*e));
+      line("reddest sky", fmt::format("1 + z = {:.5g}, ", e->value) + place(*e));
   }
 
   void light_line(const char* name, const FrameLight& light) {
     std::string text =
-        text_of("frame %d (%.5g s), segment %d: mean luminance %.3g, 99 %% below %.3g", light.frame,
-                light.time_s, light.segment, light.mean, light.percentile99);
+        fmt::format("frame {} ({:.5g} s), segment {}: mean luminance {:.3g}, 99 % below {:.3g}",
+                    light.frame, light.time_s, light.segment, light.mean, light.percentile99);
     constexpr double kMuch = 0.03;
     if (light.white > kMuch)
-      text += text_of("; %.0f %% of the pixels at or beyond white", 100 * light.white);
+      text += fmt::format("; {:.0f} % of the pixels at or beyond white", 100 * light.white);
     line(name, text);
   }
 
@@ -165,10 +163,10 @@ class Page {
                                    ? "not measured: no temporary file can be written"
                                    : "not measured: to render the show is almost as quick");
     line("to render",
-         text_of("about %s on this machine with %d thread%s at %d x %d (%.3g s a frame)",
-                 duration_text(r_.time->seconds).c_str(), r_.time->threads,
-                 r_.time->threads == 1 ? "" : "s", columns(show_.projection),
-                 rows(show_.projection), r_.time->frame_s));
+         fmt::format("about {} on this machine with {} thread{} at {} x {} ({:.3g} s a frame)",
+                     duration_text(r_.time->seconds), r_.time->threads,
+                     r_.time->threads == 1 ? "" : "s", columns(show_.projection),
+                     rows(show_.projection), r_.time->frame_s));
   }
 
   void warnings() {
@@ -180,11 +178,11 @@ class Page {
     text_ += "\nwarnings\n";
     for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
       const ShowWarning& w = r_.warnings[k];
-      text_ += text_of("%8.5g s, frame %d, segment %d: %s\n", w.time_s, w.frame, w.segment,
-                       w.text.c_str());
+      text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame, w.segment,
+                           w.text);
     }
     if (r_.warnings.size() > kMost)
-      text_ += text_of("  and %zu more\n", r_.warnings.size() - kMost);
+      text_ += fmt::format("  and {} more\n", r_.warnings.size() - kMost);
   }
 
   const CheckReport& r_;
@@ -209,8 +207,8 @@ std::string duration_text(double seconds) {
                              {0, 1e-6, "us"}};
   for (const Unit& unit : kUnits)
     if (std::abs(seconds) >= unit.from)
-      return text_of("%.3g %s", seconds / unit.seconds, unit.name);
-  return text_of("%g s", seconds);
+      return fmt::format("{:.3g} {}", seconds / unit.seconds, unit.name);
+  return fmt::format("{:g} s", seconds);
 }
 
 std::string check_page(const CheckReport& report) { return Page(report).text(); }

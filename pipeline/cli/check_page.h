@@ -1,4 +1,4 @@
-// What domefall check says of a show, as a page to read and as JSON.
+// What domefall check says of a show: a page to read, or the same facts as JSON.
 #pragma once
 
 #include <optional>
@@ -22,12 +22,14 @@ struct CheckReport {
   std::optional<RenderTime> time;  // none where it was not measured
 };
 
+// About 40 lines: the show, its segments and joints, its extremes, its light, its warnings.
 std::string check_page(const CheckReport& report);
 
-// One object; numbers that are infinite are null.
+// One JSON object on one line.  Numbers have twelve digits, and an infinite one is null.
 std::string check_json(const CheckReport& report);
 
-// "41 s", "12 min", "3.5 h", "20 days", "1.6 ms"; seconds may be negative.
+// Three digits in the unit that suits: "41 s", "12 min", "3.5 h", "20 days", "1.6 ms".  The seconds
+// may be negative.
 std::string duration_text(double seconds);
 
 }  // namespace domefall
