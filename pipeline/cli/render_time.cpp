@@ -12,7 +12,7 @@
 
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
-#include "pipeline/survey/light_survey.h"
+#include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
 namespace {
@@ -72,7 +72,7 @@ class Run {
     for (int k = 0; k <= kFrames; ++k) {
       const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<HalfFrame>(
-          renderer_.render(shrunk(frame_state(show_, static_cast<int>(number)), width)));
+          renderer_.render(reduced(frame_state(show_, static_cast<int>(number)), width)));
       if (writing.valid()) writing.get();
       if (k == 0) start = Clock::now(), processor = processor_seconds();
       if (k < kFrames) writing = std::async(std::launch::async, [this, frame] { write(*frame); });

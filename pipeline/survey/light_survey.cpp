@@ -4,16 +4,17 @@
 #include <cmath>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
 namespace {
 
-constexpr int kWidth = 48, kMostInstants = 60, kLeastWidth = 16;
+constexpr int kWidth = 48, kMostInstants = 60;
 constexpr double kFadeStops = 3;
-// Of white's code value: the last steps before it are not seen.
+// From this part of white's code value on the steps to white are not seen.
 constexpr double kNearWhite = 0.99;
 
-// The code value of the brightest grey there is, by the grade.
+// The code value to which the grade takes the brightest grey that a half float holds.
 double white_of(const Grader& grader) {
   HalfFrame grey(1, 1);
   std::fill(grey.pixels.begin(), grey.pixels.end(), Imath::half(65504.0f));
@@ -21,7 +22,7 @@ double white_of(const Grader& grader) {
   return *std::max_element(graded.pixels.begin(), graded.pixels.end());
 }
 
-// The picture's parts of a projection, by pixel.
+// Indices of the pixels inside the image of a projection.
 std::vector<std::size_t> inside_pixels(const Projection& p) {
   std::vector<std::size_t> inside;
   for (int row = 0; row < rows(p); ++row) {
@@ -69,22 +70,6 @@ class LightMeter {
 
 }  // namespace
 
-Projection shrunk(const Projection& projection, int width) {
-  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
-    const double height = static_cast<double>(width) * flat->rows / flat->columns;
-    return Stereographic{width, std::max(kLeastWidth, static_cast<int>(std::lround(height))),
-                         flat->fov};
-  }
-  return Domemaster{width};
-}
-
-FrameState shrunk(FrameState state, int width) {
-  state.projection = shrunk(state.projection, width);
-  if (state.vanishing)
-    state.vanishing = std::make_shared<const FrameState>(shrunk(*state.vanishing, width));
-  return state;
-}
-
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
   const int count = frame_count(show);
   const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
@@ -94,7 +79,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   for (int k = 0; k < samples; ++k) {
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
-    const FrameState state = shrunk(frame_state(show, frame), kWidth);
+    const FrameState state = reduced(frame_state(show, frame), kWidth);
     FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, 0, 0, 0};
     meter.measure(renderer.render(state), state.projection, light);
     lights.push_back(light);

@@ -1,4 +1,4 @@
-// How bright a show is: small pictures of it, one for each second.
+// How bright a show is, measured on small frames of it.
 #pragma once
 
 #include <optional>
@@ -13,28 +13,24 @@ struct FrameLight {
   double time_s = 0;
   int segment = 0;
   double ev = 0;
-  // Luminance of the picture's pixels (a dome's circle), as pixel values: its mean and what 1 % exceed.
+  // Luminance of the pixels inside the image (a dome's circle), in pixel values: its mean, and the value
+  // that 1 % of them exceed.
   double mean = 0, percentile99 = 0;
-  // Part of the pixels, 0 to 1, that cannot be told from the grade's white in a channel; without a
-  // grade, whose pixel values exceed 1.
+  // Part of the pixels, 0 to 1, of which a channel lies within 1 % of the grade's white.  Without a
+  // grade: of which a channel exceeds 1.
   double white = 0;
 };
 
 struct LightSurvey {
   FrameLight brightest;  // by its mean
-  // Outside fades: among the frames whose exposure is within 3 stops of the highest.
+  // Fades are left out: it is sought among the frames whose exposure is within 3 stops of the highest.
   FrameLight darkest;
-  int frames = 0;  // looked at
+  int frames = 0;  // how many were measured
 };
 
-// One frame for each second, at most 60 and at least 2 if the show has them, 48 pixels wide.  Means
-// are those of a large picture to a few percent; stars are as bright, but larger.
-// Grader: null without a grade.
+// Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.  `grader`
+// is null for a show without a grade.  Means agree with those of large frames to a few percent, since
+// stars are as bright at a small size, only larger.
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);
-
-// The same picture about `width` pixels wide (16 at least).
-Projection shrunk(const Projection& projection, int width);
-// And the same frame, a vanishing one with it.
-FrameState shrunk(FrameState state, int width);
 
 }  // namespace domefall

@@ -1,13 +1,14 @@
 #include "pipeline/survey/show_jumps.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "pipeline/show/observer_track.h"
+#include "pipeline/survey/shift_range.h"
 #include "pipeline/survey/show_survey.h"
 
 namespace domefall {
@@ -16,15 +17,9 @@ namespace {
 constexpr int kMostPairs = 20'000;
 constexpr double kRadianDeg = 180 / std::numbers::pi;
 
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
-// gamma v of two observers at one place, along axes of the sky: gamma of the one for the other is
-// gamma gamma' - c.c'.
+// Speed of two observers at one place against each other; nothing inside the horizon if their tetrads
+// differ.  With c = gamma v of each along axes of the sky, the Lorentz factor of the one for the other
+// is gamma gamma' - c.c'.
 std::optional<double> relative_speed(const ObserverState& a, const ObserverState& b) {
   V3d c = a.celerity, d = b.celerity;
   if (a.tetrad != b.tetrad) {
@@ -32,7 +27,8 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
     c = static_celerity(a), d = static_celerity(b);
   }
   const V3d difference = apply(a.sky_from_tetrad, c) - apply(b.sky_from_tetrad, d);
-  // The same without cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2.
+  // Without cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2, and v = sqrt(gamma^2 - 1)
+  // over gamma.
   const double e = std::hypot(1.0, c.length()) - std::hypot(1.0, d.length());
   const double excess = std::max(0.0, (difference.length2() - e * e) / 2);
   return std::sqrt(excess * (excess + 2)) / (1 + excess);
@@ -40,11 +36,13 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
 
 // ---- between frames ----
 
+// What changes from one frame to the next.
 struct FramePair {
-  double turn = 0, stops = 0;  // radians, EV
-  int segment = -1;            // -1: a cut between them
+  double turn = 0, stops = 0;  // radians of the camera, EV of the exposure
+  int segment = -1;            // -1 if a cut lies between them
 };
 
+// The angle of the rotation from a to b.  |a - b|^2, summed over the elements, is 8 sin^2(angle/2).
 double angle_between(const M33d& a, const M33d& b) {
   double sum = 0;
   for (int i = 0; i < 3; ++i)
@@ -52,7 +50,7 @@ double angle_between(const M33d& a, const M33d& b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(sum / 8)));
 }
 
-// Columns: the camera's axes on the sky.
+// The camera's axes on the sky, as columns.
 M33d on_sky(const ObserverState& o) {
   const auto axis = [&o](int k) {
     return apply(o.sky_from_tetrad, column(o.tetrad_from_camera, k));
@@ -77,8 +75,8 @@ struct Pairs {
   std::vector<FramePair> pairs;
 };
 
-// Between keyframes a camera turns smoothly, and each frame of it takes milliseconds: there every tenth
-// pair tells, and those about the keyframes.
+// The second frames of the pairs to compare.  Between keyframes a camera turns smoothly, and each state
+// takes milliseconds: every tenth frame is enough there, and those next to the keyframes.
 std::vector<int> chosen_frames(const Show& show) {
   constexpr int kWithinTurns = 10;
   const int count = frame_count(show), step = (count + kMostPairs - 1) / kMostPairs;
@@ -115,9 +113,11 @@ Pairs compare_frames(const Show& show) {
   return found;
 }
 
-// One warning for each run of neighbours beyond a limit, at its worst frame.
+// One warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value) is what
+// the warning says.
+template <class TextOf>
 void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quantity, double limit,
-                  const char* format, double unit, std::vector<ShowWarning>& warnings) {
+                  const TextOf& text_of, std::vector<ShowWarning>& warnings) {
   const auto size = [&](std::size_t k) { return std::abs(found.pairs[k].*quantity); };
   for (std::size_t k = 0; k < found.pairs.size(); ++k) {
     if (!(size(k) > limit)) continue;
@@ -126,8 +126,8 @@ void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quant
     for (; k < found.pairs.size() && size(k) > limit && found.pairs[k].segment == segment; ++k)
       if (size(k) > size(worst)) worst = k;
     const int frame = found.frames[worst];
-    warnings.push_back({frame / show.frames_per_second, frame, segment,
-                        text_of(format, found.pairs[worst].*quantity * unit)});
+    warnings.push_back(
+        {frame / show.frames_per_second, frame, segment, text_of(found.pairs[worst].*quantity)});
     --k;
   }
 }
@@ -147,6 +147,7 @@ constexpr const char* kChannelNames[kChannels] = {"roll_deg",
                                                   "sky.region_I.stars.max_magnitude",
                                                   "sky.region_III.stars.max_magnitude"};
 
+// Warns of what jumps at keyframes with `ease: hold`.
 class Holds {
  public:
   Holds(const Show& show, std::vector<ShowWarning>& warnings) : show_(show), warnings_(warnings) {}
@@ -155,7 +156,7 @@ class Holds {
     for (int k = 0; k < static_cast<int>(show_.timeline.size()); ++k) {
       const Segment& segment = show_.timeline[static_cast<std::size_t>(k)];
       for (std::size_t c = 0; c < kChannels; ++c)
-        // A jump of the exposure is seen between its frames.
+        // A jump of the exposure is found when frames are compared.
         if (segment.curves[c] && static_cast<Channel>(c) != Channel::kEv)
           of_curve(k, *segment.curves[c], kChannelNames[c]);
       for (std::size_t i = 1; i < segment.attitudes.size(); ++i)
@@ -169,10 +170,10 @@ class Holds {
   void of_curve(int segment, const Curve& curve, const char* name) {
     for (std::size_t i = 1; i < curve.keys.size(); ++i)
       if (curve.keys[i].ease == Ease::kHold && curve.keys[i].value != curve.keys[i - 1].value)
-        add(segment, curve.keys[i].at_s, text_of("%s jumps at a keyframe that holds", name));
+        add(segment, curve.keys[i].at_s, fmt::format("{} jumps at a keyframe that holds", name));
   }
 
-  // Not where the segment is not seen, nor where it begins anyway.
+  // A jump is not seen where the segment begins, nor where another segment or none is seen.
   void add(int segment, double at_s, const std::string& text) {
     const double begin = segment_times(show_)[static_cast<std::size_t>(segment)];
     const int frame = static_cast<int>(std::ceil(at_s * show_.frames_per_second - kCutTolerance));
@@ -190,15 +191,15 @@ void warn_of_rates(const Show& show, std::vector<ShowWarning>& warnings) {
     const double least = std::min(j.rate_before, j.rate_after),
                  most = std::max(j.rate_before, j.rate_after);
     if (j.place_jumps() || j.velocity_jumps() || j.dissolve_s > 0) continue;
-    // The rates of a start or an end are differences: a clock that stands still is one a million
-    // times slower.
+    // Rates at the ends of a segment are quotients of differences, so that a clock that starts from
+    // standstill has a small one, and only a clock that stands still before and after has 0.
     if (most <= kLargestRateStep * least || most == 0) continue;
     const int frame =
         static_cast<int>(std::ceil(j.time_s * show.frames_per_second - kCutTolerance));
     warnings.push_back(
         {j.time_s, frame, j.segment,
-         text_of("the motion goes on, but its clock jumps from %.3g to %.3g M a second",
-                 j.rate_before, j.rate_after)});
+         fmt::format("the motion goes on, but its clock jumps from {:.3g} to {:.3g} M a second",
+                     j.rate_before, j.rate_after)});
   }
 }
 
@@ -236,12 +237,20 @@ std::vector<SegmentJoint> segment_joints(const Show& show) {
 std::vector<ShowWarning> show_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
   const Pairs found = compare_frames(show);
-  warn_of_runs(show, found, &FramePair::turn,
-               kFastestTurnDeg / kRadianDeg / show.frames_per_second * (1 + 1e-9),
-               "the camera turns by %.3g degrees a second", kRadianDeg * show.frames_per_second,
-               warnings);
-  warn_of_runs(show, found, &FramePair::stops, kLargestEvStep * (1 + 1e-9),
-               "the exposure changes by %+.3g stops between frames", 1, warnings);
+  const double deg_per_s = kRadianDeg * show.frames_per_second;  // of a radian a frame
+  constexpr double kRounding = 1e-9;
+  warn_of_runs(
+      show, found, &FramePair::turn, kFastestTurnDeg / deg_per_s * (1 + kRounding),
+      [&](double turn) {
+        return fmt::format("the camera turns by {:.3g} degrees a second", turn * deg_per_s);
+      },
+      warnings);
+  warn_of_runs(
+      show, found, &FramePair::stops, kLargestEvStep * (1 + kRounding),
+      [](double stops) {
+        return fmt::format("the exposure changes by {:+.3g} stops between frames", stops);
+      },
+      warnings);
   warn_of_rates(show, warnings);
   Holds(show, warnings).all();
   std::stable_sort(warnings.begin(), warnings.end(),

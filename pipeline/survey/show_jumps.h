@@ -1,4 +1,4 @@
-// What an audience would see jump: how segments join, and what changes too fast between frames.
+// What an audience would see jump: the joints of segments, and what changes too fast between frames.
 #pragma once
 
 #include <optional>
@@ -9,21 +9,24 @@
 
 namespace domefall {
 
-// Where a segment follows another.
+// The instant at which a segment follows another, as both have it.
 struct SegmentJoint {
   int segment = 0;    // the later one
-  double time_s = 0;  // show seconds: its beginning
+  double time_s = 0;  // show seconds at which it begins
   double dissolve_s = 0;
   double r_before = 0, r_after = 0;  // M
   Region region_before = Region::kI, region_after = Region::kI;
-  // Of the two observers against each other (1 is light's); nothing where they are not at one place.
+  // The observers' speed against each other (1 is light's).  There is none unless they are at one place.
   std::optional<double> speed;
   double rate_before = 0, rate_after = 0;  // M of proper time a second of show
 
+  // By another region, or by more than 1e-6 of r.
   bool place_jumps() const;
+  // By more than 1e-4 of light's speed.
   bool velocity_jumps() const;
 };
 
+// One for each segment but the first.
 std::vector<SegmentJoint> segment_joints(const Show& show);
 
 struct ShowWarning {
@@ -33,16 +36,20 @@ struct ShowWarning {
   std::string text;
 };
 
-// Above these a warning is given.
+// A warning is given for what exceeds these.
 inline constexpr double kFastestTurnDeg = 30;  // degrees of camera turn per second of show
 inline constexpr double kLargestEvStep = 0.5;  // stops between frames
-inline constexpr double kLargestRateStep = 2;  // a factor, where nothing else jumps
+inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where nothing else jumps
 
-// In the order of time: a camera that turns faster, against the sky and against the hole (whichever is
-// slower: a camera that keeps either in view stands still); exposures that jump; clocks that change their
-// rate where a motion goes on; what a keyframe with `ease: hold` changes.  All frames of a show of up to
-// 20,000 frames are compared with the next one, of a longer one 20,000; of segments with keyframed
-// targets every tenth and those about the keyframes.
+// The warnings of a show, in the order of time.  They are about
+// - a camera that turns too fast.  Its turn is taken against the sky and against the hole, and the
+//   smaller of the two counts, since a camera that keeps either in view stands still;
+// - an exposure that jumps from one frame to the next;
+// - a clock that changes its rate where the motion goes on;
+// - what a keyframe with `ease: hold` changes.
+// Every frame of a show of up to 20,000 frames is compared with the one before, and 20,000 frames of a
+// longer one.  In segments with keyframed targets only every tenth frame is compared, and those within
+// two frames of a keyframe.
 std::vector<ShowWarning> show_warnings(const Show& show);
 
 }  // namespace domefall

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <numbers>
 
-#include "pipeline/optics/silhouette.h"
 #include "pipeline/render/renderer.h"
 #include "pipeline/show/observer_track.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/survey/shift_range.h"
 
 namespace domefall {
 namespace {
 
-// Samples of a segment between which an orbit has one turning point at most, and the most of them for a
-// long one.
+// A segment has as many samples as frames, within these bounds: enough that an orbit has one turning
+// point at most between two of them.
 constexpr int kLeastSamples = 512, kMostSamples = 20'000;
-// Half the digits of a double: a minimum is no sharper.
+// About half the bits of a double: r changes by less than rounding closer to a minimum.
 constexpr int kMinimumBits = 26;
 
 void visit(std::vector<Region>& regions, Region region) {
@@ -28,16 +26,16 @@ int frame_at(const Show& show, double time_s) {
   return std::clamp(static_cast<int>(frame), 0, frame_count(show) - 1);
 }
 
-// The least r, and all regions, of the part of its trajectory that a segment shows.
-class Way {
+// The part of its trajectory that a segment shows, sampled in proper time.
+class SampledPath {
  public:
-  Way(const Segment& segment, int frames)
+  SampledPath(const Segment& segment, int frames)
       : segment_(segment), begin_(segment.timing.tau_begin), end_(segment.timing.tau_end) {
     const int samples = std::clamp(frames, kLeastSamples, kMostSamples);
     const double span = end_ - begin_, step = std::min(span, period()) / samples;
     for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end_, begin_ + step * k));
     taus_.push_back(end_);
-    // The highest point of a way between two singularities: region I may be a short visit.
+    // A path between two singularities is highest at 0, and may visit region I for a short time only.
     if (begin_ < 0 && 0 < end_) taus_.push_back(0);
     std::sort(taus_.begin(), taus_.end());
   }
@@ -67,7 +65,7 @@ class Way {
     return placed(point_at(segment_.trajectory, tau), segment_.placement);
   }
 
-  // After which r repeats itself.
+  // The proper time after which r repeats itself.
   double period() const {
     const auto* orbit = std::get_if<Geodesic>(&segment_.trajectory);
     return orbit ? orbit->radial_period() : HUGE_VAL;
@@ -78,7 +76,7 @@ class Way {
   std::vector<double> taus_;
 };
 
-// The part of a segment after which its clock shows tau, by bisection.
+// The part of a segment, 0 to 1, after which its clock shows tau, by bisection.
 double part_of(const Segment& segment, double tau) {
   constexpr int kSteps = 60;
   if (tau <= segment.timing.tau_begin) return 0;
@@ -94,22 +92,24 @@ double part_of(const Segment& segment, double tau) {
 SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   const Segment& segment = show.timeline[static_cast<std::size_t>(k)];
   const Timing& timing = segment.timing;
-  const Way way(segment, static_cast<int>(std::min(segment.duration_s * show.frames_per_second,
-                                                   double{kMostSamples})));
+  const SampledPath path(
+      segment, static_cast<int>(
+                   std::min(segment.duration_s * show.frames_per_second, double{kMostSamples})));
   SegmentSurvey s;
   s.type = segment.type;
   s.begin_s = begin_s, s.end_s = begin_s + segment.duration_s, s.dissolve_s = segment.dissolve_s;
   s.r_begin = point_at(segment.trajectory, timing.tau_begin).r;
   s.r_end = point_at(segment.trajectory, timing.tau_end).r;
-  const auto [tau, r] = way.closest();
+  const auto [tau, r] = path.closest();
   s.closest = {r, begin_s + segment.duration_s * part_of(segment, tau), 0, k};
   s.closest.frame = frame_at(show, s.closest.time_s);
-  s.regions = way.regions();
+  s.regions = path.regions();
   s.proper_time = timing.tau_end - timing.tau_begin;
   s.rate_begin = clock_rate(segment, 0), s.rate_end = clock_rate(segment, 1);
   return s;
 }
 
+// Keeps the fastest observer and the most shifted light of the frames that are added.
 class Extremes {
  public:
   explicit Extremes(const Show& show, ShowSurvey& found) : show_(show), found_(found) {}
@@ -143,24 +143,6 @@ class Extremes {
   ShowSurvey& found_;
 };
 
-// Rain's components of gamma v that is given against the outgoing frame; r > 2.  The two frames recede
-// from each other at 2s/(1 + s^2).
-V3d in_rain(const V3d& c, double s) {
-  const double below = (1 - s) * (1 + s), gamma = std::sqrt(1 + c.length2());
-  return {((1 + s * s) * c.x + 2 * s * gamma) / below, c.y, c.z};
-}
-
-struct Plane {
-  double gamma, radial, across, s;
-
-  // gamma + c.n = 1/(gamma + |c|) + |c| (1 + cos) does not cancel behind a fast observer.
-  double ratio(double angle) const {
-    const double length = std::hypot(radial, across);
-    const double half = std::cos((angle - std::atan2(across, radial)) / 2);
-    return (1 / (gamma + length) + 2 * length * half * half) / std::abs(1 + s * std::cos(angle));
-  }
-};
-
 }  // namespace
 
 double clock_rate(const Segment& segment, double part) {
@@ -168,44 +150,6 @@ double clock_rate(const Segment& segment, double part) {
   const double from = std::clamp(part - kStep / 2, 0.0, 1 - kStep);
   return (proper_time_at(segment, from + kStep) - proper_time_at(segment, from)) /
          (kStep * segment.duration_s);
-}
-
-V3d static_celerity(const ObserverState& o) {
-  if (is_flat(o)) return o.celerity;
-  // dr/dtau over sqrt(1 - 2/r); the reference frame falls with -s or rises with s.
-  const double s = std::sqrt(2 / o.r), gamma = std::sqrt(1 + o.celerity.length2());
-  const double rate = o.celerity.x + (is_outgoing(o.tetrad) ? s * gamma : -s * gamma);
-  return {rate / std::sqrt((o.r - 2) / o.r), o.celerity.y, o.celerity.z};
-}
-
-std::optional<ShiftRange> frequency_range(const ObserverState& o, bool far, bool straight) {
-  if (o.region == Region::kIV || (far && !(o.r < 2))) return std::nullopt;
-  if (straight || is_flat(o)) {
-    const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
-    const double hole = is_flat(o) ? 1 : gravitational_ratio(o.r);
-    return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
-  }
-  const double s = std::sqrt(2 / o.r);
-  const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
-  const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
-  // Angles from R: the home sky reaches to the silhouette, the far one from its edge to -R.
-  const double edge = std::numbers::pi - (far ? region_three_edge(o.r) : silhouette_edge(o.r));
-  std::vector<double> angles{edge, -edge, far ? std::numbers::pi : 0};
-  const double b = s * plane.gamma - plane.radial, length = std::hypot(plane.across, b);
-  const double cosine = -s * plane.across / length;
-  if (length > 0 && std::abs(cosine) <= 1) {
-    const double axis = std::atan2(b, plane.across), apart = std::acos(cosine);
-    for (const double angle : {axis + apart, axis - apart}) {
-      const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
-      if (far ? std::abs(wrapped) > edge : std::abs(wrapped) < edge) angles.push_back(wrapped);
-    }
-  }
-  ShiftRange range{HUGE_VAL, 0};
-  for (const double angle : angles) {
-    const double ratio = plane.ratio(angle);
-    range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
-  }
-  return range;
 }
 
 ShowSurvey survey(const Show& show) {
@@ -218,14 +162,15 @@ ShowSurvey survey(const Show& show) {
     if (show.mass_solar && (!found.closest || s.closest.value < found.closest->value))
       found.closest = s.closest;
   }
-  // Where it looks does not matter here, and may be long to find.
-  Show blind = show;
-  for (Segment& segment : blind.timeline)
+  // The camera's direction does not matter here, and the axes that follow a keyframed target take
+  // milliseconds to find.
+  Show without_targets = show;
+  for (Segment& segment : without_targets.timeline)
     segment.attitudes.clear(), segment.camera.attitude = EulerAngles{};
   Extremes extremes(show, found);
   const int frames = frame_count(show);
   for (int n = 0; n < frames; ++n) {
-    const FrameState state = frame_state(blind, n);
+    const FrameState state = frame_state(without_targets, n);
     extremes.add(state);
     if (state.vanishing) extremes.add(*state.vanishing);
   }

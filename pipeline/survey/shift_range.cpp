@@ -1,0 +1,75 @@
+#include "pipeline/survey/shift_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/optics/silhouette.h"
+#include "pipeline/show/vantage.h"
+
+namespace domefall {
+namespace {
+
+// Turns gamma v against the outgoing frame into gamma v against rain, for r > 2.  The two frames move
+// at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).
+V3d in_rain(const V3d& c, double s) {
+  const double below = (1 - s) * (1 + s), gamma = std::sqrt(1 + c.length2());
+  return {((1 + s * s) * c.x + 2 * s * gamma) / below, c.y, c.z};
+}
+
+// The plane of R and c, in which the angle of a direction is measured from R.
+struct Plane {
+  double gamma, radial, across, s;
+
+  // gamma + c.m cancels behind a fast observer.  With 1/(gamma + |c|) for gamma - |c| it is a sum of
+  // positive terms: gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2), x the angle between c and m.
+  double ratio(double angle) const {
+    const double length = std::hypot(radial, across);
+    const double half = std::cos((angle - std::atan2(across, radial)) / 2);
+    return (1 / (gamma + length) + 2 * length * half * half) / std::abs(1 + s * std::cos(angle));
+  }
+};
+
+}  // namespace
+
+V3d static_celerity(const ObserverState& o) {
+  if (is_flat(o)) return o.celerity;
+  // The reference frame falls with -s or rises with s, so dr/dtau = c_R -+ s gamma.  The static
+  // observer measures dr/dtau over sqrt(1 - 2/r).
+  const double s = std::sqrt(2 / o.r), gamma = std::sqrt(1 + o.celerity.length2());
+  const double rate = o.celerity.x + (is_outgoing(o.tetrad) ? s * gamma : -s * gamma);
+  return {rate / std::sqrt((o.r - 2) / o.r), o.celerity.y, o.celerity.z};
+}
+
+std::optional<ShiftRange> frequency_range(const ObserverState& o, bool far, bool straight) {
+  if (o.region == Region::kIV || (far && !(o.r < 2))) return std::nullopt;
+  if (straight || is_flat(o)) {
+    const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
+    const double hole = is_flat(o) ? 1 : gravitational_ratio(o.r);
+    return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
+  }
+  const double s = std::sqrt(2 / o.r);
+  const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
+  const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
+  // The home sky reaches from R to the silhouette, the far one from its own edge to -R.
+  const double edge = std::numbers::pi - (far ? region_three_edge(o.r) : silhouette_edge(o.r));
+  std::vector<double> angles{edge, -edge, far ? std::numbers::pi : 0};
+  const double b = s * plane.gamma - plane.radial, length = std::hypot(plane.across, b);
+  const double cosine = -s * plane.across / length;
+  if (length > 0 && std::abs(cosine) <= 1) {
+    const double axis = std::atan2(b, plane.across), apart = std::acos(cosine);
+    for (const double angle : {axis + apart, axis - apart}) {
+      const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
+      if (far ? std::abs(wrapped) > edge : std::abs(wrapped) < edge) angles.push_back(wrapped);
+    }
+  }
+  ShiftRange range{HUGE_VAL, 0};
+  for (const double angle : angles) {
+    const double ratio = plane.ratio(angle);
+    range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
+  }
+  return range;
+}
+
+}  // namespace domefall

@@ -1,0 +1,41 @@
+#include "pipeline/survey/light_survey.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/colour/colour_space.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+TEST(LightSurvey, FindsTheBrightestFrameAndKeepsItsMean) {
+  Show show = starry(show_of(StaticObserver{12}, Domemaster{256}));
+  show.mass_solar = 1e6;
+  show.timeline[0].duration_s = 6;
+  show.timeline[0].timing.tau_end = 1;
+  // The middle is brightest, and the ends are fades.
+  show.timeline[0].curves[static_cast<std::size_t>(Channel::kEv)] =
+      Curve{{{0, -9}, {2, 0}, {3, 1}, {4, 0.5}, {6, -8}}};
+  Renderer renderer(show, 2);
+  const LightSurvey found = survey_light(show, renderer, nullptr);
+  EXPECT_EQ(found.frames, 7);
+  EXPECT_NEAR(found.brightest.time_s, 3, 0.1);
+  EXPECT_LT(found.darkest.mean, found.brightest.mean);
+  EXPECT_GE(found.darkest.ev, found.brightest.ev - 3);
+  EXPECT_GT(found.brightest.percentile99, found.brightest.mean);
+  // A frame of 256 pixels has the same mean.
+  const HalfFrame large = renderer.render(frame_state(show, found.brightest.frame));
+  double sum = 0;
+  int count = 0;
+  for (int row = 0; row < 256; ++row) {
+    const ColumnRange range = inside_columns(show.projection, row);
+    for (int k = range.first; k <= range.last; ++k, ++count) {
+      const Imath::half* rgb = large.row(row) + 3 * k;
+      sum += luminance({rgb[0], rgb[1], rgb[2]});
+    }
+  }
+  EXPECT_NEAR(found.brightest.mean / (sum / count), 1, 0.1);
+}
+
+}  // namespace
+}  // namespace domefall
