@@ -1,18 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_dec_float.hpp>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <numbers>
-#include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "pipeline/cli/verbs.h"
-#include "pipeline/image/errors.h"
+#include "pipeline/image/csv_file.h"
 #include "pipeline/optics/traced_ray.h"
 
 namespace domefall {
@@ -20,31 +18,17 @@ namespace {
 
 class RayTable {
  public:
-  explicit RayTable(const std::string& file) : file_(file), in_(file) {
-    if (!in_) throw InputError(file + ": the table of rays cannot be read");
-    std::vector<std::string> header;
-    if (!next_row(header)) fail("the table has no header line");
-    for (std::size_t k = 0; k < header.size(); ++k)
-      for (std::size_t c = 0; c < kNames.size(); ++c)
-        if (header[k] == kNames[c]) column_[c] = static_cast<int>(k);
-    for (const int needed : {kObserver, kR, kDelta})
-      if (column_[needed] < 0) fail("the table has no column " + std::string(kNames[needed]));
-    width_ = header.size();
-  }
+  explicit RayTable(const std::string& file) : rows_(file, {"observer", "r", "delta"}) {}
 
   // The cells observer, r, delta, edge, offset of the next ray, as written; false at the end.
   bool next(std::array<std::string, 5>& cells) {
-    std::vector<std::string> row;
-    if (!next_row(row)) return false;
-    row.resize(std::max(width_, row.size()));
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      cells[c] = column_[c] < 0 ? "" : row[static_cast<std::size_t>(column_[c])];
+    constexpr std::array<std::string_view, 5> kNames{"observer", "r", "delta", "edge", "offset"};
+    if (!rows_.next()) return false;
+    for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = rows_.text(kNames[c]);
     return true;
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
-  }
+  [[noreturn]] void fail(const std::string& what) const { rows_.fail(what); }
 
   long double number(const std::string& text, const char* name) const {
     char* end = nullptr;
@@ -58,31 +42,7 @@ class RayTable {
   enum { kObserver, kR, kDelta, kEdge, kOffset };
 
  private:
-  static constexpr std::array<const char*, 5> kNames{"observer", "r", "delta", "edge", "offset"};
-
-  static std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-  }
-
-  bool next_row(std::vector<std::string>& row) {
-    for (std::string line; std::getline(in_, line);) {
-      if (++line_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-      line = trimmed(line);
-      if (line.empty() || line[0] == '#') continue;
-      row.clear();
-      std::istringstream cells(line);
-      for (std::string cell; std::getline(cells, cell, ',');) row.push_back(trimmed(cell));
-      return true;
-    }
-    return false;
-  }
-
-  std::string file_;
-  std::ifstream in_;
-  int line_ = 0;
-  std::array<int, 5> column_{-1, -1, -1, -1, -1};
-  std::size_t width_ = 0;
+  CsvFile rows_;
 };
 
 constexpr std::array<std::pair<const char*, TraceObserver>, 5> kObservers{

@@ -1,8 +1,13 @@
-// Tables as text: comma-separated, a header line, '#' lines are comments, no quotes.
+// Tables as text: a row is a line, cells stand between commas, a header line names the columns.
+//
+// Blanks around a cell are dropped.  A cell in quotes keeps its commas and blanks, "" is a quote
+// within it, and it ends on the line on which it begins.  Empty lines and lines that begin with '#'
+// are passed over.  Lines end with LF or CR LF, and a byte-order mark may precede the first.
 #pragma once
 
+#include <deque>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,30 +16,52 @@ namespace domefall {
 
 class CsvFile {
  public:
-  // Reads the header.  Throws InputError if there is none or the file cannot be read.
-  explicit CsvFile(const std::filesystem::path& file);
+  // Reads the whole file, which may be a pipe, and its header.  Throws InputError where the file
+  // cannot be read, is empty, or has no column of a name in `needed`.
+  explicit CsvFile(const std::filesystem::path& file,
+                   const std::vector<std::string_view>& needed = {});
+  // A table without a header line: `columns` are the names, `separator` stands for the comma.
+  CsvFile(const std::filesystem::path& file, char separator,
+          const std::vector<std::string_view>& columns);
+  CsvFile(const CsvFile&) = delete;
+  CsvFile(CsvFile&&) = delete;
+  CsvFile& operator=(const CsvFile&) = delete;
+  CsvFile& operator=(CsvFile&&) = delete;
+  ~CsvFile() = default;
 
   bool has(std::string_view column) const;
-  // False at the end.  Throws InputError, with the line, of a row that is not as long as the header.
+  // Reads a row, which must be as long as the header; false at the end of the file.
   bool next();
-  // Of the row read last.  number() throws InputError, with the line, of what is no finite number or
-  // where there is no such column.
+
+  // The functions below return a cell of the row that was read last.  Those that return numbers throw
+  // InputError, with the line, for a cell that holds something else.
+
+  // Empty where there is no such column.
   std::string_view text(std::string_view column) const;
+  // A finite number.
   double number(std::string_view column) const;
+  // A number from `low` to `high`; nothing where the cell is empty or there is no such column.
+  std::optional<double> number(std::string_view column, double low, double high) const;
+  // The same of a cell that may not be empty.
+  double required(std::string_view column, double low, double high) const;
 
   // Throws InputError: "FILE:LINE: what".
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  bool next_line();
-  std::size_t find(std::string_view column) const;
+  bool next_line(std::string_view& line);
+  void split(std::string_view line);
+  std::size_t end_of_cell(std::string_view line) const;
+  std::string_view unquoted(std::string_view cell);
 
   std::filesystem::path file_;
-  std::ifstream in_;
-  std::string line_;
-  int number_ = 0;  // of the line
+  std::string bytes_;
+  std::string_view rest_;
+  int line_number_ = 0;
+  char separator_ = ',';
   std::vector<std::string> columns_;
-  std::vector<std::string_view> cells_;  // into line_
+  std::vector<std::string_view> cells_;  // into bytes_ or unquoted_
+  std::deque<std::string> unquoted_;     // the row's cells that had quotes
 };
 
 }  // namespace domefall

@@ -77,7 +77,7 @@ struct Table {
 
 // What `domefall states` writes, or any table with some of these columns.
 Table read_table(const std::filesystem::path& file) {
-  CsvFile csv(file);
+  CsvFile csv(file, {"proper_time", "r"});
   Table table;
   const bool moving = csv.has("celerity_r") && csv.has("celerity_phi");
   while (csv.next()) {

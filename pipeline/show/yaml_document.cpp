@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "pipeline/image/byte_order_mark.h"
 #include "pipeline/image/errors.h"
 
 namespace domefall {
@@ -98,8 +99,7 @@ std::string read_show_text(const std::filesystem::path& file) {
   text.resize(static_cast<std::size_t>(in.gcount()));
   if (text.size() > kLargestFile)
     throw InputError(file.string() + ": a show file is at most 1 MiB; this one is larger");
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
+  return std::string(without_byte_order_mark(text));
 }
 
 YAML::Node parse_yaml(const std::string& text, Problems& problems) {

@@ -34,7 +34,7 @@ ImportedCatalogue import_hyg(const Paths& inputs) {
   ImportedCatalogue out;
   RawCatalogue& catalogue = out.catalogue;
   for (const std::filesystem::path& input : inputs) {
-    QuotedTable row(input, {"ra", "dec", "mag", "ci"});
+    CsvFile row(input, {"ra", "dec", "mag", "ci"});
     while (row.next()) {
       const std::string_view proper = row.text("proper");
       if (proper == "Sol") {

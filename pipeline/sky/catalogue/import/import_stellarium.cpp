@@ -7,7 +7,6 @@
 #include "pipeline/image/map_file.h"
 #include "pipeline/sky/catalogue/import/import_text.h"
 #include "pipeline/sky/catalogue/import/importers.h"
-#include "pipeline/sky/catalogue/import/quoted_table.h"
 #include "pipeline/sky/catalogue/import/stellarium_zones.h"
 #include "pipeline/sky/catalogue/import/table_star.h"
 
@@ -171,7 +170,7 @@ Paths catalogues_in(const fs::path& folder) {
 // The motions of the brighter stars, beside their catalogues: Hipparcos' own, without the errors above.
 void take_motions(const fs::path& file, std::vector<CatalogueStar>& stars) {
   std::unordered_map<std::uint32_t, std::pair<float, float>> motions;
-  QuotedTable row(file, {"hip", "pm_ra", "pm_dec"}, '\t', {"hip", "pm_ra", "pm_dec"});
+  CsvFile row(file, '\t', {"hip", "pm_ra", "pm_dec"});
   while (row.next())
     motions[static_cast<std::uint32_t>(row.required("hip", 1, kLastHip))] = {
         static_cast<float>(row.required("pm_ra", -kFastest, kFastest)),

@@ -14,7 +14,7 @@ ImportedCatalogue import_table(const Paths& inputs) {
   ImportedCatalogue out;
   RawCatalogue& catalogue = out.catalogue;
   for (const std::filesystem::path& input : inputs) {
-    QuotedTable row(input, {"ra_deg", "dec_deg", "v_mag", "b_v"});
+    CsvFile row(input, {"ra_deg", "dec_deg", "v_mag", "b_v"});
     while (row.next()) {
       const auto place = static_cast<std::uint32_t>(catalogue.stars.size());
       catalogue.stars.push_back(read_table_star(row, kColumns));

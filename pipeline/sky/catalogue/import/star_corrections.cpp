@@ -143,7 +143,7 @@ class Corrections {
   }
 
   RawCatalogue& catalogue_;
-  QuotedTable row_;
+  CsvFile row_;
   std::unordered_map<StarId, std::uint32_t> by_id_;
   std::unordered_map<std::string, std::uint32_t> by_name_;
   std::unordered_set<std::string> ambiguous_;  // names of several stars

@@ -4,7 +4,7 @@
 
 namespace domefall {
 
-CatalogueStar read_table_star(const QuotedTable& row, const StarColumns& c) {
+CatalogueStar read_table_star(const CsvFile& row, const StarColumns& c) {
   constexpr double kTurn = 360;
   CatalogueStar star;
   star.direction = star_direction(row.required(c.ra, 0, kTurn / c.degrees) * c.degrees,

@@ -1,7 +1,7 @@
 // A star from the row of a table whose columns bear names.
 #pragma once
 
-#include "pipeline/sky/catalogue/import/quoted_table.h"
+#include "pipeline/image/csv_file.h"
 #include "pipeline/sky/catalogue/star_record.h"
 
 namespace domefall {
@@ -17,6 +17,6 @@ struct StarColumns {
 };
 
 // With `hip` and `hd` if there are such columns.  Throws InputError with the line.
-CatalogueStar read_table_star(const QuotedTable& row, const StarColumns& columns);
+CatalogueStar read_table_star(const CsvFile& row, const StarColumns& columns);
 
 }  // namespace domefall
