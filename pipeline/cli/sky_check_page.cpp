@@ -1,9 +1,9 @@
 #include "pipeline/cli/sky_check_page.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
+
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -30,11 +30,8 @@ std::string told(const SkyCheck& check) {
 void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places) {
   std::puts("place                      RA deg  Dec deg  light over its surroundings");
   for (const KnownPlace& p : places) {
-    const V3d& d = p.direction.v;
-    double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
-    if (ra < 0) ra += 360;
-    std::printf("%-25s %7.2f  %7.2f  %.3g\n", p.name.c_str(), ra,
-                std::asin(d.z) * 180 / std::numbers::pi, p.contrast);
+    const Equatorial at = equatorial(p.direction);
+    std::printf("%-25s %7.2f  %7.2f  %.3g\n", p.name.c_str(), at.ra_deg, at.dec_deg, p.contrast);
   }
   std::puts("\n         stars   clouds  band     orientation");
   print_fit("stated", check.stated);

@@ -1,6 +1,4 @@
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
@@ -9,6 +7,7 @@
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/effect_light.h"
 #include "pipeline/show/read_show.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -51,13 +50,11 @@ void probe(const Options& o) {
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
   if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
-  const V3d& d = look.sky_direction;
-  double ra = std::atan2(d.y, d.x) * 180 / std::numbers::pi;
-  if (ra < 0) ra += 360;
+  const Equatorial at = equatorial({look.sky_direction});
   const bool singularity = look.sky == SkyRegion::kIV;
   std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
-              singularity ? "the past singularity, region" : "sky", name_of(look.sky), ra,
-              std::atan2(d.z, std::hypot(d.x, d.y)) * 180 / std::numbers::pi);
+              singularity ? "the past singularity, region" : "sky", name_of(look.sky), at.ra_deg,
+              at.dec_deg);
   if (!singularity) std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
   std::printf("compression  %.6g towards the hole, %.6g across\n", look.radial_scale,
               look.tangential_scale);

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -8,6 +7,7 @@
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -30,14 +30,11 @@ void print_states(const std::string& file, const std::string& frames, const std:
   for (const int n : chosen) {
     const FrameState s = frame_state(show, n);
     const ObserverState& o = s.observer;
-    const V3d place = column(o.sky_from_tetrad, 0);
-    double ra = std::atan2(place.y, place.x) * 180 / std::numbers::pi;
-    if (ra < 0) ra += 360;
-    const double dec = std::atan2(place.z, std::hypot(place.x, place.y)) * 180 / std::numbers::pi;
+    const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
     std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g,%.15g", n,
                 s.show_time_s, s.segment, region_name(o.region), tetrad_name(o.tetrad), o.r,
-                o.proper_time, o.celerity.x, o.celerity.y, o.celerity.z, ra, dec,
-                o.azimuth * 180 / std::numbers::pi);
+                o.proper_time, o.celerity.x, o.celerity.y, o.celerity.z, place.ra_deg,
+                place.dec_deg, o.azimuth * 180 / std::numbers::pi);
     for (int k = 0; k < 3; ++k) {
       const V3d axis = column(o.tetrad_from_camera, k);
       std::printf(",%.17g,%.17g,%.17g", axis.x, axis.y, axis.z);

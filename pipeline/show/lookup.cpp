@@ -1,6 +1,5 @@
 #include "pipeline/show/lookup.h"
 
-#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -8,6 +7,7 @@
 #include "pipeline/show/assets.h"
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/section.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -84,11 +84,6 @@ std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
   const auto dec = place.required_number("dec_deg", kDegrees.within(-90, 90));
   if (!ra || !dec) return std::nullopt;
   return sky_direction(*ra, *dec);
-}
-
-SkyDirection sky_direction(double ra_deg, double dec_deg) {
-  const double ra = radians(ra_deg), dec = radians(dec_deg);
-  return {V3d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec))};
 }
 
 }  // namespace domefall

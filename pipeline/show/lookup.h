@@ -35,8 +35,6 @@ class Lookup {
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
                                            std::span<const std::string_view> words = {});
 
-SkyDirection sky_direction(double ra_deg, double dec_deg);
-
 inline constexpr double radians(double degrees) { return degrees * 0.017453292519943295; }
 
 }  // namespace domefall

@@ -6,6 +6,7 @@
 #include "pipeline/show/sky_section.h"
 #include "pipeline/show/timeline_section.h"
 #include "pipeline/show/yaml_document.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {

@@ -12,6 +12,7 @@
 
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -29,7 +30,7 @@ class Catalogue {
     raw.stars.resize(kStars);
     for (int i = 0; i < kStars; ++i) {
       CatalogueStar& star = raw.stars[static_cast<std::size_t>(i)];
-      star.direction = star_direction(ra(random), dec(random));
+      star.direction = sky_direction(ra(random), dec(random));
       star.v = static_cast<float>(kFaintest * i / kStars);
       star.colour = static_cast<float>(i % 20) * 0.1F;
       star.pm_ra = static_cast<float>(i % 50), star.pm_dec = 3;

@@ -21,11 +21,6 @@ void move_names(std::vector<StarName>& names, const std::vector<std::uint32_t>& 
 
 }  // namespace
 
-SkyDirection star_direction(double ra_deg, double dec_deg) {
-  const double ra = ra_deg * std::numbers::pi / 180, dec = dec_deg * std::numbers::pi / 180;
-  return {V3d(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec))};
-}
-
 SkyDirection moved(const SkyDirection& from, double pm_ra, double pm_dec, double years) {
   const V3d& p = from.v;
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);

@@ -53,9 +53,6 @@ struct RawCatalogue {
   CatalogueText text;
 };
 
-// J2000, from degrees.
-SkyDirection star_direction(double ra_deg, double dec_deg);
-
 // Where a star stands after so many years, its motion being taken as linear in space and square to the line
 // of sight: direction + years * motion, made a unit vector again.  Exact for a star without radial velocity;
 // Barnard's star, which comes nearer at 110 km/s, is 0.2 degrees off after 1,000 years.  At a pole,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "pipeline/sky/maps/cube_face.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -51,10 +52,7 @@ struct NamedPlace {
   double ra_deg, dec_deg, radius_deg;
   bool dark = false;
 
-  V3d direction() const {
-    const double ra = ra_deg * kDegree, dec = dec_deg * kDegree;
-    return {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
-  }
+  SkyDirection direction() const { return sky_direction(ra_deg, dec_deg); }
   double radius() const { return radius_deg * kDegree; }
   bool stands_out(double contrast) const {
     return dark ? contrast < 1 / kCloudStandsOut : contrast > kCloudStandsOut;
@@ -166,7 +164,7 @@ class Judge {
     for (const V3d& d : band_.places) seen.push_back(light(map_, in_map(d), 2 * kBandBlur));
     int clouds = 0;
     for (const NamedPlace& cloud : kClouds)
-      clouds += cloud.stands_out(contrast(map_, in_map(cloud.direction()), cloud.radius()));
+      clouds += cloud.stands_out(contrast(map_, in_map(cloud.direction().v), cloud.radius()));
     return {orientation, count ? found / static_cast<double>(count) : 0,
             correlation(ranks(seen), band_.density), clouds / static_cast<double>(kClouds.size())};
   }
@@ -238,7 +236,7 @@ std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& cat
           place_at(map, name->name, star.direction, std::max(1.5 * texel, 0.1 * kDegree)));
   }
   for (const NamedPlace& p : kClouds)
-    places.push_back(place_at(map, p.name, {p.direction()}, p.radius()));
+    places.push_back(place_at(map, p.name, p.direction(), p.radius()));
   return places;
 }
 

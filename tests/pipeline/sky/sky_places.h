@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "pipeline/sky/catalogue/import/importers.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 
 // Arcseconds from a place in J2000 degrees.
 inline double arcseconds_from(const SkyDirection& star, double ra_deg, double dec_deg) {
-  const V3d place = star_direction(ra_deg, dec_deg).v;
+  const V3d place = sky_direction(ra_deg, dec_deg).v;
   return std::atan2(star.v.cross(place).length(), star.v.dot(place)) *
          (180 * 3600 / 3.14159265358979);
 }

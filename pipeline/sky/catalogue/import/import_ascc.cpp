@@ -1,6 +1,7 @@
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
 #include "pipeline/sky/catalogue/import/import_text.h"
 #include "pipeline/sky/catalogue/import/importers.h"
+#include "trajectories/equatorial.h"
 
 // Byte-by-byte: the ReadMe of I/280B (Kharchenko 2001, Kin. Phys. Cel. Bod. 17, 409; version 3).
 namespace domefall {
@@ -43,7 +44,7 @@ StarId identifier(const FixedColumns& line) {
 CatalogueStar read_star(const FixedColumns& line) {
   CatalogueStar star;
   star.pm_ra = motion(line, kPmRa), star.pm_dec = motion(line, kPmDec);
-  star.direction = moved(star_direction(line.required(kRa) * kDegreesPerHour, line.required(kDec)),
+  star.direction = moved(sky_direction(line.required(kRa) * kDegreesPerHour, line.required(kDec)),
                          star.pm_ra, star.pm_dec, 2000 - kEpoch);
   const auto b = magnitude(line, kB), v = magnitude(line, kV);
   if (b && v) star.colour = colour_of_b_v(*b - *v);

@@ -4,6 +4,7 @@
 #include "pipeline/sky/catalogue/import/import_text.h"
 #include "pipeline/sky/catalogue/import/importers.h"
 #include "pipeline/sky/catalogue/import/json_file.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -25,7 +26,7 @@ class Feature {
     const json& place = member(member(value_, "geometry"), "coordinates");
     if (!place.is_array() || place.size() != 2) fail("coordinates must be [RA, Dec]");
     const double ra = number(place[0], "RA", -180, 360);
-    out.direction = star_direction(ra < 0 ? ra + 360 : ra, number(place[1], "Dec", -90, 90));
+    out.direction = sky_direction(ra < 0 ? ra + 360 : ra, number(place[1], "Dec", -90, 90));
     const json& properties = member(value_, "properties");
     out.v = static_cast<float>(number(member(properties, "mag"), "mag", kBrightestV, kFaintestV));
     out.colour = colour(member(properties, "bv"));

@@ -7,6 +7,7 @@
 #include "pipeline/sky/catalogue/import/import_text.h"
 #include "pipeline/sky/catalogue/import/importers.h"
 #include "pipeline/sky/catalogue/import/spectral_type.h"
+#include "trajectories/equatorial.h"
 
 // Byte-by-byte: the ReadMe of III/135A (Cannon & Pickering 1918-1924).
 namespace domefall {
@@ -42,7 +43,7 @@ SkyDirection position(const FixedColumns& line) {
   const char sign = line.letter(kSign);
   if (sign != '+' && sign != '-') line.fail("the sign of the declination (byte 24) must be + or -");
   if (degrees > 90) line.fail("the declination exceeds 90 degrees");
-  return to_j2000(star_direction(hours * kDegreesPerHour, sign == '-' ? -degrees : degrees));
+  return to_j2000(sky_direction(hours * kDegreesPerHour, sign == '-' ? -degrees : degrees));
 }
 
 // What cannot be a magnitude is one of the catalogue's codes.

@@ -5,6 +5,7 @@
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
 #include "pipeline/sky/catalogue/import/import_text.h"
 #include "pipeline/sky/catalogue/import/importers.h"
+#include "trajectories/equatorial.h"
 
 // Byte-by-byte: the ReadMe of I/259 (Hog et al. 2000, A&A 355, L27).
 namespace domefall {
@@ -62,8 +63,8 @@ class Tycho {
       CatalogueStar star = start_of(line);
       // Without a mean position the observed one, of about J1991.5, is all there is.
       const bool observed = line.letter(kPositionFlag) == 'X';
-      star.direction = star_direction(line.required(observed ? kObservedRa : kRa),
-                                      line.required(observed ? kObservedDec : kDec));
+      star.direction = sky_direction(line.required(observed ? kObservedRa : kRa),
+                                     line.required(observed ? kObservedDec : kDec));
       keep(line, kMain, star);
     }
   }
@@ -72,7 +73,7 @@ class Tycho {
     FixedColumns line(file, kSupplementLine, kSupplementLine);
     while (line.next()) {
       CatalogueStar star = start_of(line);
-      star.direction = moved(star_direction(line.required(kRa), line.required(kDec)), star.pm_ra,
+      star.direction = moved(sky_direction(line.required(kRa), line.required(kDec)), star.pm_ra,
                              star.pm_dec, 2000 - kSupplementEpoch);
       if (line.letter(kSupplementBand) == 'H') ++hipparcos_band_;
       keep(line, kSupplement, star);

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "pipeline/sky/catalogue/import/table_star.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -107,7 +108,7 @@ class Corrections {
     if (v) star.v = static_cast<float>(*v);
     if (b_v) star.colour = static_cast<float>(*b_v);
     if (temperature) star.colour = static_cast<float>(*temperature);
-    if (ra) star.direction = star_direction(*ra, *dec);
+    if (ra) star.direction = sky_direction(*ra, *dec);
     if (pm_ra) star.pm_ra = static_cast<float>(*pm_ra), star.pm_dec = static_cast<float>(*pm_dec);
     return v || b_v || temperature || ra || pm_ra;
   }

@@ -1,14 +1,15 @@
 #include "pipeline/sky/catalogue/import/table_star.h"
 
 #include "pipeline/sky/catalogue/import/import_text.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 
 CatalogueStar read_table_star(const CsvFile& row, const StarColumns& c) {
   constexpr double kTurn = 360;
   CatalogueStar star;
-  star.direction = star_direction(row.required(c.ra, 0, kTurn / c.degrees) * c.degrees,
-                                  row.required(c.dec, -90, 90));
+  star.direction = sky_direction(row.required(c.ra, 0, kTurn / c.degrees) * c.degrees,
+                                 row.required(c.dec, -90, 90));
   star.v = static_cast<float>(row.required(c.v, kBrightestV, kFaintestV));
   if (const auto b_v = row.number(c.b_v, c.bluest, kReddest)) star.colour = colour_of_b_v(*b_v);
   star.pm_ra = static_cast<float>(row.number(c.pm_ra, -kFastest, kFastest).value_or(0));

@@ -9,6 +9,7 @@
 #include "pipeline/sky/catalogue/mapped_stars.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "tests/pipeline/image/test_folder.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -23,7 +24,7 @@ RawCatalogue some_stars() {
   RawCatalogue catalogue;
   for (int i = 0; i < kStars; ++i) {
     CatalogueStar star;
-    star.direction = star_direction(ra(random), std::asin(sine(random)) * 180 / 3.141592653589793);
+    star.direction = sky_direction(ra(random), std::asin(sine(random)) * 180 / 3.141592653589793);
     star.v = static_cast<float>((i * 7919 % kStars) * 1e-3 - 1);
     star.colour = i % 10 == 0 ? kNoColour : static_cast<float>(i % 20) * 0.1F;
     star.pm_ra = static_cast<float>(i % 5);

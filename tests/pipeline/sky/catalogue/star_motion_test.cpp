@@ -5,6 +5,7 @@
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
 #include "tests/pipeline/image/test_folder.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -24,7 +25,7 @@ constexpr Mover kSirius{"Sirius", 101.287155, -16.716116, -546.01, -1223.07};
 constexpr Mover kArcturus{"Arcturus", 213.915300, 19.182409, -1093.39, -2000.06};
 
 SkyDirection at(const Mover& star, double years) {
-  return moved(star_direction(star.ra, star.dec), star.pm_ra, star.pm_dec, years);
+  return moved(sky_direction(star.ra, star.dec), star.pm_ra, star.pm_dec, years);
 }
 
 TEST(Motion, OverACenturyIsTheProperMotionAlongBothAxes) {
@@ -72,7 +73,7 @@ TEST_F(Epochs, TablesAndFilesMoveAlikeAndStandStillAtTheirOwn) {
   RawCatalogue raw;
   for (const Mover& star : {kSirius, Mover{"Vega", 279.234735, 38.783689, 0, 0}, kBarnard}) {
     CatalogueStar s;
-    s.direction = star_direction(star.ra, star.dec);
+    s.direction = sky_direction(star.ra, star.dec);
     s.pm_ra = static_cast<float>(star.pm_ra), s.pm_dec = static_cast<float>(star.pm_dec);
     s.v = static_cast<float>(raw.stars.size()), s.colour = 0;
     raw.stars.push_back(s);
@@ -90,7 +91,7 @@ TEST_F(Epochs, TablesAndFilesMoveAlikeAndStandStillAtTheirOwn) {
     EXPECT_LT(separation(a.stars[0].direction, at(kSirius, epoch - 2000)), 1e-12);
   }
   EXPECT_EQ(read_star_catalogue(table, 20).stars[2].direction.v,
-            star_direction(kBarnard.ra, kBarnard.dec).v);
+            sky_direction(kBarnard.ra, kBarnard.dec).v);
   // The positions of a file of another epoch are those of that epoch.
   raw.epoch = 1991.25;
   write_star_file(file, raw);

@@ -4,6 +4,7 @@
 #include "pipeline/sky/catalogue/star_id.h"
 #include "tests/pipeline/image/test_folder.h"
 #include "tests/pipeline/sky/sky_places.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -13,7 +14,7 @@ class StarCorrections : public TestFolder {
   StarCorrections() {
     for (std::uint32_t i = 1; i <= 4; ++i) {
       CatalogueStar star;
-      star.direction = star_direction(10.0 * i, 5.0 * i);
+      star.direction = sky_direction(10.0 * i, 5.0 * i);
       star.v = static_cast<float>(i), star.id = henry_draper_id(i);
       if (i == 4) star.v = kNoMagnitude;
       stars_.stars.push_back(star);
