@@ -7,7 +7,6 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/sky/maps/cube_face.h"
-#include "pipeline/sky/maps/sky_pyramid.h"
 
 namespace domefall {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/sky/maps/sky_texel.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -27,11 +28,6 @@ enum class SkyMapKind : std::uint32_t {
 
 // Kelvin.  T exceeds it, so that theta > 0.
 inline constexpr double kThermalBase = 256;
-
-// Four half floats (IEEE binary16), none negative, infinite, NaN or subnormal.
-struct SkyTexel {
-  std::uint16_t channel[4];
-};
 
 // Six faces of (size + 2)^2 texels, row by row, with a border of one texel around each (what a look
 // between the outermost texels of two faces needs).  Faces and their axes: cube_face.h.

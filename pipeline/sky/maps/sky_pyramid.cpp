@@ -1,7 +1,5 @@
 #include "pipeline/sky/maps/sky_pyramid.h"
 
-#include <Imath/half.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,7 +13,6 @@
 namespace domefall {
 namespace {
 
-constexpr std::uint16_t kSmallestNormal = 0x0400;  // 2^-14
 constexpr int kGreatestExponent = 14;
 constexpr unsigned kMostThreads = 64;
 
@@ -90,17 +87,6 @@ void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painte
 }
 
 }  // namespace
-
-std::uint16_t half_bits(float value) {
-  const std::uint16_t bits = Imath::half(value).bits();
-  return bits < kSmallestNormal ? 0 : bits;
-}
-
-float half_value(std::uint16_t bits) {
-  Imath::half h;
-  h.setBits(bits);
-  return h;
-}
 
 double sky_unit(double greatest) {
   if (!(greatest > 0)) return 1;

@@ -9,10 +9,6 @@
 
 namespace domefall {
 
-// Rounded to the nearest half; what would be subnormal is 0.  `value` is finite, 0 to 65504.
-std::uint16_t half_bits(float value);
-float half_value(std::uint16_t bits);
-
 // The unit in which `greatest` (> 0; of any channel of any texel) is 2^13 to 2^14.  1 if it is 0.
 double sky_unit(double greatest);
 
