@@ -1,10 +1,11 @@
 #include "pipeline/sky/maps/sky_pyramid.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 #include "pipeline/sky/maps/cube_face.h"
@@ -14,7 +15,6 @@ namespace domefall {
 namespace {
 
 constexpr int kGreatestExponent = 14;
-constexpr unsigned kMostThreads = 64;
 
 // Of four texels that become one.
 SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
@@ -144,15 +144,12 @@ void fill_border(const SkyPyramid::Level& level) {
 }
 
 void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks) {
-  const int rows = 6 * (level.size + 2);
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int row = next++; row < rows; row = next++) paint_row(level, row, painter, looks);
-  };
-  std::vector<std::jthread> others;
-  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
-  for (unsigned k = 1; k < threads; ++k) others.emplace_back(work);
-  work();
+  // The caller may hold a lock.  A thread that waits here for the last rows must not take up another
+  // task meanwhile, since that may wait for the same lock.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(0, 6 * (level.size + 2),
+                      [&](int row) { paint_row(level, row, painter, looks); });
+  });
 }
 
 }  // namespace domefall
