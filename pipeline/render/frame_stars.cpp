@@ -3,24 +3,24 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <optional>
 
-#include "pipeline/render/scene/photometry.h"
 #include "pipeline/render/stars/star_images.h"
 
 namespace domefall {
 namespace {
 
-// Whose images one task finds, however many threads there are; of many stars, more.
+// The number of stars whose images one task finds.  It does not depend on the number of threads, and
+// grows where there are many stars.
 std::size_t stars_per_task(std::size_t count) {
   constexpr std::size_t kLeast = 16 * kStarBatch, kTasks = 64;
   return std::max(kLeast, count / kTasks / kStarBatch * kStarBatch);
 }
-// Each task's stars in a place of their own, in the catalogue's order: the same images in the same order
-// for any number of threads.  `lists`: whatever is in them goes, their memory stays.
-void add_stars(const StarImages& maker, const SceneStars& stars, const PointSpread& widths,
+
+// Each task has a place of its own in the layer, in the order of the catalogue, so that the layer holds the
+// same images in the same order for any number of threads.
+void add_stars(const StarImages& maker, const SceneStars& stars, const PointSpread& point_spread,
                ImageLists& lists, BlobLayer& layer) {
   const std::size_t count = maker.count(stars);
   const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
@@ -30,37 +30,35 @@ void add_stars(const StarImages& maker, const SceneStars& stars, const PointSpre
     std::vector<StarImage>& images = lists.local();
     images.clear();
     for (std::size_t k = first; k < end; k += kStarBatch) maker.append(stars, k, end, images);
-    layer.place(before + task, images, widths);
+    layer.place(before + task, images, point_spread);
   });
 }
 
-// About as many as a picture will have, by its part of the sphere; falling at 7 M a dome has two of each star.
-double images_expected(std::size_t stars, bool gravity, const Projection& p) {
+// An estimate of the number of images, by the image's part of the sphere.  Falling at 7 M a dome shows two
+// images of each star on average, which is 4 for the whole sphere.
+double images_expected(std::size_t stars, const FrameScene& scene) {
+  const Projection& p = scene.projection();
   const double pixel = central_pixel_angle(p);
   const double part =
       std::holds_alternative<Domemaster>(p)
           ? 0.5
           : std::min(1.0, pixel * pixel * columns(p) * rows(p) / (4 * std::numbers::pi));
-  return static_cast<double>(stars) * part * (gravity ? 4 : 1);
+  return static_cast<double>(stars) * part * (scene.plan.gravity ? 4 : 1);
 }
 
 }  // namespace
 
-void lay_stars(const Show& show, const FrameState& state, const FramePlan& plan,
-               const HoleOptics& optics, const PixelShader::Skies& skies, ImageLists& lists,
-               BlobLayer& layer) {
-  const PointSpread widths(show.point_spread, state.projection, exposure_scale(state.settings));
+void lay_stars(const FrameScene& scene, ImageLists& lists, BlobLayer& layer) {
   PerSky<std::optional<StarImages>> makers;
-  double many = 0;
-  for (const SkyRegion which : kEverySky) {
-    if (!plan[which].stars) continue;
-    makers[which].emplace(show, state, state.settings.sky[which], optics.table_of(which));
-    many +=
-        images_expected(makers[which]->count(*skies[which]->stars), plan.gravity, state.projection);
+  double expected = 0;
+  for (const SkyRegion sky : kEverySky) {
+    if (scene.stars[sky] == nullptr) continue;
+    makers[sky].emplace(scene, sky);
+    expected += images_expected(makers[sky]->count(*scene.stars[sky]), scene);
   }
-  if (BlobLayer::are_many(many, state.projection)) layer.use_splats(widths);
-  for (const SkyRegion which : kEverySky)
-    if (makers[which]) add_stars(*makers[which], *skies[which]->stars, widths, lists, layer);
+  if (BlobLayer::are_many(expected, scene.projection())) layer.use_splats(scene.point_spread);
+  for (const SkyRegion sky : kEverySky)
+    if (makers[sky]) add_stars(*makers[sky], *scene.stars[sky], scene.point_spread, lists, layer);
 }
 
 }  // namespace domefall

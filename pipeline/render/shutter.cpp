@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "pipeline/simd/half_row.h"
 #include "projections/projection.h"
@@ -11,10 +12,10 @@
 namespace domefall {
 namespace {
 
-// Places along each side of the picture at which motion is looked at.
+// Motion is measured at so many places along each side of the image, and by what this part of them exceeds.
 constexpr int kPlaces = 24;
 constexpr double kExceeding = 0.05;
-// Of the longer side of a footprint: an Einstein ring's shorter side is 0.
+// The least width of a footprint, in parts of its length: that of an Einstein ring would be 0.
 constexpr double kNarrowest = 0.25;
 
 }  // namespace
@@ -51,12 +52,40 @@ int instants_for_motion(double motion_in_pixels) {
       std::clamp(std::ceil(motion_in_pixels / kPixelsPerInstant), 1.0, double{kMostInstants}));
 }
 
-void MeanFrame::add(const HalfFrame& picture) {
-  if (count_++ == 0) sum_ = FloatImage(picture.width, picture.height);
-  tbb::parallel_for(0, picture.height, [&](int row) {
-    const Imath::half* from = picture.row(row);
+namespace {
+
+double motion_between(const Show& show, const FrameState& from, const FrameState& to,
+                      OpticsStore& optics) {
+  // The store keeps one radius only, so the first optics are copied.
+  const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
+  const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
+  return motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
+                          ViewTracer(to, second, show.effects));
+}
+
+}  // namespace
+
+// The motion is followed through the middles of the quarters of the exposure, which are three quarters of
+// its whole way.
+int instants_for(const Show& show, const FrameState& state, OpticsStore& optics) {
+  constexpr int kParts = 4;
+  std::vector<FrameState> states = exposure_states(show, state.frame, kParts);
+  for (FrameState& exposed : states) take_size(state, exposed);
+  double way = 0, vanishing_way = 0;
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    way += motion_between(show, states[k - 1], states[k], optics);
+    if (states[k - 1].vanishing && states[k].vanishing)
+      vanishing_way += motion_between(show, *states[k - 1].vanishing, *states[k].vanishing, optics);
+  }
+  return instants_for_motion(std::max(way, vanishing_way) * kParts / (kParts - 1));
+}
+
+void MeanFrame::add(const HalfFrame& instant) {
+  if (count_++ == 0) sum_ = FloatImage(instant.width, instant.height);
+  tbb::parallel_for(0, instant.height, [&](int row) {
+    const Imath::half* from = instant.row(row);
     float* to = sum_.row(row);
-    for (int k = 0; k < 3 * picture.width; ++k) to[k] += from[k];
+    for (int k = 0; k < 3 * instant.width; ++k) to[k] += from[k];
   });
 }
 

@@ -70,14 +70,15 @@ void find_images(benchmark::State& bench) {
   state.projection = show.projection;
   state.observer.r = place.r;
   state.observer.celerity = place.celerity;
-  const bool flat = place.r == kFlatSpace;
+  state.settings.sky[SkyRegion::kI] = {1, 1, 99};
   const HoleOptics optics = make_hole_optics(place.r, Tetrad::kRain, {true, false});
+  const FrameScene scene(show, state, plan_frame(show, state), optics, {});
   std::vector<StarImage> images;
   double best = 1e9;
   for (auto _ : bench) {
     const double start = cpu_seconds();
     images.clear();
-    const StarImages maker(show, state, {1, 1, 99}, flat ? nullptr : &*optics.home_sky);
+    const StarImages maker(scene, SkyRegion::kI);
     const std::size_t count = maker.count(stars);
     for (std::size_t k = 0; k < count; k += kStarBatch) maker.append(stars, k, count, images);
     best = std::min(best, cpu_seconds() - start);

@@ -246,7 +246,7 @@ void sweep(const HoleOptics& optics, const Rain& rain, int count, Bent& bent, Vi
 }  // namespace
 
 void ViewTracer::lensed_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const {
-  const Frame frame{tetrad_from_camera_, sky_from_tetrad_,      Aberration(celerity_), s_,
+  const Frame frame{tetrad_from_camera_, sky_from_tetrad_,      Aberration(vantage_.celerity), s_,
                     one_minus_s_,        outgoing_ ? -1.0 : 1.0};
   Rain rain;
   to_rain(frame, n, count, rain, batch);

@@ -16,7 +16,7 @@ ViewRay ViewTracer::trace(const CameraDirection& n) const {
 
 // Light near a hole that keeps to the straight lines of the observer at rest.
 ViewRay ViewTracer::straight_ray(const CameraDirection& n) const {
-  const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
+  const AberratedLight in = Aberration(vantage_.celerity).to_rest(apply(tetrad_from_camera_, n.v));
   const AberratedLight rest = to_rest_->to_rest(in.direction);
   const double doppler = 1 / (in.frequency_ratio * rest.frequency_ratio);
   ViewRay look;

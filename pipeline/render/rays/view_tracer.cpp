@@ -11,7 +11,7 @@ namespace domefall {
 ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects)
     : tetrad_from_camera_(state.observer.tetrad_from_camera),
       sky_from_tetrad_(state.observer.sky_from_tetrad),
-      celerity_(state.observer.celerity),
+      vantage_(vantage_of(state.observer, effects)),
       optics_(optics),
       flat_(is_flat(state.observer)),
       outgoing_(is_outgoing(state.observer.tetrad)),
@@ -19,16 +19,14 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const 
       far_(far_sky(state.observer.tetrad)),
       s_(std::sqrt(2 / state.observer.r)),
       one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {
-  const Vantage vantage = vantage_of(state.observer, effects);
-  celerity_ = vantage.celerity;
-  if (vantage.measured) to_measured_.emplace(-*vantage.measured);
+  if (vantage_.measured) to_measured_.emplace(-*vantage_.measured);
   if (effects.lensing || flat_) return;
-  to_rest_.emplace(-vantage.rest);
+  to_rest_.emplace(-vantage_.rest);
   gravitational_ratio_ = gravitational_ratio(state.observer.r);
 }
 
 ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
-  const AberratedLight in = Aberration(celerity_).to_rest(apply(tetrad_from_camera_, n.v));
+  const AberratedLight in = Aberration(vantage_.celerity).to_rest(apply(tetrad_from_camera_, n.v));
   ViewRay look;
   if (flat_) {
     look.sky = SkyRegion::kI;

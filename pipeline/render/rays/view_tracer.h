@@ -59,6 +59,9 @@ class ViewTracer {
   // and a relative 1e-14 of trace() (the functions of vector_math.h against the C library's).
   void trace(const CameraDirection* n, int count, ViewRayBatch& batch) const;
 
+  // Which observers the frame is drawn for.
+  const Vantage& vantage() const { return vantage_; }
+
  private:
   ViewRay straight_ray(const CameraDirection& n) const;
   ViewRay lensed_ray(const CameraDirection& n) const;
@@ -68,7 +71,7 @@ class ViewTracer {
   double measured_ratio(const CameraDirection& n) const;
 
   M33d tetrad_from_camera_, sky_from_tetrad_;
-  V3d celerity_;  // of the observer whose directions are drawn
+  Vantage vantage_;
   const HoleOptics& optics_;
   bool flat_, outgoing_;
   SkyRegion home_, far_;

@@ -8,6 +8,7 @@
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
+#include "pipeline/sky/ring_glow.h"
 
 namespace domefall {
 namespace {
@@ -17,23 +18,18 @@ WorkingRgb operator*(const WorkingRgb& c, double k) {
   return {c.r * f, c.g * f, c.b * f};
 }
 
-// [Riazuelo] sec. ssec_rgb: what a panorama without spectra does under a frequency ratio
-// g = 1/(1+z): keep its hue and scale by an exponential for redshift, by a power for blueshift.
+// [Riazuelo] sec. ssec_rgb: a panorama without spectra keeps its hue; its intensity falls by an
+// exponential of the redshift and grows by a power of the blueshift.
 double redshifted(double g) { return exponential(1 - 1 / g); }
 double blueshifted(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
 }
-double panorama_intensity(const PanoramaShift& shift, double g) {
-  return g < 1 ? redshifted(g) : blueshifted(shift, g);
-}
 
-// Whatever is as bright is white, and stays finite times a texel and a colour.
+// A gain beyond this is white in any frame.  The bound keeps its product with a texel and a colour
+// finite.
 constexpr double kMostGain = 1e28;
-float gain_of(const SkyMap& map, double shift, double scale) {
-  return static_cast<float>(std::min(map.unit() * shift * scale, kMostGain));
-}
 
-// gain_of(redshifted) and gain_of(blueshifted) for many frequency ratios.
+// gain_of(redshifted(g)) for many frequency ratios.
 [[gnu::always_inline]] inline void red_gains_loop(const double* g, int count, double unit,
                                                   double scale, float* gain) {
   for (int k = 0; k < count; ++k) {
@@ -43,6 +39,7 @@ float gain_of(const SkyMap& map, double shift, double scale) {
 }
 Dispatched<red_gains_loop> red_gains;
 
+// gain_of(blueshifted(g)) for the power 2.
 [[gnu::always_inline]] inline void square_gains_loop(const double* g, int count, double unit,
                                                      double scale, float* gain) {
   for (int k = 0; k < count; ++k) {
@@ -52,14 +49,14 @@ Dispatched<red_gains_loop> red_gains;
 }
 Dispatched<square_gains_loop> square_gains;
 
-[[gnu::always_inline]] inline void choose_loop(const float* red, const float* blue, const double* g,
-                                               int count, float* gain) {
+[[gnu::always_inline]] inline void choose_side_loop(const float* red, const float* blue,
+                                                    const double* g, int count, float* gain) {
   for (int k = 0; k < count; ++k) gain[k] = g[k] < 1 ? red[k] : blue[k];
 }
-Dispatched<choose_loop> choose;
+Dispatched<choose_side_loop> choose_side;
 
-// A thermal map has spectra: its blackbodies are seen at g T, as stars are.  In double until the end,
-// since g^4 may be far beyond a float where the colour, per unit of light, is as far below it.
+// The blackbodies of a thermal map are seen at g T, as stars are.  The product stays in double until
+// the end, since g^4 may be far beyond a float where the colour per unit of light is as far below it.
 WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
   const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
   const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
@@ -70,70 +67,84 @@ WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, doub
   return {seen(c.r), seen(c.g), seen(c.b)};
 }
 
-}  // namespace
-
-WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
-                            double footprint, double g, double scale) {
-  const Effects& effects = show.effects;
-  if (const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background)) {
-    if ((*map)->kind() == SkyMapKind::kThermal)
-      return thermal_light((*map)->sample_thermal(sky_direction, footprint), effects, g) * scale;
-    const double shift = effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1;
-    return (*map)->sample(sky_direction, footprint) * (shift * scale);
-  }
-  if (!std::holds_alternative<Grid>(sky.background)) return {0, 0, 0};
-  return grid_light({sky_direction}, footprint, colour_ratio(effects, g)) *
-         (surface_brightness_ratio(effects, g) * scale);
+const SkyMap* map_of(const Sky& sky) {
+  const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky.background);
+  return map ? map->get() : nullptr;
 }
 
-MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale) {
-  const Effects& effects = show.effects;
-  if (map.kind() == SkyMapKind::kColour)
-    return {gain_of(map, effects.intensity ? panorama_intensity(show.panorama_shift, g) : 1, scale),
-            0};
-  const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
-  return {gain_of(map, ratio2 * ratio2 * surface_brightness_ratio(effects, g), scale),
+}  // namespace
+
+SkyLight::SkyLight(const Sky& sky, const Effects& effects, const PanoramaShift& panorama_shift,
+                   double scale)
+    : sky_(&sky),
+      map_(map_of(sky)),
+      effects_(effects),
+      panorama_shift_(panorama_shift),
+      scale_(scale) {}
+
+double SkyLight::intensity(double g) const {
+  if (!effects_.intensity) return 1;
+  return g < 1 ? redshifted(g) : blueshifted(panorama_shift_, g);
+}
+
+float SkyLight::gain_of(double shift) const {
+  return static_cast<float>(std::min(map_->unit() * shift * scale_, kMostGain));
+}
+
+WorkingRgb SkyLight::at(const V3d& sky_direction, double footprint, double g) const {
+  if (map_ != nullptr) {
+    if (map_->kind() == SkyMapKind::kThermal)
+      return thermal_light(map_->sample_thermal(sky_direction, footprint), effects_, g) * scale_;
+    return map_->sample(sky_direction, footprint) * (intensity(g) * scale_);
+  }
+  if (!std::holds_alternative<Grid>(sky_->background)) return {0, 0, 0};
+  return grid_light({sky_direction}, footprint, colour_ratio(effects_, g)) *
+         (surface_brightness_ratio(effects_, g) * scale_);
+}
+
+WorkingRgb SkyLight::rings_at(double phase, double width) const {
+  return ring_glow(phase, width) * scale_;
+}
+
+MapShift SkyLight::shift(double g) const {
+  if (map_->kind() == SkyMapKind::kColour) return {gain_of(intensity(g)), 0};
+  const double ratio = colour_ratio(effects_, g), ratio2 = ratio * ratio;
+  return {gain_of(ratio2 * ratio2 * surface_brightness_ratio(effects_, g)),
           static_cast<float>(std::log2(ratio))};
 }
 
-void map_shifts(const SkyMap& map, const Show& show, const double* g, int count, double scale,
-                float* gain, float* tone) {
-  if (map.kind() == SkyMapKind::kThermal) {
+void SkyLight::shifts(const double* g, int count, float* gain, float* tone) const {
+  if (map_->kind() == SkyMapKind::kThermal) {
     for (int k = 0; k < count; ++k) {
-      const MapShift shift = map_shift(map, show, g[k], scale);
-      gain[k] = shift.gain, tone[k] = shift.tone;
+      const MapShift one = shift(g[k]);
+      gain[k] = one.gain;
+      tone[k] = one.tone;
     }
     return;
   }
   std::fill_n(tone, count, 0.0f);
-  if (!show.effects.intensity) {
-    std::fill_n(gain, count, gain_of(map, 1, scale));
+  if (!effects_.intensity) {
+    std::fill_n(gain, count, gain_of(1));
     return;
   }
   std::array<float, kMostShifts> red, blue;
-  shift_sides(map, show, g, count, scale, red.data(), blue.data());
-  choose(red.data(), blue.data(), g, count, gain);
+  shift_sides(g, count, red.data(), blue.data());
+  choose_side(red.data(), blue.data(), g, count, gain);
 }
 
-void shift_sides(const SkyMap& map, const Show& show, const double* g, int count, double scale,
-                 float* red, float* blue) {
-  if (!show.effects.intensity) {
-    std::fill_n(red, count, gain_of(map, 1, scale));
-    std::fill_n(blue, count, gain_of(map, 1, scale));
+void SkyLight::shift_sides(const double* g, int count, float* red, float* blue) const {
+  if (!effects_.intensity) {
+    std::fill_n(red, count, gain_of(1));
+    std::fill_n(blue, count, gain_of(1));
     return;
   }
-  red_gains(g, count, map.unit(), scale, red);
-  if (show.panorama_shift.blueshift_power == 2)
-    square_gains(g, count, map.unit(), scale, blue);
+  red_gains(g, count, map_->unit(), scale_, red);
+  if (panorama_shift_.blueshift_power == 2)
+    square_gains(g, count, map_->unit(), scale_, blue);
   else
-    for (int k = 0; k < count; ++k)
-      blue[k] = gain_of(map, blueshifted(show.panorama_shift, g[k]), scale);
+    for (int k = 0; k < count; ++k) blue[k] = gain_of(blueshifted(panorama_shift_, g[k]));
 }
 
-ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale) {
-  if (!show.effects.intensity) return {gain_of(map, 1, scale), gain_of(map, 1, scale)};
-  return {gain_of(map, redshifted(g), scale),
-          gain_of(map, blueshifted(show.panorama_shift, g), scale)};
-}
+float SkyLight::knee() const { return static_cast<float>(map_->unit() * scale_); }
 
 }  // namespace domefall

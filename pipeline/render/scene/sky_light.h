@@ -1,46 +1,58 @@
-// The light of a sky's background in a direction, and what a frequency ratio does to it.
+// The background of one sky as a frame shows it: its light in a direction, and what a frequency ratio
+// does to it.
+//
+// A background with spectra (the grid, thermal maps) is seen at the shifted temperature.  A colour
+// panorama has no spectrum to shift: [Riazuelo] sec. ssec_rgb keeps its hue and scales it by a law
+// of intensity.
 #pragma once
 
 #include "pipeline/render/scene/sky_store.h"
 
 namespace domefall {
 
-// Light of a sky's background (cd/m^2, times `scale`) at frequency ratio
-// g = 1/(1+z), filtered over `footprint` radians on the sky, with the show's effects but its
-// amplification.  [Riazuelo] sec. ssec_rgb for panoramas, which have no spectrum to shift.
-WorkingRgb background_light(const Sky& sky, const Show& show, const V3d& sky_direction,
-                            double footprint, double g, double scale);
-
-// What SkySampler makes of the same: the factor on a map's values, and the octaves by which the
-// temperatures of a thermal one are raised.
+// What SkySampler applies to the values of a map.
 struct MapShift {
-  float gain, tone;
+  float gain;  // pixel value per unit of the map
+  float tone;  // octaves by which the temperatures of a thermal map are raised; 0 for colours
 };
-MapShift map_shift(const SkyMap& map, const Show& show, double g, double scale);
 
-// A panorama's law has a knee at g = 1.  Its two sides for any g, each smooth: for interpolation.
-// `red` is above knee(map, scale) where g > 1, and there `blue` holds.
-struct ShiftSides {
-  float red, blue;
+class SkyLight {
+ public:
+  // scale: pixel value of 1 cd/m^2, with the gain of this sky's background.  The sky must outlive this.
+  SkyLight(const Sky& sky, const Effects& effects, const PanoramaShift& panorama_shift,
+           double scale);
+
+  const Sky& sky() const { return *sky_; }
+  // Null unless the background is a map.
+  const SkyMap* map() const { return map_; }
+
+  // Pixel value of the grid or a map in a direction of the sky, averaged over `footprint` radians there,
+  // at frequency ratio g = 1/(1+z).  The effects that the show leaves out are left out, but for
+  // amplification, which the caller applies.  0 for a black sky.
+  WorkingRgb at(const V3d& sky_direction, double footprint, double g) const;
+  // Pixel value of rings at `phase` (periods of the emission time), averaged over `width` periods.
+  // Needs a background of rings.
+  WorkingRgb rings_at(double phase, double width) const;
+
+  // These need a background that is a map.  Many ratios at once give the same bits as one at a time;
+  // count <= kMostShifts.
+  static constexpr int kMostShifts = 128;
+  MapShift shift(double g) const;
+  void shifts(const double* g, int count, float* gain, float* tone) const;
+  // The law of intensity of a panorama has a knee at g = 1.  These are the gains of its two sides, each
+  // of which is smooth for any g and can be interpolated.  Blue holds where red exceeds knee().
+  void shift_sides(const double* g, int count, float* red, float* blue) const;
+  float knee() const;
+
+ private:
+  double intensity(double g) const;
+  float gain_of(double shift) const;
+
+  const Sky* sky_;
+  const SkyMap* map_;
+  Effects effects_;
+  PanoramaShift panorama_shift_;
+  double scale_;
 };
-ShiftSides shift_sides(const SkyMap& map, const Show& show, double g, double scale);
-
-// Both for many at a time, `count` <= kMostShifts: the same bits.
-inline constexpr int kMostShifts = 128;
-void map_shifts(const SkyMap& map, const Show& show, const double* g, int count, double scale,
-                float* gain, float* tone);
-void shift_sides(const SkyMap& map, const Show& show, const double* g, int count, double scale,
-                 float* red, float* blue);
-
-inline float knee(const SkyMap& map, double scale) {
-  return static_cast<float>(map.unit() * scale);
-}
-
-// Null unless the background is a map.
-inline const SkyMap* map_of(const Sky* sky) {
-  if (sky == nullptr) return nullptr;
-  const auto* map = std::get_if<std::shared_ptr<const SkyMap>>(&sky->background);
-  return map ? map->get() : nullptr;
-}
 
 }  // namespace domefall

@@ -76,4 +76,11 @@ const Sky& SkyStore::sky(SkyRegion which, bool background, bool stars) {
   return kept.sky;
 }
 
+PerSky<const Sky*> SkyStore::skies_of(const FramePlan& plan) {
+  PerSky<const Sky*> skies{};
+  for (const SkyRegion which : kEverySky)
+    if (plan[which].lit()) skies[which] = &sky(which, plan[which].background, plan[which].stars);
+  return skies;
+}
+
 }  // namespace domefall

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <variant>
 
+#include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/show.h"
 #include "pipeline/sky/maps/sky_map.h"
@@ -30,6 +31,8 @@ class SkyStore {
   // With those of its parts that any call has asked for, loaded at the first one; files that several
   // regions name are loaded once.  Throws InputError.
   const Sky& sky(SkyRegion which, bool background = true, bool stars = true);
+  // The skies that a plan asks for; null for the others.
+  PerSky<const Sky*> skies_of(const FramePlan& plan);
 
  private:
   struct Loaded {

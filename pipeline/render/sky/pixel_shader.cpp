@@ -5,248 +5,216 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/colour/blackbody.h"
 #include "pipeline/render/rays/footprint_batch.h"
 #include "pipeline/render/rays/pixel_directions.h"
-#include "pipeline/render/scene/effect_light.h"
-#include "pipeline/render/scene/photometry.h"
-#include "pipeline/simd/vector_math.h"
-#include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/ring_glow.h"
 
 namespace domefall {
 namespace {
 
-static_assert(kMostSamples <= FootprintBatch::kSize);  // a batch holds at least one line of looks
-// A pixel this near (in pixels) to the edge of a sky is sampled finely.
+static_assert(kMostSamples <= FootprintBatch::kSize);  // a batch holds at least one line of samples
+static_assert(ViewRayBatch::kSize <= SkyLight::kMostShifts);
+// A pixel nearer than this, in pixels, to the edge of a sky is supersampled.
 constexpr double kEdgePixels = 4;
-// On a grid, so is one whose footprint on the sky is longer than this (radians) and that elongated:
-// blurring its sharp lines to that length would lose what it still resolves across.
+// On a grid, so is a pixel whose footprint is longer than this (radians on the sky) and that elongated.
+// A blur of the footprint's length would lose the sharp lines that it still resolves across.
 constexpr double kLongOnGrid = 0.0005, kElongation = 3;
-// Looks in a line of one of many samples in a pixel: the samples do most of the blurring.
+// Taps along the footprint of one of many samples in a pixel.  The samples do most of the blurring.
 constexpr int kTapsOfSample = 4;
-// A footprint on a map longer than this is no straight line any more; it is blurred to its length.
+// A footprint on a map that is longer than this (radians) is no straight line any more, and is blurred
+// to its length.
 constexpr float kLongestLine = 0.7f;
-
-WorkingRgb operator*(const WorkingRgb& c, double k) {
-  const auto f = static_cast<float>(k);
-  return {c.r * f, c.g * f, c.b * f};
-}
 
 }  // namespace
 
-PixelShader::PixelShader(const Show& show, const FrameState& state, const HoleOptics& optics,
-                         const Skies& skies, AntiAliasing anti_aliasing,
+PixelShader::PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing,
                          std::vector<DarkenedCap> darkened)
-    : show_(show),
-      projection_(state.projection),
-      tracer_(state, optics, show.effects),
-      skies_(skies),
-      darkened_(std::move(darkened)),
-      anti_aliasing_(anti_aliasing),
-      amplified_(show.effects.amplification == Amplification::kEverything),
-      null_time_(state.observer.null_time) {
+    : scene_(scene), darkened_(std::move(darkened)), anti_aliasing_(anti_aliasing) {
   for (const SkyRegion sky : kEverySky) {
-    scale_[sky] = exposure_scale(state.settings) * state.settings.sky[sky].background_gain;
-    if (const SkyMap* map = map_of(skies[sky])) samplers_[sky].emplace(*map);
+    const auto& background = scene.background[sky];
+    if (background && background->map()) samplers_[sky].emplace(*background->map());
   }
 }
 
-const SkySampler* PixelShader::sampler(SkyRegion sky) const {
-  const auto& sampler = samplers_[sky];
-  return sampler ? &*sampler : nullptr;
-}
-
-MapShift PixelShader::shift(SkyRegion sky, double frequency_ratio) const {
-  return map_shift(samplers_[sky]->map(), show_, frequency_ratio, scale_[sky]);
-}
-
-// sample_angle: the angle of view that this look stands for; fine: it is one of many in its pixel.
-WorkingRgb PixelShader::light(const ViewRayBatch& batch, int k, double sample_angle,
+// sample_angle: the angle of view that this ray stands for.  fine: it is one of many in its pixel.
+WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_angle,
                               bool fine) const {
-  const Sky* sky = skies_[batch.sky[k]];
-  if (sky == nullptr) return {0, 0, 0};
-  const double scale = scale_[batch.sky[k]];
-  const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
-  if (const auto* rings = std::get_if<Rings>(&sky->background))
-    return ring_glow((null_time_ + batch.emission_time[k]) / rings->period,
-                     batch.time_scale[k] * sample_angle / rings->period) *
-           scale;
-  const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
-  // Many looks do the blurring themselves; a box as long as each would also smear the lines of a grid
-  // across it, which on an Einstein ring are stretched without bound.
-  const bool short_box = fine && std::holds_alternative<Grid>(sky->background);
-  return background_light(*sky, show_, batch.sky_direction(k),
-                          sample_angle * (short_box ? shorter : longer), batch.frequency_ratio[k],
-                          scale);
+  const auto& background = scene_.background[rays.sky[k]];
+  if (!background) return {0, 0, 0};
+  const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
+  if (const auto* rings = std::get_if<Rings>(&background->sky().background))
+    return background->rings_at(
+        (scene_.state.observer.null_time + rays.emission_time[k]) / rings->period,
+        rays.time_scale[k] * sample_angle / rings->period);
+  const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
+  // Many samples do the blurring themselves.  A box as long as each of them would also smear the lines
+  // of a grid across it, which an Einstein ring stretches without bound.
+  const bool short_box = fine && std::holds_alternative<Grid>(background->sky().background);
+  return background->at(rays.sky_direction(k), sample_angle * (short_box ? shorter : longer),
+                        rays.frequency_ratio[k]);
 }
 
-// Of the image of a whole pixel: however finely it is sampled, its caustics are as bright.
+// The amplification of the image of a whole pixel: however finely it is sampled, its caustics are as
+// bright.
 double PixelShader::amplification(const CameraDirection& n, double pixel_angle) const {
-  const ViewRay look = tracer_.trace(n);
-  const bool sky = look.known && look.sky != SkyRegion::kIV;
-  return sky ? domefall::amplification(look.bundle, pixel_angle) : 1;
+  const ViewRay ray = scene_.tracer.trace(n);
+  const bool sky = ray.known && ray.sky != SkyRegion::kIV;
+  return sky ? domefall::amplification(ray.bundle, pixel_angle) : 1;
 }
 
 bool PixelShader::is_darkened(SkyRegion sky, const CameraDirection& n) const {
-  return std::any_of(darkened_.begin(), darkened_.end(), [&](const DarkenedCap& spot) {
-    return spot.sky == sky && (n.v - spot.centre.v).length2() <= spot.chord2;
+  return std::any_of(darkened_.begin(), darkened_.end(), [&](const DarkenedCap& cap) {
+    return cap.sky == sky && (n.v - cap.centre.v).length2() <= cap.chord2;
   });
 }
 
-bool PixelShader::needs_more_samples(const ViewRayBatch& batch, int k, double pixel_angle) const {
+bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle) const {
   if (anti_aliasing_.samples == 1) return false;
-  if (anti_aliasing_.everywhere || batch.to_edge[k] < kEdgePixels * pixel_angle) return true;
-  const Sky* sky = skies_[batch.sky[k]];
-  if (sky == nullptr || std::holds_alternative<Rings>(sky->background))
-    return false;  // blurred exactly
-  const double longer = std::max(batch.radial_scale[k], batch.tangential_scale[k]);
-  const double shorter = std::min(batch.radial_scale[k], batch.tangential_scale[k]);
+  if (anti_aliasing_.everywhere || rays.to_edge[k] < kEdgePixels * pixel_angle) return true;
+  const auto& background = scene_.background[rays.sky[k]];
+  // Rings are blurred exactly.
+  if (!background || std::holds_alternative<Rings>(background->sky().background)) return false;
+  const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
+  const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
   if (!(longer > kElongation * shorter)) return false;
-  return amplified_ ||
-         (std::holds_alternative<Grid>(sky->background) && longer * pixel_angle > kLongOnGrid);
+  return scene_.amplifies_backgrounds() ||
+         (std::holds_alternative<Grid>(background->sky().background) &&
+          longer * pixel_angle > kLongOnGrid);
 }
 
-void PixelShader::shifts(SkyRegion sky, const double* frequency_ratio, int count, float* gain,
-                         float* tone) const {
-  map_shifts(samplers_[sky]->map(), show_, frequency_ratio, count, scale_[sky], gain, tone);
-}
-
-void PixelShader::shift_sides(SkyRegion sky, const double* frequency_ratio, int count, float* red,
-                              float* blue) const {
-  domefall::shift_sides(samplers_[sky]->map(), show_, frequency_ratio, count, scale_[sky], red,
-                        blue);
-}
-
-float PixelShader::knee(SkyRegion sky) const {
-  return domefall::knee(samplers_[sky]->map(), scale_[sky]);
-}
-
-struct PixelShader::Looks {
+// A batch of samples: the places of the image that are looked through, and what is found there.
+struct PixelShader::Samples {
   static constexpr int kSize = FootprintBatch::kSize;
   int count = 0;
-  alignas(64) std::array<double, kSize> i, j;   // positions in the picture
-  alignas(64) std::array<double, kSize> angle;  // of the view, that a look stands for
+  alignas(64) std::array<double, kSize> i, j;   // positions in the image, counted from 1
+  alignas(64) std::array<double, kSize> angle;  // of the view, radians, that a sample stands for
   std::array<CameraDirection, kSize> n;
-  std::array<bool, kSize> difficult;  // needs_more_samples
+  std::array<bool, kSize> difficult;  // see needs_more_samples
   std::array<float, 3 * kSize + 1> rgb;
 
   void add(double column, double row) {
-    i[count] = column + 1, j[count] = row + 1;
+    i[count] = column + 1;
+    j[count] = row + 1;
     ++count;
   }
 };
 
-// The looks on maps among them.
-struct PixelShader::Maps {
-  FootprintBatch places;
-  PerSky<std::array<SampleKind, FootprintBatch::kSize>> kinds{};  // none: not on that sky
+// Those samples among them that fall on maps.
+struct PixelShader::MapSamples {
+  FootprintBatch footprints;
+  PerSky<std::array<SampleKind, FootprintBatch::kSize>> kinds{};  // no taps: not on that sky
   PerSky<bool> any{};
 };
 
-void PixelShader::put_maps(const ViewRayBatch& batch, const Looks& looks, int first, int count,
-                           bool fine, Maps& maps) const {
-  FootprintBatch& p = maps.places;
-  set_footprints(batch, &looks.angle[first], count,
+void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int first, int count,
+                           bool fine, MapSamples& maps) const {
+  FootprintBatch& p = maps.footprints;
+  set_footprints(rays, &samples.angle[first], count,
                  {&p.x[first], &p.y[first], &p.z[first], &p.wide[first], &p.narrow[first],
                   &p.ax[first], &p.ay[first], &p.az[first]});
   const bool few = fine && !anti_aliasing_.everywhere;
   const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
   for (const SkyRegion sky : kEverySky) {
     const SkySampler* sampler = this->sampler(sky);
-    const auto end = batch.sky.begin() + count;
-    if (sampler == nullptr || std::find(batch.sky.begin(), end, sky) == end) continue;
+    const auto end = rays.sky.begin() + count;
+    if (sampler == nullptr || std::find(rays.sky.begin(), end, sky) == end) continue;
     maps.any[sky] = true;
     SampleKind* kinds = &maps.kinds[sky][first];
     sampler->choose_kinds(&p.wide[first], &p.narrow[first], count, most, kLongestLine, kinds);
     ViewRayBatch::Column<float> gain, tone;
-    shifts(sky, batch.frequency_ratio.data(), count, gain.data(), tone.data());
+    scene_.background[sky]->shifts(rays.frequency_ratio.data(), count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {
       const int at = first + k;
-      if (batch.sky[k] == sky) p.gain[at] = gain[k], p.tone[at] = tone[k];
-      if (batch.sky[k] != sky || looks.difficult[at] || is_darkened(sky, looks.n[at]))
+      if (rays.sky[k] == sky) {
+        p.gain[at] = gain[k];
+        p.tone[at] = tone[k];
+      }
+      if (rays.sky[k] != sky || samples.difficult[at] || is_darkened(sky, samples.n[at]))
         kinds[k] = SampleKind();
     }
   }
 }
 
-void PixelShader::shade_batch(Looks& looks, int first, int count, bool fine, Maps& maps) const {
-  ViewRayBatch batch;
-  tracer_.trace(&looks.n[first], count, batch);
+void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
+                              MapSamples& maps) const {
+  ViewRayBatch rays;
+  scene_.tracer.trace(&samples.n[first], count, rays);
   bool maps_seen = false;
-  float* rgb = &looks.rgb[3 * first];
+  float* rgb = &samples.rgb[3 * first];
   for (int k = 0; k < count; ++k, rgb += 3) {
     const int at = first + k;
-    looks.difficult[at] = !fine && needs_more_samples(batch, k, looks.angle[at]);
-    const bool map = sampler(batch.sky[k]) != nullptr;
+    samples.difficult[at] = !fine && needs_more_samples(rays, k, samples.angle[at]);
+    const bool map = sampler(rays.sky[k]) != nullptr;
     maps_seen |= map;
     WorkingRgb c{0, 0, 0};
-    if (!map && !looks.difficult[at] && !is_darkened(batch.sky[k], looks.n[at]))
-      c = light(batch, k, looks.angle[at], fine);
+    if (!map && !samples.difficult[at] && !is_darkened(rays.sky[k], samples.n[at]))
+      c = light(rays, k, samples.angle[at], fine);
     rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
   }
-  if (maps_seen) put_maps(batch, looks, first, count, fine, maps);
+  if (maps_seen) put_maps(rays, samples, first, count, fine, maps);
 }
 
-void PixelShader::shade(Looks& looks, bool fine) const {
-  view_directions(projection_, looks.i.data(), looks.j.data(), looks.count, looks.n.data(),
-                  looks.angle.data());
-  const int samples = fine ? anti_aliasing_.samples : 1;
+void PixelShader::shade(Samples& samples, bool fine) const {
+  view_directions(scene_.projection(), samples.i.data(), samples.j.data(), samples.count,
+                  samples.n.data(), samples.angle.data());
+  const int per_side = fine ? anti_aliasing_.samples : 1;
   if (fine)
-    for (int k = 0; k < looks.count; ++k) looks.angle[k] /= samples;
-  Maps maps;
-  for (int first = 0; first < looks.count; first += ViewRayBatch::kSize)
-    shade_batch(looks, first, std::min(ViewRayBatch::kSize, looks.count - first), fine, maps);
+    for (int k = 0; k < samples.count; ++k) samples.angle[k] /= per_side;
+  MapSamples maps;
+  for (int first = 0; first < samples.count; first += ViewRayBatch::kSize)
+    shade_batch(samples, first, std::min(ViewRayBatch::kSize, samples.count - first), fine, maps);
   for (const SkyRegion sky : kEverySky)
     if (maps.any[sky])
-      sampler(sky)->sample(maps.places, looks.count, maps.kinds[sky].data(), looks.rgb.data());
-  if (!amplified_) return;
-  for (int k = 0; k < looks.count; ++k) {
-    const auto by = static_cast<float>(amplification(looks.n[k], looks.angle[k] * samples));
-    for (int c = 0; c < 3; ++c) looks.rgb[3 * k + c] *= by;
+      sampler(sky)->sample(maps.footprints, samples.count, maps.kinds[sky].data(),
+                           samples.rgb.data());
+  if (!scene_.amplifies_backgrounds()) return;
+  for (int k = 0; k < samples.count; ++k) {
+    const auto by = static_cast<float>(amplification(samples.n[k], samples.angle[k] * per_side));
+    for (int c = 0; c < 3; ++c) samples.rgb[3 * k + c] *= by;
   }
 }
 
-// Each of these pixels becomes the mean of a square of looks.  The squares' lines follow one another, as many
+// Each of these pixels becomes the mean of a square of samples.  The squares' lines follow one another, as many
 // at once as there is room for, so that a square may be larger than that.
 void PixelShader::supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
-  const int samples = anti_aliasing_.samples, at_once = Looks::kSize / samples;
-  const int lines = static_cast<int>(pixels.size()) * samples;
-  const double step = 1.0 / samples, start = step / 2 - 0.5;
-  Looks looks;
+  const int per_side = anti_aliasing_.samples, at_once = Samples::kSize / per_side;
+  const int lines = static_cast<int>(pixels.size()) * per_side;
+  const double step = 1.0 / per_side, start = step / 2 - 0.5;
+  Samples samples;
   float sum[3] = {0, 0, 0};
   for (int first = 0; first < lines; first += at_once) {
     const int end = std::min(lines, first + at_once);
-    looks.count = 0;
+    samples.count = 0;
     for (int line = first; line < end; ++line) {
-      const Pixel& pixel = pixels[line / samples];
-      for (int k = 0; k < samples; ++k)
-        looks.add(pixel.column + start + k * step, pixel.row + start + line % samples * step);
+      const Pixel& pixel = pixels[line / per_side];
+      for (int k = 0; k < per_side; ++k)
+        samples.add(pixel.column + start + k * step, pixel.row + start + line % per_side * step);
     }
-    shade(looks, true);
-    const float* sample = looks.rgb.data();
+    shade(samples, true);
+    const float* sample = samples.rgb.data();
     for (int line = first; line < end; ++line) {
-      for (int k = 0; k < samples; ++k, sample += 3)
+      for (int k = 0; k < per_side; ++k, sample += 3)
         for (int c = 0; c < 3; ++c) sum[c] += sample[c];
-      if (line % samples != samples - 1) continue;
-      float* out = this->pixel(pixels[line / samples], first_row, rgb);
-      for (int c = 0; c < 3; ++c)
-        out[c] = sum[c] / static_cast<float>(samples * samples), sum[c] = 0;
+      if (line % per_side != per_side - 1) continue;
+      float* out = this->pixel(pixels[line / per_side], first_row, rgb);
+      for (int c = 0; c < 3; ++c) {
+        out[c] = sum[c] / static_cast<float>(per_side * per_side);
+        sum[c] = 0;
+      }
     }
   }
 }
 
 void PixelShader::fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
-  Looks looks;
+  Samples samples;
   std::vector<Pixel> difficult;
-  for (std::size_t first = 0; first < pixels.size(); first += Looks::kSize) {
-    const std::size_t end = std::min(pixels.size(), first + Looks::kSize);
-    looks.count = 0;
-    for (std::size_t k = first; k < end; ++k) looks.add(pixels[k].column, pixels[k].row);
-    shade(looks, false);
-    const float* value = looks.rgb.data();
+  for (std::size_t first = 0; first < pixels.size(); first += Samples::kSize) {
+    const std::size_t end = std::min(pixels.size(), first + Samples::kSize);
+    samples.count = 0;
+    for (std::size_t k = first; k < end; ++k) samples.add(pixels[k].column, pixels[k].row);
+    shade(samples, false);
+    const float* value = samples.rgb.data();
     for (std::size_t k = first; k < end; ++k, value += 3)
-      if (looks.difficult[k - first])
+      if (samples.difficult[k - first])
         difficult.push_back(pixels[k]);
       else
         std::copy_n(value, 3, pixel(pixels[k], first_row, rgb));

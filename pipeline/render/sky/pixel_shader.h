@@ -1,82 +1,67 @@
-// The light of the skies in pixels, each of which is looked at: exact, and not the quickest.
+// The light of the skies in pixels whose view rays are all traced: the exact way, and not the quickest.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/render/scene/sky_light.h"
+#include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/render/sky/anti_aliasing.h"
 #include "pipeline/render/sky/sky_sampler.h"
 
 namespace domefall {
 
-// Where one sky is drawn by other means: looks on it within the cap are dark.
+// A cap of the view in which one sky is drawn by other means, so that its rays there stay dark.
 struct DarkenedCap {
   SkyRegion sky;
   CameraDirection centre;
-  double chord2;  // of the cap's radius, squared
+  double chord2;  // squared chord from the centre to the rim
 };
 
-// Column and row from 0.
+// Column and row, counted from 0.
 struct Pixel {
   int column, row;
 };
 
 class PixelShader {
  public:
-  // By SkyRegion; null for a dark one.  Everything must outlive it.
-  using Skies = PerSky<const Sky*>;
-  PixelShader(const Show& show, const FrameState& state, const HoleOptics& optics,
-              const Skies& skies, AntiAliasing anti_aliasing = {},
-              std::vector<DarkenedCap> darkened = {});
+  // The scene must outlive this.
+  explicit PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing = {},
+                       std::vector<DarkenedCap> darkened = {});
 
-  // SkyStore-linear working-space values of pixels, which are all in the picture, into the rows of 3 columns()
-  // floats of which `rgb` is row `first_row`.  What stands side by side is best named one after another.
+  // Writes scene-linear working-space values of `pixels`, all of which lie in the image, into rows of
+  // 3 columns() floats, the first of which, at `rgb`, is row `first_row`.  Neighbours that follow one
+  // another share cache lines of the sky.
   void fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
 
-  const ViewTracer& tracer() const { return tracer_; }
-  bool is_dark(SkyRegion sky) const { return skies_[sky] == nullptr; }
+  const FrameScene& scene() const { return scene_; }
   // Null for a sky that is no map.
-  const SkySampler* sampler(SkyRegion sky) const;
-  // Of the light of a sky that is a map.
-  MapShift shift(SkyRegion sky, double frequency_ratio) const;
-  void shifts(SkyRegion sky, const double* frequency_ratio, int count, float* gain,
-              float* tone) const;
-  void shift_sides(SkyRegion sky, const double* frequency_ratio, int count, float* red,
-                   float* blue) const;
-  float knee(SkyRegion sky) const;
+  const SkySampler* sampler(SkyRegion sky) const {
+    return samplers_[sky] ? &*samplers_[sky] : nullptr;
+  }
 
  private:
-  // Up to so many looks at once.
-  struct Looks;
-  struct Maps;
+  struct Samples;
+  struct MapSamples;
 
-  void shade(Looks& looks, bool fine) const;
-  void shade_batch(Looks& looks, int first, int count, bool fine, Maps& maps) const;
-  void put_maps(const ViewRayBatch& batch, const Looks& looks, int first, int count, bool fine,
-                Maps& maps) const;
+  void shade(Samples& samples, bool fine) const;
+  void shade_batch(Samples& samples, int first, int count, bool fine, MapSamples& maps) const;
+  void put_maps(const ViewRayBatch& rays, const Samples& samples, int first, int count, bool fine,
+                MapSamples& maps) const;
   bool is_darkened(SkyRegion sky, const CameraDirection& n) const;
-  WorkingRgb light(const ViewRayBatch& batch, int k, double sample_angle, bool fine) const;
+  WorkingRgb light(const ViewRayBatch& rays, int k, double sample_angle, bool fine) const;
   double amplification(const CameraDirection& n, double pixel_angle) const;
-  bool needs_more_samples(const ViewRayBatch& batch, int k, double pixel_angle) const;
+  bool needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle) const;
   void supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
   float* pixel(const Pixel& at, int first_row, float* rgb) const {
     return rgb + 3 * (static_cast<std::size_t>(at.row - first_row) *
-                          static_cast<std::size_t>(columns(projection_)) +
+                          static_cast<std::size_t>(columns(scene_.projection())) +
                       static_cast<std::size_t>(at.column));
   }
 
-  const Show& show_;
-  Projection projection_;
-  ViewTracer tracer_;
-  Skies skies_;
+  const FrameScene& scene_;
   std::vector<DarkenedCap> darkened_;
   AntiAliasing anti_aliasing_;
-  bool amplified_;  // see Amplification::kEverything
   PerSky<std::optional<SkySampler>> samplers_;
-  PerSky<double> scale_;  // pixel value per cd/m^2, by SkyRegion, with its gain
-  double null_time_;
 };
 
 }  // namespace domefall

@@ -76,11 +76,11 @@ Dispatched<set_tolerances_loop> set_tolerances;
 
 }  // namespace
 
-void RayGrid::make(const Projection& projection, const PixelShader& light,
-                   const std::vector<CameraDirection>& special) {
-  projection_ = projection, light_ = &light;
-  cell_columns_ = (columns(projection) + kStep - 1) / kStep;
-  cell_rows_ = (rows(projection) + kStep - 1) / kStep;
+void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>& special) {
+  shader_ = &shader;
+  projection_ = shader.scene().projection();
+  cell_columns_ = (columns(projection_) + kStep - 1) / kStep;
+  cell_rows_ = (rows(projection_) + kStep - 1) / kStep;
   node_columns_ = cell_columns_ + 1 + 2 * kMargin;
   node_rows_ = cell_rows_ + 1 + 2 * kMargin;
   const std::size_t nodes = at(node_rows_, 0);
@@ -91,11 +91,11 @@ void RayGrid::make(const Projection& projection, const PixelShader& light,
   cells_.resize(static_cast<std::size_t>(cell_rows_) * static_cast<std::size_t>(cell_columns_));
   tone_floor_ = kToneTolerance;
   for (const SkyRegion sky : kEverySky)
-    if (light.sampler(sky) && light.sampler(sky)->map().kind() == SkyMapKind::kColour)
+    if (shader.sampler(sky) && shader.sampler(sky)->map().kind() == SkyMapKind::kColour)
       tone_floor_ = kFaintGain;
   special_.clear();
   for (const CameraDirection& n : special)
-    if (const auto pixel = pixel_of(projection, n))
+    if (const auto pixel = pixel_of(projection_, n))
       special_.push_back({pixel->i - 1, pixel->j - 1});
   tbb::parallel_for(0, node_rows_, [this](int row) { trace_row(row); });
   tbb::parallel_for(kMargin, node_rows_ - kMargin, [this](int row) { check_row(row); });
@@ -123,7 +123,7 @@ void RayGrid::trace_row(int row) {
     const int count = std::min(ViewRayBatch::kSize, to - first);
     for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
     view_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
-    light_->tracer().trace(n.data(), count, batch);
+    shader_->scene().tracer.trace(n.data(), count, batch);
     store(at(row, first), batch, angle.data(), count);
   }
   // Where eight nodes in a row see one sky.
@@ -141,8 +141,10 @@ void RayGrid::store(std::size_t node, const ViewRayBatch& batch, const double* a
   PerSky<std::uint8_t> skies{};
   bool any = false;
   for (const SkyRegion sky : kEverySky) {
-    const bool map = light_->sampler(sky) != nullptr;
-    skies[sky] = light_->is_dark(sky) ? kDark : map ? static_cast<std::uint8_t>(sky) : kMixed;
+    const bool map = shader_->sampler(sky) != nullptr;
+    skies[sky] = !shader_->scene().background[sky] ? kDark
+                 : map                             ? static_cast<std::uint8_t>(sky)
+                                                   : kMixed;
   }
   for (int k = 0; k < count; ++k) {
     const std::uint8_t sky = skies[batch.sky[k]];
@@ -158,17 +160,18 @@ void RayGrid::store(std::size_t node, const ViewRayBatch& batch, const double* a
   ViewRayBatch::Column<float> first, second;
   ViewRayBatch::Column<SampleKind> kinds;
   for (const SkyRegion sky : kEverySky) {
-    const SkySampler* sampler = light_->sampler(sky);
+    const SkySampler* sampler = shader_->sampler(sky);
     const auto end = batch.sky.begin() + count;
     if (sampler == nullptr || std::find(batch.sky.begin(), end, sky) == end) continue;
     sampler->choose_kinds(of(kWide), of(kNarrow), count, SkySampler::kMostTaps, HUGE_VALF,
                           kinds.data());
+    const SkyLight& light = *shader_->scene().background[sky];
     const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
     const double* g = batch.frequency_ratio.data();
     if (thermal)
-      light_->shifts(sky, g, count, first.data(), second.data());
+      light.shifts(g, count, first.data(), second.data());
     else
-      light_->shift_sides(sky, g, count, first.data(), second.data());
+      light.shift_sides(g, count, first.data(), second.data());
     for (int k = 0; k < count; ++k) {
       if (batch.sky[k] != sky) continue;
       of(kGain)[k] = first[k], of(kTone)[k] = second[k];

@@ -26,8 +26,7 @@ class RayGrid {
   // Looks at all nodes, on all threads of the arena.  Memory is kept from frame to frame.
   // special: directions about which a grid may miss what there is.
   // The cells of skies that are no maps are exact.
-  void make(const Projection& projection, const PixelShader& light,
-            const std::vector<CameraDirection>& special);
+  void make(const PixelShader& shader, const std::vector<CameraDirection>& special);
 
   enum class Kind : std::uint8_t {
     kNothing,  // dark, or out of the picture
@@ -94,7 +93,7 @@ class RayGrid {
   }
 
   Projection projection_;
-  const PixelShader* light_ = nullptr;
+  const PixelShader* shader_ = nullptr;
   int node_columns_ = 0, node_rows_ = 0, cell_columns_ = 0, cell_rows_ = 0;
   std::array<std::vector<float>, kQuantities> nodes_;
   std::vector<float> tolerance_;    // radians on the sky

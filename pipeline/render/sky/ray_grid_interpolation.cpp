@@ -113,8 +113,9 @@ Dispatched<choose_loop> choose;
 
 void RayGrid::choose_side(int cell_row, int cell, int count, FootprintBatch& out) const {
   const SkyRegion sky = this->cell(cell_row, cell).sky;
-  if (light_->sampler(sky)->map().kind() == SkyMapKind::kColour)
-    choose(out.gain.data(), out.tone.data(), light_->knee(sky), count, out.gain.data());
+  if (shader_->sampler(sky)->map().kind() == SkyMapKind::kColour)
+    choose(out.gain.data(), out.tone.data(), shader_->scene().background[sky]->knee(), count,
+           out.gain.data());
 }
 
 void RayGrid::interpolate_row(int cell_row, int row, int first, int end,

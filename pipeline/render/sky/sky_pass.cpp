@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/optics/aberration.h"
-#include "pipeline/show/vantage.h"
 
 namespace domefall {
 namespace {
@@ -13,49 +13,50 @@ constexpr int kStep = RayGrid::kStep;
 // A smaller picture is not worth a grid.
 constexpr int kSmallest = 64;
 
-bool has_maps(const PixelShader& light) {
-  return std::any_of(std::begin(kEverySky), std::end(kEverySky),
-                     [&](SkyRegion sky) { return light.sampler(sky) != nullptr; });
+bool has_maps(const FrameScene& scene) {
+  return std::any_of(scene.background.begin(), scene.background.end(),
+                     [](const auto& light) { return light && light->map(); });
 }
 
 }  // namespace
 
-std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
-                                                const HoleOptics& optics) {
+std::vector<CameraDirection> special_directions(const FrameScene& scene) {
   constexpr double kFast = 3;
-  const ObserverState& o = state.observer;
-  const V3d celerity = vantage_of(o, show.effects).celerity;
+  const V3d& celerity = scene.tracer.vantage().celerity;
   std::vector<CameraDirection> special;
   const auto add = [&](const V3d& in_tetrad) {
-    special.push_back({apply_transposed(o.tetrad_from_camera, in_tetrad)});
+    special.push_back({apply_transposed(scene.state.observer.tetrad_from_camera, in_tetrad)});
   };
-  if (celerity.length() > kFast) add(celerity.normalized()), add(-celerity.normalized());
-  if (optics.white_hole)
+  if (celerity.length() > kFast) {
+    add(celerity.normalized());
+    add(-celerity.normalized());
+  }
+  if (scene.optics.white_hole)
     for (const double outward : {1.0, -1.0})
       add(to_observer(celerity, V3d(outward, 0, 0)).direction);
   return special;
 }
 
-SkyPass::SkyPass(const Show& show, const FrameState& state, const HoleOptics& optics,
-                 AntiAliasing anti_aliasing, const PixelShader& light, RayGrid& grid)
-    : projection_(state.projection),
-      light_(light),
+SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
+                 std::vector<DarkenedCap> darkened, RayGrid& grid)
+    : scene_(scene),
+      shader_(scene, anti_aliasing, std::move(darkened)),
       grid_(grid),
-      interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel && has_maps(light) &&
-                    show.effects.amplification != Amplification::kEverything &&
-                    std::min(columns(projection_), rows(projection_)) >= kSmallest) {
-  if (interpolates_) grid_.make(projection_, light, special_directions(show, state, optics));
+      interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel && has_maps(scene) &&
+                    !scene.amplifies_backgrounds() &&
+                    std::min(columns(scene.projection()), rows(scene.projection())) >= kSmallest) {
+  if (interpolates_) grid_.make(shader_, special_directions(scene));
 }
 
 SkyPass::Band SkyPass::band_at(int number) const {
-  Band band{number, std::min(kStep, rows(projection_) - number * kStep), {}, nullptr};
+  Band band{number, std::min(kStep, rows(scene_.projection()) - number * kStep), {}, nullptr};
   for (int row = 0; row < band.rows; ++row)
-    band.inside[row] = inside_columns(projection_, number * kStep + row);
+    band.inside[row] = inside_columns(scene_.projection(), number * kStep + row);
   return band;
 }
 
 void SkyPass::blacken_outside(const Band& band) const {
-  const int width = columns(projection_);
+  const int width = columns(scene_.projection());
   for (int row = 0; row < band.rows; ++row) {
     float* out = row_of(band, row);
     const ColumnRange in = band.inside[row];
@@ -77,10 +78,10 @@ void SkyPass::blacken(const Band& band, int first, int end) const {
 // Smooth cells of one sky where a look a pixel is enough, row by row.
 void SkyPass::fill_plain(const Band& band, int first, int end) const {
   constexpr int kAtOnce = FootprintBatch::kSize / kStep;
-  const int width = columns(projection_);
+  const int width = columns(scene_.projection());
   FootprintBatch places;
   std::array<float, 3 * FootprintBatch::kSize + 1> light;
-  const SkySampler& sampler = *light_.sampler(grid_.cell(band.number, first).sky);
+  const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
   for (int from = first; from < end; from += kAtOnce) {
     const int to = std::min(end, from + kAtOnce), pixel = from * kStep;
     for (int row = 0; row < band.rows; ++row) {
@@ -103,7 +104,7 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
   FootprintBatch places;
   std::array<SampleKind, FootprintBatch::kSize> kinds;
   std::array<float, 3 * FootprintBatch::kSize + 1> light;
-  const SkySampler& sampler = *light_.sampler(grid_.cell(band.number, first).sky);
+  const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
   for (int from = first; from < end; from += RayGrid::kBlock) {
     const int to = std::min(end, from + RayGrid::kBlock), count = (to - from) * kStep * kStep;
     grid_.interpolate_block(band.number, from, to, places);
@@ -138,7 +139,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
   band.rgb = rgb;
   blacken_outside(band);
   std::vector<Pixel> pixels;
-  const int cells = (columns(projection_) + kStep - 1) / kStep;
+  const int cells = (columns(scene_.projection()) + kStep - 1) / kStep;
   if (!interpolates_) add_pixels(band, 0, cells, pixels);
   for (int first = 0, end = 0; interpolates_ && first < cells; first = end) {
     const RayGrid::Cell cell = grid_.cell(number, first);
@@ -151,7 +152,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
     else
       fill_block(band, first, end);
   }
-  light_.fill(pixels, number * kStep, rgb);
+  shader_.fill(pixels, number * kStep, rgb);
 }
 
 double SkyPass::traced_fraction() const { return interpolates_ ? grid_.traced_fraction() : 1; }

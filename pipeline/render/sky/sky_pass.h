@@ -9,15 +9,14 @@ namespace domefall {
 
 // About which a coarse grid of looks may miss what there is: where all light crowds ahead of a fast
 // observer and is spread behind it, and the axis, where the singularity's azimuth is a cube root.
-std::vector<CameraDirection> special_directions(const Show& show, const FrameState& state,
-                                                const HoleOptics& optics);
+std::vector<CameraDirection> special_directions(const FrameScene& scene);
 
 class SkyPass {
  public:
-  // Makes the grid, unless the picture or the settings call for looks at every pixel.  Light and grid must
-  // outlive it.
-  SkyPass(const Show& show, const FrameState& state, const HoleOptics& optics,
-          AntiAliasing anti_aliasing, const PixelShader& light, RayGrid& grid);
+  // Fills the grid, unless the image or the settings call for a ray through every pixel.  `grid` is memory
+  // that is kept from frame to frame.  Scene and grid must outlive this.
+  SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing, std::vector<DarkenedCap> darkened,
+          RayGrid& grid);
 
   // Pixel values of rows [number kStep, ...) into rgb[rows][3 columns], plus one float; 0 out of the picture.
   void fill_band(int number, float* rgb) const;
@@ -34,8 +33,8 @@ class SkyPass {
   };
   Band band_at(int number) const;
   float* row_of(const Band& band, int row) const {
-    return band.rgb +
-           static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(columns(projection_));
+    return band.rgb + static_cast<std::size_t>(row) * 3 *
+                          static_cast<std::size_t>(columns(scene_.projection()));
   }
   void blacken_outside(const Band& band) const;
   void blacken(const Band& band, int first, int end) const;
@@ -43,8 +42,8 @@ class SkyPass {
   void fill_block(const Band& band, int first, int end) const;
   void add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const;
 
-  Projection projection_;
-  const PixelShader& light_;
+  const FrameScene& scene_;
+  PixelShader shader_;
   RayGrid& grid_;
   bool interpolates_;
 };

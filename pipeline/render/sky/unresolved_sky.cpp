@@ -5,110 +5,107 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/render/scene/photometry.h"
+#include "pipeline/optics/aberration.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-// A pixel that sees more of a sky than this (radians, about the larger side of its footprint) is
-// crowded; the spot is what lies within so many pixels of it.
+// A pixel is crowded if the larger side of its footprint on the sky exceeds this (radians).  The cap that
+// is integrated instead reaches so many pixels from it.
 constexpr double kCrowded = 0.5, kCapPixels = 1.5;
-// From a pixel's middle to its corner, a little more.
+// From a pixel's middle to its corner, and a little more.
 constexpr double kHalfDiagonal = 0.75;
 // Samples from the edge of a sky to its far end, and around the axis.
 constexpr int kAlong = 192, kAround = 384;
 
+// The light of a cap, so far.
+struct CapLight {
+  double rgb[3] = {0, 0, 0};
+  V3d middle{0, 0, 0};  // of the luminance; not normalised
+
+  void add(const WorkingRgb& c, double solid_angle, const V3d& n) {
+    rgb[0] += c.r * solid_angle;
+    rgb[1] += c.g * solid_angle;
+    rgb[2] += c.b * solid_angle;
+    middle += n * (luminance(c) * solid_angle);
+  }
+};
+
 class UnresolvedSkyFinder {
  public:
-  UnresolvedSkyFinder(const Show& show, const FrameState& state, const HoleOptics& optics)
-      : show_(show),
-        observer_(state.observer),
-        settings_(state.settings),
-        projection_(state.projection),
-        tracer_(state, optics, show.effects),
-        vantage_(vantage_of(state.observer, show.effects)),
+  explicit UnresolvedSkyFinder(const FrameScene& scene)
+      : scene_(scene),
+        observer_(scene.state.observer),
+        vantage_(scene.tracer.vantage()),
         to_observer_(-vantage_.celerity),
         to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
-        pixel_(central_pixel_angle(state.projection)) {}
+        pixel_(central_pixel_angle(scene.projection())) {}
 
-  // toward: where the sky's light might be crowded, in the tetrad of the observer.
-  void integrate_lensed(const Sky& sky, SkyRegion name, const SkyTable& table, const V3d& toward,
+  // Looks for a sky that lensing crowds about `toward`, in the tetrad of the observer.
+  void integrate_lensed(SkyRegion sky, const SkyTable& table, const V3d& toward,
                         UnresolvedSkies& found) const {
-    const auto spot = unresolved_cap(name, toward, found);
-    if (!spot) return;
-    Light light;
-    gather(sky, table, *spot, light);
-    add(*spot, light, found);
+    const auto cap = crowded_cap(sky, toward, found);
+    if (!cap) return;
+    CapLight light;
+    gather_lensed(*scene_.background[sky], table, *cap, light);
+    add(*cap, light, found);
   }
 
-  // The same where light goes straight: ahead.
-  void integrate_straight(const Sky& sky, SkyRegion name, UnresolvedSkies& found) const {
-    const auto spot = unresolved_cap(name, vantage_.celerity.normalized(), found);
-    if (!spot) return;
-    Light light;
-    gather_straight(sky, *spot, light);
-    add(*spot, light, found);
+  // Looks for a sky that aberration alone crowds ahead.
+  void integrate_straight(SkyRegion sky, UnresolvedSkies& found) const {
+    const auto cap = crowded_cap(sky, vantage_.celerity.normalized(), found);
+    if (!cap) return;
+    CapLight light;
+    gather_straight(*scene_.background[sky], *cap, light);
+    add(*cap, light, found);
   }
 
  private:
-  // Of a spot, so far.
-  struct Light {
-    double rgb[3] = {0, 0, 0};
-    V3d middle{0, 0, 0};
-
-    void add(const WorkingRgb& c, double solid_angle, const V3d& n) {
-      rgb[0] += c.r * solid_angle, rgb[1] += c.g * solid_angle, rgb[2] += c.b * solid_angle;
-      middle += n * (luminance(c) * solid_angle);
-    }
-  };
-
-  std::optional<DarkenedCap> unresolved_cap(SkyRegion name, const V3d& toward,
-                                            const UnresolvedSkies& found) const {
+  std::optional<DarkenedCap> crowded_cap(SkyRegion sky, const V3d& toward,
+                                         const UnresolvedSkies& found) const {
     const CameraDirection centre{apply_transposed(observer_.tetrad_from_camera, toward)};
     const double reach2 = kCapPixels * kCapPixels * pixel_ * pixel_;
     for (const DarkenedCap& other : found.darkened)
-      if (other.sky == name && (other.centre.v - centre.v).length2() < 4 * reach2)
+      if (other.sky == sky && (other.centre.v - centre.v).length2() < 4 * reach2)
         return std::nullopt;
-    const ViewRay look = tracer_.trace(centre);
-    if (!look.known || look.sky != name ||
-        !(std::max(look.radial_scale, look.tangential_scale) * pixel_ > kCrowded))
+    const ViewRay ray = scene_.tracer.trace(centre);
+    if (!ray.known || ray.sky != sky ||
+        !(std::max(ray.radial_scale, ray.tangential_scale) * pixel_ > kCrowded))
       return std::nullopt;
-    return DarkenedCap{name, centre, reach2};
+    return DarkenedCap{sky, centre, reach2};
   }
 
-  void add(const DarkenedCap& spot, const Light& light, UnresolvedSkies& found) const {
+  void add(const DarkenedCap& cap, const CapLight& light, UnresolvedSkies& found) const {
     if (!(light.middle.length() > 0)) return;
-    const auto at = pixel_of(projection_, {light.middle.normalized()});
+    const auto at = pixel_of(scene_.projection(), {light.middle.normalized()});
     if (!at) return;
     CapBlob blob{};
     for (int c = 0; c < 3; ++c) blob.rgb[c] = static_cast<float>(light.rgb[c]);
-    blob.x = static_cast<float>(at->i - 1), blob.y = static_cast<float>(at->j - 1);
+    blob.x = static_cast<float>(at->i - 1);
+    blob.y = static_cast<float>(at->j - 1);
     blob.sigma = static_cast<float>(kLeastSigmaPixels * pixel_);
-    if (!place_cap(projection_, blob)) return;
-    found.darkened.push_back(spot);
+    if (!place_cap(scene_.projection(), blob)) return;
+    found.darkened.push_back(cap);
     found.blobs.push_back(blob);
   }
 
-  // Whether light from there belongs to a pixel that is looked at within the spot: what is gathered is what
-  // the looks leave out.
-  bool is_darkened(const DarkenedCap& spot, const V3d& n) const {
-    const auto at = pixel_of(projection_, {n});
-    const V3d look = at ? direction_at(projection_, {std::round(at->i), std::round(at->j)}).v : n;
-    return (look - spot.centre.v).length2() <= spot.chord2;
+  // Whether light from there belongs to a pixel whose ray lies within the cap: what is gathered is exactly
+  // what those pixels leave out.
+  bool is_darkened(const DarkenedCap& cap, const V3d& n) const {
+    const auto at = pixel_of(scene_.projection(), {n});
+    const V3d ray =
+        at ? direction_at(scene_.projection(), {std::round(at->i), std::round(at->j)}).v : n;
+    return (ray - cap.centre.v).length2() <= cap.chord2;
   }
 
-  double scale_of(SkyRegion sky) const {
-    return exposure_scale(settings_) * settings_.sky[sky].background_gain;
-  }
-
-  // The light of all samples of the sky that arrive within the spot.
-  void gather(const Sky& sky, const SkyTable& table, const DarkenedCap& spot, Light& light) const {
+  // Adds the light of all samples of the sky that arrive within the cap.
+  void gather_lensed(const SkyLight& sky, const SkyTable& table, const DarkenedCap& cap,
+                     CapLight& light) const {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
     const double d_psi = 2 * pi / kAround;
-    const double scale = scale_of(spot.sky);
-    const bool amplified = show_.effects.amplification == Amplification::kEverything;
+    const bool amplified = scene_.amplifies_backgrounds();
     for (int i = 0; i < kAlong; ++i) {
       const double x = 2 * std::tan((i + 0.5) * d_alpha / 4);
       const NullRay ray = table.ray_at_distance(x);
@@ -122,28 +119,28 @@ class UnresolvedSkyFinder {
         const AberratedLight seen =
             to_observer_.to_rest(V3d(ray.outgoing ? cosine : -cosine, 0, 0) + e * sine);
         const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
-        if (!is_darkened(spot, n)) continue;
+        if (!is_darkened(cap, n)) continue;
         const double d = seen.frequency_ratio;
         const double measured =
             vantage_.measured ? to_measured_.to_rest(seen.direction).frequency_ratio : 1;
         const V3d from =
             apply(observer_.sky_from_tetrad, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
-        const WorkingRgb c = background_light(sky, show_, from, footprint, g * d * measured, scale);
+        const WorkingRgb c = sky.at(from, footprint, g * d * measured);
         const double f = amplified ? amplification({ray_angle, phi, slope, d}, pixel_) : 1;
         light.add(c, f * sine * d_alpha * d_psi / (d * d), n);
       }
     }
   }
 
-  // Rings about the direction of motion, out to those that arrive at the spot's last pixels: by [Riazuelo]
+  // Adds the light of rings about the direction of motion, out to those that arrive at the cap's last pixels:
+  // by [Riazuelo]
   // eq. eq_inv_aberr, tan(alpha/2) = (gamma + |celerity|) tan(alpha'/2).
-  void gather_straight(const Sky& sky, const DarkenedCap& spot, Light& light) const {
+  void gather_straight(const SkyLight& sky, const DarkenedCap& cap, CapLight& light) const {
     const double speed = vantage_.celerity.length(), widening = std::hypot(1, speed) + speed;
     const double edge = std::min((kCapPixels + kHalfDiagonal) * pixel_, pi);
     const double d_alpha = 2 * std::atan(widening * std::tan(edge / 2)) / kAlong;
     const double d_psi = 2 * pi / kAround;
-    const double scale = scale_of(spot.sky);
-    const bool amplified = show_.effects.amplification == Amplification::kEverything;
+    const bool amplified = scene_.amplifies_backgrounds();
     const V3d ahead = vantage_.celerity / speed;
     const V3d aside =
         ahead.cross(std::abs(ahead.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
@@ -158,52 +155,43 @@ class UnresolvedSkyFinder {
         const AberratedLight seen = to_observer_.to_rest(
             ahead * cosine + (aside * std::cos(psi) + third * std::sin(psi)) * sine);
         const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
-        if (!is_darkened(spot, n)) continue;
-        const ViewRay look = tracer_.trace({n});
+        if (!is_darkened(cap, n)) continue;
+        const ViewRay ray = scene_.tracer.trace({n});
         const double d = seen.frequency_ratio;
-        const double f = amplified ? amplification(look.bundle, pixel_) : 1;
-        light.add(background_light(sky, show_, look.sky_direction, footprint, look.frequency_ratio,
-                                   scale),
-                  f * area / (d * d), n);
+        const double f = amplified ? amplification(ray.bundle, pixel_) : 1;
+        light.add(sky.at(ray.sky_direction, footprint, ray.frequency_ratio), f * area / (d * d), n);
       }
     }
   }
 
-  const Show& show_;
+  const FrameScene& scene_;
   const ObserverState& observer_;
-  const FrameSettings& settings_;
-  Projection projection_;
-  ViewTracer tracer_;
-  Vantage vantage_;
+  const Vantage& vantage_;
   Aberration to_observer_, to_measured_;
-  double pixel_;
+  double pixel_;  // radians, in the middle of the image
 };
 
 }  // namespace
 
-UnresolvedSkies find_unresolved_skies(const Show& show, const FrameState& state,
-                                      const HoleOptics& optics, const PixelShader::Skies& skies) {
+UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
   UnresolvedSkies found;
-  const UnresolvedSkyFinder finder(show, state, optics);
-  const V3d celerity = vantage_of(state.observer, show.effects).celerity;
-  if (is_flat(state.observer) || !show.effects.lensing) {
-    const Sky* sky = skies[SkyRegion::kI];
-    if (sky != nullptr && celerity.length() > 1)
-      finder.integrate_straight(*sky, SkyRegion::kI, found);
+  const UnresolvedSkyFinder finder(scene);
+  const V3d& celerity = scene.tracer.vantage().celerity;
+  const bool fast = celerity.length() > 1;
+  if (!scene.plan.gravity) {
+    if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
     return found;
   }
-  // The far ends of both skies lie on the axis: home outward, far inward.
-  const auto look_for = [&](SkyRegion name, double outward) {
-    const SkyTable* table = optics.table_of(name);
-    const Sky* sky = skies[name];
-    if (sky == nullptr || table == nullptr) return;
-    finder.integrate_lensed(*sky, name, *table, to_observer(celerity, V3d(outward, 0, 0)).direction,
+  // The far ends of both skies lie on the axis: that of the home sky outward, the other inward.
+  const auto integrate = [&](SkyRegion sky, double outward) {
+    const SkyTable* table = scene.optics.table_of(sky);
+    if (!scene.background[sky] || table == nullptr) return;
+    finder.integrate_lensed(sky, *table, to_observer(celerity, V3d(outward, 0, 0)).direction,
                             found);
-    if (celerity.length() > 1)
-      finder.integrate_lensed(*sky, name, *table, celerity.normalized(), found);
+    if (fast) finder.integrate_lensed(sky, *table, celerity.normalized(), found);
   };
-  look_for(home_sky(optics.tetrad), 1);
-  look_for(far_sky(optics.tetrad), -1);
+  integrate(home_sky(scene.optics.tetrad), 1);
+  integrate(far_sky(scene.optics.tetrad), -1);
   return found;
 }
 

@@ -40,28 +40,24 @@ double peak_per_lux(double scale, const PointSpread& widths) {
 
 }  // namespace
 
-StarImages::StarImages(const Show& show, const FrameState& state, const FrameSettings::Sky& sky,
-                       const SkyTable* table)
-    : sky_(sky),
-      effects_(show.effects),
-      projection_(state.projection),
-      sky_from_tetrad_(state.observer.sky_from_tetrad),
-      tetrad_from_camera_(state.observer.tetrad_from_camera),
-      vantage_(vantage_of(state.observer, show.effects)),
+StarImages::StarImages(const FrameScene& scene, SkyRegion sky)
+    : scene_(scene),
+      sky_(scene.state.settings.sky[sky]),
+      observer_(scene.state.observer),
+      vantage_(scene.tracer.vantage()),
+      table_(scene.plan.gravity ? scene.optics.table_of(sky) : nullptr),
       from_tetrad_(-vantage_.celerity),
       to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
       from_rest_(vantage_.rest),
-      straight_ratio_(effects_.lensing ? 1 : gravitational_ratio(state.observer.r)),
-      table_(table),
-      scale_(exposure_scale(state.settings)),
-      widths_(show.point_spread, projection_, scale_),
-      peak_per_lux_(peak_per_lux(scale_, widths_)),
+      straight_ratio_(scene.effects.lensing ? 1 : gravitational_ratio(observer_.r)),
+      peak_per_lux_(peak_per_lux(scene.exposure, scene.point_spread)),
       stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
-      disc_(widths_.least() / stretch_),
-      plain_((effects_.lensing || is_flat(state.observer)) && effects_.intensity &&
-             effects_.doppler_colour && effects_.amplification != Amplification::kNone &&
+      disc_(scene.point_spread.least() / stretch_),
+      plain_((scene.effects.lensing || is_flat(observer_)) && scene.effects.intensity &&
+             scene.effects.doppler_colour && scene.effects.amplification != Amplification::kNone &&
              !vantage_.measured),
-      plane_(projection_, widths_.reach() + kBlurPixels * central_pixel_angle(projection_)) {
+      plane_(scene.projection(),
+             scene.point_spread.reach() + kBlurPixels * central_pixel_angle(scene.projection())) {
   plain_ = plain_ && plane_.usable();
   if (plain_) prepare_batches();
 }
@@ -79,8 +75,8 @@ std::optional<SceneStar> StarImages::taken(const SceneStar& catalogued) const {
 void StarImages::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
   const auto star = taken(catalogued);
   if (star)
-    append_orders(*star, apply_transposed(sky_from_tetrad_, star->direction.v), 0, kLastOrder,
-                  images);
+    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0,
+                  kLastOrder, images);
 }
 
 // Orders first to before end.
@@ -91,7 +87,8 @@ void StarImages::append_orders(const SceneStar& star, const V3d& source, int fir
     return;
   }
   const double sine = std::hypot(source.y, source.z);
-  if (effects_.amplification == Amplification::kNone) end = std::min(end, kWithoutAmplification);
+  if (scene_.effects.amplification == Amplification::kNone)
+    end = std::min(end, kWithoutAmplification);
   for (int order = first; order < end; ++order) {
     if (plain_ && !may_be_seen(star, sine, order)) return;
     const bool bright = append_order(star, source, order, images);
@@ -109,13 +106,14 @@ bool StarImages::may_be_seen(const SceneStar& star, double sine, int order) cons
 
 bool StarImages::is_arc(const V3d& source, int order) const {
   const double near = kNearAxis * disc_;
-  return table_ != nullptr && effects_.lensing && effects_.amplification != Amplification::kNone &&
+  return table_ != nullptr && scene_.effects.lensing &&
+         scene_.effects.amplification != Amplification::kNone &&
          source.y * source.y + source.z * source.z < near * near && on_caustic(source, order);
 }
 
 // In the frame of the tetrad.
 SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) const {
-  if (effects_.lensing) return image_of(table_, source, order, star.angular_radius);
+  if (scene_.effects.lensing) return image_of(table_, source, order, star.angular_radius);
   const AberratedLight at = from_rest_.to_rest(source);
   const double ratio = at.frequency_ratio;
   return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
@@ -128,14 +126,15 @@ StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& 
   double g = at.frequency_ratio * doppler;
   if (vantage_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
   double flux = star.flux;
-  if (effects_.amplification != Amplification::kNone)
+  if (scene_.effects.amplification != Amplification::kNone)
     flux *= at.amplification / (doppler * doppler);
-  if (effects_.intensity) flux = flux * g * g * g * g;
-  if (!effects_.doppler_colour) flux = std::min(flux, kSaturated);
+  if (scene_.effects.intensity) flux = flux * g * g * g * g;
+  if (!scene_.effects.doppler_colour) flux = std::min(flux, kSaturated);
   const WorkingRgb per_flux =
-      blackbody_colours().per_flux(star.temperature * colour_ratio(effects_, g));
-  const auto pixel = pixel_of(projection_, {apply_transposed(tetrad_from_camera_, seen.direction)});
-  const double pixel_flux = flux * scale_;
+      blackbody_colours().per_flux(star.temperature * colour_ratio(scene_.effects, g));
+  const auto pixel = pixel_of(scene_.projection(),
+                              {apply_transposed(observer_.tetrad_from_camera, seen.direction)});
+  const double pixel_flux = flux * scene_.exposure;
   Received received{{0, 0, {}}, luminance(per_flux) * flux * peak_per_lux_, pixel.has_value()};
   if (!pixel) return received;
   received.image = {
@@ -160,7 +159,8 @@ bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
                             std::vector<StarImage>& images) const {
   // As wide as it was before the boost.
   const auto spacing = [&](const V3d& direction) {
-    return kPieceSigmas * widths_.least() * from_tetrad_.to_rest(direction).frequency_ratio;
+    return kPieceSigmas * scene_.point_spread.least() *
+           from_tetrad_.to_rest(direction).frequency_ratio;
   };
   const std::size_t before = images.size();
   double peak = 0;

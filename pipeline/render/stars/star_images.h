@@ -7,28 +7,24 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/blobs/cap_blob.h"
-#include "pipeline/render/scene/sky_store.h"
+#include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/render/stars/star_loops.h"
-#include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
 
 namespace domefall {
 
 // An image fainter than this peak pixel value, drawn at its smallest, is left out.
 inline constexpr double kFaintestPeak = 2e-4;
 
-// The observed images of stars, before any is drawn.  `table` is null where light goes straight.
-// Without amplification all of a star's images are equally bright, and there is no end of them: the
-// two whose light does not go once around the hole are drawn.
+// The observed images of stars, before any is drawn.  Where light goes straight a star has one image.
+// Without amplification all images of a star are equally bright and there is no end of them, so that only
+// the two are drawn whose light does not go once around the hole.
 //
-// Near the axis of the lens, where points would be infinitely bright, a star is a disc as large as
-// the least of blobs would cover there: an arc or a ring (star_arcs.h).
+// Near the axis of the lens, where points would be infinitely bright, a star is a disc as large as the
+// smallest blob would cover there.  Its image is an arc or a ring (star_arcs.h).
 class StarImages {
  public:
-  // `sky`: what the frame takes of these stars.
-  StarImages(const Show& show, const FrameState& state, const FrameSettings::Sky& sky,
-             const SkyTable* table);
+  // The images of the stars of one sky.  The scene must outlive this.
+  StarImages(const FrameScene& scene, SkyRegion sky);
 
   // One star, every order by inverting the table: exact, slow.  Appends the images that may be seen,
   // and some that lie beside the picture.
@@ -72,21 +68,17 @@ class StarImages {
   void append_exact(const SceneStars& stars, const Batch& batch,
                     std::vector<StarImage>& images) const;
 
-  FrameSettings::Sky sky_;
-  Effects effects_;
-  Projection projection_;
-  M33d sky_from_tetrad_, tetrad_from_camera_;
-  Vantage vantage_;
+  const FrameScene& scene_;
+  const FrameSettings::Sky& sky_;  // what the frame takes of these stars
+  const ObserverState& observer_;
+  const Vantage& vantage_;
+  const SkyTable* table_;  // null where light goes straight
   Aberration from_tetrad_, to_measured_, from_rest_;
-  double straight_ratio_;  // of light that goes straight: gravity's part of the frequency ratio
-  const SkyTable* table_;
-  double scale_;  // pixel value per cd/m^2
-  PointSpread widths_;
-  double peak_per_lux_;
-
-  double stretch_;  // gamma + |celerity|: by how much the boost widens angles, or compresses them
-  double disc_;     // radius of a star near the axis
-  bool plain_;      // no effect is left out, no vantage but the observer's own
+  double straight_ratio_;  // gravity's part of the frequency ratio where light goes straight
+  double peak_per_lux_;    // of the smallest blob
+  double stretch_;         // gamma + |celerity|: by how much the boost widens or compresses angles
+  double disc_;            // radius of a star near the axis, radians
+  bool plain_;             // no effect is left out, and the vantage is the observer's own
 
   StarFrame batch_frame_;
   StarPlane plane_;

@@ -40,8 +40,8 @@ struct StarImages::Batch {
 };
 
 void StarImages::prepare_batches() {
-  batch_frame_.sky_from_tetrad = sky_from_tetrad_;
-  batch_frame_.tetrad_from_camera = tetrad_from_camera_;
+  batch_frame_.sky_from_tetrad = observer_.sky_from_tetrad;
+  batch_frame_.tetrad_from_camera = observer_.tetrad_from_camera;
   batch_frame_.from_tetrad = from_tetrad_;
   batch_frame_.gain = sky_.star_gain;
   // A hard limit is that of count().
@@ -52,8 +52,8 @@ void StarImages::prepare_batches() {
   bound_.fill(per_flux_);
   if (table_ == nullptr) return;
   batch_frame_.psi = psi_frame(*table_);
-  const LensCurve::Wanted wanted{kPositionError * central_pixel_angle(projection_) / stretch_,
-                                 kFluxError};
+  const LensCurve::Wanted wanted{
+      kPositionError * central_pixel_angle(scene_.projection()) / stretch_, kFluxError};
   for (const int intervals : kIntervals)
     curves_.emplace_back(*table_, static_cast<int>(curves_.size()), intervals, wanted);
   for (int order = kLastOrder - 1; order >= 0; --order) {
@@ -163,8 +163,8 @@ void StarImages::append_exact(const SceneStars& stars, const Batch& batch,
                               std::vector<StarImage>& images) const {
   for (const Batch::Left& left : batch.left)
     if (const auto star = taken(stars[batch.first + static_cast<std::size_t>(left.source)]))
-      append_orders(*star, apply_transposed(sky_from_tetrad_, star->direction.v), left.first_order,
-                    left.end_order, images);
+      append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v),
+                    left.first_order, left.end_order, images);
 }
 
 // Colours what lies in the picture.
@@ -177,7 +177,7 @@ void StarImages::append_views(StarViews& views, int count, std::vector<StarImage
   for (int n = 0; n < number; ++n) {
     const auto k = static_cast<std::size_t>(listed[static_cast<std::size_t>(n)]);
     const StarColours::Light per_flux = colours(views.temperature[k]);
-    const double flux = views.flux[k], pixel_flux = flux * scale_;
+    const double flux = views.flux[k], pixel_flux = flux * scene_.exposure;
     images[bright] = {
         static_cast<float>(views.i[k]),
         static_cast<float>(views.j[k]),

@@ -83,11 +83,9 @@ TEST(Effects, WithoutAberrationMotionIsStillAhead) {
 std::vector<StarImage> images_of(const Show& show, const V3d& sky) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
-  const bool bent = show.effects.lensing && optics.home_sky;
   const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
   std::vector<StarImage> images;
-  StarImages(show, state, state.settings.sky[SkyRegion::kI], bent ? &*optics.home_sky : nullptr)
-      .append(star, images);
+  StarImages(scene_with(show, state, optics), SkyRegion::kI).append(star, images);
   return images;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/render/renderer.h"
+#include "pipeline/render/scene/frame_scene.h"
 #include "tests/pipeline/render/panorama_file.h"
 
 namespace domefall {
@@ -44,6 +45,21 @@ inline Show starry(Show show) {
   show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
   show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   return show;
+}
+
+// The plan of a frame with these skies, whatever the show says of them.
+inline FramePlan plan_with(const Show& show, const FrameState& state,
+                           const PerSky<const Sky*>& skies) {
+  FramePlan plan = plan_frame(show, state);
+  for (const SkyRegion sky : kEverySky)
+    plan.sky[sky] = {skies[sky] && !std::holds_alternative<Black>(skies[sky]->background),
+                     skies[sky] && skies[sky]->stars, false};
+  return plan;
+}
+
+inline FrameScene scene_with(const Show& show, const FrameState& state, const HoleOptics& optics,
+                             const PerSky<const Sky*>& skies = {}) {
+  return FrameScene(show, state, plan_with(show, state, skies), optics, skies);
 }
 
 inline V3d random_direction(std::mt19937& random) {

@@ -42,7 +42,7 @@ TEST(Shutter, StreaksWithoutLosingLight) {
   StageTimes times;
   const HalfFrame streaked = frame_of(show, 10, &times);
   // 4 degrees at the rim, 256 pixels from the zenith: 17.9 pixels.
-  EXPECT_NEAR(times.pictures, 17.9 / kPixelsPerInstant, 2);
+  EXPECT_NEAR(times.instants, 17.9 / kPixelsPerInstant, 2);
   // Blobs on the rim end at its staircase of pixels, another one at each instant.
   EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 6e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
@@ -73,7 +73,7 @@ TEST(Shutter, OfAStillPictureTakesOne) {
   show.exposure.shutter = 1;
   StageTimes times;
   const HalfFrame open = frame_of(show, 3, &times);
-  EXPECT_EQ(times.pictures, 1);
+  EXPECT_EQ(times.instants, 1);
   EXPECT_TRUE(std::equal(open.pixels.begin(), open.pixels.end(), closed.pixels.begin()));
 }
 
@@ -87,9 +87,9 @@ TEST(Shutter, OfADissolveTakesWhatTheFasterPartNeeds) {
   show.exposure.shutter = 0.5;
   StageTimes times;
   frame_of(show, 20, &times);  // in the middle of it
-  EXPECT_GT(times.pictures, 5);
+  EXPECT_GT(times.instants, 5);
   frame_of(show, 40, &times);  // after it
-  EXPECT_EQ(times.pictures, 1);
+  EXPECT_EQ(times.instants, 1);
 }
 
 TEST(Shutter, IsOpenAboutTheInstantAndNotAcrossACut) {

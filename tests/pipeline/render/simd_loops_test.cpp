@@ -179,14 +179,14 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
        {Projection(Domemaster{512}), Projection(Stereographic{640, 360, 2.0})}) {
     const Show show = show_of(trajectory, p);
     FrameState state = frame_state(show, 0);
-    state.settings.sky[SkyRegion::kI].max_magnitude = 99, state.settings.ev = 8;
+    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+      state.settings.sky[sky].max_magnitude = 99;
+    state.settings.ev = 8;
     const ObserverState& o = state.observer;
     const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
-    for (const auto* table : {&optics.home_sky, &optics.far_sky})
-      if (*table || is_flat(o))
-        bytes.add(all_images(
-            StarImages(show, state, state.settings.sky[SkyRegion::kI], *table ? &**table : nullptr),
-            stars));
+    const FrameScene scene = scene_with(show, state, optics);
+    for (const SkyRegion sky : {home_sky(o.tetrad), far_sky(o.tetrad)})
+      if (optics.table_of(sky) || is_flat(o)) bytes.add(all_images(StarImages(scene, sky), stars));
   }
   return bytes;
 }

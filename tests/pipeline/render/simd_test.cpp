@@ -150,9 +150,10 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;
   const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
   const Sky sky{std::make_shared<const SkyMap>(map), nullptr};
-  const PixelShader light(show, state, optics, {&sky, &sky, nullptr});
+  const FrameScene scene = scene_with(show, state, optics, {&sky, &sky, nullptr});
+  const PixelShader light(scene);
   RayGrid grid;
-  grid.make(state.projection, light, special_directions(show, state, optics));
+  grid.make(light, special_directions(scene));
   Bytes bytes;
   for (int j = 0; j < grid.cell_rows(); ++j)
     for (int i = 0; i < grid.cell_columns(); ++i) {

@@ -14,13 +14,15 @@ namespace {
 
 // One star of magnitude `m` in flat space, seen in a camera direction.
 StarImage image_of_star(const Show& show, const V3d& camera_direction, double m) {
-  const FrameState state = frame_state(show, 0);
+  FrameState state = frame_state(show, 0);
+  state.settings.sky[SkyRegion::kI] = {1, 1, 40};
   const V3d sky = apply(state.observer.sky_from_tetrad,
                         apply(state.observer.tetrad_from_camera, camera_direction));
   const double t = 6500;
   const SceneStar star{{sky}, m, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
   std::vector<StarImage> images;
-  StarImages(show, state, {1, 1, 40}, nullptr).append(star, images);
+  const HoleOptics straight;
+  StarImages(scene_with(show, state, straight), SkyRegion::kI).append(star, images);
   return images.at(0);
 }
 

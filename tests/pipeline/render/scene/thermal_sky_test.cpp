@@ -29,7 +29,8 @@ Sky even_sky() {
 }
 
 WorkingRgb seen(const Show& show, double g) {
-  return background_light(even_sky(), show, {0.2, -0.4, 0.9}, 0.1, g, 1);
+  const Sky sky = even_sky();
+  return SkyLight(sky, show.effects, show.panorama_shift, 1).at({0.2, -0.4, 0.9}, 0.1, g);
 }
 
 // Planck's law at temperature T and frequency ratio g is Planck's law at g T, surface and all: the

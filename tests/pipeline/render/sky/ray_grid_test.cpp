@@ -22,6 +22,7 @@ struct Gridded {
   FrameState state;
   HoleOptics optics;
   Sky sky;
+  FrameScene scene;
   PixelShader light;
   RayGrid grid;
 
@@ -31,8 +32,9 @@ struct Gridded {
         optics(make_hole_optics(is_flat(state.observer) ? kFlatSpace : state.observer.r,
                                 state.observer.tetrad, {})),
         sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr},
-        light(show, state, optics, {&sky, &sky, nullptr}) {
-    grid.make(state.projection, light, special_directions(show, state, optics));
+        scene(scene_with(show, state, optics, {&sky, &sky, nullptr})),
+        light(scene) {
+    grid.make(light, special_directions(scene));
   }
 };
 
@@ -60,7 +62,7 @@ Worst worst_of(const Gridded& g) {
           const int x = i * RayGrid::kStep + static_cast<int>(k);
           if (x < inside.first || x > inside.last) continue;
           const PixelPosition pixel{x + 1.0, y + 1.0};
-          const ViewRay look = g.light.tracer().trace(direction_at(g.state.projection, pixel));
+          const ViewRay look = g.scene.tracer.trace(direction_at(g.state.projection, pixel));
           const double width = pixel_angle(g.state.projection, pixel) *
                                std::max(std::min(look.radial_scale, look.tangential_scale),
                                         0.1 * std::max(look.radial_scale, look.tangential_scale));
@@ -70,7 +72,7 @@ Worst worst_of(const Gridded& g) {
           EXPECT_EQ(look.sky, g.grid.cell(j, i).sky);
           const double off = (at - look.sky_direction).length() - kRounding;
           worst.place = std::max(worst.place, off / width);
-          const MapShift shift = g.light.shift(look.sky, look.frequency_ratio);
+          const MapShift shift = g.scene.background[look.sky]->shift(look.frequency_ratio);
           if (shift.gain > 1e-9f)
             worst.gain =
                 std::max(worst.gain, std::abs(double{places.gain[k]} / double{shift.gain} - 1));

@@ -39,12 +39,12 @@ TEST(UnresolvedSkies, DoNotTwinkleBetweenPixels) {
 TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
   const Show show = starry(show_of(StaticObserver{10}, Domemaster{128}));
   const FrameState state = frame_state(show, 0);
-  SkyStore scene(show);
+  SkyStore store(show);
   const HoleOptics optics = make_hole_optics(10, Tetrad::kRain, {});
-  const UnresolvedSkies spots =
-      find_unresolved_skies(show, state, optics, {&scene.sky(SkyRegion::kI), nullptr, nullptr});
-  EXPECT_TRUE(spots.blobs.empty());
-  EXPECT_TRUE(spots.darkened.empty());
+  const UnresolvedSkies found = find_unresolved_skies(
+      scene_with(show, state, optics, {&store.sky(SkyRegion::kI), nullptr, nullptr}));
+  EXPECT_TRUE(found.blobs.empty());
+  EXPECT_TRUE(found.darkened.empty());
 }
 
 // Of red, over all of the dome; a panorama of one value ahead of and around an observer of this Lorentz

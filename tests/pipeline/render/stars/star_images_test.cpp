@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/render/blobs/cap_blob.h"
 #include "pipeline/render/scene/photometry.h"
 #include "pipeline/render/stars/star_arcs.h"
 #include "pipeline/render/stars/star_colours.h"

@@ -1,7 +1,7 @@
 // An observer with its tables, for the tests of stars.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "pipeline/render/stars/star_images.h"
@@ -22,12 +22,13 @@ class StarScene {
   }
 
   bool has(bool far) const { return (far ? optics.far_sky : optics.home_sky).has_value(); }
-  const SkyTable* table(bool far) const {
-    const auto& sky = far ? optics.far_sky : optics.home_sky;
-    return sky ? &*sky : nullptr;
+  SkyRegion region(bool far) const {
+    return far ? far_sky(optics.tetrad) : home_sky(optics.tetrad);
   }
+  const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
   StarImages images(bool far = false) const {
-    return StarImages(show, state, state.settings.sky[SkyRegion::kI], table(far));
+    scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics)));
+    return {*scenes_.back(), region(far)};
   }
   // A place of the sky by its components along R, Theta, Phi.
   SkyDirection sky(const V3d& source) const {
@@ -37,6 +38,9 @@ class StarScene {
   Show show;
   FrameState state;
   HoleOptics optics;
+
+ private:
+  mutable std::vector<std::unique_ptr<FrameScene>> scenes_;  // of the images that were asked for
 };
 
 // As the frame does it.

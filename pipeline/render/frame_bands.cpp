@@ -1,0 +1,76 @@
+#include "pipeline/render/frame_bands.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pipeline/simd/half_row.h"
+
+namespace domefall {
+namespace {
+
+static_assert(kBandRows == RayGrid::kStep);
+
+// How many bands one thread draws one after another where there are splats.  Splats at the ends of such a run
+// are dropped by its neighbour too, so runs are long; and a thread has several turns, so that none waits
+// for another at the end.
+int bands_in_a_run(int bands) {
+  constexpr int kTurns = 8, kLeast = 8;
+  const int threads = tbb::this_task_arena::max_concurrency();
+  return threads == 1 ? bands : std::max(bands / (kTurns * threads), kLeast);
+}
+
+// Only the columns `inside` are lit.
+void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) {
+  static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
+  auto* out = reinterpret_cast<std::uint16_t*>(frame.row(row));
+  const int first = 3 * inside.first, end = 3 * (inside.last + 1);
+  if (first >= end) {
+    std::fill_n(out, 3 * frame.width, std::uint16_t{0});
+    return;
+  }
+  std::fill(out, out + first, std::uint16_t{0});
+  std::fill(out + end, out + 3 * frame.width, std::uint16_t{0});
+  if (to_half(rgb + first, end - first, out + first)) return;
+  for (int k = 0; k < 3 * frame.width; ++k)
+    if (!std::isfinite(rgb[k]))
+      throw std::runtime_error(
+          fmt::format("pixel ({}, {}) is not a finite number", k / 3 + 1, row + 1));
+}
+
+}  // namespace
+
+void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
+                BandMemory& memory, HalfFrame& frame) {
+  const auto stride = static_cast<std::size_t>(frame.width) * 3;
+  const bool lit = scene.plan.background();
+  const auto draw_band = [&](int band, SplatCanvas& splats) {
+    const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
+    std::vector<float>& rgb = memory.rows.local();
+    rgb.resize(stride * kBandRows + 1);
+    if (lit)
+      sky.fill_band(band, rgb.data());
+    else
+      std::fill(rgb.begin(), rgb.end(), 0.0f);
+    stars.draw_band(band, splats, rgb.data());
+    for (int row = first; row < end; ++row)
+      store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
+                inside_columns(scene.projection(), row), frame);
+  };
+  const int bands = (frame.height + kBandRows - 1) / kBandRows;
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_run(bands) : 1),
+      [&](const tbb::blocked_range<int>& run) {
+        SplatCanvas& splats = memory.splats.local();
+        stars.start_canvas(splats);
+        for (int band = run.begin(); band < run.end(); ++band) draw_band(band, splats);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace domefall

@@ -1,0 +1,27 @@
+// The pixels of a frame, in bands of rows: each band is shaded, covered with stars and stored while it is in
+// the cache of one thread.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <vector>
+
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/sky/sky_pass.h"
+
+namespace domefall {
+
+// Memory of each thread, kept from frame to frame: new memory costs more than what is written into it.
+struct BandMemory {
+  tbb::enumerable_thread_specific<SplatCanvas> splats{};
+  tbb::enumerable_thread_specific<std::vector<float>> rows{};
+};
+
+// Draws skies and stars into a frame that has the size of the scene's image, by all threads of the arena that
+// calls.  A value beyond the largest half (65504) is stored as that.  Throws std::runtime_error, naming the
+// pixel, if a value is not finite.
+void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
+                BandMemory& memory, HalfFrame& frame);
+
+}  // namespace domefall

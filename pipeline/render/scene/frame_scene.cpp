@@ -1,0 +1,40 @@
+#include "pipeline/render/scene/frame_scene.h"
+
+#include "pipeline/render/scene/photometry.h"
+
+namespace domefall {
+namespace {
+
+PerSky<const SceneStars*> stars_of(const FramePlan& plan, const PerSky<const Sky*>& skies) {
+  PerSky<const SceneStars*> stars{};
+  for (const SkyRegion sky : kEverySky)
+    if (plan[sky].stars) stars[sky] = skies[sky]->stars.get();
+  return stars;
+}
+
+PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameState& state,
+                                               const FramePlan& plan,
+                                               const PerSky<const Sky*>& skies, double exposure) {
+  PerSky<std::optional<SkyLight>> light;
+  for (const SkyRegion sky : kEverySky)
+    if (plan[sky].background)
+      light[sky].emplace(*skies[sky], show.effects, show.panorama_shift,
+                         exposure * state.settings.sky[sky].background_gain);
+  return light;
+}
+
+}  // namespace
+
+FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
+                       const HoleOptics& hole_optics, const PerSky<const Sky*>& skies)
+    : state(frame),
+      effects(show.effects),
+      plan(frame_plan),
+      optics(hole_optics),
+      tracer(frame, hole_optics, show.effects),
+      exposure(exposure_scale(frame.settings)),
+      point_spread(show.point_spread, frame.projection, exposure),
+      stars(stars_of(plan, skies)),
+      background(backgrounds_of(show, frame, plan, skies, exposure)) {}
+
+}  // namespace domefall
