@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,22 +14,22 @@
 namespace domefall {
 namespace {
 
-std::string error(double value) { return formatted("%.1e", value); }
+std::string error(double value) { return fmt::format("{:.1e}", value); }
 
 std::string setting_of(const RayErrorRow& row) {
-  if (row.method == "table") return formatted("2^%g to the octave", row.setting);
-  return row.setting > 0 ? formatted("%.0e", row.setting) : "";
+  if (row.method == "table") return fmt::format("2^{:g} to the octave", row.setting);
+  return row.setting > 0 ? fmt::format("{:.0e}", row.setting) : "";
 }
 
 std::string head(const Report& report) {
-  std::string page = "# Accuracy, and what it costs\n\nMade by `domefall report";
-  page += report.quick ? " --quick" : "";
-  page += "`; every number below was measured by that run.\n\n" + machine_table();
-  return page +
-         "Times are of one machine on one day, and compare within the page; the errors are the "
-         "same\neverywhere. All rows: [rays.csv](rays.csv), [frames.csv](frames.csv), "
-         "[orbits.csv](orbits.csv).\nWhat a frame costs by its stars and pixels, and against other "
-         "ways to make it: [costs.md](costs.md).\n\n";
+  return fmt::format(
+      "# Accuracy, and what it costs\n\n"
+      "Made by `domefall report{}`; every number below was measured by that run.\n\n{}"
+      "Times are of one machine on one day, and compare within the page; the errors are the "
+      "same\neverywhere. All rows: [rays.csv](rays.csv), [frames.csv](frames.csv), "
+      "[orbits.csv](orbits.csv).\nWhat a frame costs by its stars and pixels, and against other "
+      "ways to make it: [costs.md](costs.md).\n\n",
+      report.quick ? " --quick" : "", machine_table());
 }
 
 // ---- Rays ----
@@ -77,17 +79,14 @@ std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
   const double sky = worst_of(rows, "table", &RayErrorRow::sky_worst);
   const double ns = mean_of(rows, "table", &RayErrorRow::ns_per_ray);
   const double exact_ns = mean_of(rows, "exact", &RayErrorRow::ns_per_ray);
-  return "**Default: the table, " + std::to_string(1 << OctaveCurve::kPerOctaveBits) +
-         " intervals to the octave.** Its worst displacement on the sky "
-         "over "
-         "all these rays\nis " +
-         error(sky) + " radians, " + error(sky / kPixel8k) +
-         " of a pixel of an 8k dome. One ray takes " + amount(ns) + " ns, by the exact integral " +
-         amount(exact_ns) + " ns; the tables of one radius are built in " +
-         amount(worst_of(rows, "table", &RayErrorRow::build_us)) +
-         " µs, the most of any class (median over its radii).\nFiner tables cost the same for each "
-         "ray, coarser "
-         "ones save little in building.\n\n";
+  return fmt::format(
+      "**Default: the table, {} intervals to the octave.** Its worst displacement on the sky over "
+      "all these rays\nis {} radians, {} of a pixel of an 8k dome. One ray takes {} ns, by the "
+      "exact integral {} ns; the tables of one radius are built in {} µs, the most of any class "
+      "(median over its radii).\nFiner tables cost the same for each ray, coarser ones save little "
+      "in building.\n\n",
+      1 << OctaveCurve::kPerOctaveBits, error(sky), error(sky / kPixel8k), amount(ns),
+      amount(exact_ns), amount(worst_of(rows, "table", &RayErrorRow::build_us)));
 }
 
 std::string class_table(const std::vector<RayErrorRow>& rows, const RayClass& of) {
@@ -96,10 +95,10 @@ std::string class_table(const std::vector<RayErrorRow>& rows, const RayClass& of
       "ns per ray | building, µs |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const RayErrorRow& r : rows) {
     if (r.region != of.region || r.difficulty != of.name || !r.is_default) continue;
-    table += "| " + r.method + " | " + setting_of(r) + " | " + error(r.phi_99) + " | " +
-             error(r.phi_worst) + " | " + error(r.sky_99) + " | " + error(r.sky_worst) + " | " +
-             std::to_string(r.undecided) + " of " + std::to_string(r.rays) + " | " +
-             amount(r.ns_per_ray) + " | " + (r.build_us > 0 ? amount(r.build_us) : "") + " |\n";
+    table += fmt::format("| {} | {} | {} | {} | {} | {} | {} of {} | {} | {} |\n", r.method,
+                         setting_of(r), error(r.phi_99), error(r.phi_worst), error(r.sky_99),
+                         error(r.sky_worst), r.undecided, r.rays, amount(r.ns_per_ray),
+                         r.build_us > 0 ? amount(r.build_us) : "");
   }
   return table + "\n";
 }
@@ -118,8 +117,9 @@ std::string quickest(const std::vector<RayErrorRow>& rows, const RayClass& of, d
   }
   if (best == nullptr) return "none";
   const std::string setting = setting_of(*best);
-  return best->method + (setting.empty() ? "" : " (" + setting + ")") + ", " +
-         amount(best->ns_per_ray) + " ns";
+  return fmt::format("{}{}, {} ns", best->method,
+                     setting.empty() ? "" : fmt::format(" ({})", setting),
+                     amount(best->ns_per_ray));
 }
 
 std::string quickest_table(const std::vector<RayErrorRow>& rows) {
@@ -128,7 +128,7 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
       "The quickest way to an error on the sky (99 of 100 rays, none undecided), the table at "
       "hand:\n\n| rays | 1e-6 | 1e-9 | 1e-12 |\n|---|---|---|---|\n";
   for (const RayClass& of : ray_classes()) {
-    table += std::string("| ") + of.region + ", " + of.name;
+    table += fmt::format("| {}, {}", of.region, of.name);
     for (const double wanted : kWanted) table += " | " + quickest(rows, of, wanted);
     table += " |\n";
   }
@@ -141,7 +141,7 @@ std::string looks(const std::vector<ViewRaySpeedRow>& rows) {
       "place on the\nsky, aberration, redshift and footprint included, on one thread:\n\n"
       "| observer | ns per look |\n|---|---|\n";
   for (const ViewRaySpeedRow& row : rows)
-    page += "| " + row.from + " | " + formatted("%.1f", row.ns) + " |\n";
+    page += fmt::format("| {} | {:.1f} |\n", row.from, row.ns);
   return page + "\n";
 }
 
@@ -149,11 +149,11 @@ std::string rays(const Report& report) {
   std::string page = kRaysMeasured + default_of_rays(report.rays) + looks(report.view_rays) +
                      quickest_table(report.rays);
   for (const RayClass& of : ray_classes()) {
-    const std::string plot = std::string("plots/rays_") + of.region + "_" + of.name;
-    page += std::string("### Seen from region ") + of.region + ", " + of.name + "\n\n";
-    page += class_table(report.rays, of);
-    page += "![error of the azimuth against time](" + plot + ".svg)\n";
-    page += "![error on the sky against time](" + plot + "_sky.svg)\n\n";
+    page += fmt::format(
+        "### Seen from region {0}, {1}\n\n{2}"
+        "![error of the azimuth against time](plots/rays_{0}_{1}.svg)\n"
+        "![error on the sky against time](plots/rays_{0}_{1}_sky.svg)\n\n",
+        of.region, of.name, class_table(report.rays, of));
   }
   return page;
 }
@@ -180,9 +180,8 @@ std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& 
     ++scenes;
   }
   if (scenes == 0) return "";
-  return "* " + other + ": " + formatted("%.2f", std::exp(log_rms / scenes)) +
-         " times its error in " + formatted("%.2f", std::exp(log_time / scenes)) +
-         " times its time\n";
+  return fmt::format("* {}: {:.2f} times its error in {:.2f} times its time\n", other,
+                     std::exp(log_rms / scenes), std::exp(log_time / scenes));
 }
 
 std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
@@ -210,9 +209,8 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
       "|\n|---|---|---|---|---|---|"
       "---|\n";
   for (const FrameErrorRow& r : rows)
-    page += "| " + r.scene + " | " + std::to_string(r.size) + " | " + r.setting + " | " +
-            error(r.rms) + " | " + amount(r.worst) + " | " + amount(r.seconds) + " | " +
-            amount(r.copies) + " |\n";
+    page += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", r.scene, r.size, r.setting,
+                        error(r.rms), amount(r.worst), amount(r.seconds), amount(r.copies));
   return page + default_of_frames(rows) +
          "![rms error against time](plots/frames_rms.svg)\n"
          "![worst error against time](plots/frames_worst.svg)\n\n";
@@ -228,11 +226,10 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
       "| orbit | method | tolerance | r, relative | φ, radians | drift of E | of L | of u·u | s "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const OrbitErrorRow& r : report.orbits)
-    page += "| " + r.orbit + " | " + r.method + " | " +
-            (r.tolerance > 0 ? formatted("%.0e", r.tolerance) : "") + " | " + error(r.r_error) +
-            " | " + error(r.phi_error) + " | " + error(r.energy_drift) + " | " +
-            error(r.angular_momentum_drift) + " | " + error(r.norm_drift) + " | " +
-            formatted("%.2g", r.seconds) + " |\n";
+    page += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.2g} |\n", r.orbit, r.method,
+                        r.tolerance > 0 ? fmt::format("{:.0e}", r.tolerance) : "", error(r.r_error),
+                        error(r.phi_error), error(r.energy_drift), error(r.angular_momentum_drift),
+                        error(r.norm_drift), r.seconds);
   page +=
       "\n**Default: the closed form, or the quadratures**, which are the most "
       "exact, and make any frame\nwithout the ones before it. What they err by at the end of a "
@@ -241,7 +238,7 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
       "error of about 1 in r has left the circle.\n\n";
   for (const NamedPlot& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
-      page += "![error against time](plots/" + plot.name + ".svg)\n";
+      page += fmt::format("![error against time](plots/{}.svg)\n", plot.name);
   return page + "\n";
 }
 
@@ -251,7 +248,7 @@ std::string curves(const std::vector<NamedPlot>& figures) {
       "## The curves of the paper\n\nThe figures of A. Riazuelo, *Seeing relativity I*, by their "
       "LaTeX labels, from the tables that frames are\nrendered with.\n\n";
   for (const NamedPlot& figure : figures)
-    page += "![" + figure.plot.title + "](figures/" + figure.name + ".svg)\n";
+    page += fmt::format("![{}](figures/{}.svg)\n", figure.plot.title, figure.name);
   return page + "\n";
 }
 
@@ -261,11 +258,11 @@ std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& pl
                           const std::vector<NamedPlot>& figures) {
   std::string page = head(report) + rays(report) + frames(report.frames) + orbits(report, plots);
   if (!report.extremes.empty())
-    page +=
+    page += fmt::format(
         "## Where something diverges\n\nStiff and extreme cases; the tests hold each to its "
-        "bound.\n\n" +
-        report.extremes + "\n";
-  return page + curves(figures) + "Plots by " + gnuplot_version() + ".\n";
+        "bound.\n\n{}\n",
+        report.extremes);
+  return fmt::format("{}{}Plots by {}.\n", page, curves(figures), gnuplot_version());
 }
 
 }  // namespace domefall

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,7 +14,7 @@ namespace {
 constexpr double kMilli = 1e3, kNano = 1e9;
 using Counted = double FrameCostRow::*;
 
-std::string count(double value) { return formatted("%.0f", value); }
+std::string count(double value) { return fmt::format("{:.0f}", value); }
 
 std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
   std::vector<std::string> scenes;
@@ -23,17 +25,19 @@ std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
 
 // Each row with what each further star or pixel has cost since the row before it.
 std::string cost_table(const std::vector<FrameCostRow>& rows, Counted counted, const char* unit) {
-  std::string table = "| scene | dome | stars | ms | copies | ns per pixel | ns per further ";
-  table += std::string(unit) + " |\n|---|---|---|---|---|---|---|\n";
+  std::string table = fmt::format(
+      "| scene | dome | stars | ms | copies | ns per pixel | ns per further {} |\n"
+      "|---|---|---|---|---|---|---|\n",
+      unit);
   const std::vector<CostSlope> found = slopes(rows, counted);
   for (const FrameCostRow& row : rows) {
     const auto slope = std::find_if(found.begin(), found.end(), [&](const CostSlope& s) {
       return s.scene == row.scene && s.to == row.*counted;
     });
-    table += "| " + row.scene + " | " + std::to_string(row.size) + " | " + count(row.stars) +
-             " | " + amount(kMilli * row.seconds) + " | " + amount(row.copies) + " | " +
-             amount(kNano * row.seconds / row.pixels) + " | " +
-             (slope == found.end() ? "" : amount(slope->ns)) + " |\n";
+    table += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.scene, row.size,
+                         count(row.stars), amount(kMilli * row.seconds), amount(row.copies),
+                         amount(kNano * row.seconds / row.pixels),
+                         slope == found.end() ? "" : amount(slope->ns));
   }
   return table + "\n";
 }
@@ -41,21 +45,19 @@ std::string cost_table(const std::vector<FrameCostRow>& rows, Counted counted, c
 std::string slopes_in_words(const std::vector<FrameCostRow>& rows, Counted counted,
                             const std::string& unit) {
   std::string text;
-  for (const std::string& scene : scenes_of(rows)) {
-    text += "* " + scene + ": ";
-    text += amount(mean_slope(rows, counted, scene));
-    text += " ns for each further " + unit + ", from the first row to the last\n";
-  }
+  for (const std::string& scene : scenes_of(rows))
+    text += fmt::format("* {}: {} ns for each further {}, from the first row to the last\n", scene,
+                        amount(mean_slope(rows, counted, scene)), unit);
   const auto rise = steepest_rise(slopes(rows, counted));
   if (!rise)
     return text +
            "\nThese frames are too small for a slope from row to row: one is below what can be "
            "timed.\n\n";
-  return text +
-         "\nA cliff would be a slope many times the one before it. **The largest ratio of a "
-         "slope to the one before is " +
-         formatted("%.2f", rise->ratio) + "** (" + rise->scene + ", at " + count(rise->at) + " " +
-         unit + "s).\n\n";
+  return fmt::format(
+      "{}\nA cliff would be a slope many times the one before it. **The largest ratio of a slope "
+      "to "
+      "the one before is {:.2f}** ({}, at {} {}s).\n\n",
+      text, rise->ratio, rise->scene, count(rise->at), unit);
 }
 
 std::string stars(const std::vector<FrameCostRow>& rows) {
@@ -99,24 +101,25 @@ std::string against_rk4(const Report& report) {
     if (row.stars == 0) sky = &row;
   if (rk4 == nullptr || sky == nullptr) return "";
   const double pixel_ns = kNano * sky->seconds / sky->pixels;
-  return "* **A geodesic for every pixel.** The paper's own integration (*rk4* of "
-         "[accuracy.md](accuracy.md)), at the\n  tolerance by which it is quickest while 99 of 100 "
-         "ordinary rays of region I are right to a hundredth of a pixel\n  of a 4k dome (" +
-         formatted("%.0e", rk4->setting) + "), takes " + amount(rk4->ns_per_ray) +
-         " ns a ray. A pixel of the sky alone in a finished frame of " + std::to_string(sky->size) +
-         ",\n  its light and anti-aliasing included, takes " + amount(pixel_ns) +
-         " ns: " + amount(rk4->ns_per_ray / pixel_ns) + " times less.\n";
+  return fmt::format(
+      "* **A geodesic for every pixel.** The paper's own integration (*rk4* of "
+      "[accuracy.md](accuracy.md)), at the\n  tolerance by which it is quickest while 99 of 100 "
+      "ordinary rays of region I are right to a hundredth of a pixel\n  of a 4k dome ({:.0e}), "
+      "takes {} ns a ray. A pixel of the sky alone in a finished frame of {},\n  its light and "
+      "anti-aliasing included, takes {} ns: {} times less.\n",
+      rk4->setting, amount(rk4->ns_per_ray), sky->size, amount(pixel_ns),
+      amount(rk4->ns_per_ray / pixel_ns));
 }
 
 std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
   constexpr double kWalkNs = 100;
-  std::string text = "* **A table in two dimensions** that a pixel walks through in " +
-                     amount(kWalkNs) +
-                     " ns, taken as the mark. A look, from the pixel's\n  direction "
-                     "to place, redshift and footprint on the sky, takes";
+  std::string text = fmt::format(
+      "* **A table in two dimensions** that a pixel walks through in {} ns, taken as the mark. A "
+      "look, from the pixel's\n  direction to place, redshift and footprint on the sky, takes",
+      amount(kWalkNs));
   for (const ViewRaySpeedRow& row : rows)
-    text += (&row == rows.data() ? " " : ", ") + formatted("%.1f", row.ns) + " ns (" + row.from +
-            ": " + amount(kWalkNs / row.ns) + " times less)";
+    text += fmt::format("{} {:.1f} ns ({}: {} times less)", &row == rows.data() ? "" : ",", row.ns,
+                        row.from, amount(kWalkNs / row.ns));
   return text + ".\n";
 }
 
@@ -134,17 +137,16 @@ std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
       const double ratio = usual.rms / other.rms;
       ++scenes, good += ratio <= 1 ? 1 : 0;
       log_error += std::log(ratio), log_time += std::log(usual.copies / other.copies);
-      if (ratio > 1) worse += (worse.empty() ? "" : "; ") + usual.scene + ": " + amount(ratio);
+      if (ratio > 1)
+        worse += fmt::format("{}{}: {}", worse.empty() ? "" : "; ", usual.scene, amount(ratio));
     }
   if (scenes == 0) return "";
-  return "* **Twice the resolution, then smoothed**, as the paper does: 2 x 2 looks everywhere. "
-         "Over "
-         "the scenes of\n  [frames.csv](frames.csv) the default has " +
-         formatted("%.2f", std::exp(log_error / scenes)) + " times its rms error in " +
-         formatted("%.2f", std::exp(log_time / scenes)) +
-         " times its time (geometric means), and no larger an error in " + std::to_string(good) +
-         " of " + std::to_string(scenes) + " scenes" +
-         (worse.empty() ? "" : "; the others, as times its error: " + worse) + ".\n";
+  return fmt::format(
+      "* **Twice the resolution, then smoothed**, as the paper does: 2 x 2 looks everywhere. Over "
+      "the scenes of\n  [frames.csv](frames.csv) the default has {:.2f} times its rms error in "
+      "{:.2f} times its time (geometric means), and no larger an error in {} of {} scenes{}.\n",
+      std::exp(log_error / scenes), std::exp(log_time / scenes), good, scenes,
+      worse.empty() ? "" : "; the others, as times its error: " + worse);
 }
 
 std::string benchmark(const std::vector<FrameErrorRow>& rows) {
@@ -156,9 +158,9 @@ std::string benchmark(const std::vector<FrameErrorRow>& rows) {
       "without\nits stars against 256 looks in every pixel:\n\n| scene | pixels | setting | rms | "
       "worst | ms | copies |\n|---|---|---|---|---|---|---|\n";
   for (const FrameErrorRow& r : rows)
-    text += "| " + r.scene + " | " + std::to_string(r.size) + " x " + std::to_string(r.size) +
-            " | " + r.setting + " | " + formatted("%.1e", r.rms) + " | " + amount(r.worst) + " | " +
-            amount(kMilli * r.seconds) + " | " + amount(r.copies) + " |\n";
+    text += fmt::format("| {0} | {1} x {1} | {2} | {3:.1e} | {4} | {5} | {6} |\n", r.scene, r.size,
+                        r.setting, r.rms, amount(r.worst), amount(kMilli * r.seconds),
+                        amount(r.copies));
   return text + "\n";
 }
 
@@ -166,17 +168,19 @@ std::string benchmark(const std::vector<FrameErrorRow>& rows) {
 
 std::string costs_page(const Report& report) {
   const FrameCosts& costs = report.costs;
-  std::string page = "# What a frame costs\n\nMade by `domefall report";
-  page += report.quick ? " --quick" : "";
-  page += "`, like [accuracy.md](accuracy.md); every number below was measured by that run.\n\n" +
-          machine_table();
-  page +=
-      "Whole frames with the default settings, on one thread, in CPU time and in copies of the "
-      "frame's own memory, the\nquickest of several renderings into the same memory; files are "
-      "read "
-      "before. A small frame's copy stays in the processor's cache, and is quicker by the pixel. "
-      "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv).\n\n";
-  return page + stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
+  return fmt::format(
+             "# What a frame costs\n\nMade by `domefall report{}`, like "
+             "[accuracy.md](accuracy.md); every number below was measured by that run.\n\n{}"
+             "Whole frames with the default settings, on one thread, in CPU time and in copies of "
+             "the "
+             "frame's own memory, the\nquickest of several renderings into the same memory; files "
+             "are "
+             "read "
+             "before. A small frame's copy stays in the processor's cache, and is quicker by the "
+             "pixel. "
+             "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv).\n\n",
+             report.quick ? " --quick" : "", machine_table()) +
+         stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
          against_rk4(report) + against_table_walk(report.view_rays) +
          against_supersampling(report.frames) + benchmark(costs.benchmark);
 }

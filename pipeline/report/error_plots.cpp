@@ -45,8 +45,8 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
   return plot;
 }
 
-// Looking often everywhere is another way than looking often where it matters: a curve of its own in
-// the scene's colour.  So is interpolating nothing, which has one setting and is a point.
+// Looking often everywhere is another way than looking often where it matters: a curve of its own
+// in the scene's colour.  So is interpolating nothing, which has one setting and is a point.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
   Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: in every pixel)",

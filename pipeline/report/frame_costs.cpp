@@ -1,5 +1,7 @@
 #include "pipeline/report/frame_costs.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -9,7 +11,6 @@
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
 #include "pipeline/report/scratch_folder.h"
-#include "pipeline/report/text.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/sky/catalogue/star_file.h"
 
@@ -51,19 +52,17 @@ class Shows {
 
   Show show(Place place, Background background, double stars, const Projection& projection) const {
     const bool flat = place == Place::kFlat;
-    std::string text = flat ? "camera: {look_at: {ra_deg: 266.417, dec_deg: -29.008}"
-                            : "black_hole: {mass_solar: 4.3e6}\ncamera: {look_at: hole";
-    if (std::holds_alternative<Domemaster>(projection)) text += ", elevation_deg: 45";
-    text += "}\nsky: {region_I: {background: ";
-    text += background == Background::kBlack ? "black" : "milky_way";
-    text += ", stars: ";
-    text += stars > 0
-                ? std::string("{catalogue: ") + kCatalogue +
-                      ", max_magnitude: " + formatted("%.9g", magnitude_of_rank(stars + 0.5)) + "}"
-                : "none";
-    text += "}}\ntimeline:\n  - {duration_s: 1";
-    text += flat ? "}\n" : ", trajectory: {type: infall, from_r: 7}}\n";
-    Show read = read_show(written(text));
+    const std::string limit = fmt::format("{{catalogue: {}, max_magnitude: {:.9g}}}", kCatalogue,
+                                          magnitude_of_rank(stars + 0.5));
+    Show read = read_show(written(fmt::format(
+        "{}camera: {{look_at: {}{}}}\n"
+        "sky: {{region_I: {{background: {}, stars: {}}}}}\n"
+        "timeline:\n  - {{duration_s: 1{}}}\n",
+        flat ? "" : "black_hole: {mass_solar: 4.3e6}\n",
+        flat ? "{ra_deg: 266.417, dec_deg: -29.008}" : "hole",
+        std::holds_alternative<Domemaster>(projection) ? ", elevation_deg: 45" : "",
+        background == Background::kBlack ? "black" : "milky_way", stars > 0 ? limit : "none",
+        flat ? "" : ", trajectory: {type: infall, from_r: 7}")));
     read.projection = projection;
     return read;
   }
@@ -140,8 +139,8 @@ std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes)
       FrameState state = frame_state(show, 0);
       state.projection = Domemaster{dome};
       if (with_stars)
-        rows.push_back(measured("Milky Way and " + formatted("%.0f", stars) + " stars", renderer,
-                                state, stars, sizes.repeats));
+        rows.push_back(measured(fmt::format("Milky Way and {:.0f} stars", stars), renderer, state,
+                                stars, sizes.repeats));
       else
         rows.push_back(measured("Milky Way alone", renderer, starless(state), 0, sizes.repeats));
     }
@@ -159,8 +158,8 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
       shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.stars_of_picture, picture);
   const FrameState whole = frame_state(show, 0), sky = starless(whole);
   const Grader grader(show.grade);
-  const std::string scene = "flat picture at 7 M, Milky Way, " +
-                            formatted("%.0f", shows.count(sizes.stars_of_picture)) + " stars";
+  const std::string scene = fmt::format("flat picture at 7 M, Milky Way, {:.0f} stars",
+                                        shows.count(sizes.stars_of_picture));
   const GradedFrame truth = grader.grade(Renderer(show, 0, kReferenceAntiAliasing).render(sky));
   std::vector<FrameErrorRow> rows;
   for (const auto& [name, setting] : kSettings) {

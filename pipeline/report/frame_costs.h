@@ -29,11 +29,9 @@ struct FrameCosts {
 };
 
 // In free fall at 7 M, looking at the hole, and in flat space; stars made up as Tycho-2 counts them
-// (made_up_stars.h) and read from a *.stars file, in shows that are read from files, so that all they do not
-// say is a show's default.
-// quick: small frames and few stars.
-// Throws InputError if a shipped asset cannot be read, TemporaryError if there is no room for the catalogue
-// (82 MB).
+// (made_up_stars.h) and read from a *.stars file, in shows that are read from files, so that all
+// they do not say is a show's default.  quick: small frames and few stars.  Throws InputError if a
+// shipped asset cannot be read, TemporaryError if there is no room for the catalogue (82 MB).
 FrameCosts measure_frame_costs(bool quick);
 
 // Nanoseconds for each further star or pixel, from each row to the next one of its scene.
@@ -45,7 +43,8 @@ struct CostSlope {
 std::vector<CostSlope> slopes(const std::vector<FrameCostRow>& rows, double FrameCostRow::*counted);
 
 // How many times a slope exceeds the one before in its scene, at most: what a cliff would show in.
-// Nothing if no scene has two slopes or if one is not positive, which a frame too small to time may have.
+// Nothing if no scene has two slopes or if one is not positive, which a frame too small to time may
+// have.
 struct SteepestRise {
   std::string scene;
   double at;  // stars or pixels between the two slopes

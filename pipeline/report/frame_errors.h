@@ -10,11 +10,11 @@ namespace domefall {
 struct FrameErrorRow {
   std::string scene, setting;
   int size;  // pixels along an edge of the frame
-  // Differences from the reference, of all pixels inside the dome and their three values: root of the
-  // mean square, and the largest.  Both frames are graded as a show's are (the shipped view Dome) and
-  // compared as they go to the projector, values from 0 to 1: one step of 8 bits is 0.0039.  Not
-  // scene-linear, since there the few pixels whose blueshift has no bound, and which any display shows
-  // white, would be all that counts.
+  // Differences from the reference, of all pixels inside the dome and their three values: root of
+  // the mean square, and the largest.  Both frames are graded as a show's are (the shipped view
+  // Dome) and compared as they go to the projector, values from 0 to 1: one step of 8 bits is
+  // 0.0039.  Not scene-linear, since there the few pixels whose blueshift has no bound, and which
+  // any display shows white, would be all that counts.
   double rms, worst;
   double seconds;  // CPU, all threads together, of the quickest of several renderings into the same
                    // memory; loading skies and grading are left out

@@ -6,9 +6,10 @@
 
 namespace domefall {
 
-// How long to go on rendering a frame for its least time: the rest is a cold cache, a busy neighbour or, at
-// the first rendering, the reading of files.  At least two renderings unless `most` is 1, at most that many,
-// and none begun when all but the first have taken so much CPU time.
+// How long to go on rendering a frame for its least time: the rest is a cold cache, a busy
+// neighbour or, at the first rendering, the reading of files.  At least two renderings unless
+// `most` is 1, at most that many, and none begun when all but the first have taken so much CPU
+// time.
 struct Repeats {
   int most = 7;
   double enough_s = 1.5;

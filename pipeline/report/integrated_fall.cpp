@@ -1,5 +1,7 @@
 #include "pipeline/report/integrated_fall.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/algebra/array_algebra.hpp>
@@ -8,7 +10,6 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace domefall {
 namespace {
@@ -81,7 +82,7 @@ class Fall {
   // One step of at most `most`, or one refused and shortened.
   void advance(double most) {
     if (++steps_ > kMostSteps)
-      throw std::runtime_error("a fall takes more than " + std::to_string(kMostSteps) + " steps");
+      throw std::runtime_error(fmt::format("a fall takes more than {} steps", kMostSteps));
     const Numbers before = y_;
     double tried = std::min(step_, most);
     const double end = tau_ + tried;

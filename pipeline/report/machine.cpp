@@ -1,6 +1,7 @@
 #include "pipeline/report/machine.h"
 
-#include <array>
+#include <fmt/chrono.h>
+
 #include <ctime>
 #include <fstream>
 #include <thread>
@@ -18,14 +19,7 @@ std::string processor_model() {
   return "unknown processor";
 }
 
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d", &utc);
-  return text.data();
-}
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
 constexpr const char* kCompiler =
 #if defined(__clang__)
@@ -43,9 +37,10 @@ Machine this_machine() {
 
 std::string machine_table() {
   const Machine on = this_machine();
-  return "| | |\n|---|---|\n| processor | " + on.processor + ", " + std::to_string(on.cores) +
-         " cores |\n| compiler | " + on.compiler + " |\n| Domefall | " + on.version +
-         " |\n| date | " + on.date + " |\n\n";
+  return fmt::format(
+      "| | |\n|---|---|\n"
+      "| processor | {}, {} cores |\n| compiler | {} |\n| Domefall | {} |\n| date | {} |\n\n",
+      on.processor, on.cores, on.compiler, on.version, on.date);
 }
 
 }  // namespace domefall

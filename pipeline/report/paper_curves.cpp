@@ -1,9 +1,9 @@
 #include "pipeline/report/paper_curves.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "pipeline/optics/traced_ray.h"
@@ -118,9 +118,7 @@ Plot white_hole_from_within() {
   plot.legend = "top right";
   int colour = 0;
   for (const double r : {0.001, 0.2, 1.7, 1.998}) {
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "r = %g M", r);
-    add_deviation(plot, name.data(), colour++,
+    add_deviation(plot, fmt::format("r = {:g} M", r), colour++,
                   signed_curve(sweep(TraceObserver::kFour, r, kFront, kBack), 1));
   }
   return plot;

@@ -1,9 +1,9 @@
 #include "pipeline/report/plot.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <iterator>
 #include <numbers>
 
 #include "pipeline/report/gnuplot.h"
@@ -27,11 +27,7 @@ set grid linewidth 0.5 linecolor rgb "#dddddd"
 set clip one
 )";
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.10g", value);
-  return text.data();
-}
+std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -49,9 +45,9 @@ std::string parts_of_pi(double part) {
   int above = static_cast<int>(std::lround(std::abs(part) * kFinest)), below = 4;
   while (below > 1 && above % 2 == 0) above /= 2, below /= 2;
   std::string text = part < 0 ? "−" : "";
-  if (above != 1) text += std::to_string(above);
+  if (above != 1) text += fmt::to_string(above);
   text += "π";
-  return below > 1 ? text + "/" + std::to_string(below) : text;
+  return below > 1 ? fmt::format("{}/{}", text, below) : text;
 }
 
 std::string marks_of_pi(const Axis& axis) {
@@ -60,22 +56,22 @@ std::string marks_of_pi(const Axis& axis) {
   const int first = static_cast<int>(std::ceil(axis.least / kPi / axis.mark_every - kSlack));
   const int last = static_cast<int>(std::floor(axis.most / kPi / axis.mark_every + kSlack));
   for (int k = first; k <= last; ++k)
-    marks += (marks.empty() ? "" : ", ") + quoted(parts_of_pi(k * axis.mark_every)) + " " +
-             number(k * axis.mark_every * kPi);
+    marks +=
+        fmt::format("{}{} {}", marks.empty() ? "" : ", ", quoted(parts_of_pi(k * axis.mark_every)),
+                    number(k * axis.mark_every * kPi));
   return marks;
 }
 
 std::string axis_script(const char* name, const Axis& axis) {
-  const std::string n = name;
-  std::string script = "set " + n + "label " + quoted(axis.label) + "\n";
+  std::string script = fmt::format("set {}label {}\n", name, quoted(axis.label));
   if (axis.most > axis.least)
-    script += "set " + n + "range [" + number(axis.least) + ":" + number(axis.most) + "]\n";
+    script += fmt::format("set {}range [{}:{}]\n", name, number(axis.least), number(axis.most));
   if (axis.scale == Axis::Scale::kLog)
-    script += "set logscale " + n + "\nset format " + n + " \"10^{%L}\"\n";
+    script += fmt::format("set logscale {0}\nset format {0} \"10^{{%L}}\"\n", name);
   if (axis.scale == Axis::Scale::kOfPi)
-    script += "set " + n + "tics (" + marks_of_pi(axis) + ")\n";
+    script += fmt::format("set {}tics ({})\n", name, marks_of_pi(axis));
   else if (axis.mark_every > 0)
-    script += "set " + n + "tics " + number(axis.mark_every) + "\n";
+    script += fmt::format("set {}tics {}\n", name, number(axis.mark_every));
   return script;
 }
 
@@ -87,7 +83,7 @@ std::string data_block(const Plot& plot, const Curve& curve, const std::string& 
   std::string block = name + " << EOD\n";
   for (const PlotPoint& p : curve.points)
     if (can_be_drawn(plot.x, p.x) && can_be_drawn(plot.y, p.y))
-      block += number(p.x) + " " + number(p.y) + "\n";
+      block += fmt::format("{} {}\n", number(p.x), number(p.y));
   return block + "EOD\n";
 }
 
@@ -99,8 +95,8 @@ std::string drawn_with(const Curve& curve) {
     case Curve::Style::kDotted:
       return "with lines linewidth 1 dashtype (2,4)" + in;
     case Curve::Style::kPoints:
-      return "with linespoints linewidth 1.5 pointsize 0.7 pointtype " +
-             std::to_string(4 + curve.colour % 10) + in;
+      return fmt::format("with linespoints linewidth 1.5 pointsize 0.7 pointtype {}{}",
+                         4 + curve.colour % 10, in);
     case Curve::Style::kArea:
       return "with filledcurves closed fillstyle solid 0.15 noborder" + in;
     case Curve::Style::kLine:
@@ -120,22 +116,22 @@ std::string key_script(const std::string& place) {
 }  // namespace
 
 std::string gnuplot_script(const Plot& plot) {
-  std::string script = kStyle;
-  script += "set title " + quoted(plot.title) + "\n";
+  std::string script = fmt::format("{}set title {}\n", kStyle, quoted(plot.title));
   script += axis_script("x", plot.x) + axis_script("y", plot.y);
   script += key_script(plot.legend);
   for (const PlotLabel& label : plot.labels)
-    script += "set label " + quoted(label.text) + " at " + number(label.x) + "," + number(label.y) +
-              " center front\n";
+    script += fmt::format("set label {} at {},{} center front\n", quoted(label.text),
+                          number(label.x), number(label.y));
   std::string curves;
   int index = 0;
   for (const Curve& curve : plot.curves) {
-    const std::string name = "$c" + std::to_string(index++);
+    const std::string name = fmt::format("$c{}", index++);
     script += data_block(plot, curve, name);
-    curves += (curves.empty() ? "" : ", ") + name + " using 1:2 " + drawn_with(curve) +
-              (curve.name.empty() ? " notitle" : " title " + quoted(curve.name));
+    curves +=
+        fmt::format("{}{} using 1:2 {} {}", curves.empty() ? "" : ", ", name, drawn_with(curve),
+                    curve.name.empty() ? "notitle" : "title " + quoted(curve.name));
   }
-  return script + "plot " + curves + "\n";
+  return fmt::format("{}plot {}\n", script, curves);
 }
 
 std::string draw(const Plot& plot) { return run_gnuplot(gnuplot_script(plot)); }

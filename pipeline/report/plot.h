@@ -46,8 +46,8 @@ struct NamedPlot {
   Plot plot;
 };
 
-// What gnuplot needs to write the plot to its standard output as SVG.  Points that are not finite, or
-// not positive on a logarithmic axis, are left out.
+// What gnuplot needs to write the plot to its standard output as SVG.  Points that are not finite,
+// or not positive on a logarithmic axis, are left out.
 std::string gnuplot_script(const Plot& plot);
 
 // The plot as an SVG document.  Throws as run_gnuplot.

@@ -18,14 +18,16 @@ struct RayErrorRow {
   int undecided;  // no finite azimuth, or another origin than the true one; not in the errors below
   // Of phi, relative to max(1, phi): the worst, and what 99 of 100 rays stay below.
   double phi_worst, phi_99;
-  // The same error as a displacement on the observer's sky, |error of phi|/|d phi/d delta|, radians.
+  // The same error as a displacement on the observer's sky, |error of phi|/|d phi/d delta|,
+  // radians.
   double sky_worst, sky_99;
   double ns_per_ray;  // azimuth and slope, tables at hand
   double build_us;    // all tables of one radius, the median; 0 without
 };
 
-// One method at one setting over groups of rays.  Timed by the wall clock in batches of a group, the
-// best of `repeats` passes; the best is what the code costs, the rest what else the machine does.
+// One method at one setting over groups of rays.  Timed by the wall clock in batches of a group,
+// the best of `repeats` passes; the best is what the code costs, the rest what else the machine
+// does.
 RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& groups,
                           const RayMethod& method, double setting, int repeats);
 

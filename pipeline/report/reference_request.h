@@ -6,8 +6,8 @@
 
 namespace domefall {
 
-// The same ray, from the doubles as they are; r by way of its distance from the horizon or the light
-// circle where that is finer.
+// The same ray, from the doubles as they are; r by way of its distance from the horizon or the
+// light circle where that is finer.
 ReferenceRequest reference_request(const RayRequest& q);
 
 Origin origin_from(ReferenceOrigin origin);

@@ -1,12 +1,12 @@
 #include "pipeline/report/report.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/report/extreme_cases.h"
 #include "pipeline/report/text.h"
 
 namespace domefall {
 namespace {
-
-constexpr const char* kExact = "%.6g";  // a measured number
 
 std::string joined(const std::vector<std::string>& cells) {
   std::string line;
@@ -14,7 +14,7 @@ std::string joined(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-std::string n(double value) { return formatted(kExact, value); }
+std::string n(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::string csv_of(const std::vector<RayErrorRow>& rows) {
       "sky_99,ns_per_ray,build_us\n";
   for (const RayErrorRow& r : rows)
     csv += joined({r.region, r.difficulty, r.method, n(r.setting), r.is_default ? "1" : "0",
-                   std::to_string(r.rays), std::to_string(r.undecided), n(r.phi_worst), n(r.phi_99),
+                   fmt::to_string(r.rays), fmt::to_string(r.undecided), n(r.phi_worst), n(r.phi_99),
                    n(r.sky_worst), n(r.sky_99), n(r.ns_per_ray), n(r.build_us)});
   return csv;
 }
@@ -51,7 +51,7 @@ std::string csv_of(const std::vector<RayErrorRow>& rows) {
 std::string csv_of(const std::vector<FrameErrorRow>& rows) {
   std::string csv = "scene,setting,size,rms,worst,seconds,copies\n";
   for (const FrameErrorRow& r : rows)
-    csv += joined({r.scene, r.setting, std::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
+    csv += joined({r.scene, r.setting, fmt::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
                    n(r.copies)});
   return csv;
 }
@@ -60,8 +60,8 @@ std::string csv_of(const FrameCosts& costs) {
   std::string csv = "against,scene,size,pixels,stars,seconds,copies\n";
   const auto add = [&](const char* against, const std::vector<FrameCostRow>& rows) {
     for (const FrameCostRow& r : rows)
-      csv += joined({against, r.scene, std::to_string(r.size), formatted("%.0f", r.pixels),
-                     formatted("%.0f", r.stars), n(r.seconds), n(r.copies)});
+      csv += joined({against, r.scene, fmt::to_string(r.size), fmt::format("{:.0f}", r.pixels),
+                     fmt::format("{:.0f}", r.stars), n(r.seconds), n(r.copies)});
   };
   add("stars", costs.stars), add("pixels", costs.pixels);
   return csv;

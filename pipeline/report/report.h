@@ -24,8 +24,8 @@ struct Report {
   std::string extremes;  // extreme_table(); empty if quick
 };
 
-// One thread but for the errors of frames.  told: what is being measured, as it begins.  Measured: quick
-// 18 s of CPU time, else 7 minutes.  Throws InputError if a shipped asset cannot be read.
+// One thread but for the errors of frames.  told: what is being measured, as it begins.  Measured:
+// quick 18 s of CPU time, else 7 minutes.  Throws InputError if a shipped asset cannot be read.
 Report measure_report(bool quick, const std::function<void(const std::string&)>& told);
 
 // One line of names, one for each row; the columns are the members of the rows' structures.

@@ -1,27 +1,21 @@
-// Small pieces of text that the report is made of.
+// Numbers, cells and file names as the report writes them.
 #pragma once
 
-#include <array>
+#include <fmt/core.h>
+
 #include <cctype>
-#include <cstdio>
 #include <string>
 
 namespace domefall {
 
-// printf of one number.
-inline std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);  // NOLINT(*-vararg)
-  return text.data();
-}
-
-// Three digits, or all those before the point.
+// Three significant digits, or all digits before the point where there are more of them.
 inline std::string amount(double value) {
   constexpr double kWhole = 100;
-  return formatted(value < kWhole ? "%.3g" : "%.0f", value);
+  return value < kWhole ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-// Quoted where a comma or a quotation mark asks for it (RFC 4180).
+// A cell of a CSV file, quoted as RFC 4180 says if it holds a comma, a quotation mark or a new
+// line.
 inline std::string csv_cell(const std::string& cell) {
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
   std::string quoted = "\"";
@@ -29,7 +23,7 @@ inline std::string csv_cell(const std::string& cell) {
   return quoted + "\"";
 }
 
-// "Circular, 10 M" -> "circular-10-m": part of a file's name.
+// Part of a file's name: "Circular, 10 M" becomes "circular-10-m".
 inline std::string slug(const std::string& name) {
   std::string out;
   for (const char c : name) {

@@ -1,5 +1,5 @@
-// What a look costs in a frame: 128 directions at a time from camera to sky, aberration, table, redshift
-// and footprint included, as against a ray by itself.
+// What a look costs in a frame: 128 directions at a time from camera to sky, aberration, table,
+// redshift and footprint included, as against a ray by itself.
 #pragma once
 
 #include <string>
