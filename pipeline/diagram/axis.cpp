@@ -1,25 +1,22 @@
 #include "pipeline/diagram/axis.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "pipeline/diagram/path.h"
 
 namespace domefall {
 namespace {
 
-std::string general(double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);  // NOLINT(*-vararg)
-  return text.data();
-}
+std::string general(double value) { return fmt::format("{:.6g}", value); }
 
 std::string raised(int exponent) {
   static constexpr std::array kDigits{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                       "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
   std::string out = exponent < 0 ? "\u207b" : "";
-  for (const char c : std::to_string(std::abs(exponent)))
+  for (const char c : fmt::format("{}", std::abs(exponent)))
     out += kDigits[static_cast<std::size_t>(c - '0')];
   return out;
 }
@@ -63,7 +60,7 @@ std::string number_text(double value) {
   if (size == 0 || (size < 0.99999e5 && size >= 0.99999e-3)) return general(value);
   const int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   const std::string mantissa = general(value / std::pow(10, exponent));
-  return (mantissa == "1" ? "" : mantissa + "\u00d7") + "10" + raised(exponent);
+  return fmt::format("{}10{}", mantissa == "1" ? "" : mantissa + "\u00d7", raised(exponent));
 }
 
 void draw_axes(Svg& page, const PageBox& box, const Scale& x, const Scale& y, int x_marks,

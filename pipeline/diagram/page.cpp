@@ -1,5 +1,7 @@
 #include "pipeline/diagram/page.h"
 
+#include <fmt/core.h>
+
 #include "pipeline/diagram/panels.h"
 
 namespace domefall {
@@ -10,14 +12,12 @@ constexpr double kWidth = 1400, kLeft = 80;
 std::string subtitle(const Show& show) {
   const int frames = frame_count(show);
   const double seconds = segment_times(show).back();
-  const std::string dot = "  \u00b7  ";
-  std::string text = show.file.filename().string() + dot + number_text(seconds) + " s" + dot +
-                     std::to_string(frames) + " frames at " + number_text(show.frames_per_second) +
-                     " a second";
-  if (show.mass_solar)
-    text += dot + number_text(*show.mass_solar) +
-            " solar masses, 1 M = " + number_text(*show.mass_solar * kSecondsPerSolarMass) + " s";
-  return text;
+  const std::string text = fmt::format("{}  \u00b7  {} s  \u00b7  {} frames at {} a second",
+                                       show.file.filename().string(), number_text(seconds), frames,
+                                       number_text(show.frames_per_second));
+  if (!show.mass_solar) return text;
+  return fmt::format("{}  \u00b7  {} solar masses, 1 M = {} s", text, number_text(*show.mass_solar),
+                     number_text(*show.mass_solar * kSecondsPerSolarMass));
 }
 
 void draw_title(Svg& page, const Show& show) {

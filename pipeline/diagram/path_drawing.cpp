@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -165,14 +167,14 @@ void draw_key(Svg& page, const PagePoint& at, const Path& path) {
   draw_end(page, {at.x + 77, y}, colour);
   page.text({at.x + 87, at.y}, "end");
   draw_dot(page, {at.x + 134, y}, colour);
-  page.text({at.x + 143, at.y}, "every " + number_text(path.instant_step_s) + " s");
+  page.text({at.x + 143, at.y}, fmt::format("every {} s", number_text(path.instant_step_s)));
   double x = at.x + 245;
   for (const Region region : {Region::kIII, Region::kIV}) {
     bool visited = false;
     for (const PathPoint& p : path.points) visited |= p.region == region;
     if (!visited) continue;
     page.line({x, y}, {x + 34, y}, {colour, kWidth, dashes_of(region)});
-    page.text({x + 41, at.y}, std::string("in region ") + region_name(region));
+    page.text({x + 41, at.y}, fmt::format("in region {}", region_name(region)));
     x += 150;
   }
 }

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "pipeline/diagram/panels.h"
@@ -116,8 +118,8 @@ std::string note_of(const Path& path) {
       return "The origin of t is free: after each jump it is chosen anew, so that a crossing or "
              "the "
              "middle is central.";
-  return "The origin of t is free: it is chosen (t shifted by " + number_text(first.time_shift) +
-         " M) so that " + reason_of(first.centre);
+  return fmt::format("The origin of t is free: it is chosen (t shifted by {} M) so that {}",
+                     number_text(first.time_shift), reason_of(first.centre));
 }
 
 }  // namespace

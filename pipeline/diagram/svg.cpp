@@ -1,24 +1,22 @@
 #include "pipeline/diagram/svg.h"
 
-#include <array>
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 
 namespace domefall {
 namespace {
 
 // Hundredths of a pixel, without trailing zeros.
 std::string number(double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);  // NOLINT(*-vararg)
-  std::string out = text.data();
+  std::string out = fmt::format("{:.2f}", value);
   out.erase(out.find_last_not_of('0') + 1);
   if (out.back() == '.') out.pop_back();
   return out == "-0" ? "0" : out;
 }
 
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + value + "\"";
+  return fmt::format(" {}=\"{}\"", name, value);
 }
 
 std::string attribute(const char* name, double value) { return attribute(name, number(value)); }
@@ -30,7 +28,7 @@ std::string stroke_attributes(const Stroke& stroke) {
   return out;
 }
 
-std::string pair(const PagePoint& p) { return number(p.x) + " " + number(p.y); }
+std::string pair(const PagePoint& p) { return fmt::format("{} {}", number(p.x), number(p.y)); }
 
 std::string box_attributes(const PageBox& box) {
   return attribute("x", box.left) + attribute("y", box.top) + attribute("width", box.width()) +
@@ -79,31 +77,32 @@ std::string shortened(const std::string& text, double size, double width) {
 }
 
 Svg::Svg(double width, double height)
-    : head_(
-          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"" +
-          attribute("width", width) + attribute("height", height) +
-          attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
-          " font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\">\n") {
+    : head_(fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+                        "viewBox=\"0 0 {0} {1}\" "
+                        "font-family=\"DejaVu Sans, Verdana, Helvetica, Arial, sans-serif\">\n",
+                        number(width), number(height))) {
   rectangle({0, 0, width, height}, "#ffffff");
 }
 
 void Svg::rectangle(const PageBox& box, const std::string& fill, double opacity) {
-  body_ += "<rect" + box_attributes(box) + attribute("fill", fill) +
-           (opacity < 1 ? attribute("fill-opacity", opacity) : "") + "/>\n";
+  body_ += fmt::format("<rect{}{}{}/>\n", box_attributes(box), attribute("fill", fill),
+                       opacity < 1 ? attribute("fill-opacity", opacity) : "");
 }
 
 void Svg::frame(const PageBox& box, const Stroke& stroke) {
-  body_ += "<rect" + box_attributes(box) + " fill=\"none\"" + stroke_attributes(stroke) + "/>\n";
+  body_ +=
+      fmt::format("<rect{} fill=\"none\"{}/>\n", box_attributes(box), stroke_attributes(stroke));
 }
 
 void Svg::line(const PagePoint& a, const PagePoint& b, const Stroke& stroke) {
-  body_ += "<path d=\"M" + pair(a) + "L" + pair(b) + "\"" + stroke_attributes(stroke) + "/>\n";
+  body_ += fmt::format("<path d=\"M{}L{}\"{}/>\n", pair(a), pair(b), stroke_attributes(stroke));
 }
 
 void Svg::circle(const PagePoint& centre, double radius, const std::string& fill,
                  const Stroke& stroke) {
-  body_ += "<circle" + attribute("cx", centre.x) + attribute("cy", centre.y) +
-           attribute("r", radius) + attribute("fill", fill) + stroke_attributes(stroke) + "/>\n";
+  body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"{}/>\n", number(centre.x),
+                       number(centre.y), number(radius), fill, stroke_attributes(stroke));
 }
 
 void Svg::curve(const std::vector<PagePoint>& points, const Stroke& stroke) {
@@ -117,16 +116,16 @@ void Svg::curve(const std::vector<PagePoint>& points, const Stroke& stroke) {
     path += "L" + pair(p);
     last = p;
   }
-  body_ += "<path d=\"" + path + R"(" fill="none" stroke-linejoin="round")" +
-           (*stroke.dashes == 0 ? R"( stroke-linecap="round")" : "") + stroke_attributes(stroke) +
-           "/>\n";
+  body_ += fmt::format("<path d=\"{}\" fill=\"none\" stroke-linejoin=\"round\"{}{}/>\n", path,
+                       *stroke.dashes == 0 ? " stroke-linecap=\"round\"" : "",
+                       stroke_attributes(stroke));
 }
 
 void Svg::area(const std::vector<PagePoint>& points, const std::string& fill, double opacity) {
   std::string path;
   for (const PagePoint& p : points) path += (path.empty() ? "M" : "L") + pair(p);
-  body_ += "<path d=\"" + path + "Z\"" + attribute("fill", fill) +
-           (opacity < 1 ? attribute("fill-opacity", opacity) : "") + "/>\n";
+  body_ += fmt::format("<path d=\"{}Z\" fill=\"{}\"{}/>\n", path, fill,
+                       opacity < 1 ? attribute("fill-opacity", opacity) : "");
 }
 
 void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& style) {
@@ -134,11 +133,11 @@ void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& styl
   if (style.bold) more += " font-weight=\"bold\"";
   if (style.italic) more += " font-style=\"italic\"";
   if (style.turned_deg != 0)
-    more += attribute("transform", "rotate(" + number(style.turned_deg) + " " + pair(at) + ")");
-  const std::string common = "<text" + attribute("x", at.x) + attribute("y", at.y) +
-                             attribute("font-size", style.size) +
-                             attribute("text-anchor", std::string(style.anchor)) + more;
-  const std::string end = ">" + xml_escaped(text) + "</text>\n";
+    more += fmt::format(" transform=\"rotate({} {})\"", number(style.turned_deg), pair(at));
+  const std::string common =
+      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\"{}", number(at.x),
+                  number(at.y), number(style.size), style.anchor, more);
+  const std::string end = fmt::format(">{}</text>\n", xml_escaped(text));
   // A rim under the letters; paint-order, which would do it in one, is not known to all viewers.
   if (style.halo)
     body_ += common +
@@ -147,7 +146,7 @@ void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& styl
 }
 
 void Svg::begin_group(std::string_view id) {
-  body_ += "<g" + attribute("id", xml_escaped(id)) + ">\n";
+  body_ += fmt::format("<g id=\"{}\">\n", xml_escaped(id));
 }
 
 void Svg::end_group() { body_ += "</g>\n"; }

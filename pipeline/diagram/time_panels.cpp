@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +18,8 @@ Scale time_scale(const PageBox& box, const Show& show) {
 
 // "2 infall", "2" or nothing, as there is room.
 std::string band_label(const Show& show, std::size_t k, double room) {
-  const std::string digits = std::to_string(k + 1);
-  const std::string full = digits + " " + show.timeline[k].type;
+  const std::string digits = fmt::format("{}", k + 1);
+  const std::string full = fmt::format("{} {}", digits, show.timeline[k].type);
   for (const std::string& text : {full, digits})
     if (text_width(text, kLabelSize) < room) return text;
   return "";
