@@ -1,5 +1,5 @@
-// The directions of pixels, for loops over many: formulas without a branch or a library function, so that
-// they become SIMD code where they are called.  direction_at is what they are held against.
+// The directions of pixels, for loops over many: formulas without a branch or a library function,
+// so that they become SIMD code where they are called.  direction_at is what they are held against.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ inline constexpr HalfAngleSeries kHalfAngleSeries = [] {
 
 // x, y: pixels from the middle of the picture.
 
-// By half of theta, whose series is as good as that of theta with twice as many terms: the next one is below
-// 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75 pi.
+// By half of theta, whose series is as good as that of theta with twice as many terms: the next one
+// is below 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75 pi.
 struct DomemasterView {
   double scale;  // radians per pixel
 

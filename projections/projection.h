@@ -63,8 +63,9 @@ ColumnRange inside_columns(const Projection& p, int row);
 // time: by power series, cut below 1e-17.  Measured: within 6e-16 of direction_at.
 void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out);
 
-// direction_at for `count` positions of a row, evenly spaced from `first` on, into out[count]: by the
-// same series, also outside the incircle of a Domemaster.  Measured: within 1e-14 up to theta = 0.75 pi.
+// direction_at for `count` positions of a row, evenly spaced from `first` on, into out[count]: by
+// the same series, also outside the incircle of a Domemaster.  Measured: within 1e-14 up to theta =
+// 0.75 pi.
 void directions_along(const Projection& p, PixelPosition first, double step, int count,
                       CameraDirection* out);
 

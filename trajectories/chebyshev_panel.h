@@ -1,5 +1,5 @@
-// Integrals of a smooth function over a panel, as Chebyshev series: sampled at the nodes of the first
-// kind, integrated term by term, evaluated by Clenshaw's recurrence.
+// Integrals of a smooth function over a panel, as Chebyshev series: sampled at the nodes of the
+// first kind, integrated term by term, evaluated by Clenshaw's recurrence.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ inline const PanelNodes& panel_nodes() {
 
 inline double panel_node(std::size_t j) { return panel_nodes().cosine[1][j]; }
 
-// The integral from x = -1 of the function with these values at the nodes, times `half`.  False if the
-// last two terms, over the largest value, exceed the tolerance: the nodes are too few.
+// The integral from x = -1 of the function with these values at the nodes, times `half`.  False if
+// the last two terms, over the largest value, exceed the tolerance: the nodes are too few.
 inline bool integrate_panel(const PanelValues& values, double half, double tolerance,
                             PanelIntegral& integral) {
   std::array<double, kPanelTerms + 2> c{};

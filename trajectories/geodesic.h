@@ -10,27 +10,27 @@
 // tau = 0 and azimuth 0 are at the periastron of orbits that have one, at the apoastron of those
 // between two singularities, and at the place given of what is thrown or falls from infinity.
 //
-// The tetrad of a state: rain throughout for what never was in region IV or is first met outside it;
-// for what comes from IV the outgoing one up to its largest r (IV, then I) and rain from there on
-// (I, then II), or outgoing throughout if it escapes.  What was thrown outwards is emitted in rain from
-// the instant of the throw, and in the outgoing tetrad before it.
-// E = 0 goes from IV to II through r = 2, where neither tetrad is regular: there the states within
+// The tetrad of a state: rain throughout for what never was in region IV or is first met outside
+// it; for what comes from IV the outgoing one up to its largest r (IV, then I) and rain from there
+// on (I, then II), or outgoing throughout if it escapes.  What was thrown outwards is emitted in
+// rain from the instant of the throw, and in the outgoing tetrad before it.  E = 0 goes from IV to
+// II through r = 2, where neither tetrad is regular: there the states within
 // |tau| < 4e-6 of it are that of 4e-6 before or after, where r = 2 - 2e-12 and the celerity 1e6.
 //
-// null_time is 0 at tau = 0 (at E = 0: t is 0 throughout).  Of u and v of one geodesic v - u = 2 r* where
-// the tetrad changes.
+// null_time is 0 at tau = 0 (at E = 0: t is 0 throughout).  Of u and v of one geodesic v - u = 2 r*
+// where the tetrad changes.
 //
-// Accuracy, measured over 246 states of tests/reference/orbits.csv (r from 1e-3 to 1e9 M, 1e4 periods,
-// whirls of excess 1e-14): r to 2e-13 relative, azimuth and null time to 2e-13 max(1, |value|), beyond what
-// the rounding of tau itself moves them by; that is much where r -> 0 (1e-8 of r at 1e-3 M) and after many
-// turns.  What falls after a whirl at the top of its barrier (L or v next to the bound of capture)
-// has an azimuth to about 1e-16/sqrt(L_bound/L - 1).
-// E and L of the emitted states, gamma -+ s w_R and r w_Phi, keep to 1e-13 gamma and 1e-15 L.
+// Accuracy, measured over 246 states of tests/reference/orbits.csv (r from 1e-3 to 1e9 M, 1e4
+// periods, whirls of excess 1e-14): r to 2e-13 relative, azimuth and null time to 2e-13 max(1,
+// |value|), beyond what the rounding of tau itself moves them by; that is much where r -> 0 (1e-8
+// of r at 1e-3 M) and after many turns.  What falls after a whirl at the top of its barrier (L or v
+// next to the bound of capture) has an azimuth to about 1e-16/sqrt(L_bound/L - 1).  E and L of the
+// emitted states, gamma -+ s w_R and r w_Phi, keep to 1e-13 gamma and 1e-15 L.
 //
-// Proper time, azimuth and null time are quadratures made once by the factory (below 1 ms); a copy shares
-// them.  at() takes 1 to 2 microseconds.  Beyond r = 1e30 M nothing is tabulated, and where tau leaves
-// (birth, death) or that table at() throws std::domain_error; so do all factories of an orbit of E, L or a
-// periastron beyond 1e15.
+// Proper time, azimuth and null time are quadratures made once by the factory (below 1 ms); a copy
+// shares them.  at() takes 1 to 2 microseconds.  Beyond r = 1e30 M nothing is tabulated, and where
+// tau leaves (birth, death) or that table at() throws std::domain_error; so do all factories of an
+// orbit of E, L or a periastron beyond 1e15.
 #pragma once
 
 #include <limits>
@@ -64,8 +64,8 @@ class Geodesic {
 
   // tau in (birth, death).
   OrbitPoint at(double tau) const;
-  // The first proper time >= after at which r is passed on that leg; nothing if never.  Bound orbits pass
-  // without end or beginning: of them -infinity means 0.
+  // The first proper time >= after at which r is passed on that leg; nothing if never.  Bound
+  // orbits pass without end or beginning: of them -infinity means 0.
   std::optional<double> time_at(double r, Leg leg,
                                 double after = -std::numeric_limits<double>::infinity()) const;
 

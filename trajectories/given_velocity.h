@@ -12,8 +12,8 @@ struct GivenVelocity {
   V3d celerity{0, 0, 0};          // gamma v against the tetrad, components (R, Theta, Phi)
 };
 
-// gamma v against the tetrad of an observer that has the celerity `own` in the frame of an
-// observer of celerity `frame`, whose axes are the tetrad's, boosted ([Riazuelo] eq. Lambda_cov).  A
+// gamma v against the tetrad of an observer that has the celerity `own` in the frame of an observer
+// of celerity `frame`, whose axes are the tetrad's, boosted ([Riazuelo] eq. Lambda_cov).  A
 // celerity, since a speed in double precision holds no Lorentz factor beyond 1e8.
 V3d celerity_against(const V3d& frame, const V3d& own);
 

@@ -1,7 +1,7 @@
 // From the past singularity, through region IV: [Riazuelo] sec. sec_Kruskal, eq. TR_IV.
 //
-//   E = 0             IV -> II through r = 2 itself, tau = 0 there; of L = 0 the cycloid r = 1 + cos eta,
-//                     tau = eta + sin eta, at rest in t
+//   E = 0             IV -> II through r = 2 itself, tau = 0 there; of L = 0 the cycloid
+//                     r = 1 + cos eta, tau = eta + sin eta, at rest in t
 //   E < 1             IV -> I -> II, tau = 0 at the apoastron in I
 //   E >= 1, small L   IV -> I and to infinity, tau = 0 at the past horizon, r = 2
 //   E >= 1, L beyond capture_angular_momentum(v) of hyperbolic_orbit.h   IV -> I -> II as above
@@ -14,8 +14,8 @@
 
 namespace domefall {
 
-// E >= 0 per unit of mass, L >= 0 (M); 0 < E < 1e-6 is refused.  Throws std::domain_error that names the
-// bound.
+// E >= 0 per unit of mass, L >= 0 (M); 0 < E < 1e-6 is refused.  Throws std::domain_error that
+// names the bound.
 Geodesic kruskal_crossing(double energy, double angular_momentum = 0);
 
 }  // namespace domefall

@@ -63,10 +63,10 @@ struct ObserverState {
   double r = kFlatSpace;          // units of M, > 0; kFlatSpace without a black hole
   double proper_time =
       0;  // units of M (seconds in flat space), since the start of the segment's orbit
-  // v = t + r* (rain) or u = t - r* (outgoing frame) of the observer, r* = r + 2 ln|r/2 - 1|, units of
-  // M, since the start of the show: what the emission times of the singularity's light count from.
-  // Where a trajectory changes its tetrad it goes from the one to the other of the same t.  Of the
-  // mirrored frames after t -> -t.  Stands still for a held instant.
+  // v = t + r* (rain) or u = t - r* (outgoing frame) of the observer, r* = r + 2 ln|r/2 - 1|, units
+  // of M, since the start of the show: what the emission times of the singularity's light count
+  // from.  Where a trajectory changes its tetrad it goes from the one to the other of the same t.
+  // Of the mirrored frames after t -> -t.  Stands still for a held instant.
   double null_time = 0;
   // Radians swept in the planes of its orbits since the start of the show.
   double azimuth = 0;

@@ -3,9 +3,9 @@
 // points, not the horizon, not r = 0 nor infinity.  With w = 1/r the right side is the cubic
 // P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2 (w - w1)(w - w2)(w - w3).
 //
-//   scattered  r = r_p cosh^2 s                    from infinity to the periastron at s = 0 and back
+//   scattered  r = r_p cosh^2 s                    from infinity to periastron at s = 0 and back
 //   bound      r = r_p + (r_a - r_p) sin^2(s/2)    periastron at s = 0, apoastron at s = +-pi
-//   returning  r = r_a / cosh^2 s                  from one singularity to the other, apoastron at s = 0
+//   returning  r = r_a / cosh^2 s                  from singularity to singularity, apoastron at s = 0
 //   plunging   r = r_c exp(-2s)                    from infinity to the future singularity
 //   escaping   r = r_c exp(2s)                     from the past singularity to infinity
 //
@@ -43,7 +43,8 @@ class OrbitCurve {
   };
   Point at(double s) const;
 
-  // s at which r is passed on the way in or out; NaN if that is never.  Of bound orbits in [-pi, pi].
+  // s at which r is passed on the way in or out; NaN if that is never.  Of bound orbits in [-pi,
+  // pi].
   double parameter(double r, bool outward) const;
 
   Kind kind() const { return kind_; }

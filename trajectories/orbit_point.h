@@ -13,8 +13,8 @@ struct OrbitPoint {
   V3d celerity{0, 0, 0};  // gamma * velocity against the tetrad, components (R, Theta, Phi);
                           // Phi is the direction of the orbital motion, -Theta the orbit's north
   // v = t + r* (rain) or u = t - r* (outgoing), r* = r + 2 ln|r/2 - 1|, units of M; of the mirrored
-  // tetrads after t -> -t.  t counts from an origin of the trajectory's own, the same for its tetrads, so
-  // v - u = 2 r* where it changes from one to the other.
+  // tetrads after t -> -t.  t counts from an origin of the trajectory's own, the same for its
+  // tetrads, so v - u = 2 r* where it changes from one to the other.
   double null_time = 0;
 };
 

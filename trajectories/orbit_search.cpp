@@ -84,7 +84,8 @@ OrbitStart turned_inside(const State& state, const BarrierRoots& beside, const B
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
   const double risen =
       state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, std::max(state.w - barrier.w, 0.0));
-  // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below - above.
+  // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below -
+  // above.
   const double w = state.w - risen, plain = 2 - 2 * l * l * w * (1 - 3 * w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
   return returning(state, risen, plain > kCancels ? plain : 2 * l * l * to_third * gap);

@@ -5,8 +5,8 @@
 
 namespace domefall {
 
-// The unstable circular orbit of an angular momentum, at the top of the potential
-// V = (1 - 2w)(1 + L^2 w^2), w = 1/r, where E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + spread).
+// The unstable circular orbit of an angular momentum, at the top of the potential V = (1 - 2w)(1 +
+// L^2 w^2), w = 1/r, where E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + spread).
 struct Barrier {
   double w;       // of its radius; 1/6 to 1/3
   double spread;  // 3w - 1/2 = sqrt(1 - 12/L^2)/2: from w to the third root of the top's cubic
@@ -31,8 +31,8 @@ struct OrbitStart {
 // The geodesic through r with the radial velocity dr/dtau = speed, outside the hole or inside it.
 OrbitStart orbit_through(const OrbitConstants& constants, double r, double speed);
 
-// An orbit that would whirl longer than one of this excess is taken to have this one: rounding has long
-// decided what it does.
+// An orbit that would whirl longer than one of this excess is taken to have this one: rounding has
+// long decided what it does.
 inline constexpr double kLeastExcess = 1e-20;
 
 }  // namespace domefall

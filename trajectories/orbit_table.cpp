@@ -54,9 +54,9 @@ OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, doub
   sum_up(origin, turn);
 }
 
-// dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each the
-// form that does not cancel, and is regular at r = 2 where the motion crosses it.  What is left to cancel
-// is r - 2 where the motion leaves the other horizon.
+// dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each
+// the form that does not cancel, and is regular at r = 2 where the motion crosses it.  What is left
+// to cancel is r - 2 where the motion leaves the other horizon.
 OrbitTable::Sums OrbitTable::rates(double s, bool ingoing, double& noise) const {
   const OrbitCurve::Point p = curve_.at(s);
   const double e = curve_.constants().energy, l = curve_.constants().angular_momentum / p.r;

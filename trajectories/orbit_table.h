@@ -1,6 +1,6 @@
 // Proper time, azimuth and null time along an orbit's curve: plain quadratures, done once, as
-// Chebyshev series over panels that are halved until the last terms of the integrands vanish; and the
-// inverse, the parameter of a proper time.
+// Chebyshev series over panels that are halved until the last terms of the integrands vanish; and
+// the inverse, the parameter of a proper time.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace domefall {
 
 class OrbitTable {
  public:
-  // All three are 0 at the parameter `origin`.  Up to `turn` the null time is u = t - r*, from there
-  // on v = t + r*, of one t: v - u = 2 r* there.  turn = -infinity: v throughout; infinity: u.
-  // Of E = 0 the null time is left 0: it is not finite at the turn.
-  // Throws std::domain_error if the orbit is beyond what doubles can square or the table reaches, and
-  // std::runtime_error if the panels become too many, which no orbit has been seen to do.
-  // tolerance: of the integrands, relative to the largest of their panel.
+  // All three are 0 at the parameter `origin`.  Up to `turn` the null time is u = t - r*, from
+  // there on v = t + r*, of one t: v - u = 2 r* there.  turn = -infinity: v throughout; infinity:
+  // u.  Of E = 0 the null time is left 0: it is not finite at the turn.  Throws std::domain_error
+  // if the orbit is beyond what doubles can square or the table reaches, and std::runtime_error if
+  // the panels become too many, which no orbit has been seen to do.  tolerance: of the integrands,
+  // relative to the largest of their panel.
   OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance);
 
   struct Sums {

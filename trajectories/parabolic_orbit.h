@@ -1,7 +1,7 @@
-// From rest at infinity around the hole and back: E = 1, L > 4, [Riazuelo] eq. r_par, vit_par,
-// fig. figpar.  tau = 0 at the periastron, 4 < r_p; L = r_p sqrt(2/(r_p - 2)).  Close to L = 4 the orbit
-// whirls at r = 4, some ln(1/excess)/sqrt(2) radians longer.
-// Throws std::domain_error that names the bound.
+// From rest at infinity around the hole and back: E = 1, L > 4, [Riazuelo] eq. r_par, vit_par, fig.
+// figpar.  tau = 0 at the periastron, 4 < r_p; L = r_p sqrt(2/(r_p - 2)).  Close to L = 4 the orbit
+// whirls at r = 4, some ln(1/excess)/sqrt(2) radians longer.  Throws std::domain_error that names
+// the bound.
 #pragma once
 
 #include "trajectories/geodesic.h"

@@ -8,12 +8,12 @@
 
 namespace domefall {
 
-// The proper time after which the trajectory begins: at the past singularity, or just before the first
-// key of a path; -infinity without either.
+// The proper time after which the trajectory begins: at the past singularity, or just before the
+// first key of a path; -infinity without either.
 double birth(const Trajectory& trajectory);
 
-// The first proper time >= after at which r (M) is passed on that leg; nothing if never, or if r does
-// not change.
+// The first proper time >= after at which r (M) is passed on that leg; nothing if never, or if r
+// does not change.
 std::optional<double> time_at(const Trajectory& trajectory, double r, Leg leg,
                               double after = -std::numeric_limits<double>::infinity());
 

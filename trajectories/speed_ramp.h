@@ -1,5 +1,5 @@
-// An observer who gains or loses speed in one direction while the place is held: the rapidity changes
-// evenly with proper time, which in flat space is constant acceleration.
+// An observer who gains or loses speed in one direction while the place is held: the rapidity
+// changes evenly with proper time, which in flat space is constant acceleration.
 #pragma once
 
 #include "trajectories/given_velocity.h"

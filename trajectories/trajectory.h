@@ -22,8 +22,8 @@ using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, Giv
 // tau must be in [0, lifetime), of a geodesic in (birth, death), of a path on it.
 OrbitPoint point_at(const Trajectory& trajectory, double tau);
 
-// The proper time before which the trajectory ends: at the singularity, or just behind the last key of a
-// path; infinity for an observer whose time does not end.
+// The proper time before which the trajectory ends: at the singularity, or just behind the last key
+// of a path; infinity for an observer whose time does not end.
 double lifetime(const Trajectory& trajectory);
 
 }  // namespace domefall

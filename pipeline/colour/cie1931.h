@@ -1,5 +1,5 @@
-// The CIE 1931 2-degree standard observer: x, y, z colour-matching functions at 360, 365, ... 830 nm.
-// Source: CIE 015 (Colorimetry), the 5 nm table.  A rectangle sum over it gives blackbody
+// The CIE 1931 2-degree standard observer: x, y, z colour-matching functions at 360, 365, ... 830
+// nm.  Source: CIE 015 (Colorimetry), the 5 nm table.  A rectangle sum over it gives blackbody
 // chromaticities within 1e-5 of the 1 nm table's.
 #pragma once
 

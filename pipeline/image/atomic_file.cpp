@@ -78,7 +78,8 @@ std::optional<Owner> owner_of(const std::string& name) {
   return Owner{rest.substr(host + 1, process - host - 1), std::stoi(digits)};
 }
 
-// A zombie has a number and runs no more; where nothing reaps it, as in some containers, it stays one.
+// A zombie has a number and runs no more; where nothing reaps it, as in some containers, it stays
+// one.
 bool is_zombie(pid_t process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   std::string text;

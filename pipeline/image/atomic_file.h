@@ -8,9 +8,9 @@
 namespace domefall {
 
 // Writes a file under a temporary name, .NAME.<host>.<pid>.<nonce>.tmp, in the folder of `path`,
-// flushes it to the disk, renames it to `path` and flushes the folder.  A file that was at `path` is
-// there until the new one takes its place.  If anything fails, the temporary is removed and `path`
-// is left as it was.
+// flushes it to the disk, renames it to `path` and flushes the folder.  A file that was at `path`
+// is there until the new one takes its place.  If anything fails, the temporary is removed and
+// `path` is left as it was.
 //
 // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a
 // disk that is full, a quota or a file server; both name the path and the reason.

@@ -33,8 +33,8 @@ class CsvFile {
   // Reads a row, which must be as long as the header; false at the end of the file.
   bool next();
 
-  // The functions below return a cell of the row that was read last.  Those that return numbers throw
-  // InputError, with the line, for a cell that holds something else.
+  // The functions below return a cell of the row that was read last.  Those that return numbers
+  // throw InputError, with the line, for a cell that holds something else.
 
   // Empty where there is no such column.
   std::string_view text(std::string_view column) const;

@@ -30,8 +30,8 @@ constexpr const char *kTitle = "showTitle", *kShow = "showDigest", *kKey = "fram
                      *kRate = "showFramesPerSecond", *kProjection = "projection",
                      *kPixelDigest = "pixelDigest";
 
-// zlib's.  Measured on a 4k frame with stars: 0.8 s of CPU and 24.7 MB, against 2.2 s and 22.2 MB at the
-// usual 6.
+// zlib's.  Measured on a 4k frame with stars: 0.8 s of CPU and 24.7 MB, against 2.2 s and 22.2 MB
+// at the usual 6.
 constexpr int kZipLevel = 2;
 
 // Half floats of this machine's byte order; every machine Debian runs OpenEXR on for us is

@@ -42,7 +42,8 @@ class GradedFile {
   static constexpr int kRows = 256;
   // rgb[count][width][3].
   void add(const unsigned short* rgb, int count);
-  // Once all rows are there: gives the file its final name (atomic_file.h).  Throws as the constructor.
+  // Once all rows are there: gives the file its final name (atomic_file.h).  Throws as the
+  // constructor.
   void finish();
 
  private:

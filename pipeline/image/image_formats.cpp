@@ -16,8 +16,8 @@ constexpr const char *kLibrary = "libdomefall_image_formats.so", *kEntry = "dome
       (reason ? reason : kLibrary));
 }
 
-// The dynamic linker looks in the program's RUNPATH, which CMakeLists.txt sets for the build tree and
-// for an installation.  The library is never unloaded, since OpenImageIO keeps threads.
+// The dynamic linker looks in the program's RUNPATH, which CMakeLists.txt sets for the build tree
+// and for an installation.  The library is never unloaded, since OpenImageIO keeps threads.
 const ImageFormats& load() {
   void* library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
   if (!library) fail();

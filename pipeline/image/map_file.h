@@ -12,8 +12,8 @@ class MappedFile {
   // Throws InputError for what is missing, unreadable or no regular file, TemporaryError where the
   // system failed; both name the file.
   //
-  // A file that another program shortens while it is mapped ends the process (SIGBUS).  Files written
-  // by write_atomically are replaced, never shortened.
+  // A file that another program shortens while it is mapped ends the process (SIGBUS).  Files
+  // written by write_atomically are replaced, never shortened.
   explicit MappedFile(const std::filesystem::path& file);
   ~MappedFile();
   MappedFile(const MappedFile&) = delete;
@@ -31,8 +31,8 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-// A regular file with this extension (".stars") that is shorter than its header: the file is told to be so,
-// and not taken for one of another kind.
+// A regular file with this extension (".stars") that is shorter than its header: the file is told
+// to be so, and not taken for one of another kind.
 bool is_cut_short(const std::filesystem::path& file, std::string_view extension,
                   std::size_t header_bytes);
 // Throws InputError naming the file.

@@ -1,5 +1,5 @@
-// Files that are written piece by piece while they are made, so that no encoder needs the memory of a
-// whole one (new_mapped_file.h writes them as memory).
+// Files that are written piece by piece while they are made, so that no encoder needs the memory of
+// a whole one (new_mapped_file.h writes them as memory).
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace domefall {
 // A file in the making that appears under its name when it is whole (atomic_file.h).
 class NewFile {
  public:
-  // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a disk
-  // or a file server that fails.
+  // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a
+  // disk or a file server that fails.
   explicit NewFile(const std::filesystem::path& path);
   // Removes what was not committed.
   ~NewFile();

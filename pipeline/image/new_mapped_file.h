@@ -9,8 +9,8 @@ namespace domefall {
 // A file in the making, zeroed, that appears under its name when it is whole.
 class NewMappedFile {
  public:
-  // The disk's space is taken at once, so that a full disk is told here (TemporaryError) and not by a
-  // signal later.  Throws InputError for a folder that may not be written to.
+  // The disk's space is taken at once, so that a full disk is told here (TemporaryError) and not by
+  // a signal later.  Throws InputError for a folder that may not be written to.
   NewMappedFile(const std::filesystem::path& path, std::size_t size);
   // Removes what was not committed.
   ~NewMappedFile();

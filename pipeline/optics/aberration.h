@@ -1,5 +1,6 @@
 // The boost between the reference tetrad and an observer of any velocity, for light: where a
-// direction goes, and the ratio of frequencies.  [Riazuelo] eq. Lambda_cov, nprime_aber, omprime_aber.
+// direction goes, and the ratio of frequencies.  [Riazuelo] eq. Lambda_cov, nprime_aber,
+// omprime_aber.
 //
 // With c = gamma v, unit direction e of c, and m the direction in the boosted tetrad, d = m - e:
 //     omega_tetrad/omega_observer = gamma - c.m = 1/(gamma + |c|) + |c| d^2/2

@@ -6,13 +6,13 @@
 //
 //   q'' = -q/4 + 3 c q^5 / 4,
 //
-// whose only trace of the singularity is q = 0.  Inside the horizon q serves where 2 w^3 > c: there the
-// difference w'^2 - 2 w^3 of large numbers would forget c.  Elsewhere w serves; a nearly radial ray,
-// c > 2 w^3, is a straight line in w, while in q an error grows as phi^(5/2) along it.
+// whose only trace of the singularity is q = 0.  Inside the horizon q serves where 2 w^3 > c: there
+// the difference w'^2 - 2 w^3 of large numbers would forget c.  Elsewhere w serves; a nearly radial
+// ray, c > 2 w^3, is a straight line in w, while in q an error grows as phi^(5/2) along it.
 //
-// Backward in time dr/dp = -k^r and dphi/dp = L/r^2, so w' = k^r / L.  Each form is scaled: y is w or q
-// over its first value, and psi = phi / kappa with kappa = min(1, L / (r |k^r|)), so that nearly radial
-// rays, straight lines in y, neither overflow nor need small steps.
+// Backward in time dr/dp = -k^r and dphi/dp = L/r^2, so w' = k^r / L.  Each form is scaled: y is w
+// or q over its first value, and psi = phi / kappa with kappa = min(1, L / (r |k^r|)), so that
+// nearly radial rays, straight lines in y, neither overflow nor need small steps.
 
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
@@ -86,8 +86,8 @@ Arc arc_at(double r, double steepness, double energy_over_l, Form form, long* ev
           {1, -slope / 2}};
 }
 
-// The part of a step h from y after which y vanishes, by Newton's method on the step itself, so that
-// the event is as accurate as a step.
+// The part of a step h from y after which y vanishes, by Newton's method on the step itself, so
+// that the event is as accurate as a step.
 template <class ErrorStepper>
 double part_to_zero(const Equation& equation, const State& y, double h) {
   constexpr int kIterations = 12;

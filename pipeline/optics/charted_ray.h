@@ -1,10 +1,10 @@
 // A ray on its way, in one of two charts of the maximal extension: Schwarzschild's coordinates far
-// from the horizon, Kruskal's around it; when to change, where the ray has ended, and the last stretch
-// to infinity or to the singularity in closed form.
+// from the horizon, Kruskal's around it; when to change, where the ray has ended, and the last
+// stretch to infinity or to the singularity in closed form.
 //
-// Kruskal's chart serves 1/2 < r < 5/2.  So the light circle is passed in Schwarzschild's coordinates,
-// as in [Riazuelo] sec. ssec_max, and a ray from region II back to region IV that turns below 5/2
-// stays in Kruskal's through both horizons.
+// Kruskal's chart serves 1/2 < r < 5/2.  So the light circle is passed in Schwarzschild's
+// coordinates, as in [Riazuelo] sec. ssec_max, and a ray from region II back to region IV that
+// turns below 5/2 stays in Kruskal's through both horizons.
 #pragma once
 
 #include "pipeline/optics/geodesic_equations.h"
@@ -33,9 +33,10 @@ RayGoals goals_of(const PhotonAtObserver& photon);
 // Changes the chart if another is due; says whether it did.
 bool change_chart(ChartedRay& ray);
 
-// Inside the horizon in Schwarzschild's coordinates, r' made anew from E and L by the null condition.
-// The second-order set alone lets a violation N of it grow as 2N/r, which turns a nearly radial ray
-// back before it reaches the singularity.  Elsewhere nothing is changed: r' may vanish there.
+// Inside the horizon in Schwarzschild's coordinates, r' made anew from E and L by the null
+// condition.  The second-order set alone lets a violation N of it grow as 2N/r, which turns a
+// nearly radial ray back before it reaches the singularity.  Elsewhere nothing is changed: r' may
+// vanish there.
 void restore_null_condition(ChartedRay& ray);
 
 // kUndecided while the ray is on its way.

@@ -14,8 +14,8 @@ namespace {
 
 const double kSqrt3 = std::sqrt(3.0);
 
-// Above this 1/b the form b (phi - K) is used; below it, where that is a difference of large numbers,
-// the one with the pole at the horizon taken out.
+// Above this 1/b the form b (phi - K) is used; below it, where that is a difference of large
+// numbers, the one with the pole at the horizon taken out.
 constexpr double kLargeInverseB = 0.1;
 constexpr double kHorizonDepth = -1e-20;
 
@@ -28,8 +28,8 @@ struct Path {
   bool turned;
 };
 
-// Over a unit interval: the rule's nodes crowd towards the ends, and those of a short interval far from
-// 0 would fall on them.
+// Over a unit interval: the rule's nodes crowd towards the ends, and those of a short interval far
+// from 0 would fall on them.
 template <class F>
 double integral(double from, double to, F f) {
   thread_local boost::math::quadrature::tanh_sinh<double> rule(12);
@@ -80,8 +80,8 @@ Turning turning_of(const Path& path) {
   return t;
 }
 
-// int dy f(y) from `from` to infinity in two halves: f over y < 1 and `far`, the same times dy/dz, over
-// z = 1/y.
+// int dy f(y) from `from` to infinity in two halves: f over y < 1 and `far`, the same times dy/dz,
+// over z = 1/y.
 template <class Rule, class Near, class Far>
 double to_infinity(Rule rule, double from, Near near, Far far) {
   return from < 1 ? rule(from, 1.0, near) + rule(0.0, 1.0, far) : rule(0.0, 1 / from, far);
@@ -107,10 +107,10 @@ double bounded_part(const Path& path, const Turning& t) {
 
 // ---- b large: t itself, its pole at the horizon taken out ----
 
-// dt = e dw/(w^2 (1 - 2w) sqrt(P)) = e g(w) dy/(y0^2 - y^2), w = w1 + y^2, y0^2 = 1/2 - w1,
-// g = 1/(w^2 sqrt(Q)) and g = 4 y0/e on the pole.  The principal value of the pole alone is a logarithm;
-// this is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q, g = 1/sqrt(G), and the
-// quotient of the polynomial G divided out.
+// dt = e dw/(w^2 (1 - 2w) sqrt(P)) = e g(w) dy/(y0^2 - y^2), w = w1 + y^2, y0^2 = 1/2 - w1, g =
+// 1/(w^2 sqrt(Q)) and g = 4 y0/e on the pole.  The principal value of the pole alone is a
+// logarithm; this is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q, g =
+// 1/sqrt(G), and the quotient of the polynomial G divided out.
 double without_pole(const Turning& t, double y0, double from) {
   const auto divided = [](double w, int power) {  // (w^n - 2^-n)/(w - 1/2)
     double sum = 0, half = 1;

@@ -1,10 +1,10 @@
-// The emission times of the light of the past singularity as a table, for pictures in which it glows
-// with t: a companion of WhiteHoleTable, in the same coordinate s.
+// The emission times of the light of the past singularity as a table, for pictures in which it
+// glows with t: a companion of WhiteHoleTable, in the same coordinate s.
 //
-// Next to an edge t goes like -+3 sqrt 3 phi, so the curve is that of the rest, t + 3 sqrt 3 phi, which
-// is finite there (where there is no edge, of t alone).  In II and IV it is that of the half with E < 0,
-// as t from the observer's is odd in E.  Towards the axis t moves like b^(4/3) while phi moves like
-// b^(1/3).
+// Next to an edge t goes like -+3 sqrt 3 phi, so the curve is that of the rest, t + 3 sqrt 3 phi,
+// which is finite there (where there is no edge, of t alone).  In II and IV it is that of the half
+// with E < 0, as t from the observer's is odd in E.  Towards the axis t moves like b^(4/3) while
+// phi moves like b^(1/3).
 #pragma once
 
 #include "pipeline/optics/white_hole_table.h"
@@ -20,8 +20,8 @@ class EmissionTimeTable {
     double time;   // as exact_emission_time(): from v of rain, u of the outgoing frame; M
     double slope;  // |d time/d alpha|, finite
   };
-  // What the white hole's table says of a direction: its place, azimuth and |slope|, the last finite;
-  // beyond: whether its E is positive, tan(alpha/2) > T_0 (counts in II and IV only).
+  // What the white hole's table says of a direction: its place, azimuth and |slope|, the last
+  // finite; beyond: whether its E is positive, tan(alpha/2) > T_0 (counts in II and IV only).
   // Measured over 1e-6 <= r <= 1e8: error of the time below 1e-5 for every distance to an edge.
   Value at(const WhiteHoleTable::Place& place, bool beyond, double azimuth, double slope) const;
 

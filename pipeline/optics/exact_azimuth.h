@@ -21,8 +21,8 @@ namespace domefall {
 // below 1e-13 max(1, phi).
 double exact_azimuth(const NullRay& ray);
 
-// The angle over which phi changes its shape: to the nearest place where it diverges or, as light from
-// the singularity does on the axis, has the branch point of a cube root.
+// The angle over which phi changes its shape: to the nearest place where it diverges or, as light
+// from the singularity does on the axis, has the branch point of a cube root.
 double smooth_over(const NullRay& ray);
 
 // d phi/d alpha, signed, by a four-point difference over turned rays.  Measured: relative error

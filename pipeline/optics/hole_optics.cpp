@@ -10,8 +10,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The azimuth from R at which light of the k-th order started, for a source at azimuth phi_star, and
-// on which side of the hole it is seen.
+// The azimuth from R at which light of the k-th order started, for a source at azimuth phi_star,
+// and on which side of the hole it is seen.
 struct Order {
   double phi;
   double side;  // +1: towards the source

@@ -30,7 +30,8 @@ struct HoleOptics {
   std::optional<WhiteHoleTable> white_hole;
   std::optional<EmissionTimeTable> emission_times;
 
-  // The table of the sky of region I or III; null where it was not made, is not seen, or space is flat.
+  // The table of the sky of region I or III; null where it was not made, is not seen, or space is
+  // flat.
   const SkyTable* table_of(SkyRegion sky) const {
     const auto& table = sky == domefall::home_sky(tetrad) ? home_sky : far_sky;
     return table && sky != SkyRegion::kIV ? &*table : nullptr;
@@ -51,15 +52,15 @@ struct SkyImage {
   double amplification;    // solid angle of the image / of the source; inf on the axis of a lens
 };
 
-// The k-th image of the point `source` (unit, components along R, Theta, Phi): k = 0 is the primary,
-// odd k lie on the opposite side of the hole, swept azimuth phi* + k pi or (k+1) pi - phi*.
-// axis_blur (radians, > 0) is the angular radius of the source, which bounds the amplification where
-// the source, the hole and the observer are in line.  Flat space: k = 0 only.
+// The k-th image of the point `source` (unit, components along R, Theta, Phi): k = 0 is the
+// primary, odd k lie on the opposite side of the hole, swept azimuth phi* + k pi or (k+1) pi -
+// phi*.  axis_blur (radians, > 0) is the angular radius of the source, which bounds the
+// amplification where the source, the hole and the observer are in line.  Flat space: k = 0 only.
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur);
 
-// The images of a point of the past singularity of the same order, of which there may be two, one or
-// none.  frequency_ratio is 1: light from there has no redshift to speak of.  axis_blur bounds the
-// amplification on the caustic, where two images merge, as well.
+// The images of a point of the past singularity of the same order, of which there may be two, one
+// or none.  frequency_ratio is 1: light from there has no redshift to speak of.  axis_blur bounds
+// the amplification on the caustic, where two images merge, as well.
 struct WhiteHoleImages {
   int count = 0;
   std::array<SkyImage, 2> image;
@@ -68,8 +69,8 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
                           double axis_blur);
 
 // The primary image, in the frame of the tetrad, of a direction on the home sky without making a
-// table: for aiming a camera.  Exact to 1e-14.  Not for the outgoing tetrad at r <= 2, region IV, from
-// where no sky is seen.
+// table: for aiming a camera.  Exact to 1e-14.  Not for the outgoing tetrad at r <= 2, region IV,
+// from where no sky is seen.
 TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source);
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
-// A light ray followed backward in time, step by step, from an observer to where it came from: sky I,
-// sky III or the past singularity of the maximally extended Schwarzschild geometry (M = 1).
+// A light ray followed backward in time, step by step, from an observer to where it came from: sky
+// I, sky III or the past singularity of the maximally extended Schwarzschild geometry (M = 1).
 //
 // It shares no formula with exact_azimuth, sky_table or null_ray: it is the check of them, and the
 // error-against-cost side of the report.  Where a ray ends is found by getting there, never by
@@ -14,16 +14,16 @@
 // (observers of all regions, r from 1e-6 to 1e8): every origin right from tolerance 1e-4 down, and
 //   |error of phi| < 4 tolerance (phi + |dphi/ddelta|)  beside what rounding did to the photon,
 // which holds 1e-6 beside an edge too, from 1e-6 down; the origin is sure where that is small.
-// Errors (median; largest, where phi changes a thousandfold with delta) and time per ray (one core, g++
-// 12 -O3), for tolerances 1e-6, 1e-9, 1e-12:
+// Errors (median; largest, where phi changes a thousandfold with delta) and time per ray (one core,
+// g++ 12 -O3), for tolerances 1e-6, 1e-9, 1e-12:
 //   kPaperRk4      2e-8; 9e-6   53 us    2e-11; 1e-8  134 us    3e-14; 8e-11  520 us
 //   kFullDopri5    2e-7; 2e-4   27 us    1e-10; 3e-7   69 us    2e-13; 4e-10  230 us
 //   kFullRkf78     2e-8; 1e-4   26 us    2e-10; 7e-7   38 us    5e-13; 1e-9    80 us
 //   kBinetDopri5   3e-7; 3e-4  1.2 us    9e-11; 4e-7  2.7 us    5e-14; 6e-10  7.4 us
 //   kBinetRkf78    4e-8; 1e-4  1.8 us    1e-10; 4e-7  2.4 us    2e-13; 5e-10  3.4 us
-// (The paper's method gains by its extrapolated step, and pays for it in steps.)
-// Of 79000 random rays (tolerances 1e-3 to 1e-13) none was undecided or had an origin that the methods
-// disagreed about.
+// (The paper's method gains by its extrapolated step, and pays for it in steps.) Of 79000 random
+// rays (tolerances 1e-3 to 1e-13) none was undecided or had an origin that the methods disagreed
+// about.
 #pragma once
 
 #include "trajectories/observer_state.h"
@@ -33,11 +33,11 @@ namespace domefall {
 // A photon as it reaches the observer, by components that are invariant or regular at the horizon.
 // Only ratios of the last three matter.
 //
-// Regions I and III: r >= 2, and the energy's sign is the region's (|energy| is used).
-// Region II: r <= 2, radial < 0.  Region IV: r <= 2, radial > 0.  The three are to obey
-// radial^2 = energy^2 - (1 - 2/r)(angular_momentum/r)^2 up to rounding; beside the horizon the larger
-// of energy + radial and energy - radial is believed.  On it either region that it bounds may be named,
-// and light along it (energy = radial = 0) is undecided.
+// Regions I and III: r >= 2, and the energy's sign is the region's (|energy| is used).  Region II:
+// r <= 2, radial < 0.  Region IV: r <= 2, radial > 0.  The three are to obey radial^2 = energy^2 -
+// (1 - 2/r)(angular_momentum/r)^2 up to rounding; beside the horizon the larger of energy + radial
+// and energy - radial is believed.  On it either region that it bounds may be named, and light
+// along it (energy = radial = 0) is undecided.
 struct PhotonAtObserver {
   Region region = Region::kI;
   double r = 0;                 // units of M, 1e-6 to 1e8

@@ -48,7 +48,8 @@ NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, 
   ray.cos_half = std::max(0.0, cosine / norm);
   const double own = k * gap / norm, apart = edge_separation(at) * ray.cos_half;
   const bool first = edge == Critical::kFirst;
-  // The other gap by way of the exact distance between the two, or directly where that cancels less.
+  // The other gap by way of the exact distance between the two, or directly where that cancels
+  // less.
   const Critical other = first ? Critical::kSecond : Critical::kFirst;
   const double reach = tan_half_critical(at, other) * ray.cos_half;
   const bool direct = std::max(ray.sin_half, reach) < std::max(std::abs(own), std::abs(apart));
@@ -59,8 +60,8 @@ NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, 
 }
 
 // k^r in the rain frame: inner ch^2 - (1 + s) sh^2, inner = 1 - s.  Outside, that cancels at
-// tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point, which near the light circle lies
-// as near to the critical rays as these to each other: there its gap is made from theirs.
+// tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point, which near the light circle
+// lies as near to the critical rays as these to each other: there its gap is made from theirs.
 double rain_radial(const NullRay& ray, double s, double inner) {
   const double sh = ray.sin_half, ch = ray.cos_half;
   const double out = inner * ch * ch, in = (1 + s) * sh * sh;

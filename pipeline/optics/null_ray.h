@@ -1,5 +1,5 @@
-// A light ray as it reaches an observer, and what decides where it came from: its angle alpha in the
-// frame of radial free fall at the observer's place, and its distances from the edges there.
+// A light ray as it reaches an observer, and what decides where it came from: its angle alpha in
+// the frame of radial free fall at the observer's place, and its distances from the edges there.
 //
 // Rain (falling in):  alpha = delta, the angle of the look from -R, the direction of the hole,
 //     k = T + cos(delta) R + sin(delta) Theta,   E = 1 - s cos(delta),   L = r sin(delta),

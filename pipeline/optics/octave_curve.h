@@ -1,7 +1,7 @@
 // A smooth function of a positive number that spans many octaves, as a table: the intervals divide
 // each octave evenly and are found from the bits of x; in each a polynomial of degree 7 matches the
-// value and three derivatives at both ends.  Those come from Chebyshev interpolation of the function
-// in ln x.
+// value and three derivatives at both ends.  Those come from Chebyshev interpolation of the
+// function in ln x.
 #pragma once
 
 #include <algorithm>
@@ -41,15 +41,16 @@ class OctaveCurve {
   // monotone there and take the value.
   double inverse(double wanted, double x_end) const;
 
-  // Whether every interval that ends before x_end is monotone, all the same way: proven, by the signs of
-  // the slope's Bernstein coefficients.
+  // Whether every interval that ends before x_end is monotone, all the same way: proven, by the
+  // signs of the slope's Bernstein coefficients.
   bool is_monotone(double x_end) const;
 
   static constexpr int kTerms = 8;
 
-  // Where the polynomials of any number of x stand, without a branch, for loops that are to become SIMD code:
-  // a copy of what a look-up needs, which no store of the loop can be taken to alter.  Good while the curve
-  // lives.  x below x_min is looked up there, x beyond the last interval at its end.
+  // Where the polynomials of any number of x stand, without a branch, for loops that are to become
+  // SIMD code: a copy of what a look-up needs, which no store of the loop can be taken to alter.
+  // Good while the curve lives.  x below x_min is looked up there, x beyond the last interval at
+  // its end.
   class Lookup;
   Lookup lookup() const;
 
@@ -106,7 +107,8 @@ class OctaveCurve::Lookup {
     std::int64_t interval;
     double u, inverse_width;  // the place in it, 0 to 1, and du/dx
   };
-  // From the bits of x: the interval's number ends where u begins, and its width is that of an octave's part.
+  // From the bits of x: the interval's number ends where u begins, and its width is that of an
+  // octave's part.
   Spot operator()(double x) const {
     constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1,
                             kOne = std::uint64_t{1023} << 52;

@@ -2,8 +2,8 @@
 // step doubled to tell its error, after Numerical Recipes, and a bound on the step by place.
 //
 // What the paper leaves open is chosen here: the factors of its step rules, the radii at which the
-// charts change (charted_ray.h), by place and not by what E and L let expect, and that below r = 1/2,
-// where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
+// charts change (charted_ray.h), by place and not by what E and L let expect, and that below r =
+// 1/2, where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
 
 #include <algorithm>
 #include <cmath>

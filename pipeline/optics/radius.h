@@ -22,8 +22,8 @@ struct Radius {
         above_light_circle(static_cast<double>(value - 3)) {}
 };
 
-// r, r - 2 and r - 3 in a type that may be finer than double: near the horizon or the light circle from
-// what the radius holds of them, elsewhere from r.
+// r, r - 2 and r - 3 in a type that may be finer than double: near the horizon or the light circle
+// from what the radius holds of them, elsewhere from r.
 inline bool is_near(double distance) { return distance * distance < 0.01; }
 
 template <class Real>

@@ -20,8 +20,8 @@ double tan_half_region_three(const Radius& at);
 // The other root of the quadratic, negative inside the horizon: there it is -tan_half_region_three.
 double tan_half_other_root(const Radius& at);
 
-// The same to more digits than a double has: deep inside, where the edges close in on each other, an
-// angle is measured from them more finely than that.  0 < r < infinity.
+// The same to more digits than a double has: deep inside, where the edges close in on each other,
+// an angle is measured from them more finely than that.  0 < r < infinity.
 long double tan_half_silhouette_long(const Radius& at);
 long double tan_half_other_root_long(const Radius& at);
 

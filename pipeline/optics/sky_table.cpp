@@ -9,12 +9,12 @@
 namespace domefall {
 namespace {
 
-// Where the law takes over, in units of the smallest angle of the scene, and never below the second:
-// that matters only where the light circle is nearer to the observer than 1e-8.
+// Where the law takes over, in units of the smallest angle of the scene, and never below the
+// second: that matters only where the light circle is nearer to the observer than 1e-8.
 constexpr double kInnermost = 1e-7, kLeast = 1e-15;
 
-// The smallest angle: from the edge to the axis either way, between the two critical rays, or 1.  At
-// r = 3 those are one.
+// The smallest angle: from the edge to the axis either way, between the two critical rays, or 1.
+// At r = 3 those are one.
 double smallest_angle(const Radius& at, double tangent) {
   const double to_axis = 2 * std::atan(std::min(tangent, 1 / tangent));
   const double apart =

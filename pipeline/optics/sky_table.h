@@ -31,8 +31,8 @@ struct EdgeLaw {
 };
 EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi);
 
-// The edge of a sky: how far a direction is from it, from sin and cos of alpha/2, as the renderer has
-// them.
+// The edge of a sky: how far a direction is from it, from sin and cos of alpha/2, as the renderer
+// has them.
 struct SkyEdge {
   double sine = 0, cosine = 1;  // of half the edge
   double sign = 1;              // +1: the sky lies at larger alpha than its edge; -1: at smaller

@@ -116,8 +116,8 @@ Integrator integrator_of(TraceMethod method) {
   }
 }
 
-// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses beside
-// an edge is the methods' own.
+// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses
+// beside an edge is the methods' own.
 PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delta) {
   const double s = std::sqrt(2 / at.r), c = std::cos(delta);
   const double rest = std::sqrt(std::abs(at.above_horizon) / at.r);

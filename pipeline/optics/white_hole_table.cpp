@@ -12,8 +12,8 @@ namespace {
 // Where the laws take over, in units of the smallest scale on their side; the first never below the
 // second, which matters only where the light circle is nearer to the observer than 1e-9.
 constexpr double kEdgeInnermost = 1e-6, kLeast = 1e-15, kAxisInnermost = 1.0 / 1024;
-// At r = 2 itself T_0 and the edge of region III are points; a depth whose square root is below 1e-15
-// stands for none.
+// At r = 2 itself T_0 and the edge of region III are points; a depth whose square root is below
+// 1e-15 stands for none.
 constexpr double kHorizonDepth = -1e-30;
 
 // What 1,024 nodes hold at 16 intervals an octave.

@@ -2,10 +2,10 @@
 // silhouette seen from outside, the shell between the two skies inside, and all directions in
 // region IV.  [Riazuelo] sec. sec_Kruskal, figs. dev_wh_0, dev_wh and fig_IV_dev.
 //
-// The coordinate s is made of ratios of T = tan(alpha/2), which radial boosts only scale, so that none
-// of the structure is lost however close the horizon is:
-//   outside      s = T_edge/T - 1 (outgoing frame: T/T_edge - 1) from 0 at the silhouette, where phi
-//                diverges like -ln s, to infinity on the axis, where phi is odd in the cube root of
+// The coordinate s is made of ratios of T = tan(alpha/2), which radial boosts only scale, so that
+// none of the structure is lost however close the horizon is:
+//   outside      s = T_edge/T - 1 (outgoing frame: T/T_edge - 1) from 0 at the silhouette, where
+//                phi diverges like -ln s, to infinity on the axis, where phi is odd in the cube root of
 //                y = 1/(1 + s).
 //   region II    s = T/T_3 - 1 from the edge of region III (s = T_1/T - 1 from the silhouette) to
 //                E = 0, where phi has its minimum 2 pi - (arcsin(r - 1) + pi/2): phi is even in E,
@@ -34,8 +34,8 @@ struct AxisLaw {
   double distance(double phi) const;  // its inverse; phi <= azimuth(y_min)
 };
 
-// s of a direction, (n1 sin + n2 cos)/(d1 sin + d2 cos) of alpha/2, for the half below T_0 and the one
-// beyond it; outside both are the same.
+// s of a direction, (n1 sin + n2 cos)/(d1 sin + d2 cos) of alpha/2, for the half below T_0 and the
+// one beyond it; outside both are the same.
 struct WhiteHolePlace {
   struct Ratio {
     double n1, n2, d1, d2;
@@ -89,8 +89,8 @@ class WhiteHoleTable {
   std::size_t node_count() const { return curve_.node_count(); }
   const OctaveCurve& curve() const { return curve_; }  // in s
 
-  // For loops that are to become SIMD code: place() and, between low and high, curve().  Beyond those
-  // the laws are the caller's, by way of azimuth() and slope().
+  // For loops that are to become SIMD code: place() and, between low and high, curve().  Beyond
+  // those the laws are the caller's, by way of azimuth() and slope().
   struct Lookup {
     WhiteHolePlace place;
     OctaveCurve::Lookup curve;
@@ -98,8 +98,8 @@ class WhiteHoleTable {
   };
   Lookup lookup() const;
 
-  // For other functions of the same rays: where the curve runs in s, and the ray that stands at an s, of
-  // smaller alpha in II and IV (there E <= 0).
+  // For other functions of the same rays: where the curve runs in s, and the ray that stands at an
+  // s, of smaller alpha in II and IV (there E <= 0).
   struct Range {
     double low, high;
   };

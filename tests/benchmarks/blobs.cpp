@@ -40,8 +40,8 @@ double magnitude_of(double rank) {
   return kCounts[std::size(kCounts) - 1].magnitude;
 }
 
-// The brightest 2 * count stars of the sky, of which a dome shows half, within an angle of its zenith
-// and `gain` times as bright as they are.
+// The brightest 2 * count stars of the sky, of which a dome shows half, within an angle of its
+// zenith and `gain` times as bright as they are.
 std::vector<StarImage> stars(const Projection& p, std::size_t count, double within, double gain) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(0, 1);
@@ -115,8 +115,8 @@ void draw_stars(benchmark::State& state, double within, double gain) {
 
 void open_sky(benchmark::State& state) { draw_stars(state, pi / 2, 1); }
 
-// All of the sky within a degree of the zenith and a hundred million times as bright, as for a static
-// observer at r = 2.0001.
+// All of the sky within a degree of the zenith and a hundred million times as bright, as for a
+// static observer at r = 2.0001.
 void crowded_sky(benchmark::State& state) { draw_stars(state, pi / 180, 1e8); }
 
 BENCHMARK(open_sky)

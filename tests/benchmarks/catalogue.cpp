@@ -1,5 +1,5 @@
-// What reading a binary star catalogue costs, from the page cache, beside copying its bytes: two million stars drawn by
-// lot, as many as Tycho-2 has nearly.
+// What reading a binary star catalogue costs, from the page cache, beside copying its bytes: two
+// million stars drawn by lot, as many as Tycho-2 has nearly.
 //
 //     build/release/tests/bench_catalogue
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
-// What a dome frame costs, as multiples of copying it: first light at r = 7 M, the Milky Way and 8,874
-// stars with every image that matters.  Files and grading are measured apart, at 4k.
+// What a dome frame costs, as multiples of copying it: first light at r = 7 M, the Milky Way and
+// 8,874 stars with every image that matters.  Files and grading are measured apart, at 4k.
 //
 //     build/release/tests/bench_frame
 #include <benchmark/benchmark.h>
@@ -49,8 +49,8 @@ double cpu_seconds() {
   return seconds(use.ru_utime) + seconds(use.ru_stime);
 }
 
-// What the iterations of a benchmark took: the quickest one's time, since a machine may be busy with
-// other things, and the CPU time of all.
+// What the iterations of a benchmark took: the quickest one's time, since a machine may be busy
+// with other things, and the CPU time of all.
 class Stopwatch {
  public:
   template <class F>
@@ -94,7 +94,8 @@ void render_frame(benchmark::State& state) {
   render_again(state, first_light(static_cast<int>(state.range(0))));
 }
 
-// With all stars of the catalogue that DOMEFALL_STARS names, such as one of shows/assets/fetch_stars.
+// With all stars of the catalogue that DOMEFALL_STARS names, such as one of
+// shows/assets/fetch_stars.
 void render_catalogue(benchmark::State& state) {
   const char* catalogue = std::getenv("DOMEFALL_STARS");
   if (catalogue == nullptr) return state.SkipWithError("DOMEFALL_STARS names no catalogue");

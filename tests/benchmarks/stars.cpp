@@ -1,6 +1,6 @@
-// What finding the images of stars costs a 4k dome frame, by the size of the catalogue: nanoseconds of CPU
-// time a star, and copies of the frame.  Star counts are those of Tycho-2 by magnitude; the catalogue
-// named by DOMEFALL_STARS is taken instead if there is one.
+// What finding the images of stars costs a 4k dome frame, by the size of the catalogue: nanoseconds
+// of CPU time a star, and copies of the frame.  Star counts are those of Tycho-2 by magnitude; the
+// catalogue named by DOMEFALL_STARS is taken instead if there is one.
 //
 //     build/release/tests/bench_stars
 #include <benchmark/benchmark.h>

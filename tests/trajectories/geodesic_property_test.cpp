@@ -1,6 +1,6 @@
-// Whatever is thrown, from wherever: its constants, its proper times, and the radial equation of motion
-// integrated step by step, which knows neither turning points nor elliptic integrals.
-// More: RC_PARAMS="max_success=10000 seed=..." test_trajectories
+// Whatever is thrown, from wherever: its constants, its proper times, and the radial equation of
+// motion integrated step by step, which knows neither turning points nor elliptic integrals.  More:
+// RC_PARAMS="max_success=10000 seed=..." test_trajectories
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -84,7 +84,8 @@ TEST(GeodesicProperty, TimeAtIsTheInverseOfAt) {
     const double speed = radial_speed_of(p);
     const double before = thrown.tau - 1e-3 * (1 + std::abs(thrown.tau));
     const auto tau = thrown.orbit.time_at(p.r, speed > 0 ? Leg::kOutward : Leg::kInward, before);
-    // A rounding of r moves tau by that over the speed; at a turning point the leg itself is rounded.
+    // A rounding of r moves tau by that over the speed; at a turning point the leg itself is
+    // rounded.
     const double lost = 1e-15 * p.r / std::abs(speed);
     if (lost > 1e-6) return;
     RC_ASSERT(tau.has_value());

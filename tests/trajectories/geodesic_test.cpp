@@ -125,8 +125,8 @@ TEST(Geodesic, MercurysPerihelionAdvancesBySixPiOverP) {
   EXPECT_NEAR((bound_by_shape(p, e).azimuth_per_period() - 2 * pi) / (6 * pi / p), 1, 1e-4);
 }
 
-// Near the periastron dphi/dchi = sqrt(p/(p - 6 - 2e + e chi^2)), whose integral over both sides grows by
-// sqrt((6 + 2e)/e) ln 10 with every digit of the excess.
+// Near the periastron dphi/dchi = sqrt(p/(p - 6 - 2e + e chi^2)), whose integral over both sides
+// grows by sqrt((6 + 2e)/e) ln 10 with every digit of the excess.
 TEST(Geodesic, TheWhirlGrowsWithTheLogarithmOfTheSeparatrixsDistance) {
   const double e = 0.5, rate = std::sqrt((6 + 2 * e) / e);
   for (const double excess : {1e-8, 1e-11, 1e-14}) {
@@ -313,8 +313,8 @@ TEST(Geodesic, NearlyNoEnergyInsideIsNoTrouble) {
   }
 }
 
-// Next to the horizon the rain's own speed against the static observer is all there is to see: celerities
-// of sqrt(2/(r - 2)) whose differences are the throw's.
+// Next to the horizon the rain's own speed against the static observer is all there is to see:
+// celerities of sqrt(2/(r - 2)) whose differences are the throw's.
 TEST(Geodesic, AThrowIsTheCelerityAskedFor) {
   for (const double r : {2 + 1e-9, 2.01, 12.0})
     for (const double radial : {-1e6, -0.3, -1e-9, 0.0, 1e-9, 0.3, 1e6})

@@ -1,5 +1,5 @@
-// Orbits against tests/reference/orbits.csv: 50-digit quadratures over r itself (make_orbits.py), which
-// share no parameter with the code.
+// Orbits against tests/reference/orbits.csv: 50-digit quadratures over r itself (make_orbits.py),
+// which share no parameter with the code.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -36,7 +36,8 @@ TEST(Blackbody, InfinitelyHotLightHasTheLimitingColour) {
   EXPECT_NEAR(limit.y, 0.23404, 1e-4);
 }
 
-// IAU 2015: m_bol = 0 is 2.518021002e-8 W/m^2; the bolometric correction of a 5772 K blackbody is -0.137.
+// IAU 2015: m_bol = 0 is 2.518021002e-8 W/m^2; the bolometric correction of a 5772 K blackbody is
+// -0.137.
 TEST(Blackbody, TheSunsBolometricCorrectionIsABlackbodys) {
   const double bc = -2.5 * std::log10(bolometric_flux_at_v_zero(5772) / 2.518021002e-8);
   EXPECT_NEAR(bc, -0.137, 0.003);

@@ -14,7 +14,8 @@ namespace {
 
 using NewFileTest = TestFolder;
 
-// Pieces smaller and larger than what is written at once, and corrections in what is on the disk already.
+// Pieces smaller and larger than what is written at once, and corrections in what is on the disk
+// already.
 TEST_F(NewFileTest, HoldsWhatWasWrittenWhereverItWasSought) {
   std::string expected;
   {

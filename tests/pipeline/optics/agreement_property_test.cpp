@@ -1,6 +1,6 @@
-// Three ways to follow a ray, of which no two share a formula, over random observers and rays: the table
-// that frames are made from, the exact integral, and Binet's equation integrated by an eighth-order
-// method.  A million rays: RC_PARAMS="max_success=1000 seed=..." test_optics
+// Three ways to follow a ray, of which no two share a formula, over random observers and rays: the
+// table that frames are made from, the exact integral, and Binet's equation integrated by an
+// eighth-order method.  A million rays: RC_PARAMS="max_success=1000 seed=..." test_optics
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Of 100 observers, so many rays each: of 150,000, 100,000 and more are far enough from an edge for all
-// three ways.  The instrumented build takes a tenth.
+// Of 100 observers, so many rays each: of 150,000, 100,000 and more are far enough from an edge for
+// all three ways.  The instrumented build takes a tenth.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr int kRaysEach = 150;
 #elif defined(__has_feature)

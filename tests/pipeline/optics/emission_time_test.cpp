@@ -18,8 +18,8 @@ namespace {
 using std::numbers::pi;
 namespace odeint = boost::numeric::odeint;
 
-// t at emission by following the ray backward: y = (r, p = dr/dlambda, u or v), the parameter of the
-// steps sigma with d lambda = -r^2 d sigma.  E > 0.
+// t at emission by following the ray backward: y = (r, p = dr/dlambda, u or v), the parameter of
+// the steps sigma with d lambda = -r^2 d sigma.  E > 0.
 class FollowedRay {
  public:
   FollowedRay(const NullRay& ray, const RayInvariants& k)
@@ -130,8 +130,8 @@ TEST(EmissionTime, OfNoEnergyIsTheObserversOwnAndOddInEnergy) {
         const double above = exact_emission_time(ray_of_tangent(r, zero * ratio, outgoing));
         const double below = exact_emission_time(ray_of_tangent(r, zero / ratio, outgoing));
         EXPECT_NEAR(above + below, 2 * own, 1e-9 * (1 + std::abs(above))) << r << " " << part;
-        // In IV light with E > 0 loses t on its way; into II it comes by way of the outside, where it
-        // gains.
+        // In IV light with E > 0 loses t on its way; into II it comes by way of the outside, where
+        // it gains.
         EXPECT_EQ(above > own, outgoing) << r << " " << part;
       }
     }

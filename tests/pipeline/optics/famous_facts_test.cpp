@@ -98,9 +98,9 @@ TEST(Aberration, AgreesWithThePapersFormula) {
   EXPECT_NEAR(seen.frequency_ratio, gamma * (1 + vn), 1e-15);
 }
 
-// [Riazuelo] eq. zkin: with v = 0.6 and gamma = 1.25.  Light that is seen from the side, cos(alpha') = 0,
-// is redder by gamma; light that comes from the side in the frame at rest, cos(alpha) = 0, is bluer by
-// gamma, and seen from ahead.
+// [Riazuelo] eq. zkin: with v = 0.6 and gamma = 1.25.  Light that is seen from the side,
+// cos(alpha') = 0, is redder by gamma; light that comes from the side in the frame at rest,
+// cos(alpha) = 0, is bluer by gamma, and seen from ahead.
 TEST(Aberration, LightSeenFromTheSideIsRedAndLightFromTheSideBlue) {
   const double gamma = 1.25, v = 0.6;
   const V3d celerity(gamma * v, 0, 0);
@@ -110,8 +110,8 @@ TEST(Aberration, LightSeenFromTheSideIsRedAndLightFromTheSideBlue) {
   EXPECT_NEAR(from_side.direction.x, v, 1e-15);
 }
 
-// After [Riazuelo] eq. zkin: the sky is bluer out to cos(alpha') = gamma v/(gamma + 1), which comes from
-// cos(alpha) = -gamma v/(gamma + 1).
+// After [Riazuelo] eq. zkin: the sky is bluer out to cos(alpha') = gamma v/(gamma + 1), which comes
+// from cos(alpha) = -gamma v/(gamma + 1).
 TEST(Aberration, BluerLightEndsAtOppositeCosinesInBothFrames) {
   for (const double v : {0.01, 0.3, 0.6, 0.9, 0.999}) {
     const double gamma = 1 / std::sqrt((1 - v) * (1 + v)), bound = gamma * v / (gamma + 1);
@@ -122,8 +122,8 @@ TEST(Aberration, BluerLightEndsAtOppositeCosinesInBothFrames) {
   }
 }
 
-// [Riazuelo] sec. sec_Kruskal: in region IV, at rest in t, b = r tan(delta)/sqrt(2/r - 1), which grows
-// towards the horizon: what is seen there in any one direction but +-d/dt is the antipode.
+// [Riazuelo] sec. sec_Kruskal: in region IV, at rest in t, b = r tan(delta)/sqrt(2/r - 1), which
+// grows towards the horizon: what is seen there in any one direction but +-d/dt is the antipode.
 TEST(RegionFour, ConvergesOnTheAntipodeNextToTheHorizon) {
   const double delta = pi / 4;
   const RadialFrame at_rest{true, true};

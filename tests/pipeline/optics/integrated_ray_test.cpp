@@ -60,8 +60,8 @@ std::vector<ReferenceRay> rows_off_the_edges(double distance) {
 // How far phi may be off.  A step errs by at most `tolerance` of the state, which is about what
 // turning the look direction by that angle does: it moves phi by |slope| times it, and phi's own
 // share comes on top.  Few steps err near their limit and signs differ: the largest sum measured is
-// 3.6 times one step's bound (1.7 at the tolerances below).  To that comes what rounding does to the
-// photon's components, worst in sqrt(1 - 2/r) beside the horizon.
+// 3.6 times one step's bound (1.7 at the tolerances below).  To that comes what rounding does to
+// the photon's components, worst in sqrt(1 - 2/r) beside the horizon.
 double allowed_error(const ReferenceRay& row, double tolerance) {
   constexpr double kSumOfSteps = 4;
   const double rounding = 8 * std::numeric_limits<double>::epsilon() *
@@ -89,8 +89,8 @@ TEST_P(EachIntegrator, FindsOriginAndAzimuthOfEveryReferenceRay) {
   }
 }
 
-// The median ray is better than the tolerance, and 99 of 100 better than 1000 times it, the slope of
-// rays 1e-3 beside an edge.
+// The median ray is better than the tolerance, and 99 of 100 better than 1000 times it, the slope
+// of rays 1e-3 beside an edge.
 TEST_P(EachIntegrator, ErrsLessAsTheToleranceFalls) {
   const std::vector<ReferenceRay> rows = rows_off_the_edges(1e-3);
   for (double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {

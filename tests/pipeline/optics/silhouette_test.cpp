@@ -1,4 +1,5 @@
-// The edges of the skies for an observer in the rain frame: what the paper says of them, and their digits.
+// The edges of the skies for an observer in the rain frame: what the paper says of them, and their
+// digits.
 #include "pipeline/optics/silhouette.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +27,8 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // ---- the truth, without the closed form ----
 
-// tan(delta/2) of the ray with r sin(delta) = sign sqrt(27) (1 - s cos(delta)), [Riazuelo] eq. L_E_ff,
-// found by bracketing delta.  At neither end of the bracket may the ray be critical.
+// tan(delta/2) of the ray with r sin(delta) = sign sqrt(27) (1 - s cos(delta)), [Riazuelo] eq.
+// L_E_ff, found by bracketing delta.  At neither end of the bracket may the ray be critical.
 Wide critical_tangent(const Wide& r, int sign, const Wide& low, const Wide& high) {
   const Wide s = sqrt(2 / r), b = sign * sqrt(Wide(27));
   const auto excess = [&](const Wide& delta) { return r * sin(delta) - b * (1 - s * cos(delta)); };
@@ -41,8 +42,9 @@ Wide critical_tangent(const Wide& r, int sign, const Wide& low, const Wide& high
 
 const Wide kHalfTurn = boost::math::constants::pi<Wide>();
 
-// The paper's own conditions: light of sky I at the edge is outgoing beyond r = 3, ingoing below it, and
-// has E > 0; outside, the angle of k^r = 0 parts the two critical rays, inside that of E = 0.
+// The paper's own conditions: light of sky I at the edge is outgoing beyond r = 3, ingoing below
+// it, and has E > 0; outside, the angle of k^r = 0 parts the two critical rays, inside that of E =
+// 0.
 Wide true_silhouette(const Wide& r) {
   const Wide s = sqrt(2 / r);
   if (r <= 2) return critical_tangent(r, 1, acos(1 / s), kHalfTurn);
@@ -60,7 +62,8 @@ Wide whole(const Radius& at) {
   return is_near(at.above_light_circle) ? 3 + Wide(at.above_light_circle) : Wide(at.r);
 }
 
-// 1e-6 to 1e8, evenly in log r, and distances from r = 2 and r = 3 down to 1e-25, which no double r holds.
+// 1e-6 to 1e8, evenly in log r, and distances from r = 2 and r = 3 down to 1e-25, which no double r
+// holds.
 std::vector<Radius> radii() {
   std::vector<Radius> all;
   for (double e = -6; e <= 8; e += 0.1) all.emplace_back(std::pow(10, e));
@@ -129,8 +132,8 @@ TEST(Silhouette, FillsHalfTheSkyOfAStaticObserverAtThreeM) {
   EXPECT_NEAR(2 * std::atan(tan_half_silhouette(3) / kappa), pi / 2, 1e-15);
 }
 
-// Synge's formula (MNRAS 131, 463, 1966), sin = sqrt(27) sqrt(1 - 2/r)/r, from the edge in rain by the
-// half-angle law of aberration; below r = 3 the angle is obtuse.
+// Synge's formula (MNRAS 131, 463, 1966), sin = sqrt(27) sqrt(1 - 2/r)/r, from the edge in rain by
+// the half-angle law of aberration; below r = 3 the angle is obtuse.
 TEST(Silhouette, IsSyngesForAStaticObserver) {
   for (const double r : {2.0001, 2.5, 2.999, 3.001, 4.0, 30.0, 1e4, 1e8}) {
     const double angle = 2 * std::atan(tan_half_silhouette(r) / kappa(r, {false, true}));
@@ -193,8 +196,9 @@ TEST(RegionThree, FillsHalfTheSkyAtTheSingularity) {
   EXPECT_NEAR(2 * region_three_edge(1e-12), pi, 1e-5);
 }
 
-// The paper's tan^2(delta_III/2) < tan^2(mu/2) with cos(mu) = sqrt(r/2): its light has E < 0 up to the
-// edge.  By the quadratic (1 + s) T^2 = s - 1 - (2r/sqrt 27) T <= s - 1, where the text prints >=.
+// The paper's tan^2(delta_III/2) < tan^2(mu/2) with cos(mu) = sqrt(r/2): its light has E < 0 up to
+// the edge.  By the quadratic (1 + s) T^2 = s - 1 - (2r/sqrt 27) T <= s - 1, where the text prints
+// >=.
 TEST(RegionThree, LiesWhereTheEnergyIsNegative) {
   for (const double r : {1e-6, 0.01, 0.5, 1.0, 1.9, 1.999999}) {
     const double s = std::sqrt(2 / r), t = tan_half_region_three(r);

@@ -20,13 +20,14 @@ inline std::string name(const Case& c) {
   return "r - 2 = " + std::to_string(c.at.above_horizon) + (c.outgoing ? " outgoing" : " rain");
 }
 
-// Rays nearer to the axis than this (sines of half the angle) are left out; at r = 2 itself, where E = 0
-// lies on it, those nearer than the second.
+// Rays nearer to the axis than this (sines of half the angle) are left out; at r = 2 itself, where
+// E = 0 lies on it, those nearer than the second.
 struct NearAxis {
   double nearest = 0, nearest_at_horizon = 1e-8;
 };
 
-// Any angle in the frame of the table; logarithmically near the axis and the edges, down to `closest`.
+// Any angle in the frame of the table; logarithmically near the axis and the edges, down to
+// `closest`.
 class Rays {
  public:
   Rays(const Case& c, std::uint64_t seed, NearAxis axis = {}, double closest = 1e-12)

@@ -45,7 +45,8 @@ TEST_P(ReferenceRows, HaveTheRightOrigin) {
         << place(row);
 }
 
-// Beside the edge at r = 3 (1 +- 1e-6) the reference has lost digits itself (tests/reference/README.md).
+// Beside the edge at r = 3 (1 +- 1e-6) the reference has lost digits itself
+// (tests/reference/README.md).
 bool reference_is_rough(const ReferenceRay& row) {
   return std::abs(row.r - 3) < 2e-6 && !row.edge.empty() && std::abs(row.offset) < 9e-7;
 }

@@ -1,5 +1,5 @@
-// Images of points of the past singularity: where they stand, how large, and what happens where two of
-// them merge.
+// Images of points of the past singularity: where they stand, how large, and what happens where two
+// of them merge.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,8 +67,8 @@ TEST(WhiteHoleImages, MergeOnTheCausticWithABoundedAmplification) {
     };
     const double bounded = total(fold + 1e-3 * size, size);
     EXPECT_TRUE(std::isfinite(bounded));
-    // The mean over the strip of the source's width, of which a half lies beyond the fold and is dark:
-    // substituting phi = fold + t^2 makes the integrand smooth.
+    // The mean over the strip of the source's width, of which a half lies beyond the fold and is
+    // dark: substituting phi = fold + t^2 makes the integrand smooth.
     double mean = 0;
     const int steps = 1000;
     for (int k = 0; k < steps; ++k) {
