@@ -121,10 +121,6 @@ TraceMethod method_named(const std::string& name) {
   return TraceMethod::kTable;
 }
 
-const char* name_of(Origin origin) {
-  return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
-}
-
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
   std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");

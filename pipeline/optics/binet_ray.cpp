@@ -103,13 +103,13 @@ double part_to_zero(const Equation& equation, const State& y, double h) {
   return part;
 }
 
-RayEnd end_of(Form form, double energy) {
-  return form == Form::kRoot ? RayEnd::kPastSingularity : sky_of(energy);
+SkyRegion origin_of(Form form, double energy) {
+  return form == Form::kRoot ? SkyRegion::kIV : sky_of(energy);
 }
 
 // A radial ray has no azimuth to follow and no turning point: its direction says all.
 IntegratedRay radial_ray(const PhotonAtObserver& photon) {
-  return {photon.radial > 0 ? RayEnd::kPastSingularity : sky_of(photon.energy), 0, 0, 0};
+  return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0};
 }
 
 // c / 2 w^3: above 1 the ray is nearly radial.
@@ -151,7 +151,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance) {
     if (stepper->try_step(arc.equation, arc.y, psi, h) != odeint::success) continue;
     if (arc.y[0] <= 0) {
       psi = psi_before + part_to_zero<ErrorStepper>(arc.equation, before, psi - psi_before);
-      ray.end = end_of(arc.equation.form, photon.energy);
+      ray.origin = origin_of(arc.equation.form, photon.energy);
       ray.phi = phi + arc.equation.kappa * psi;
       ++ray.steps;
       return ray;

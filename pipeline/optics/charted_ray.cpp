@@ -127,20 +127,20 @@ void restore_null_condition(ChartedRay& ray) {
   ray.y[4] = std::copysign(speed, ray.y[4]);
 }
 
-RayEnd end_of(const ChartedRay& ray, const RayGoals& goals) {
-  if (ray.chart == Chart::kKruskal) return RayEnd::kUndecided;
+std::optional<SkyRegion> origin_of(const ChartedRay& ray, const RayGoals& goals) {
+  if (ray.chart == Chart::kKruskal) return std::nullopt;
   const double r = ray.y[1], rate = ray.y[4];
-  if (ray.region == Region::kIV && r <= goals.near && rate < 0) return RayEnd::kPastSingularity;
-  if (r < goals.far || rate <= 0) return RayEnd::kUndecided;
-  return ray.region == Region::kI ? RayEnd::kSkyOne : RayEnd::kSkyThree;
+  if (ray.region == Region::kIV && r <= goals.near && rate < 0) return SkyRegion::kIV;
+  if (r < goals.far || rate <= 0) return std::nullopt;
+  return ray.region == Region::kI ? SkyRegion::kI : SkyRegion::kIII;
 }
 
-double azimuth_beyond(const ChartedRay& ray, RayEnd end) {
+double azimuth_beyond(const ChartedRay& ray, SkyRegion origin) {
   const PhotonAtObserver k = photon_of(ray);
   const double l = k.angular_momentum, e = std::abs(k.energy);
   if (l == 0) return 0;
-  return end == RayEnd::kPastSingularity ? azimuth_to_singularity(e / l, k.r)
-                                         : azimuth_to_infinity(l / e, 1 / k.r);
+  return origin == SkyRegion::kIV ? azimuth_to_singularity(e / l, k.r)
+                                  : azimuth_to_infinity(l / e, 1 / k.r);
 }
 
 }  // namespace domefall

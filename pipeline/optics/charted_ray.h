@@ -39,11 +39,11 @@ bool change_chart(ChartedRay& ray);
 // vanish there.
 void restore_null_condition(ChartedRay& ray);
 
-// kUndecided while the ray is on its way.
-RayEnd end_of(const ChartedRay& ray, const RayGoals& goals);
+// Where the light of the ray started; nothing while the ray is on its way.
+std::optional<SkyRegion> origin_of(const ChartedRay& ray, const RayGoals& goals);
 
 // The azimuth swept from the goal on, by series in 1/r (b/r < 1e-3) or in sqrt(r); relative
 // truncation below 1e-13.
-double azimuth_beyond(const ChartedRay& ray, RayEnd end);
+double azimuth_beyond(const ChartedRay& ray, SkyRegion origin);
 
 }  // namespace domefall

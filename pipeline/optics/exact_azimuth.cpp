@@ -177,7 +177,7 @@ double edge_distance(const NullRay& ray, Critical edge) {
 double exact_azimuth(const NullRay& ray) {
   const RayInvariants k = invariants(ray);
   if (k.angular_momentum == 0) return 0;
-  const bool from_sky = origin_of(ray) != Origin::kPastSingularity;
+  const bool from_sky = origin_of(ray) != SkyRegion::kIV;
   if (k.angular_momentum < kRadial * std::abs(k.energy))
     return nearly_radial(k, ray.at.r, from_sky);
   const Cubic c = cubic_of(ray.at, k);
@@ -193,11 +193,11 @@ double smooth_over(const NullRay& ray) {
   const bool outside = ray.at.above_horizon > 0;
   const Critical own = ray.outgoing ? Critical::kSecond : Critical::kFirst;
   switch (origin_of(ray)) {
-    case Origin::kSkyOne:
+    case SkyRegion::kI:
       return edge_distance(ray, own);
-    case Origin::kSkyThree:
+    case SkyRegion::kIII:
       return edge_distance(ray, Critical::kSecond);
-    case Origin::kPastSingularity:
+    case SkyRegion::kIV:
       break;
   }
   if (outside)

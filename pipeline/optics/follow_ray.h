@@ -32,10 +32,9 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance) {
       equations = equations_of(ray);
       stepper.restart(equations);
     }
-    const RayEnd end = end_of(ray, goals);
-    if (end != RayEnd::kUndecided) {
-      result.end = end;
-      result.phi = ray.y[kAzimuth] + azimuth_beyond(ray, end);
+    if (const auto origin = origin_of(ray, goals)) {
+      result.origin = origin;
+      result.phi = ray.y[kAzimuth] + azimuth_beyond(ray, *origin);
       return result;
     }
     h = std::min(h, stepper.largest_step(equations, ray.y));

@@ -26,7 +26,9 @@
 // about.
 #pragma once
 
-#include "trajectories/observer_state.h"
+#include <optional>
+
+#include "trajectories/sky_region.h"
 
 namespace domefall {
 
@@ -48,12 +50,12 @@ struct PhotonAtObserver {
 
 enum class Integrator { kPaperRk4, kFullDopri5, kFullRkf78, kBinetDopri5, kBinetRkf78 };
 
-enum class RayEnd { kSkyOne, kSkyThree, kPastSingularity, kUndecided };
-
 struct IntegratedRay {
-  RayEnd end = RayEnd::kUndecided;  // until it has arrived, or whirls at the light circle for ever
-  double phi = 0;                   // swept azimuth, radians; NaN if undecided
-  long steps = 0;                   // attempted, rejected ones included
+  // Where the light started; nothing for a ray that has not arrived, or whirls at the light circle for
+  // ever.
+  std::optional<SkyRegion> origin;
+  double phi = 0;        // swept azimuth, radians; NaN if undecided
+  long steps = 0;        // attempted, rejected ones included
   long evaluations = 0;  // of the right-hand side; none for a radial ray of Binet's equation
 };
 

@@ -152,13 +152,12 @@ NullRay turned(const NullRay& ray, double angle) {
 
 double alpha_of(const NullRay& ray) { return 2 * std::atan2(ray.sin_half, ray.cos_half); }
 
-Origin origin_of(const NullRay& ray) {
+SkyRegion origin_of(const NullRay& ray) {
   const bool outside = ray.at.above_horizon > 0;
-  if (ray.outgoing)
-    return outside && ray.gap_second < 0 ? Origin::kSkyOne : Origin::kPastSingularity;
-  if (ray.gap_first > 0) return Origin::kSkyOne;
-  if (ray.at.above_horizon < 0 && ray.gap_second < 0) return Origin::kSkyThree;
-  return Origin::kPastSingularity;
+  if (ray.outgoing) return outside && ray.gap_second < 0 ? SkyRegion::kI : SkyRegion::kIV;
+  if (ray.gap_first > 0) return SkyRegion::kI;
+  if (ray.at.above_horizon < 0 && ray.gap_second < 0) return SkyRegion::kIII;
+  return SkyRegion::kIV;
 }
 
 bool circles_for_ever(const NullRay& ray) {

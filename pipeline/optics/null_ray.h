@@ -12,6 +12,7 @@
 #pragma once
 
 #include "pipeline/optics/radius.h"
+#include "trajectories/sky_region.h"
 
 namespace domefall {
 
@@ -21,12 +22,6 @@ namespace domefall {
 //   rain, r <= 2:     kFirst is the silhouette's edge, kSecond that of region III
 //   outgoing, r > 2:  kSecond is the silhouette's edge: sky I lies at smaller alpha
 enum class Critical { kFirst, kSecond };
-
-enum class Origin {
-  kSkyOne,
-  kSkyThree,
-  kPastSingularity,
-};
 
 struct NullRay {
   Radius at;                  // r > 0
@@ -73,7 +68,7 @@ double alpha_of(const NullRay& ray);
 double tan_half_critical(const Radius& at, Critical edge);
 
 // A ray exactly on an edge never arrives: it is counted to the past singularity.
-Origin origin_of(const NullRay& ray);
+SkyRegion origin_of(const NullRay& ray);
 
 // Exactly critical, and on its way past the light circle: it never arrived from anywhere.
 bool circles_for_ever(const NullRay& ray);

@@ -19,10 +19,10 @@ IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance)
 IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance);
 
 inline IntegratedRay undecided_ray() {
-  return {RayEnd::kUndecided, std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  return {std::nullopt, std::numeric_limits<double>::quiet_NaN(), 0, 0};
 }
 
 // The sky that an outgoing ray (backward in time) ends in.
-inline RayEnd sky_of(double energy) { return energy > 0 ? RayEnd::kSkyOne : RayEnd::kSkyThree; }
+inline SkyRegion sky_of(double energy) { return energy > 0 ? SkyRegion::kI : SkyRegion::kIII; }
 
 }  // namespace domefall

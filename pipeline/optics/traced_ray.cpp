@@ -65,7 +65,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 void set_amplification(TracedRay& ray, double sine) {
   const double slope = std::abs(ray.slope);
   // At the far end of a sky both sines vanish, and their ratio is 1/slope.
-  const bool far_end = ray.origin != Origin::kPastSingularity && ray.phi < 1e-6;
+  const bool far_end = ray.origin != SkyRegion::kIV && ray.phi < 1e-6;
   ray.amplification = far_end ? 1 / (slope * slope) : sine / (std::abs(std::sin(ray.phi)) * slope);
 }
 
@@ -74,7 +74,7 @@ struct Sweep {
 };
 
 // The optics of one radius, with only the tables that were asked for.
-const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, Origin origin) {
+const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, SkyRegion origin) {
   thread_local HoleOptics kept;
   const Tetrad tetrad = outgoing ? Tetrad::kOutgoing : Tetrad::kRain;
   const bool same = kept.at.r == at.r && kept.at.above_horizon == at.above_horizon &&
@@ -82,19 +82,19 @@ const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, Origin or
                     kept.table_bits == bits;
   if (!same) kept = make_hole_optics(at, tetrad, {false, false, false});
   kept.table_bits = bits;
-  const WantedSkies wanted{origin == Origin::kSkyOne, origin == Origin::kSkyThree,
-                           origin == Origin::kPastSingularity};
+  WantedSkies wanted{};
+  for (const SkyRegion sky : kEverySky) wanted.sky[sky] = sky == origin;
   add_tables(kept, wanted);
   return kept;
 }
 
-Sweep by_table(const NullRay& ray, Origin origin, int bits) {
+Sweep by_table(const NullRay& ray, SkyRegion origin, int bits) {
   const HoleOptics& optics = optics_at(ray.at, ray.outgoing, bits, origin);
-  if (origin == Origin::kPastSingularity) {
+  if (origin == SkyRegion::kIV) {
     const WhiteHoleTable::Place place = optics.white_hole->place_of(ray);
     return {optics.white_hole->azimuth(place), optics.white_hole->slope(place)};
   }
-  const SkyTable& table = origin == Origin::kSkyOne ? *optics.home_sky : *optics.far_sky;
+  const SkyTable& table = origin == SkyRegion::kI ? *optics.home_sky : *optics.far_sky;
   const double x = table.distance_of(ray);
   return {table.azimuth(x), -table.slope(x) * table.edge().sign};
 }
@@ -168,11 +168,10 @@ TracedRay integrate_request(const RayRequest& q, Integrator integrator,
   const PhotonAtObserver photon = photon_at(q.observer, q.at, delta);
   const IntegratedRay end = integrate_ray(photon, integrator, options.tolerance);
   TracedRay traced{
-      delta, Origin::kPastSingularity, end.end != RayEnd::kUndecided, end.phi, kNone, kNone, kNone};
+      delta, end.origin.value_or(SkyRegion::kIV), end.origin.has_value(), end.phi, kNone, kNone,
+      kNone};
   if (!traced.decided) return traced;
-  if (end.end == RayEnd::kSkyOne) traced.origin = Origin::kSkyOne;
-  if (end.end == RayEnd::kSkyThree) traced.origin = Origin::kSkyThree;
-  if (traced.origin != Origin::kPastSingularity) traced.one_plus_z = std::abs(photon.energy);
+  if (traced.origin != SkyRegion::kIV) traced.one_plus_z = std::abs(photon.energy);
   if (!options.slope) return traced;
   traced.slope =
       integrated_slope(q, ray, delta, at_observer.doppler, integrator, options.tolerance);
@@ -203,7 +202,7 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
   const Seen at_observer = seen(ray, view);
   const double delta = q.edge ? at_observer.delta : static_cast<double>(q.delta);
   TracedRay traced{delta, origin_of(ray), true, 0, kNone, 0, 0};
-  const bool from_sky = traced.origin != Origin::kPastSingularity;
+  const bool from_sky = traced.origin != SkyRegion::kIV;
   if (from_sky) traced.one_plus_z = one_plus_z(ray) / at_observer.doppler;
   const double sign = view.from_behind ? -1 : 1;
   const bool radial = ray.sin_half == 0 || ray.cos_half == 0;

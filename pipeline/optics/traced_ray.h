@@ -69,7 +69,7 @@ double edge_delta(TraceObserver observer, const Radius& at, Edge edge);
 
 struct TracedRay {
   double delta;
-  Origin origin;
+  SkyRegion origin;
   bool decided;          // false: an integrator's steps ran out; origin and the rest mean nothing
   double phi;            // swept azimuth, radians; infinite for a ray that circles for ever
   double one_plus_z;     // emitted / observed frequency; NaN for rays from the past singularity

@@ -12,7 +12,7 @@
 namespace domefall {
 
 struct FollowedRay {
-  std::optional<Origin> origin;  // none: undecided
+  std::optional<SkyRegion> origin;  // none: undecided
   double phi;
 };
 

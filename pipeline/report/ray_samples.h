@@ -26,7 +26,7 @@ std::span<const RayClass> ray_classes();
 
 struct SampleRay {
   RayRequest request;
-  Origin origin;
+  SkyRegion origin;
   double phi, slope;  // the truth, rounded to double
 };
 

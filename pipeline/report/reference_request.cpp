@@ -38,16 +38,16 @@ ReferenceRequest reference_request(const RayRequest& q) {
   return exact;
 }
 
-Origin origin_from(ReferenceOrigin origin) {
+SkyRegion origin_from(ReferenceOrigin origin) {
   switch (origin) {
     case ReferenceOrigin::kSkyOne:
-      return Origin::kSkyOne;
+      return SkyRegion::kI;
     case ReferenceOrigin::kSkyThree:
-      return Origin::kSkyThree;
+      return SkyRegion::kIII;
     case ReferenceOrigin::kPastSingularity:
       break;
   }
-  return Origin::kPastSingularity;
+  return SkyRegion::kIV;
 }
 
 }  // namespace domefall

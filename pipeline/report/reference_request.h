@@ -10,6 +10,6 @@ namespace domefall {
 // light circle where that is finer.
 ReferenceRequest reference_request(const RayRequest& q);
 
-Origin origin_from(ReferenceOrigin origin);
+SkyRegion origin_from(ReferenceOrigin origin);
 
 }  // namespace domefall

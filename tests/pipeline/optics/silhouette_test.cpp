@@ -176,8 +176,8 @@ TEST(Silhouette, PartsSkyOneFromTheSingularityAtEveryRadius) {
       // Towards the hole by half the way to region III at most.
       const double apart = r < 2 ? silhouette_edge(r) - region_three_edge(r) : silhouette_edge(r);
       const double step = std::min(offset * silhouette_edge(r), apart / 2);
-      EXPECT_EQ(origin_of(ray_off_edge(r, Critical::kFirst, step)), Origin::kSkyOne) << r;
-      EXPECT_EQ(origin_of(ray_off_edge(r, Critical::kFirst, -step)), Origin::kPastSingularity) << r;
+      EXPECT_EQ(origin_of(ray_off_edge(r, Critical::kFirst, step)), SkyRegion::kI) << r;
+      EXPECT_EQ(origin_of(ray_off_edge(r, Critical::kFirst, -step)), SkyRegion::kIV) << r;
     }
 }
 

@@ -38,7 +38,7 @@ class Rays {
       const NullRay ray = any();
       if (std::min(ray.sin_half, ray.cos_half) <= axis_.nearest || circles_for_ever(ray)) continue;
       if (c_.at.above_horizon == 0 && ray.sin_half < axis_.nearest_at_horizon) continue;
-      if (origin_of(ray) == Origin::kPastSingularity) return ray;
+      if (origin_of(ray) == SkyRegion::kIV) return ray;
     }
   }
 

@@ -28,10 +28,6 @@ RayRequest request_of(const ReferenceRay& row) {
   return q;
 }
 
-const char* name(Origin origin) {
-  return origin == Origin::kSkyOne ? "I" : origin == Origin::kSkyThree ? "III" : "IV";
-}
-
 std::string place(const ReferenceRay& row) {
   return row.observer + " r=" + std::to_string(row.r) + " delta=" + std::to_string(row.delta) +
          " " + row.edge + " " + std::to_string(row.offset);

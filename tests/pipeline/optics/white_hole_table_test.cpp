@@ -126,7 +126,7 @@ TEST(WhiteHoleTable, BranchesAreMonotone) {
     // Along alpha: one direction outside, one change of it at E = 0 otherwise.
     int changes = 0, before = 0;
     for (const NullRay& ray : fan(c)) {
-      if (origin_of(ray) != Origin::kPastSingularity || circles_for_ever(ray)) continue;
+      if (origin_of(ray) != SkyRegion::kIV || circles_for_ever(ray)) continue;
       const double slope = table.slope(table.place_of(ray));
       ASSERT_TRUE(std::isfinite(slope)) << name(c) << " alpha " << alpha_of(ray);
       const int sign = slope > 0 ? 1 : -1;
@@ -142,7 +142,7 @@ TEST(WhiteHoleTable, GoesOnByItsLawsBelowItsRange) {
     if (std::abs(c.at.above_horizon) < 1e-12) continue;  // the edges themselves are below 1e-12
     const WhiteHoleTable table(c.at, c.outgoing);
     const auto check = [&](const NullRay& ray) {
-      if (origin_of(ray) != Origin::kPastSingularity) return;
+      if (origin_of(ray) != SkyRegion::kIV) return;
       EXPECT_NEAR(table.azimuth(table.place_of(ray)), exact_azimuth(ray), 1e-8) << name(c);
     };
     for (const double tiny : {1e-13, 1e-16, 1e-20})

@@ -22,7 +22,7 @@ TEST(RaySamples, AreTheSameEveryTime) {
 TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
   for (const RayClass& of : ray_classes()) {
     SCOPED_TRACE(std::string(of.region) + " " + of.name);
-    std::set<Origin> origins;
+    std::set<SkyRegion> origins;
     for (const RayGroup& group : sample_rays(of, 6, 8))
       for (const SampleRay& ray : group) {
         EXPECT_GE(ray.request.at.r, of.r_least);
@@ -78,7 +78,7 @@ TEST(RayErrors, SeeAShiftedTruthAndAWrongOrigin) {
   for (SampleRay& ray : groups[0]) ray.phi += 1e-3;
   const RayErrorRow shifted = measure_class(of, groups, exact, exact.default_setting, 0);
   EXPECT_GT(shifted.phi_worst, 1e-5);
-  for (SampleRay& ray : groups[0]) ray.origin = Origin::kSkyThree;
+  for (SampleRay& ray : groups[0]) ray.origin = SkyRegion::kIII;
   EXPECT_EQ(measure_class(of, groups, exact, exact.default_setting, 0).undecided, 8);
 }
 
