@@ -38,24 +38,20 @@ constexpr const char* kRaysMeasured =
     "## Rays\n\n"
     "Random rays (fixed seed) of all observers, each against the same ray in 100-digit arithmetic\n"
     "(`pipeline/report/reference/reference_ray.h`). *ordinary*: r from 0.1 to 100 M, any angle; "
-    "*edge*: "
-    "1e-12 "
-    "to\n1e-3 radians beside an edge between skies; *deep*: r from 1e-6 to 0.1 M; *far*: r from "
-    "1e3 "
-    "to 1e8 M.\nThe error of the azimuth φ is relative to max(1, φ); that on the sky is the same "
-    "error as an angle at\nthe observer, |error of φ|/|dφ/dδ|, in radians. Undecided: no azimuth, "
-    "or "
-    "another origin than the\ntrue one; those are not in the errors.\n\n"
+    "*edge*: 1e-12\nto 1e-3 radians beside an edge between skies; *deep*: r from 1e-6 to 0.1 M; "
+    "*far*: r from 1e3 to 1e8 M.\nThe error of the azimuth φ is relative to max(1, φ). The error "
+    "on the sky is the same error as an angle at\nthe observer, |error of φ|/|dφ/dδ|, in radians. "
+    "A ray is undecided if a method finds no azimuth, or another\norigin than the true one; such "
+    "rays are not in the errors.\n\n"
     "The integrators start from E, L and k^r in double precision and find where a ray ends by "
-    "getting there:\nbeside an edge their tolerance must be finer than the ray's distance from it, "
-    "or they lose the ray.\n"
-    "The times of *table* and *exact* are for azimuth and slope, those of the integrators for the\n"
-    "azimuth alone. The time of *table* is of one ray by itself, with all that leads to the "
-    "look-up; a table, once built, serves\nall rays of its radius, and frames look up 128 "
-    "directions at a time.\n\n"
-    "*rk4* is the paper's own way, adaptive in Schwarzschild and Kruskal coordinates; *dopri5* and "
-    "*rkf78* take\nthe same equations by Dormand-Prince 5(4) and Fehlberg 7(8), *binet-...* the "
-    "orbit's equation by the same two.\n\n";
+    "getting there.\nBeside an edge their tolerance must be finer than the ray's distance from it, "
+    "or they lose the ray.\nThe times of *table* and *exact* are for azimuth and slope, those of "
+    "the integrators for the azimuth alone.\nThe time of *table* is of one ray by itself, with all "
+    "that leads to the look-up. A table, once built, serves all\nrays of its radius, and frames "
+    "trace 128 view rays at a time.\n\n"
+    "*rk4* is the paper's own method, adaptive in Schwarzschild and Kruskal coordinates. *dopri5* "
+    "and *rkf78*\nintegrate the same equations by Dormand-Prince 5(4) and Fehlberg 7(8), "
+    "*binet-...* the orbit's equation by the\nsame two.\n\n";
 
 double worst_of(const std::vector<RayErrorRow>& rows, const std::string& method,
                 double RayErrorRow::*value) {
@@ -103,8 +99,9 @@ std::string class_table(const std::vector<RayErrorRow>& rows, const RayClass& of
   return table + "\n";
 }
 
-// The quickest way to a displacement on the sky, for 99 of 100 rays with none undecided; of each
-// method the coarsest setting that will do, which is the first.
+// The quickest method whose displacement on the sky is at most `wanted` for 99 of 100 rays, with
+// none undecided.  Each method competes with its coarsest setting that will do, which is the first
+// of its rows.
 std::string quickest(const std::vector<RayErrorRow>& rows, const RayClass& of, double wanted) {
   const RayErrorRow* best = nullptr;
   std::string seen;
@@ -135,18 +132,19 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   return table + "\n";
 }
 
-std::string looks(const std::vector<ViewRaySpeedRow>& rows) {
+std::string view_rays(const std::vector<ViewRaySpeedRow>& rows) {
   std::string page =
-      "In a frame, where 128 looks go together, one look costs, from the pixel's direction to the "
-      "place on the\nsky, aberration, redshift and footprint included, on one thread:\n\n"
-      "| observer | ns per look |\n|---|---|\n";
+      "In a frame, where 128 view rays are traced together, one of them costs so much on one "
+      "thread, from the pixel's\ndirection to the place on the sky, aberration, redshift and "
+      "footprint included:\n\n"
+      "| observer | ns per view ray |\n|---|---|\n";
   for (const ViewRaySpeedRow& row : rows)
     page += fmt::format("| {} | {:.1f} |\n", row.from, row.ns);
   return page + "\n";
 }
 
 std::string rays(const Report& report) {
-  std::string page = kRaysMeasured + default_of_rays(report.rays) + looks(report.view_rays) +
+  std::string page = kRaysMeasured + default_of_rays(report.rays) + view_rays(report.view_rays) +
                      quickest_table(report.rays);
   for (const RayClass& of : ray_classes()) {
     page += fmt::format(
@@ -167,8 +165,8 @@ const FrameErrorRow* row_of(const std::vector<FrameErrorRow>& rows, const std::s
   return nullptr;
 }
 
-// How another setting compares with the default, by geometric means over the scenes: its error and
-// its time in units of the default's.
+// Compares another setting with the default.  Its error and its time are given in units of the
+// default's, as geometric means over the scenes.
 std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& other) {
   double log_rms = 0, log_time = 0;
   int scenes = 0;
@@ -186,10 +184,9 @@ std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& 
 
 std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
   std::string text =
-      "\n**Default: 4 x 4 looks in difficult pixels**, those that an edge between skies runs "
-      "through or "
-      "whose\nfootprint on the sky is long and narrow. Against it, by geometric means over the "
-      "scenes:\n\n";
+      "\n**Default: 4 x 4 view rays in difficult pixels**, those that an edge between skies runs "
+      "through or\nwhose footprint on the sky is long and narrow. Against it, by geometric means "
+      "over the scenes:\n\n";
   std::set<std::string> seen;
   for (const FrameErrorRow& row : rows)
     if (row.setting.find("default") == std::string::npos && seen.insert(row.setting).second)
@@ -199,15 +196,14 @@ std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
 
 std::string frames(const std::vector<FrameErrorRow>& rows) {
   std::string page =
-      "## Frames\n\nWhole frames with each setting of anti-aliasing against frames of 256 looks in "
-      "every pixel, graded\nas they go to the projector, values from 0 to 1 (one step of 8 bits is "
-      "0.0039). Time is CPU time of\nrendering, in seconds and in copies of the frame's own "
-      "memory. Where the view of a map is smooth, most looks\nof the default are interpolated "
-      "between those of a coarse grid; *1 look*, *none interpolated* and *everywhere*\nlook at "
-      "every "
-      "pixel.\n\n| scene | pixels | setting | rms | worst | s | copies "
-      "|\n|---|---|---|---|---|---|"
-      "---|\n";
+      "## Frames\n\nWhole frames with each setting of anti-aliasing against frames of 256 view "
+      "rays "
+      "in every pixel, graded\nas they go to the projector, values from 0 to 1 (one step of 8 bits "
+      "is 0.0039). Time is CPU time of\nrendering, in seconds and in copies of the frame's own "
+      "memory. Where the view of a map is smooth, the default\ninterpolates most view rays between "
+      "those of a coarse grid; *1 view ray*, *none interpolated* and *everywhere*\ntrace them in "
+      "every pixel.\n\n"
+      "| scene | pixels | setting | rms | worst | s | copies |\n|---|---|---|---|---|---|---|\n";
   for (const FrameErrorRow& r : rows)
     page += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", r.scene, r.size, r.setting,
                         error(r.rms), amount(r.worst), amount(r.seconds), amount(r.copies));
@@ -231,11 +227,11 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
                         error(r.phi_error), error(r.energy_drift), error(r.angular_momentum_drift),
                         error(r.norm_drift), r.seconds);
   page +=
-      "\n**Default: the closed form, or the quadratures**, which are the most "
-      "exact, and make any frame\nwithout the ones before it. What they err by at the end of a "
-      "fall is the rounding of a proper time of 77 M,\nof which 1e-5 M are left (with angular "
-      "momentum 2e-9 M). An integrated circle with an "
-      "error of about 1 in r has left the circle.\n\n";
+      "\n**Default: the closed form, or the quadratures.** They are the most exact, and make any "
+      "frame without the\nones before it. Their error at the end of a fall is the rounding of a "
+      "proper time of 77 M, of which 1e-5 M are\nleft (with angular momentum 2e-9 M). An "
+      "integrated "
+      "circle with an error of about 1 in r has left the circle.\n\n";
   for (const NamedPlot& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
       page += fmt::format("![error against time](plots/{}.svg)\n", plot.name);

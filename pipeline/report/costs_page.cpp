@@ -23,7 +23,7 @@ std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
   return scenes;
 }
 
-// Each row with what each further star or pixel has cost since the row before it.
+// The last column is the cost of each further star or pixel since the row before.
 std::string cost_table(const std::vector<FrameCostRow>& rows, Counted counted, const char* unit) {
   std::string table = fmt::format(
       "| scene | dome | stars | ms | copies | ns per pixel | ns per further {} |\n"
@@ -82,7 +82,7 @@ std::string pixels(const std::vector<FrameCostRow>& rows) {
 
 constexpr double kPixel4k = std::numbers::pi / 4096;
 
-// The quickest of rk4's settings by which 99 of 100 rays are right to a hundredth of a pixel.
+// The quickest row of rk4 in which 99 of 100 rays are right to a hundredth of a pixel.
 const RayErrorRow* quickest_rk4(const std::vector<RayErrorRow>& rows) {
   constexpr double kPart = 0.01;
   const RayErrorRow* best = nullptr;
@@ -96,7 +96,7 @@ const RayErrorRow* quickest_rk4(const std::vector<RayErrorRow>& rows) {
 
 std::string against_rk4(const Report& report) {
   const RayErrorRow* rk4 = quickest_rk4(report.rays);
-  const FrameCostRow* sky = nullptr;  // of the largest dome
+  const FrameCostRow* sky = nullptr;  // the row of the largest dome without stars
   for (const FrameCostRow& row : report.costs.pixels)
     if (row.stars == 0) sky = &row;
   if (rk4 == nullptr || sky == nullptr) return "";
@@ -114,8 +114,9 @@ std::string against_rk4(const Report& report) {
 std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
   constexpr double kWalkNs = 100;
   std::string text = fmt::format(
-      "* **A table in two dimensions** that a pixel walks through in {} ns, taken as the mark. A "
-      "look, from the pixel's\n  direction to place, redshift and footprint on the sky, takes",
+      "* **A table in two dimensions** that a pixel walks through in {} ns, taken as the measure. "
+      "A view ray, from the\n  pixel's direction to place, redshift and footprint on the sky, "
+      "takes",
       amount(kWalkNs));
   for (const ViewRaySpeedRow& row : rows)
     text += fmt::format("{} {:.1f} ns ({}: {} times less)", &row == rows.data() ? "" : ",", row.ns,
@@ -123,7 +124,7 @@ std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
   return text + ".\n";
 }
 
-// The errors of the default over those of 2 x 2 everywhere, of all scenes that have both.
+// Compares the default with 2 x 2 view rays everywhere, over all scenes that have both.
 std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
   int scenes = 0, good = 0;
   double log_error = 0, log_time = 0;
@@ -142,8 +143,9 @@ std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
     }
   if (scenes == 0) return "";
   return fmt::format(
-      "* **Twice the resolution, then smoothed**, as the paper does: 2 x 2 looks everywhere. Over "
-      "the scenes of\n  [frames.csv](frames.csv) the default has {:.2f} times its rms error in "
+      "* **Twice the resolution, then smoothed**, as the paper does: 2 x 2 view rays everywhere. "
+      "Over the scenes of\n  [frames.csv](frames.csv) the default has {:.2f} times its rms error "
+      "in "
       "{:.2f} times its time (geometric means), and no larger an error in {} of {} scenes{}.\n",
       std::exp(log_error / scenes), std::exp(log_time / scenes), good, scenes,
       worse.empty() ? "" : "; the others, as times its error: " + worse);
@@ -155,7 +157,8 @@ std::string benchmark(const std::vector<FrameErrorRow>& rows) {
       "twice larger resolution and then smoothed needed\nin the first versions of our code needed "
       "one minute of single CPU time\" ([Riazuelo] sec. sec_data), with the\n250,000 stars of the "
       "Henry Draper catalogue. Here, on one thread, files read before; the errors are of the sky "
-      "without\nits stars against 256 looks in every pixel:\n\n| scene | pixels | setting | rms | "
+      "without\nits stars against 256 view rays in every pixel:\n\n| scene | pixels | setting | "
+      "rms | "
       "worst | ms | copies |\n|---|---|---|---|---|---|---|\n";
   for (const FrameErrorRow& r : rows)
     text += fmt::format("| {0} | {1} x {1} | {2} | {3:.1e} | {4} | {5} | {6} |\n", r.scene, r.size,

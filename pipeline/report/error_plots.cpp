@@ -7,13 +7,13 @@
 namespace domefall {
 namespace {
 
-// What has no error at all is drawn here: a logarithm has no zero.
+// An error of 0 is drawn at this value, since a logarithmic axis has no 0.
 constexpr double kFloor = 1e-18;
 double drawn(double error) { return std::max(error, kFloor); }
 
-constexpr double kMicro = 1e-3;  // ns to us
+constexpr double kMicro = 1e-3;  // microseconds in a nanosecond
 
-// Adds the point to the curve of that name, made at its first point.
+// Adds the point to the curve of that name, which its first point creates.
 void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
   auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
                             [&](const Curve& c) { return c.name == name; });
@@ -45,8 +45,9 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
   return plot;
 }
 
-// Looking often everywhere is another way than looking often where it matters: a curve of its own
-// in the scene's colour.  So is interpolating nothing, which has one setting and is a point.
+// Supersampling every pixel is another method than supersampling the difficult ones, so it has a
+// dashed curve of its own in the scene's colour.  So does interpolating nothing, whose one setting
+// is a point.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
   Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: in every pixel)",
@@ -55,9 +56,9 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
   Plot everywhere, exact;
   for (const FrameErrorRow& row : rows) {
     const auto says = [&](const char* part) { return row.setting.find(part) != std::string::npos; };
-    Plot& its = says("everywhere") || row.setting == "1 look" ? everywhere
-                : says("none interpolated")                   ? exact
-                                                              : plot;
+    Plot& its = says("everywhere") || row.setting == "1 view ray" ? everywhere
+                : says("none interpolated")                       ? exact
+                                                                  : plot;
     add_point(its, row.scene, {row.copies, row.*error});
   }
   for (Curve& curve : everywhere.curves) curve.style = Curve::Style::kDashed;

@@ -74,7 +74,8 @@ ExtremeResult pixel_on_the_axis() {
       const ViewRay ray = ViewTracer(state, optics).trace({axis});
       unknown += !std::isfinite(ray.sky_direction.length()) || !std::isfinite(ray.radial_scale);
     }
-  ExtremeResult result = frames.result("On the axis a look shows the point behind the observer");
+  ExtremeResult result =
+      frames.result("On the axis a view ray shows the point behind the observer");
   result.worst += unknown;
   return result;
 }
@@ -115,8 +116,8 @@ std::vector<ExtremeCase> extreme_frames() {
       {"FramesOfTheWhiteHole", "IV from r = 1e-6 to 2; T_IV and T_II next to r = 2", bad, 0,
        white_hole_frames},
       {"PixelOnTheAxis", "a pixel exactly on the axis of the hole", bad, 0, pixel_on_the_axis},
-      {"PoleOfTheSky", "the poles of the sky in the middle of the picture, to 1 µrad across", bad,
-       0, pole_of_the_sky},
+      {"PoleOfTheSky", "the poles of the sky in the middle of the frame, to 1 µrad across", bad, 0,
+       pole_of_the_sky},
   };
 }
 

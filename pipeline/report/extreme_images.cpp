@@ -58,11 +58,11 @@ ExtremeResult seventh_ghost() {
       worst = std::max(worst, std::abs(exact_azimuth(ray) - phi));
       nearest = alpha_of(ray) - table.edge_angle();
     }
-  return {worst,
-          fmt::format(
-              "The seventh ghost stands {:.1e} rad from the edge, {:.2g} pixels of a 1k picture "
-              "160 mas wide",
-              nearest, nearest / (160e-3 / 3600 * pi / 180 / 1024))};
+  return {
+      worst,
+      fmt::format("The seventh ghost stands {:.1e} rad from the edge, {:.2g} pixels of a 1k frame "
+                  "160 mas wide",
+                  nearest, nearest / (160e-3 / 3600 * pi / 180 / 1024))};
 }
 
 }  // namespace

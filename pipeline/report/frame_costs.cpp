@@ -24,11 +24,11 @@ enum class Background { kBlack, kMilkyWay };
 
 struct Sizes {
   std::vector<double> stars;
-  int dome;                // for the rows of stars
-  std::vector<int> domes;  // for those of pixels
-  double stars_of_domes;   // Hipparcos'
-  int picture;             // pixels along an edge of the benchmark's
-  double stars_of_picture;
+  int dome;                // for the rows against stars
+  std::vector<int> domes;  // for the rows against pixels
+  double stars_of_domes;   // as many as Hipparcos has
+  int benchmark;           // pixels along an edge of the benchmark's frame
+  double benchmark_stars;
   Repeats repeats;
 };
 
@@ -43,7 +43,7 @@ Sizes sizes(bool quick) {
           {9, 4}};
 }
 
-// Shows of stars out of one catalogue, in a folder of their own.
+// Shows with the brightest stars of one catalogue, in a folder of their own.
 class Shows {
  public:
   explicit Shows(std::size_t most_stars) {
@@ -67,7 +67,8 @@ class Shows {
     return read;
   }
 
-  // How many stars such a show has: of two with the same float for a magnitude, both or neither.
+  // The number of stars that such a show has.  Of two stars whose magnitudes are the same float, a
+  // show has both or neither.
   double count(double stars) const {
     if (stars <= 0) return 0;
     return static_cast<double>(
@@ -98,7 +99,7 @@ double pixels_inside(const Projection& projection) {
   return count;
 }
 
-// Without its stars; what a renderer has read is kept for both.
+// The same frame without its stars.  A renderer keeps what it has read for both frames.
 FrameState starless(FrameState state) {
   state.settings.sky[SkyRegion::kI].star_gain = 0;
   return state;
@@ -153,20 +154,20 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
       {{"4 x 4 in difficult pixels (default)", {}},
        {"2 x 2 everywhere", {2, true}},
        {"4 x 4 everywhere", {4, true}}}};
-  const Projection picture = Stereographic{sizes.picture, sizes.picture, kFov};
+  const Projection flat = Stereographic{sizes.benchmark, sizes.benchmark, kFov};
   const Show show =
-      shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.stars_of_picture, picture);
+      shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.benchmark_stars, flat);
   const FrameState whole = frame_state(show, 0), sky = starless(whole);
   const Grader grader(show.grade);
   const std::string scene = fmt::format("flat picture at 7 M, Milky Way, {:.0f} stars",
-                                        shows.count(sizes.stars_of_picture));
+                                        shows.count(sizes.benchmark_stars));
   const GradedFrame truth = grader.grade(Renderer(show, 0, kReferenceAntiAliasing).render(sky));
   std::vector<FrameErrorRow> rows;
   for (const auto& [name, setting] : kSettings) {
     Renderer renderer(show, kThreads, setting);
     const TimedFrame timed = time_frame(renderer, whole, sizes.repeats);
-    const FrameDifference error = difference(grader.grade(renderer.render(sky)), truth, picture);
-    rows.push_back({scene, name, sizes.picture, error.rms, error.worst, timed.seconds,
+    const FrameDifference error = difference(grader.grade(renderer.render(sky)), truth, flat);
+    rows.push_back({scene, name, sizes.benchmark, error.rms, error.worst, timed.seconds,
                     timed.seconds / copy_seconds(timed.frame)});
   }
   return rows;
@@ -176,7 +177,7 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
 
 FrameCosts measure_frame_costs(bool quick) {
   const Sizes all = sizes(quick);
-  const double most = std::max({all.stars.back(), all.stars_of_domes, all.stars_of_picture});
+  const double most = std::max({all.stars.back(), all.stars_of_domes, all.benchmark_stars});
   const Shows shows(static_cast<std::size_t>(most));
   return {against_stars(shows, all), against_pixels(shows, all), paper_benchmark(shows, all)};
 }

@@ -17,8 +17,8 @@ struct View {
   const char* name;
   Trajectory trajectory;
   Attitude attitude;
-  bool grid;  // else the Milky Way; on both skies
-  bool dome;  // else a flat picture that the silhouette at 30 M fills
+  bool grid;  // whether both skies show the grid; if not, the Milky Way
+  bool dome;  // whether it is a dome; if not, the silhouette at 30 M fills a flat frame
 };
 
 std::vector<View> views(bool quick) {
@@ -42,7 +42,7 @@ struct Setting {
 };
 
 std::vector<Setting> settings(bool quick) {
-  std::vector<Setting> all{{"1 look", {1, false, true}},
+  std::vector<Setting> all{{"1 view ray", {1, false, true}},
                            {"2 x 2 in difficult pixels", {2, false}},
                            {"4 x 4 in difficult pixels (default)", {}},
                            {"4 x 4 in difficult pixels, none interpolated", {4, false, true}},

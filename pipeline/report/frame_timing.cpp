@@ -9,9 +9,9 @@
 namespace domefall {
 namespace {
 
-constexpr double kWhite = 65535;  // of graded frames
+constexpr double kWhite = 65535;  // in graded frames
 
-// Process time, all threads.  It wraps after 71 minutes where clock_t has 32 bits.
+// CPU time of all threads.  It wraps after 71 minutes where clock_t has 32 bits.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -35,12 +35,14 @@ TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads,
 }
 
 double copy_seconds(const HalfFrame& frame) {
-  // A small frame's copy is shorter than a tick, a large one's row of copies would take seconds.
+  // One copy of a small frame is shorter than a tick of the clock.  64 copies of a large one would
+  // take seconds.
   constexpr std::size_t kRows = 7, kMostCopies = 64, kBytesOfRow = std::size_t{1} << 28;
   const std::size_t bytes = frame.pixels.size() * sizeof(Imath::half);
   const std::size_t copies = std::clamp<std::size_t>(kBytesOfRow / bytes, 1, kMostCopies);
   HalfFrame copy(frame.width, frame.height);
-  [[maybe_unused]] volatile float seen = 0;  // what is read from a copy must have been written
+  [[maybe_unused]] volatile float seen =
+      0;  // reading a value keeps the copy from being optimised away
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t row = 0; row < kRows; ++row) {
     const double start = cpu_seconds();

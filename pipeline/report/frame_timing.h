@@ -6,10 +6,10 @@
 
 namespace domefall {
 
-// How long to go on rendering a frame for its least time: the rest is a cold cache, a busy
-// neighbour or, at the first rendering, the reading of files.  At least two renderings unless
-// `most` is 1, at most that many, and none begun when all but the first have taken so much CPU
-// time.
+// How often a frame is rendered to find its least time.  What exceeds the least is a cold cache, a
+// busy neighbour or, in the first rendering, the reading of files.  There are at most `most`
+// renderings, and at least two of them unless `most` is 1.  None is begun once all but the first
+// have taken `enough_s` seconds of CPU time.
 struct Repeats {
   int most = 7;
   double enough_s = 1.5;
@@ -20,17 +20,17 @@ struct TimedFrame {
   double seconds;  // CPU, all threads together, of the quickest rendering
 };
 
-// Renders the state again and again into the same memory, as a run's frames go.
+// Renders the state again and again into the same memory, as a run does with its frames.
 TimedFrame time_frame(Renderer& renderer, const FrameState& state, Repeats repeats);
 
-// The same for the show's frame 0 by a renderer of its own.
+// Does the same with the show's frame 0, by a renderer of its own.
 TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads, Repeats repeats);
 
-// CPU seconds of copying the frame's half floats, by the quickest of several rows of copies.
+// CPU seconds of copying the frame's half floats, by the quickest of several series of copies.
 double copy_seconds(const HalfFrame& frame);
 
-// Root of the mean square and largest difference, of all pixels inside the picture and their three
-// values, white being 1.
+// The root of the mean square and the largest of the differences, over the three values of every
+// pixel that the projection shows.  White is 1.
 struct FrameDifference {
   double rms, worst;
 };

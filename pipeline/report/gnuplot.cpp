@@ -48,7 +48,7 @@ Outcome gnuplot(const ScratchFolder& folder, const std::string& argument) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::runtime_error("gnuplot was lost");
-  constexpr int kNotFound = 127;  // where the child finds out
+  constexpr int kNotFound = 127;  // the status where it is the child that finds no program
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound) throw InputError(kMissing);
   return {WIFEXITED(status) && WEXITSTATUS(status) == 0, contents(out), contents(said)};
 }

@@ -1,16 +1,17 @@
-// gnuplot as a program of its own: a script goes in, what it draws comes out.
+// Runs gnuplot as a program of its own: a script goes in, and the drawing comes out.
 #pragma once
 
 #include <string>
 
 namespace domefall {
 
-// "gnuplot 5.4 patchlevel 4".  Throws InputError if there is no gnuplot among the programs.
+// For example "gnuplot 5.4 patchlevel 4".  Throws InputError if there is no gnuplot among the
+// programs.
 std::string gnuplot_version();
 
-// What the script writes to its standard output.  Throws InputError if there is no gnuplot,
-// std::runtime_error with gnuplot's own words if it finds a fault in the script, TemporaryError if
-// the temporary folder cannot be written to.
+// Returns what the script writes to its standard output.  Throws InputError if there is no gnuplot,
+// std::runtime_error with gnuplot's own words if it finds a fault in the script, and TemporaryError
+// if the temporary folder cannot be written to.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace domefall

@@ -20,12 +20,13 @@ constexpr double kSingular = 1e-6;  // M
 constexpr double kFirstStep = 0.01;
 constexpr int kMostSteps = 20'000'000;
 
-// x, y, the celerity along them, gamma.  Zero until filled, so that Odeint may copy its spare ones.
+// x, y, the celerity along both, and gamma.  They are 0 at first, since Odeint copies its spare
+// ones.
 struct Numbers : std::array<double, 5> {
   Numbers() : std::array<double, 5>{} {}
 };
 
-// The radial and tangential parts of place and celerity.
+// Turns place and celerity into their radial and tangential parts.
 FallState polar(const Numbers& y, double azimuth) {
   const double r = std::hypot(y[0], y[1]);
   return {r, azimuth, y[4], (y[0] * y[2] + y[1] * y[3]) / r, (y[0] * y[3] - y[1] * y[2]) / r};
@@ -40,7 +41,7 @@ void geodesic(const Numbers& y, Numbers& rate, double /*tau*/) {
   rate[4] = s / r * (y[2] * y[2] + y[3] * y[3] - 1.5 * w * w);
 }
 
-// A longer step could pass the centre or lose count of a turn.
+// A longer step could pass the centre, or lose count of a turn.
 double longest_step(const FallState& p) {
   const double speed = p.radial - std::sqrt(2 / p.r) * p.gamma;
   return 0.5 * p.r / (std::abs(speed) + std::abs(p.tangential) / 4);
@@ -61,7 +62,7 @@ class Fall {
   FallState at(double tau) {
     while (tau_ + step_ <= tau && alive()) advance(step_);
     if (!alive()) return lost();
-    Fall branch = *this;  // so that the wanted times do not choose the steps
+    Fall branch = *this;  // a copy, so that the wanted times do not choose the steps
     branch.pair_ = Controlled(checker());
     while (branch.tau_ < tau && branch.alive()) branch.advance(tau - branch.tau_);
     steps_ = branch.steps_;
@@ -79,7 +80,7 @@ class Fall {
     return last;
   }
 
-  // One step of at most `most`, or one refused and shortened.
+  // Takes one step of at most `most`, or refuses it and shortens the next.
   void advance(double most) {
     if (++steps_ > kMostSteps)
       throw std::runtime_error(fmt::format("a fall takes more than {} steps", kMostSteps));

@@ -1,23 +1,24 @@
-// Free fall, integrated step by step: the way without a closed form, and the independent check of
-// one.  The geodesic equation ([Riazuelo] eq. deb_ode1 to fin_ode1, which hold for any
-// four-velocity) with the four-velocity in the rain tetrad ([Riazuelo] eq. tetrad_start), which is
-// regular at the horizon, and in Cartesian components, in which no orbit is at rest: with s =
-// sqrt(2/r), n = x/r, u = gamma T + (celerity c),
+// Free fall, integrated step by step.  It needs no closed form, and checks the closed forms of
+// trajectories independently.  The four-velocity of the geodesic equation, [Riazuelo] eq. deb_ode1
+// to fin_ode1, is held in the rain tetrad, [Riazuelo] eq. tetrad_start, which is regular at the
+// horizon, and in Cartesian components, in which no orbit is at rest.  With s = sqrt(2/r), n = x/r
+// and u = gamma T + c, where c is the celerity,
 //
-//     x' = c - s gamma n      c' = (s gamma/r) (c - 3/2 (c.n) n)      gamma' = (s/r) (c^2 - 3/2 (c.n)^2)
+//     x' = c - s gamma n    c' = (s gamma/r)(c - 3/2 (c.n) n)    gamma' = (s/r)(c^2 - 3/2 (c.n)^2)
 //
-// These are the Euler-Lagrange equations of (t'^2 - |x' + s t' n|^2)/2, t the rain's own time, t' =
-// gamma.  Nothing is put in of what stays the same, energy gamma - s c.n, angular momentum x cross
-// c, norm gamma^2 - c^2; so each shows the error of the steps.
+// These are the Euler-Lagrange equations of (t'^2 - |x' + s t' n|^2)/2, where t is the rain's own
+// time and t' = gamma.  The constants of the motion, which are the energy gamma - s c.n, the
+// angular momentum x cross c and the norm gamma^2 - c^2, are not used, so each of them shows the
+// error of the steps.
 #pragma once
 
 #include <vector>
 
 namespace domefall {
 
-// A body in the plane of its motion.
+// The state of a body in the plane of its motion.
 struct FallState {
-  double r = 0;           // units of M; 0: it has met the singularity
+  double r = 0;           // units of M; 0 once the body has met the singularity
   double azimuth = 0;     // radians, whole turns counted
   double gamma = 1;       // Lorentz factor against the rain
   double radial = 0;      // celerity along R
@@ -30,11 +31,11 @@ enum class FallMethod {
   kFehlberg78,  // Fehlberg, order 7
 };
 
-// The states at the proper times `taus` (M, ascending; the start is at 0).  The error of a step is
-// kept below tolerance (1 + |y| + |dy|) in each of the five numbers.  Steps are as long as that
-// allows, but no more than half the way to the centre or 2 radians around it; a state between two
-// of them is reached by a step of its own.  A body that has come below 1e-6 M has met the
-// singularity: from there its states have r = 0 and are otherwise its last one.  Throws
+// Returns the states at the proper times `taus`, which are in units of M and ascend from the start
+// at 0.  The error of a step is kept below tolerance (1 + |y| + |dy|) in each of the five numbers.
+// Steps are as long as that allows, but no longer than half the way to the centre or 2 radians
+// around it.  A state between two steps is reached by a step of its own.  A body below 1e-6 M has
+// met the singularity: all its later states equal its last one, but with r = 0.  Throws
 // std::runtime_error if the steps become too many.
 std::vector<FallState> integrate_fall(const FallState& start, const std::vector<double>& taus,
                                       FallMethod method, double tolerance);

@@ -1,4 +1,4 @@
-// What the report was measured on.
+// The machine that the report was measured on.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 namespace domefall {
 
 struct Machine {
-  std::string processor;  // model, as the system calls it
-  unsigned cores;         // that the system shows
+  std::string processor;  // its model, as the system calls it
+  unsigned cores;         // as many as the system shows
   std::string compiler;
   std::string version;  // of Domefall
-  std::string date;     // UTC, of today
+  std::string date;     // of today, in UTC
 };
 
 Machine this_machine();

@@ -33,7 +33,7 @@ double magnitude_of_rank(double rank) {
 RawCatalogue made_up_stars(std::size_t count) {
   constexpr double kBluestMade = -0.2, kReddestMade = 1.8, kTwoPi = 2 * std::numbers::pi;
   std::mt19937 random(1);
-  // Not the library's distributions, which differ from library to library.
+  // The distributions of the standard library differ from library to library, so none is used.
   const auto from = [&random](double least, double most) {
     constexpr double kRange = 4294967296.0;
     return least + (most - least) * (static_cast<double>(random()) + 0.5) / kRange;

@@ -1,4 +1,4 @@
-// A sky of stars as many of each magnitude as Tycho-2 has, for measuring what they cost.
+// A sky with as many stars of each magnitude as Tycho-2 has, for measuring what stars cost.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,16 @@
 
 namespace domefall {
 
-// V of the star so many are as bright as or brighter than; rank from 1 to kMostMadeUpStars.  ln
-// rank against V in straight lines between what Tycho-2 (I/259) counts at -1.5, 6.5, 8, 9, 10, 11,
-// 12 and 13.
+// The magnitude V of the star at this rank by brightness, from 1 to kMostMadeUpStars.  ln rank
+// against V runs in straight lines between the counts of Tycho-2 (I/259) at V = -1.5, 6.5, 8, 9,
+// 10, 11, 12 and 13.
 double magnitude_of_rank(double rank);
 
 inline constexpr std::size_t kMostMadeUpStars = 2'543'829;
 
-// The brightest `count` of them, brightest first, spread evenly over the sphere, B-V evenly from
-// -0.2 to 1.8.  The same ones in every run.  count at most kMostMadeUpStars.
+// The brightest `count` of these stars, brightest first.  They are spread evenly over the sphere,
+// and their B-V evenly from -0.2 to 1.8.  They are the same in every run.  count is at most
+// kMostMadeUpStars.
 RawCatalogue made_up_stars(std::size_t count);
 
 }  // namespace domefall

@@ -13,13 +13,14 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Where a part of the view ends: at an edge, beyond which the azimuth diverges, or on the axis.
+// A part of the view ends at an edge between skies, where the azimuth diverges, or on the axis.
 struct End {
   double delta;
   std::optional<Edge> edge;
 };
 
-// Distances from an end that show both a logarithm and a cube root as smooth curves.
+// Distances from an end, so spaced that a logarithm and a cube root are both drawn as smooth
+// curves.
 std::vector<double> distances(double reach) {
   constexpr int kLog = 160, kEven = 120;
   constexpr double kLeast = 1e-9;
@@ -31,7 +32,7 @@ std::vector<double> distances(double reach) {
   return d;
 }
 
-// Swept azimuth against delta of everything between two ends of the view.
+// The swept azimuth against delta, between two ends of the view.
 std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, const End& high) {
   const auto azimuth = [&](const End& end, double offset) {
     RayRequest q{observer, r, end.delta + offset, end.edge, offset};
@@ -46,7 +47,7 @@ std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, c
   return points;
 }
 
-// sign -1: the deviation function, +1: the azimuth with the sign of L.
+// The deviation function for sign -1, the azimuth with the sign of L for sign +1.
 std::vector<PlotPoint> signed_curve(const std::vector<PlotPoint>& swept, double sign) {
   std::vector<PlotPoint> points = swept;
   for (PlotPoint& p : points) p.y *= sign;
@@ -61,7 +62,7 @@ std::vector<PlotPoint> continued(const std::vector<PlotPoint>& points) {
   return other;
 }
 
-// One curve from 0 to pi and its continuation to 2 pi, under one name.
+// Adds a curve from 0 to pi and its continuation to 2 pi under one name.
 void add_deviation(Plot& plot, const std::string& name, int colour,
                    const std::vector<PlotPoint>& points) {
   plot.curves.push_back({name, points, colour, Curve::Style::kLine});
@@ -71,14 +72,14 @@ void add_deviation(Plot& plot, const std::string& name, int colour,
 Plot deviation_plot(const std::string& title, double turns) {
   Plot plot;
   plot.title = title;
-  plot.x = {"angle of the look from the hole, δ", Axis::Scale::kOfPi, 0, 2 * kPi, 1.0 / 4};
+  plot.x = {"angle of the view ray from the hole, δ", Axis::Scale::kOfPi, 0, 2 * kPi, 1.0 / 4};
   plot.y = {"origin of the light, φ_∞", Axis::Scale::kOfPi, -turns * kPi, turns * kPi, 1};
   plot.legend = "top left";
   return plot;
 }
 
 constexpr int kColourOne = 0, kColourThree = 1, kColourFour = 2, kColourFlat = 6;
-constexpr double kShown = 5.25;  // |phi| in units of pi: slightly more than 5
+constexpr double kShown = 5.25;  // the largest |phi| that is drawn, in units of pi
 
 End edge_of(double r, Edge edge) { return {edge_delta(TraceObserver::kRain, r, edge), edge}; }
 constexpr End kFront{0, std::nullopt}, kBack{kPi, std::nullopt};
@@ -112,7 +113,7 @@ Plot far_away() {
 
 Plot white_hole_from_within() {
   Plot plot = deviation_plot("Region IV seen from region IV, at rest in t", 1.1);
-  plot.x.label = "angle of the look from −∂_t, δ";
+  plot.x.label = "angle of the view ray from −∂_t, δ";
   plot.y.label = "origin of the light, Δφ";
   plot.y.mark_every = 1.0 / 4;
   plot.legend = "top right";
@@ -124,11 +125,11 @@ Plot white_hole_from_within() {
   return plot;
 }
 
-// Angle of an edge in degrees against r.
+// The angle of an edge in degrees against r.
 std::vector<PlotPoint> edge_curve(Edge edge, double r_end) {
   constexpr int kPoints = 400;
   constexpr double kDegrees = 180 / kPi, kRight = 90;
-  std::vector<PlotPoint> points{{0, kRight}};  // the limit at the singularity, of both
+  std::vector<PlotPoint> points{{0, kRight}};  // both edges tend to this at the singularity
   for (int k = 1; k <= kPoints; ++k) {
     const double part = static_cast<double>(k) / kPoints, r = r_end * part * part;
     points.push_back({r, edge_delta(TraceObserver::kRain, r, edge) * kDegrees});

@@ -7,10 +7,11 @@
 
 namespace domefall {
 
-// fig_dev, dev_III, dev_wh_0, dev_wh, fig_IV_dev: deviation functions phi_infinity(delta), with
-// delta from 0 to 2 pi and [Riazuelo]'s sign: phi_infinity = delta - pi in flat space, so minus the
-// swept azimuth for delta < pi, and odd about pi.  fig_IV_dev has the sign of L, as there.
-// fig_delta_ee: what is seen at which angle from the front, against r.
+// Each plot bears the LaTeX label of its figure.  fig_dev, dev_III, dev_wh_0 and dev_wh show the
+// deviation function phi_infinity(delta) for delta from 0 to 2 pi, with the paper's sign: in flat
+// space phi_infinity = delta - pi, so the function is minus the swept azimuth for delta < pi, and
+// it is odd about pi.  fig_IV_dev shows the same with the sign of L, as the paper does.
+// fig_delta_ee shows what is seen at which angle from the front, against r.
 std::vector<NamedPlot> paper_curves();
 
 }  // namespace domefall

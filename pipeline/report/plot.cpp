@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// Okabe and Ito's colours, which differ for every eye.
+// Okabe and Ito's colours, which the colour-blind can tell apart too.
 constexpr std::array kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000"};
 
@@ -38,10 +38,10 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-// 3 pi/2 for 1.5.
+// Writes 1.5 as 3π/2.
 std::string parts_of_pi(double part) {
   if (part == 0) return "0";
-  constexpr double kFinest = 4;  // quarters
+  constexpr double kFinest = 4;  // the finest parts are quarters
   int above = static_cast<int>(std::lround(std::abs(part) * kFinest)), below = 4;
   while (below > 1 && above % 2 == 0) above /= 2, below /= 2;
   std::string text = part < 0 ? "−" : "";
@@ -107,7 +107,7 @@ std::string drawn_with(const Curve& curve) {
 
 std::string key_script(const std::string& place) {
   if (place.empty()) return "unset key\n";
-  // gnuplot's own "below" runs into the axis's name.
+  // gnuplot's own "below" would run into the label of the axis.
   if (place == "below")
     return "set bmargin 9.5\nset key at screen 0.98,0.03 right bottom maxrows 4\n";
   return "set key " + place + " opaque\n";

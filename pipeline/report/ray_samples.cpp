@@ -41,7 +41,8 @@ std::vector<TraceObserver> observers_in(std::string_view region) {
   return found;
 }
 
-// Even numbers from the bits themselves: the library's distributions differ between libraries.
+// Even numbers from the bits themselves, since the distributions of the standard library differ
+// from library to library.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
@@ -58,10 +59,10 @@ class Dice {
   std::mt19937_64 bits_;
 };
 
-// The least offset is what a double still holds beside any angle; the most is below every edge's
+// A double still holds the least offset beside any angle.  The largest is below every edge's
 // distance from the axis.
 constexpr double kLeastOffset = 1e-12, kMostOffset = 1e-3;
-constexpr double kFarReach = 1000;  // radii of the silhouette
+constexpr double kFarReach = 1000;  // in radii of the silhouette
 
 RayRequest throw_ray(TraceObserver observer, Difficulty difficulty, double r, Dice& dice) {
   RayRequest q;

@@ -1,5 +1,5 @@
-// The rays that the report measures with: reproducible random ones of one region of the observer
-// and one kind of difficulty, each with its truth from reference_ray.
+// The random rays that the report measures with, each with its truth from reference_ray.  They are
+// grouped by the region of the observer and a kind of difficulty.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 namespace domefall {
 
 enum class Difficulty {
-  kOrdinary,  // any angle; r from 0.1 to 100, not within 0.05 of the horizon
-  kEdge,      // 1e-12 to 1e-3 radians beside an edge
-  kDeep,      // r from 1e-6 to 0.1
-  kFar,       // r from 1e3 to 1e8, half of the rays within a thousand edges' radii of the hole
+  kOrdinary,  // any angle; r from 0.1 to 100 M, but not within 0.05 M of the horizon
+  kEdge,      // 1e-12 to 1e-3 radians beside an edge between skies
+  kDeep,      // r from 1e-6 to 0.1 M
+  kFar,       // r from 1e3 to 1e8 M; half of the rays within a thousand radii of the silhouette
 };
 
 struct RayClass {
-  const char* region;  // of the observer: I, II, IV
+  const char* region;  // of the observer: I, II or IV
   Difficulty difficulty;
   const char* name;  // of the difficulty
   double r_least, r_most;
@@ -30,11 +30,12 @@ struct SampleRay {
   double phi, slope;  // the truth, rounded to double
 };
 
-// Rays of one observer at one radius, as a frame has them.
+// The rays of one observer at one radius, as a frame has them.
 using RayGroup = std::vector<SampleRay>;
 
-// The same rays whenever and wherever it is called.  r is spaced evenly in its logarithm, delta
-// evenly but for what Difficulty says; offsets evenly in their logarithm, on both sides.
+// Returns the same rays whenever and wherever it is called.  ln r is distributed evenly, and so is
+// delta but for what Difficulty says.  Offsets from an edge lie on both sides, evenly in their
+// logarithm.
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The bridge between a request to trace_ray and the same one to the reference.
+// Puts a request to trace_ray as the same request to the reference.
 #pragma once
 
 #include "pipeline/optics/traced_ray.h"
@@ -6,8 +6,8 @@
 
 namespace domefall {
 
-// The same ray, from the doubles as they are; r by way of its distance from the horizon or the
-// light circle where that is finer.
+// The same ray, from the doubles as they are.  Where r is given more finely by its distance from
+// the horizon or from the light circle, it is taken from that.
 ReferenceRequest reference_request(const RayRequest& q);
 
 SkyRegion origin_from(ReferenceOrigin origin);

@@ -18,20 +18,20 @@ std::string n(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
 
-Report measure_report(bool quick, const std::function<void(const std::string&)>& told) {
+Report measure_report(bool quick, const std::function<void(const std::string&)>& progress) {
   Report report;
   report.quick = quick;
-  told("orbits");
+  progress("orbits");
   report.orbits = measure_orbits(quick);
-  told("rays");
+  progress("rays");
   report.rays = measure_rays(quick);
   report.view_rays = measure_view_ray_speed();
-  told("frames");
+  progress("frames");
   report.frames = measure_frames(quick);
-  told("costs of frames");
+  progress("costs of frames");
   report.costs = measure_frame_costs(quick);
   if (!quick) {
-    told("extreme cases");
+    progress("extreme cases");
     report.extremes = extreme_table();
   }
   return report;

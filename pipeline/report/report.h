@@ -1,4 +1,4 @@
-// Everything that `domefall report` measures, and how it is written down.
+// Everything that `domefall report` measures, and the files that it is written to.
 #pragma once
 
 #include <functional>
@@ -21,32 +21,35 @@ struct Report {
   std::vector<FrameErrorRow> frames;
   FrameCosts costs;
   std::vector<OrbitErrorRow> orbits;
-  std::string extremes;  // extreme_table(); empty if quick
+  std::string extremes;  // from extreme_table(); empty if quick
 };
 
-// One thread but for the errors of frames.  told: what is being measured, as it begins.  Measured:
-// quick 18 s of CPU time, else 7 minutes.  Throws InputError if a shipped asset cannot be read.
-Report measure_report(bool quick, const std::function<void(const std::string&)>& told);
+// Measures on one thread, but for the errors of frames.  `progress` is called with the name of each
+// measurement as it begins.  It takes 18 s of CPU time if quick, else 7 minutes.  Throws InputError
+// if a shipped asset cannot be read.
+Report measure_report(bool quick, const std::function<void(const std::string&)>& progress);
 
-// One line of names, one for each row; the columns are the members of the rows' structures.
+// One line of names and one line for each row.  The columns are the members of the row's structure.
 std::string csv_of(const std::vector<RayErrorRow>& rows);
 std::string csv_of(const std::vector<FrameErrorRow>& rows);
 std::string csv_of(const std::vector<OrbitErrorRow>& rows);
-// The rows of both series; `against` names which.  The benchmark's are rows of frames.
+// The rows of both series, which the column `against` names.  The benchmark's rows are written as
+// rows of frames.
 std::string csv_of(const FrameCosts& costs);
 
-// Error against time: rays_REGION_DIFFICULTY and the same with _sky, frames_rms, frames_worst, and
-// orbit_NAME of every orbit that is integrated as well.
+// Plots of error against time.  Their names are rays_REGION_DIFFICULTY for the azimuth, the same
+// with _sky for the error on the sky, frames_rms and frames_worst, and orbit_NAME for every orbit
+// that is integrated as well.
 std::vector<NamedPlot> error_plots(const Report& report);
 
-// Cost against size: costs_stars and costs_pixels.
+// Plots of cost against size, named costs_stars and costs_pixels.
 std::vector<NamedPlot> cost_plots(const FrameCosts& costs);
 
-// The page, in Markdown.  `figures`: those drawn beside it, under figures/; the plots under plots/.
+// docs/accuracy.md.  It links to the plots in plots/ and to the figures in figures/.
 std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& plots,
                           const std::vector<NamedPlot>& figures);
 
-// The page about costs, in Markdown, with the two plots under plots/.
+// docs/costs.md.  It links to the two plots in plots/.
 std::string costs_page(const Report& report);
 
 }  // namespace domefall

@@ -1,11 +1,11 @@
-// A folder for files that are needed for a moment.
+// A folder for files that are needed only for a moment.
 #pragma once
 
 #include <filesystem>
 
 namespace domefall {
 
-// A new folder among the system's temporary ones, removed with all it holds when this ends.
+// Makes a new folder among the system's temporary ones, and removes it with all that it holds.
 class ScratchFolder {
  public:
   // Throws TemporaryError if it cannot be made.

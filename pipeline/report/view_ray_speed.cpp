@@ -31,26 +31,27 @@ double nanoseconds(const Observer& observer) {
   state.observer.r = observer.r;
   const HoleOptics optics = make_hole_optics(observer.r, observer.tetrad, {true, true, true});
   const ViewTracer tracer(state, optics);
-  std::vector<CameraDirection> looks;
+  std::vector<CameraDirection> directions;
   for (int row = 0; row < kSize; ++row) {
     const ColumnRange inside = inside_columns(state.projection, row);
-    const std::size_t before = looks.size();
-    looks.resize(before + static_cast<std::size_t>(std::max(0, inside.last - inside.first + 1)));
-    inside_directions(state.projection, row, inside, looks.data() + before);
+    const std::size_t before = directions.size();
+    directions.resize(before +
+                      static_cast<std::size_t>(std::max(0, inside.last - inside.first + 1)));
+    inside_directions(state.projection, row, inside, directions.data() + before);
   }
   ViewRayBatch batch;
   double best = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kPasses; ++pass) {
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t k = 0; k < looks.size(); k += ViewRayBatch::kSize) {
+    for (std::size_t k = 0; k < directions.size(); k += ViewRayBatch::kSize) {
       const auto count =
-          static_cast<int>(std::min<std::size_t>(ViewRayBatch::kSize, looks.size() - k));
-      tracer.trace(looks.data() + k, count, batch);
+          static_cast<int>(std::min<std::size_t>(ViewRayBatch::kSize, directions.size() - k));
+      tracer.trace(directions.data() + k, count, batch);
     }
     const auto passed = std::chrono::steady_clock::now() - start;
     best = std::min(best, std::chrono::duration<double, std::nano>(passed).count());
   }
-  return best / static_cast<double>(looks.size());
+  return best / static_cast<double>(directions.size());
 }
 
 }  // namespace

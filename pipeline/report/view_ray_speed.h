@@ -1,5 +1,5 @@
-// What a look costs in a frame: 128 directions at a time from camera to sky, aberration, table,
-// redshift and footprint included, as against a ray by itself.
+// What a view ray costs in a frame, where 128 are traced together from the camera to the sky, with
+// aberration, table, redshift and footprint.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace domefall {
 
 struct ViewRaySpeedRow {
   std::string from;  // the observer
-  double ns;         // wall clock for one direction, one thread, the best of several passes
+  double ns;         // wall clock for one view ray on one thread, by the best of several passes
 };
 
-// Every sky lit.  About 0.2 s.
+// Every sky is lit.  This takes about 0.2 s.
 std::vector<ViewRaySpeedRow> measure_view_ray_speed();
 
 }  // namespace domefall

@@ -26,7 +26,7 @@ assert classes == {('I', 'ordinary'), ('I', 'edge'), ('I', 'far'), ('II', 'ordin
 methods = {row['method'] for row in rays}
 assert len(methods) == 7, methods
 # The default of each method, once for every class. Stated in the headers of pipeline/optics: 1e-9 for the table,
-# 1e-13 for the integral (far away phi of a small angle is less certain than the look); the integrators
+# 1e-13 for the integral (far away phi of a small angle is less certain than its angle); the integrators
 # err by some times the tolerance, 1e-9, on the sky but for rays near the extremum of phi, which region IV sees.
 limit = {'table': 1e-9, 'exact': 1e-12}
 for method in methods:
@@ -54,7 +54,7 @@ for scene in scenes:
     by_setting = {row['setting']: float(row['rms']) for row in frames if row['scene'] == scene}
     assert len(by_setting) >= 5, by_setting
     usual = next(rms for setting, rms in by_setting.items() if 'default' in setting)
-    assert 0 < usual < by_setting['1 look'] < 0.1, by_setting
+    assert 0 < usual < by_setting['1 view ray'] < 0.1, by_setting
 
 # Every further star or pixel costs something, and no frame is free. (How much is what the report is for.)
 costs = rows('costs.csv', ['size', 'pixels', 'stars', 'seconds', 'copies'])
@@ -74,7 +74,7 @@ for row in benchmark:
 orbits = rows('orbits.csv', ['energy_drift', 'angular_momentum_drift', 'norm_drift', 'r_error', 'phi_error', 'seconds'])
 closed = [row for row in orbits if row['method'] == 'closed form']
 assert len(closed) >= 4 and len(orbits) > 2 * len(closed)
-# A fall that began 77 M of proper time ago, told in doubles, is 1e-9 of r from where it should be at 0.001 M.
+# A fall that began 77 M of proper time ago, held in doubles, is 1e-9 of r from where it should be at 0.001 M.
 for row in closed:
     assert float(row['r_error']) < (1e-9 if 'fall' in row['orbit'] else 1e-12) and float(row['norm_drift']) < 1e-9, row
 

@@ -11,7 +11,7 @@ struct Gained {
   Real50 tau = 0, azimuth = 0;
 };
 
-// From r = from + sign low^2 to from + sign high^2.
+// The gain from r = from + sign low^2 to r = from + sign high^2, by 20 Gauss points.
 Gained gained(const ReferenceOrbit& orbit, const Real50& from, int sign, const Real50& low,
               const Real50& high) {
   Gained sums;
@@ -38,7 +38,8 @@ Real50 ReferenceOrbit::radial_speed(const Real50& r) const {
   return sqrt(Real50(excess_energy + w * (2 - lw * lw * (r - 2))));
 }
 
-// E^2 = (1 - 2w)(1 + L^2 w^2) at both.
+// With w = 1/r, E^2 = (1 - 2w)(1 + L^2 w^2) at a turning point.  The difference of this equation at
+// a and at b, divided by a - b, is 0 = -2 + L^2 (a + b) - 2 L^2 (a^2 + ab + b^2), which gives L^2.
 ReferenceOrbit orbit_between(const Real50& near, const Real50& far) {
   const Real50 a = 1 / near, b = isinf(far) ? Real50(0) : Real50(1 / far);
   const Real50 l2 = 2 / (a + b - 2 * (a * a + a * b + b * b));

@@ -63,17 +63,19 @@ Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k)
 
 // ---- The azimuth ----
 
-// Legendre's F(psi, k), 0 <= psi <= pi/2, DLMF 19.25.5.
+// Legendre's F(psi, k) for 0 <= psi <= pi/2, by DLMF 19.25.5.
 Wide legendre_f(const Wide& sin2_psi, const Wide& k2) {
   return sqrt(sin2_psi) * ellint_rf(Wide(1 - sin2_psi), Wide(1 - k2 * sin2_psi), Wide(1));
 }
 
-// int from a to w of dw/sqrt(P), P = 2 (w - a)((w - m)^2 + n^2): Byrd and Friedman 239.00.
+// The integral of dw/sqrt(P) from a, where P = 2 (w - a)((w - m)^2 + n^2), by Byrd and Friedman
+// 239.00.  Twice the sum of the roots is 1, and twice their product is -1/b^2: m and n follow from
+// a.
 class OneRealRoot {
  public:
   OneRealRoot(const Wide& inverse_b2, const Wide& a) : a_(a) {
-    const Wide m = (Wide(1) / 2 - a) / 2;         // the roots' sum is 1/2,
-    const Wide modulus2 = -inverse_b2 / (2 * a);  // their product -1/(2 b^2)
+    const Wide m = (Wide(1) / 2 - a) / 2;         // by the sum of the roots
+    const Wide modulus2 = -inverse_b2 / (2 * a);  // m^2 + n^2, by their product
     far_ = sqrt(square(a - m) + modulus2 - square(m));
     k2_ = (far_ + m - a) / (2 * far_);
     scale_ = 1 / sqrt(2 * far_);
@@ -89,15 +91,15 @@ class OneRealRoot {
   Wide a_, far_, k2_, scale_;
 };
 
-// w1 >= w2 >= w3.
+// The integral of dw/sqrt(P) where P = 2 (w - w1)(w - w2)(w - w3), with w1 >= w2 >= w3.
 struct ThreeRealRoots {
   Wide w1, w2, w3;
 
-  // int from w3 to w <= w2, with w = w3 + (w2 - w3) sin^2 psi.
+  // The integral from w3 to w <= w2, by w = w3 + (w2 - w3) sin^2 psi.
   Wide below(const Wide& w) const {
     return sqrt(2 / (w1 - w3)) * legendre_f((w - w3) / (w2 - w3), (w2 - w3) / (w1 - w3));
   }
-  // int from w >= w1 to infinity: the definition of R_F.
+  // The integral from w >= w1 to infinity, which is the definition of R_F.
   Wide above(const Wide& w) const {
     return sqrt(Wide(2)) * ellint_rf(Wide(w - w1), Wide(w - w2), Wide(w - w3));
   }
@@ -116,7 +118,9 @@ struct ThreeRealRoots {
   }
 };
 
-// With w = t/3 + 1/6, P = 0 is 4 t^3 - 3 t = 1 - 54/b^2: t is a cosine, or minus a hyperbolic one.
+// With w = t/3 + 1/6, P = 0 becomes 4 t^3 - 3 t = 1 - 54/b^2.  Its roots are cosines if b > b_c,
+// since cos(3 psi) = 4 cos^3(psi) - 3 cos(psi), and its only real root else is minus a hyperbolic
+// cosine.
 Wide swept_azimuth(const Invariants& k, const Wide& r, Path path) {
   if (k.angular_momentum == 0) return 0;
   const Wide inverse_b2 = square(k.energy / k.angular_momentum), w = 1 / r;
@@ -131,7 +135,7 @@ Wide swept_azimuth(const Invariants& k, const Wide& r, Path path) {
   return path == Path::kFromSky ? g.to(w) - g.to(0) : g.to_infinity() - g.to(w);
 }
 
-// Odd about the axis, as L is: delta may run over both ends of [0, pi].
+// The azimuth is odd about the axis, as L is, so delta may run over both ends of [0, pi].
 Wide signed_azimuth(ReferenceObserver observer, const Wide& r, const Wide& delta, Path path) {
   const Invariants k = invariants(observer, r, delta);
   const Wide swept = swept_azimuth(k, r, path);
@@ -158,7 +162,7 @@ Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edg
     case ReferenceObserver::kRain:
       if (third && r > 2) break;
       return third ? half_angle_edge(-r - reach, r) : half_angle_edge(r - reach, r);
-    case ReferenceObserver::kOutgoing:  // pi - delta stands in for delta, with the other root
+    case ReferenceObserver::kOutgoing:  // the formula holds for pi - delta, with the other root
       if (third || r <= 2) break;
       return pi() - half_angle_edge(r + reach, r);
     case ReferenceObserver::kStatic:

@@ -1,16 +1,18 @@
-// The truth that the report's errors are measured against: one light ray in 100-digit arithmetic,
-// written plainly, so that its accuracy comes from brute precision and not from a clever form.  It
+// The truth that the report's errors are measured against: one light ray in 100-digit arithmetic.
+// It is written plainly, so that its accuracy comes from the digits and not from a clever form.  It
 // shares no code with pipeline/optics, whose methods it judges.
 //
-// M = 1; k = u - N, N the look at the angle delta from -R (the direction of the hole outside).
-// With s = sqrt(2/r) and L = r sin(delta) for every observer:
+// M = 1.  The ray's wave vector is k = u - N, where N is the direction of the view ray, at the
+// angle delta from -R, which points to the hole from outside.  Every observer has L = r sin(delta).
+// With s = sqrt(2/r),
 //     rain      E = 1 - s cos(delta)            k^r = cos(delta) - s
 //     static    E = sqrt(1 - 2/r)               k^r = sqrt(1 - 2/r) cos(delta)
 //     outgoing  E = 1 + s cos(delta)            k^r = cos(delta) + s
 //     T_II      E = -sqrt(2/r - 1) cos(delta)   k^r = -sqrt(2/r - 1)
 //     T_IV      E = -sqrt(2/r - 1) cos(delta)   k^r = +sqrt(2/r - 1)
-// [Riazuelo] eq. def_k_prec, TR_IV, and app. app_geod for the origins and the azimuth.  The azimuth
-// is int dw/sqrt(1/b^2 - w^2 + 2 w^3), w = 1/r, in Legendre's form with the cubic's roots.
+// These are [Riazuelo] eq. def_k_prec and TR_IV.  The origins and the azimuth follow app. app_geod.
+// The azimuth is int dw/sqrt(1/b^2 - w^2 + 2 w^3) with w = 1/r, in Legendre's form with the cubic's
+// roots.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -24,8 +26,9 @@ enum class ReferenceObserver { kRain, kStatic, kOutgoing, kTwo, kFour };
 enum class ReferenceEdge { kSilhouette, kRegionThree };
 enum class ReferenceOrigin { kSkyOne, kSkyThree, kPastSingularity };
 
-// delta in [0, pi]; or, where an edge is given, delta = edge + offset.  r > 0; > 2 if static, < 2
-// for T_II and T_IV; r = 2 is the future horizon for rain, the past horizon's inside for outgoing.
+// delta lies in [0, pi], or is edge + offset where an edge is given.  r > 0, but r > 2 if static
+// and r < 2 for T_II and T_IV.  r = 2 is the future horizon for rain, and the inside of the past
+// horizon for outgoing.
 struct ReferenceRequest {
   ReferenceObserver observer = ReferenceObserver::kRain;
   Wide r = 0, delta = 0;
@@ -42,14 +45,14 @@ struct ReferenceRay {
   Wide amplification;  // sin(delta)/|sin(phi) slope|; 1/slope^2 where phi = 0 on a sky
 };
 
-// Throws std::domain_error for an r or an edge that the observer does not have.  A ray exactly on an
-// edge has no azimuth: the result is then not a number to rely on.
-// Measured against tests/reference/rays.csv: phi within 1e-15 of every row that can be trusted, and
-// within 1e-18 of a quadrature beside the edge at r = 3, where the rows cannot.  1.5 ms a ray.
+// Throws std::domain_error for an r or an edge that the observer does not have.  A ray exactly on
+// an edge has no azimuth, and the result must then not be relied on.  Measured: phi is within 1e-15
+// of every row of tests/reference/rays.csv that can be trusted, and within 1e-18 of a quadrature
+// beside the edge at r = 3, where the rows cannot.  A ray takes 1.5 ms.
 ReferenceRay reference_ray(const ReferenceRequest& q);
 
-// Edge in delta: rain and outgoing by [Riazuelo] eq. tan_delta_final and its like, static and at
-// rest in t by tan(delta) where L/|E| = sqrt(27).
+// The edge as an angle delta.  For rain it is [Riazuelo] eq. tan_delta_final, for outgoing that
+// formula with the other root.  For static and at rest in t, it is where L/|E| = sqrt(27).
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge);
 
 }  // namespace domefall

@@ -67,7 +67,7 @@ TEST(FrameErrors, AreGivenWithTheirSceneSizeAndCost) {
     EXPECT_EQ(row.size, 256);
     EXPECT_GT(row.seconds, 0);
     // One copy, the same for all rows of a scene.
-    const FrameErrorRow& first = row_of(row.scene, "1 look");
+    const FrameErrorRow& first = row_of(row.scene, "1 view ray");
     EXPECT_NEAR(row.seconds / row.copies, first.seconds / first.copies, 1e-12);
   }
 }

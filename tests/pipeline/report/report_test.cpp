@@ -16,7 +16,7 @@ Report small_report() {
   report.rays = {{"I", "ordinary", "table", 3, true, 9, 0, 2e-10, 1e-10, 3e-10, 1e-10, 300, 400},
                  {"I", "ordinary", "exact", 0, true, 9, 0, 0, 0, 0, 0, 1700, 0},
                  {"I", "ordinary", "slow", 1e-6, true, 9, 1, 1e-6, 1e-6, 1e-6, 1e-6, 200, 0}};
-  report.frames = {{"a scene, with a comma", "1 look", 64, 0.01, 0.5, 2, 40},
+  report.frames = {{"a scene, with a comma", "1 view ray", 64, 0.01, 0.5, 2, 40},
                    {"a scene, with a comma", "many", 64, 0.001, 0.1, 1, 20},
                    {"a scene, with a comma", "many, none interpolated", 64, 0.001, 0.1, 2, 40},
                    {"a scene, with a comma", "many everywhere", 64, 0.0005, 0.1, 3, 60}};
@@ -48,7 +48,7 @@ TEST(ReportTables, HaveACellForEveryName) {
   const Report report = small_report();
   EXPECT_EQ(csv_of(report.frames),
             "scene,setting,size,rms,worst,seconds,copies\n"
-            "\"a scene, with a comma\",1 look,64,0.01,0.5,2,40\n"
+            "\"a scene, with a comma\",1 view ray,64,0.01,0.5,2,40\n"
             "\"a scene, with a comma\",many,64,0.001,0.1,1,20\n"
             "\"a scene, with a comma\",\"many, none interpolated\",64,0.001,0.1,2,40\n"
             "\"a scene, with a comma\",many everywhere,64,0.0005,0.1,3,60\n");
@@ -84,7 +84,7 @@ TEST(ErrorPlots, HaveOneCurveForEveryMethod) {
   const Plot& frames = plot_of(plots, "frames_rms");
   ASSERT_EQ(frames.curves.size(), 3U);
   EXPECT_EQ(frames.curves[0].points.size(), 1U);
-  EXPECT_EQ(frames.curves[1].points.size(), 2U);  // one look is a look at every pixel
+  EXPECT_EQ(frames.curves[1].points.size(), 2U);  // one view ray is traced in every pixel
   EXPECT_EQ(frames.curves[1].style, Curve::Style::kDashed);
   EXPECT_EQ(frames.curves[2].points.size(), 1U);
   EXPECT_EQ(frames.curves[2].colour, frames.curves[0].colour);
