@@ -1,4 +1,4 @@
-// From a quantity to a place on the page, and the marks of an axis.
+// Scales, which turn a quantity into a place on the page, and the axes that show them.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace domefall {
 
-// Affine in the value or, logarithmic, in its logarithm (from, to > 0).  from != to.
+// The place is affine in the value or, on a logarithmic scale, in its logarithm.  from and to must
+// differ, and must be positive on a logarithmic scale.
 struct Scale {
   double from = 0, to = 1;        // values
   double at_from = 0, at_to = 1;  // pixels
@@ -17,14 +18,15 @@ struct Scale {
   double operator()(double value) const;
 };
 
-// Round values within [from, to], about `count` of them: equal steps of 1, 2 or 5; on a logarithmic
-// axis 1, 2, 5 of each decade, or decades alone where there are many.
+// About `count` round values within [from, to].  They are equal steps of 1, 2 or 5 times a power of
+// ten.  On a logarithmic axis they are 1, 2 and 5 of each decade, or the decades alone where there
+// are many.
 std::vector<double> axis_marks(const Scale& scale, int count);
 
-// "0.05", "2000", from 10^5 on and below 10^-3 as "2x10^6" with raised digits.
+// Writes 0.05 as "0.05" and 2e6 as "2×10⁶".  Powers of ten are used from 10^5 on and below 10^-3.
 std::string number_text(double value);
 
-// Frame, grid lines and numbers below and to the left of a box.
+// Draws the frame of a box, its grid lines, and their numbers below it and to its left.
 void draw_axes(Svg& page, const PageBox& box, const Scale& x, const Scale& y, int x_marks,
                int y_marks);
 

@@ -1,4 +1,5 @@
-// The panels of a show's page, each drawn into a box with its heading above and its notes below.
+// The panels of a show's page.  Each is drawn into a box, with its heading above and its notes
+// below.
 #pragma once
 
 #include <functional>
@@ -10,33 +11,35 @@
 
 namespace domefall {
 
-// r against show time.  The axis is logarithmic where r spans more than a factor of 20; the horizon
-// and the light circle are marked to the right.
+// r against show time.  The axis is logarithmic where r spans more than a factor of 20.  The
+// horizon and the light circle are marked to the right.
 void draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
 
-// Without a hole: speed, a part of that of light, against show time.
+// The speed as a part of that of light, against show time.  This is for shows without a hole.
 void draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
 
-// The orbital plane from its north, the start to the right of the hole.  The box is square.
+// The orbital plane seen from its north, with the start to the right of the hole.  The box is
+// square.
 void draw_orbit_panel(Svg& page, const PageBox& box, const Path& path);
 
-// The box is twice as wide as high; the labels of the infinities stand around it.
+// The path in the Carter-Penrose diagram.  The box is twice as wide as high, and the labels of the
+// infinities stand around it.
 void draw_penrose_panel(Svg& page, const PageBox& box, const Path& path);
 
 // ---- what the panels share ----
 
-// Of a segment; the colours repeat after eight.
+// The colour of a segment.  The colours repeat after eight.
 std::string segment_colour(int segment);
 
 void draw_heading(Svg& page, const PageBox& box, const std::string& text);
 
-// The path as curves in the segments' colours, unbroken in regions I and II, dashed in III and
-// dotted in IV, with an arrow on each segment, a dot at each instant, a ring at the start and a
-// square at the end.
+// Draws the path as curves in the colours of the segments, unbroken in regions I and II, dashed in
+// III and dotted in IV.  Each segment has an arrow and each instant a small disc.  A ring marks the
+// start, a square the end.
 void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const PathPoint&)>& place,
                bool (*joined)(const PathPoint&, const PathPoint&));
 
-// What those marks mean, in one line from `at`.
+// Says in one line from `at` what those marks mean.
 void draw_key(Svg& page, const PagePoint& at, const Path& path);
 
 }  // namespace domefall

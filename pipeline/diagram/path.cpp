@@ -13,13 +13,13 @@
 namespace domefall {
 namespace {
 
-// A segment's length in ticks.
+// The length of a segment in ticks.
 constexpr int kTicks = 1 << 30;
 constexpr int kEvenly = 2000, kLeastOfSegment = 48;
 constexpr std::size_t kMostPoints = 100'000;
 constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
 
-// An instant of a segment.  Where segments dissolve, two of them show the same one.
+// An instant of a segment.  Where segments dissolve, two ticks are the same instant of the show.
 struct Tick {
   int segment = 0, tick = 0;
 
@@ -29,14 +29,14 @@ struct Tick {
   }
 };
 
-// What a tick of a show is like.
+// The state of the observer at a tick.
 struct Instant {
   PathPoint point;
   Tetrad tetrad = Tetrad::kRain;
   double null_time = 0;
 };
 
-// Answers for instants between the frames too.  No camera is asked where it looks.
+// States of the observer at any instant, between the frames too.  They do not depend on the camera.
 class Instants {
  public:
   explicit Instants(const Show& show)
@@ -69,13 +69,14 @@ class Instants {
     return show_.timeline[static_cast<std::size_t>(segment)].duration_s / seconds();
   }
 
-  // Of the segment that a frame of that instant shows; of the later one while two dissolve.
+  // The tick of the segment that a frame at that time shows.  While two dissolve, it is the later
+  // one.
   Tick tick_at(double time_s) const {
     const int segment = segment_at(show_, time_s);
     return {segment, static_cast<int>(std::lround(part_at(show_, segment, time_s) * kTicks))};
   }
 
-  // Just before a segment's end, which is the start of the next, but for the last.
+  // The last tick of a segment, which is just before the start of the next one.
   int last_tick(int segment) const { return segment + 1 < segments() ? kTicks - 1 : kTicks; }
 
  private:
@@ -88,7 +89,8 @@ class Instants {
 
 double sense_of_t(Tetrad t) { return is_mirrored(t) ? -1 : 1; }
 
-// t of an instant away from the horizon; on it v or u itself.
+// t of an instant away from the horizon, from v = t + r* or u = t - r*.  On the horizon, where r*
+// is infinite, it is v or u itself.
 double killing_time(const Instant& i) {
   const double star = i.point.r == 2 ? 0 : tortoise(i.point.r);
   return sense_of_t(i.tetrad) * (is_outgoing(i.tetrad) ? i.null_time + star : i.null_time - star);
@@ -96,8 +98,8 @@ double killing_time(const Instant& i) {
 
 bool is_inside(Region region) { return region == Region::kII || region == Region::kIV; }
 
-// v or u at which a horizon is crossed between two ticks of a segment, one of them inside, by
-// bisection.
+// The v or u at which a horizon is crossed between two ticks of a segment, of which one is inside.
+// It is found by bisection.
 double crossing_time(const Instants& show, Tick a, Tick b) {
   const Region before = show.at(a).point.region;
   while (b.tick - a.tick > 1) {
@@ -108,7 +110,7 @@ double crossing_time(const Instants& show, Tick a, Tick b) {
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
-// The crossings between the ticks of one run, in order.
+// The times of all crossings between the ticks of one run, in order.
 std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run) {
   std::vector<double> times;
   for (std::size_t k = 1; k < run.size(); ++k)
@@ -119,7 +121,7 @@ std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run
 }
 
 Origin origin_of(const Instants& show, std::span<const Tick> run) {
-  constexpr double kBothVisible = 16;  // U of one is e^4 times that of the other
+  constexpr double kBothVisible = 16;  // M; U at one crossing is then e^4 times U at the other
   const std::vector<double> crossings = crossings_of(show, run);
   if (crossings.empty())
     return {-killing_time(show.at(run[run.size() / 2])), Origin::Centre::kMiddle};
@@ -128,7 +130,7 @@ Origin origin_of(const Instants& show, std::span<const Tick> run) {
   return {-crossings.back(), Origin::Centre::kCrossing};
 }
 
-// For each segment that of its run.
+// The origin for each segment, which is that of its run.
 std::vector<Origin> origins_of_time(const Instants& show, const std::vector<Tick>& ticks) {
   std::vector<Origin> origins(static_cast<std::size_t>(show.segments()));
   std::size_t first = 0;
@@ -153,7 +155,7 @@ std::vector<Tick> even_ticks(const Instants& show) {
     const int steps =
         std::max(kLeastOfSegment, static_cast<int>(show.part_of_show(segment) * kEvenly));
     for (int i = 0; i <= steps; ++i) {
-      // Out of step with any period that the orbit has: multiples of the golden ratio.
+      // Multiples of the golden ratio are out of step with any period that the orbit has.
       const double turns = i * std::numbers::phi;
       const double aside = i == 0 || i == steps ? 0 : turns - std::floor(turns) - 0.5;
       ticks.push_back({segment, static_cast<int>(std::lround((i + aside) / steps * last))});
@@ -164,7 +166,7 @@ std::vector<Tick> even_ticks(const Instants& show) {
   return ticks;
 }
 
-// Adds the instants from a (excluded) to b (included) that a smooth curve needs.
+// Adds to a path the points that smooth curves need.
 class Sampler {
  public:
   Sampler(const Instants& show, Path& path) : show_(show), path_(path) {}
@@ -211,7 +213,7 @@ class Sampler {
 
   const Instants& show_;
   Path& path_;
-  double begin_ = 0, end_ = 0;  // between them turns are not drawn
+  double begin_ = 0, end_ = 0;  // turns between these are not drawn
 };
 
 void sample_finely(const Instants& show, const std::vector<Tick>& ticks, Path& path) {

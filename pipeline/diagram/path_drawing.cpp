@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidth = 2.2;
 
-// Part of the path that is one stroke.
+// A part of the path that is one stroke.
 struct Stretch {
   int segment = 0;
   Region region = Region::kI;
@@ -56,7 +56,7 @@ struct Arrow {
   PagePoint along;  // unit vector
 };
 
-// After so many pixels of a stretch.
+// The arrow after so many pixels of a stretch, if it is as long.
 std::optional<Arrow> arrow_after(const Stretch& stretch, double wanted) {
   double gone = 0;
   for (std::size_t i = 1; i < stretch.points.size(); ++i) {
@@ -82,7 +82,8 @@ void draw_arrow(Svg& page, const Arrow& arrow, const std::string& colour) {
             colour);
 }
 
-// Halfway along, or within the first turn of a long stretch; aside from there if a dot is in the way.
+// The arrow lies halfway along, or in the first 400 pixels of a long stretch.  It moves aside if
+// the mark of an instant is in the way.
 void add_arrow(Svg& page, const Stretch& stretch, const std::vector<PagePoint>& dots) {
   constexpr double kFarthest = 400, kClear = 14;
   const double middle = std::min(length_of(stretch.points) / 2, kFarthest);
@@ -113,7 +114,8 @@ void draw_end(Svg& page, const PagePoint& at, const std::string& colour) {
   page.frame(box, {"#ffffff", 1.2});
 }
 
-// A segment that stays where it is is a dot, whether or not a multiple of the step falls into it.
+// A segment without motion has no curve.  It is marked like an instant, whether or not one falls
+// into it.
 void draw_held_instants(Svg& page, const std::vector<Stretch>& stretches) {
   for (std::size_t k = 0; k < stretches.size(); ++k) {
     const int segment = stretches[k].segment;
@@ -127,7 +129,8 @@ void draw_held_instants(Svg& page, const std::vector<Stretch>& stretches) {
 }  // namespace
 
 std::string segment_colour(int segment) {
-  // Okabe and Ito's colours, told apart by the colour-blind too, darkened for white paper.
+  // These are Okabe and Ito's colours, which the colour-blind can tell apart too, darkened for
+  // white paper.
   static constexpr std::array kColours{"#0072b2", "#d55e00", "#00876a", "#b5508c",
                                        "#b07d00", "#2f95c8", "#7a5bb5", "#7c4a1e"};
   return kColours[static_cast<std::size_t>(segment) % kColours.size()];

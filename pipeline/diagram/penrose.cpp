@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-// arctan(exp(log)), in (0, pi/2), where exp(log) may overflow; 0 for log = minus infinity.
+// arctan(exp(log)) in (0, pi/2), where exp(log) may overflow.  It is 0 for log = minus infinity.
 double arctan_exp(double log) {
   return log > 0 ? std::numbers::pi / 2 - std::atan(std::exp(-log)) : std::atan(std::exp(log));
 }
@@ -20,8 +20,8 @@ PenrosePoint compactified(Region region, double log_u, double log_v) {
 
 }  // namespace
 
-// ln|r/2 - 1| as log1p near the singularity, where r* = -r^2/4 is a small difference; beside the
-// horizon r - 2 is exact.
+// Near the singularity r* tends to -r^2/4, a small difference of its two terms, so ln|r/2 - 1| is
+// taken as log1p there.  Beside the horizon r - 2 is exact.
 double tortoise(double r) {
   return r + 2 * (r < 1 ? std::log1p(-r / 2) : std::log(std::abs(r - 2) / 2));
 }
@@ -33,7 +33,7 @@ PenrosePoint penrose_point(Region region, double t, double r) {
 }
 
 PenrosePoint penrose_point(Region region, Tetrad tetrad, double r, double null_time) {
-  // The reflection U <-> V carries region III to region I and t to -t.
+  // The reflection U <-> V takes region III to region I and t to -t.
   if (is_mirrored(tetrad)) {
     const Region reflected = region == Region::kIII ? Region::kI : region;
     const Tetrad own = is_outgoing(tetrad) ? Tetrad::kOutgoing : Tetrad::kRain;

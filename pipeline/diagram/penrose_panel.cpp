@@ -19,7 +19,8 @@ class Diagram {
   Scale x_, up_;
 };
 
-// From corner to corner: sampled evenly in the angle that t becomes.
+// Draws a curve of constant r from corner to corner.  t = 12 artanh(part) at even parts of (-1, 1)
+// spreads the points along it.
 void draw_constant_radius(Svg& page, const Diagram& at, Region region, double r,
                           const Stroke& stroke) {
   constexpr int kSteps = 160;
@@ -31,7 +32,7 @@ void draw_constant_radius(Svg& page, const Diagram& at, Region region, double r,
   page.curve(points, stroke);
 }
 
-// r is written where t = 0.
+// Writes r where the curve has t = 0.
 void label_radius(Svg& page, const Diagram& at, Region region, double r) {
   const PagePoint p = at(penrose_point(region, 0, r));
   page.text({p.x, p.y + 3.5}, number_text(r), {10, "#7d8594", "middle", false, false, true});

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// Hundredths of a pixel, without trailing zeros.
+// Writes a number to hundredths of a pixel, without trailing zeros.
 std::string number(double value) {
   std::string out = fmt::format("{:.2f}", value);
   out.erase(out.find_last_not_of('0') + 1);
@@ -138,7 +138,8 @@ void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& styl
       fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\"{}", number(at.x),
                   number(at.y), number(style.size), style.anchor, more);
   const std::string end = fmt::format(">{}</text>\n", xml_escaped(text));
-  // A rim under the letters; paint-order, which would do it in one, is not known to all viewers.
+  // The rim is drawn under the letters.  The attribute paint-order would do both in one, but some
+  // viewers do not know it.
   if (style.halo)
     body_ += common +
              R"( fill="#ffffff" stroke="#ffffff" stroke-width="3.5" stroke-linejoin="round")" + end;

@@ -1,4 +1,4 @@
-// A drawing in SVG 1.1, written shape by shape; later shapes lie on earlier ones.
+// A drawing in SVG 1.1, written shape by shape.  Later shapes lie on earlier ones.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// Pixels of the page; y grows downwards.
+// A place in pixels of the page.  y grows downwards.
 struct PagePoint {
   double x = 0, y = 0;
 };
@@ -22,25 +22,26 @@ struct PageBox {
 struct TextStyle {
   double size = 13;
   const char* colour = "#30343c";
-  const char* anchor = "start";  // middle, end
+  const char* anchor = "start";  // or "middle" or "end"
   bool bold = false, italic = false;
-  bool halo = false;      // a white rim, over lines
+  bool halo = false;      // a white rim, for text over lines
   double turned_deg = 0;  // clockwise about its place
 };
 
 struct Stroke {
   std::string colour;
   double width = 1;
-  const char* dashes = "";  // lengths of dash and gap, e.g. "6 4"; empty: unbroken
+  const char* dashes = "";  // lengths of dash and gap, e.g. "6 4"; empty for an unbroken line
 };
 
-// Bytes that are not XML's characters become U+FFFD, its marks become entities.  Text is UTF-8.
+// Replaces the marks of XML by entities, and control characters other than the tab by U+FFFD.
+// Text is UTF-8.
 std::string xml_escaped(std::string_view text);
 
-// A rough width in pixels: 0.6 of the size for each character, what DejaVu Sans takes on average.
+// A rough width in pixels: 0.6 of the size for each character, which is the average of DejaVu Sans.
 double text_width(std::string_view text, double size);
 
-// `text` if it is at most `width` wide, else its beginning and an ellipsis.
+// Returns `text` if it is at most `width` wide, else its beginning and an ellipsis.
 std::string shortened(const std::string& text, double size, double width);
 
 class Svg {
@@ -52,15 +53,14 @@ class Svg {
   void line(const PagePoint& a, const PagePoint& b, const Stroke& stroke);
   void circle(const PagePoint& centre, double radius, const std::string& fill,
               const Stroke& stroke = {"none", 0});
-  // Points nearer than 0.15 pixel to the one before are left out, but for the last.
+  // Points nearer than 0.15 pixel to the one before are left out, except the last.
   void curve(const std::vector<PagePoint>& points, const Stroke& stroke);
   void area(const std::vector<PagePoint>& points, const std::string& fill, double opacity = 1);
   void text(const PagePoint& at, std::string_view text, const TextStyle& style = {});
-  // Shapes between the two belong together and bear this id.
+  // Shapes between these two calls form a group with this id.
   void begin_group(std::string_view id);
   void end_group();
 
-  // The document.
   std::string document() const;
 
  private:

@@ -9,14 +9,14 @@ namespace domefall {
 namespace {
 
 constexpr double kLabelSize = 12;
-// The names of the segments take the uppermost pixels.
+// The names of the segments take the uppermost pixels of the box.
 constexpr double kBand = 22, kTopOfCurves = 30;
 
 Scale time_scale(const PageBox& box, const Show& show) {
   return {0, segment_times(show).back(), box.left, box.right};
 }
 
-// "2 infall", "2" or nothing, as there is room.
+// The label "2 infall", "2" or none, as there is room.
 std::string band_label(const Show& show, std::size_t k, double room) {
   const std::string digits = fmt::format("{}", k + 1);
   const std::string full = fmt::format("{} {}", digits, show.timeline[k].type);
@@ -25,10 +25,11 @@ std::string band_label(const Show& show, std::size_t k, double room) {
   return "";
 }
 
-// Where two segments dissolve the band of the one tapers off as that of the other grows.
+// Where two segments dissolve, the band of one tapers off as that of the other grows.
 void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& show) {
   const std::vector<double> times = segment_times(show);
-  page.rectangle({box.left, box.top, box.right, box.top + kBand}, "#ffffff");  // over the grid
+  // The white band hides the grid behind the names.
+  page.rectangle({box.left, box.top, box.right, box.top + kBand}, "#ffffff");
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
     const double begin = x(times[k]), end = x(times[k] + show.timeline[k].duration_s);
     const double grown = x(times[k] + show.timeline[k].dissolve_s), tapers = x(times[k + 1]);
@@ -44,8 +45,8 @@ void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& s
   }
 }
 
-// A line between segments, or one at either end of a dissolve; where the place jumps, heavier and with a
-// word.
+// Draws a line between segments, or one at either end of a dissolve.  Where the place jumps, the
+// line is heavier and has a label.
 void mark_cuts(Svg& page, const PageBox& box, const Scale& x, const Path& path, const Show& show) {
   const std::vector<double> times = segment_times(show);
   double free_from = box.left;
@@ -82,7 +83,7 @@ void draw_curve(Svg& page, const Path& path, const Scale& x, const Scale& y,
   finish();
 }
 
-// Named beside the box, apart from each other.
+// The names of the two radii stand beside the box, apart from each other.
 void mark_radii(Svg& page, const PageBox& box, const Scale& y) {
   double horizon = y(2), circle = y(3);
   page.line({box.left, horizon}, {box.right, horizon}, {"#16181d", 1.6});
