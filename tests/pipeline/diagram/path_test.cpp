@@ -149,7 +149,7 @@ TEST(RoundStep, IsTheNextOfOneTwoFive) {
   EXPECT_DOUBLE_EQ(round_step(700), 1000);
 }
 
-// After a jump the second world line has nothing to do with the first one's t: each is central.
+// After a jump the second world line does not share t with the first, so each lies in the middle.
 TEST_F(Paths, EveryRunIsCentredByItself) {
   const Path p = path(
       "  - {duration_s: 4, trajectory: {type: infall, from_r: 20, to_r: 0.1, pace: slowing}}\n"

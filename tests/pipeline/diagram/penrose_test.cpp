@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-// A few roundings of numbers of size 1, and of logarithms of size 20.
+// The bound is a few roundings of numbers of size 1 and of logarithms of size 20.
 constexpr double kRounding = 1e-14;
 
 void expect_near(const PenrosePoint& a, const PenrosePoint& b, double tolerance = kRounding) {
@@ -53,12 +53,12 @@ TEST(Penrose, TheHorizonsAreTheDiagonals) {
     EXPECT_GT(past.x, 0);
     EXPECT_DOUBLE_EQ(past.x, -past.up);
   }
-  // v = 0 is U = 1: the middle of the line.
+  // v = 0 means U = 1, which is the middle of the line.
   expect_near(penrose_point(Region::kII, Tetrad::kRain, 2, 0), {0.25, 0.25});
 }
 
 TEST(Penrose, TheSingularitiesAreStraightLines) {
-  // U V - 1 = -r^2/8, and arctan U + arctan V = pi/2 where U V = 1.
+  // Near the singularity U V - 1 is -r^2/8, and where U V = 1, arctan U + arctan V is pi/2.
   const double r = 1e-7;
   for (const double null_time : {-12.0, 0.0, 9.0}) {
     EXPECT_NEAR(penrose_point(Region::kII, Tetrad::kRain, r, null_time).up, 0.5, kRounding);
@@ -72,7 +72,7 @@ TEST(Penrose, InfinitiesAreCorners) {
   expect_near(penrose_point(Region::kI, -1e12, 6), {0.5, -0.5});
   expect_near(penrose_point(Region::kIII, -1e12, 6), {-0.5, 0.5});
   expect_near(penrose_point(Region::kI, Tetrad::kRain, 1e9, 4e12), {0.5, 0.5});
-  // Where light from the middle goes: v grows while u stays.
+  // Light from the middle moves so that v grows and u stays.
   expect_near(penrose_point(Region::kI, Tetrad::kOutgoing, 1e9, 0), {0.75, 0.25});
   expect_near(penrose_point(Region::kI, Tetrad::kRain, 1e9, 0), {0.75, -0.25});
 }
@@ -134,8 +134,8 @@ TEST(Penrose, AStaticObserverGoesFromThePastToTheFutureInfinityOnACurveSymmetric
   EXPECT_EQ(penrose_point(Region::kI, 0, 6).up, 0);
 }
 
-// x + up and up - x, arctan U and arctan V, never fall along a timelike path: |dx| < dup, but where
-// rounding swallows one of the two growths: next to U = 0 and to the infinities.
+// x + up and up - x, which are arctan U and arctan V, never fall along a timelike path, so |dx| <
+// dup.  Next to U = 0 and to the infinities rounding may swallow one of the two growths.
 void expect_timelike(const Trajectory& trajectory, double tau_begin, double tau_end, double start) {
   constexpr int kSteps = 400;
   PenrosePoint before;
@@ -164,7 +164,8 @@ RC_GTEST_PROP(Penrose, EveryPathIsTimelike, ()) {
   expect_timelike(fall, 0, proper_time_to(fall, 1e-3), start);
 }
 
-// IV, I, II: the outgoing frame up to the largest r, rain from there on, with one t.
+// The path leads through IV, I and II.  Its frame is outgoing up to the largest r and rain from
+// there on, with one t.
 RC_GTEST_PROP(Penrose, APathThroughThreeRegionsIsTimelike, ()) {
   const double start = any_between(-40, 40);
   const Geodesic path = kruskal_crossing(any_between(0.05, 0.99), any_between(0, 3));

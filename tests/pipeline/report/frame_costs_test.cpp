@@ -34,7 +34,7 @@ TEST(CostSlopes, AreBetweenNeighbouringRowsOfAScene) {
   EXPECT_NEAR(mean_slope(both, &FrameCostRow::stars, "another"), 1e5, 1e-6);
 }
 
-// From one scene to the next nothing rises.
+// A rise is measured within a scene, never from one scene to the next.
 TEST(CostSlopes, RiseMostAtACliff) {
   std::vector<FrameCostRow> both = rows({1, 2, 3, 4, 5}, {1, 2, 3, 13, 14});
   for (FrameCostRow row : rows({1, 2}, {1, 1000})) row.scene = "another", both.push_back(row);

@@ -12,7 +12,7 @@ const std::vector<FrameErrorRow>& quick() {
   return rows;
 }
 
-// Of one scene, those that look at difficult pixels more and more often.
+// The rows of a scene whose difficult pixels have ever more view rays.
 std::vector<FrameErrorRow> finer_and_finer(const std::string& scene) {
   std::vector<FrameErrorRow> rows;
   for (const FrameErrorRow& row : quick())
@@ -41,8 +41,8 @@ TEST(FrameErrors, FallWithMoreSamples) {
   }
 }
 
-// Of a map most pixels are interpolated, to a hundredth of a pixel.  Measured: this changes the error by
-// 0.0025 of it.  The grid is no map, and looked at pixel by pixel either way.
+// Most pixels of a map are interpolated, to a hundredth of a pixel.  Measured: this changes the
+// error by 0.0025 of itself.  The grid is no map, so it is traced pixel by pixel either way.
 TEST(FrameErrors, OfInterpolatingAreSmallBesideTheRest) {
   const FrameErrorRow &usual = row_of("10 M, Milky Way", "default"),
                       &exact = row_of("10 M, Milky Way", "none interpolated");
@@ -51,7 +51,8 @@ TEST(FrameErrors, OfInterpolatingAreSmallBesideTheRest) {
   EXPECT_EQ(row_of("30 M, grid", "default").rms, row_of("30 M, grid", "none interpolated").rms);
 }
 
-// Of 8 bits, in the mean; a frame of 256 pixels is the smallest that anyone would look at.
+// The steps are those of 8 bits, and the error is the rms.  A frame of 256 pixels is the smallest
+// that anyone would watch.
 TEST(FrameErrors, OfTheDefaultAreBelowTwoStepsOfADisplay) {
   for (const FrameErrorRow& row : quick()) {
     EXPECT_GT(row.rms, 0) << row.setting;
@@ -66,7 +67,7 @@ TEST(FrameErrors, AreGivenWithTheirSceneSizeAndCost) {
   for (const FrameErrorRow& row : quick()) {
     EXPECT_EQ(row.size, 256);
     EXPECT_GT(row.seconds, 0);
-    // One copy, the same for all rows of a scene.
+    // All rows of a scene are measured by the same copy.
     const FrameErrorRow& first = row_of(row.scene, "1 view ray");
     EXPECT_NEAR(row.seconds / row.copies, first.seconds / first.copies, 1e-12);
   }

@@ -11,8 +11,8 @@ namespace {
 
 double energy(const FallState& p) { return p.gamma - std::sqrt(2 / p.r) * p.radial; }
 
-// A body of this energy and angular momentum, falling: r' = -sqrt(E^2 - (1 - 2/r)(1 + L^2/r^2)) and
-// gamma = E + s w with w = r' + s gamma.  r > 2.
+// A falling body of this energy and angular momentum at r > 2.  Its r' is
+// -sqrt(E^2 - (1 - 2/r)(1 + L^2/r^2)), and its gamma is E + s w with w = r' + s gamma.
 FallState falling(double r, double e, double l) {
   const double s = std::sqrt(2 / r), v = l / r;
   const double speed = -std::sqrt(std::max(0.0, e * e - (1 - 2 / r) * (1 + v * v)));
@@ -28,7 +28,8 @@ std::vector<double> evenly(double end, int count) {
 
 constexpr FallMethod kMethods[] = {FallMethod::kDopri5, FallMethod::kFehlberg78};
 
-// Not one of the closed forms: round the hole, through the horizon, to the singularity.
+// This orbit has no closed form: it leads round the hole, through the horizon and to the
+// singularity.
 TEST(FreeFall, KeepsEnergyAngularMomentumAndNormThroughTheHorizon) {
   const double e = 0.97, l = 3.2;
   for (const FallMethod method : kMethods) {
@@ -37,7 +38,7 @@ TEST(FreeFall, KeepsEnergyAngularMomentumAndNormThroughTheHorizon) {
     for (const FallState& p : states) {
       if (p.r < 0.01) break;
       inside += p.r < 2;
-      // gamma grows as r^(-3/2); what is kept is a difference of its like.
+      // gamma grows like r^(-3/2), and the constants are differences of such numbers.
       const double scale = p.gamma * p.gamma * 1e-10;
       EXPECT_NEAR(energy(p), e, scale);
       EXPECT_NEAR(p.r * p.tangential, l, scale);
@@ -49,8 +50,8 @@ TEST(FreeFall, KeepsEnergyAngularMomentumAndNormThroughTheHorizon) {
   }
 }
 
-// E = 1 and L >= 4: r_per = 1/(1/4 - sqrt(1/16 - 1/L^2)), independent of all that is
-// integrated.
+// With E = 1 and L >= 4 the condition r' = 0 is 2/r - L^2/r^2 + 2 L^2/r^3 = 0, a quadratic equation
+// in 1/r.  Its smaller root gives the pericentre 1/(1/4 - sqrt(1/16 - 1/L^2)).
 TEST(FreeFall, AParabolaTurnsAtItsPericentre) {
   const double l = 5, pericentre = 1 / (0.25 - std::sqrt(1.0 / 16 - 1 / (l * l)));
   for (const FallMethod method : kMethods) {
@@ -58,15 +59,16 @@ TEST(FreeFall, AParabolaTurnsAtItsPericentre) {
     const auto nearest =
         std::min_element(states.begin(), states.end(),
                          [](const FallState& a, const FallState& b) { return a.r < b.r; });
-    EXPECT_NEAR(nearest->r, pericentre, 1e-5);  // states 0.01 M apart
+    EXPECT_NEAR(nearest->r, pericentre, 1e-5);  // the states are 0.01 M apart
     EXPECT_GT(states.back().r, pericentre + 5) << "on its way out";
   }
 }
 
-// From far away an orbit is Kepler's, whose period is 2 pi a^(3/2); its pericentre moves on by 6 pi/p.
+// Far from the hole an orbit is Kepler's, with the period 2 pi a^(3/2).  Its pericentre advances by
+// 6 pi/p.
 TEST(FreeFall, FarAwayTheOrbitIsKeplersWithEinsteinsPrecession) {
   const double a = 1e5, eccentricity = 0.5, p = a * (1 - eccentricity * eccentricity);
-  // Exact for these turning points, with p and e in the place of E and L.
+  // E and L are exact for the turning points that p and e give.
   const double l = std::sqrt(p * p / (p - 3 - eccentricity * eccentricity));
   const double apocentre = p / (1 - eccentricity), v = l / apocentre, s = std::sqrt(2 / apocentre);
   const double gamma = std::sqrt((1 + v * v) / (1 - s * s));
@@ -78,7 +80,8 @@ TEST(FreeFall, FarAwayTheOrbitIsKeplersWithEinsteinsPrecession) {
       std::max_element(states.end() - 5, states.end(),
                        [](const FallState& x, const FallState& y) { return x.r < y.r; });
   EXPECT_NEAR(furthest->r / apocentre, 1, 1e-6);
-  // Where r' = 0, by the speed beside it: r' = r'' dt and the azimuth goes on at v/r.
+  // The azimuth where r' = 0 follows from the nearest state, by r' = r'' dt and the angular speed
+  // v/r.
   const double precession = 6 * std::numbers::pi / p;
   const FallState& q = *furthest;
   const double speed = q.radial - std::sqrt(2 / q.r) * q.gamma;
@@ -95,7 +98,8 @@ TEST(FreeFall, FromTheRainsOwnStateHasTheRainsFall) {
     EXPECT_NEAR(integrate_fall({from, 0, 1, 0, 0}, {tau}, method, 1e-12)[0].r, to, 1e-7);
 }
 
-// States between two steps are reached by steps of their own: more of them change none.
+// States between two steps are reached by steps of their own, so asking for more of them changes
+// none.
 TEST(FreeFall, DoesNotDependOnHowManyStatesAreWanted) {
   const FallState start = falling(12, 0.97, 4);
   for (const FallMethod method : kMethods) {

@@ -30,8 +30,8 @@ TEST(MadeUpStars, ComeBrightestFirstAndEvenlySpread) {
     EXPECT_NEAR(d.length2(), 1, 1e-14);
     sum += d, squares += d * d;
   }
-  // Each component's mean is 0 and that of its square 1/3; four standard deviations of 100,000 stars are
-  // 0.0073 and 0.0038.
+  // The mean of each component is 0 and the mean of its square 1/3.  Four standard deviations of
+  // these means are 0.0073 and 0.0038 for 100,000 stars.
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(sum[axis] / 1e5, 0, 0.0073);
     EXPECT_NEAR(squares[axis] / 1e5, 1.0 / 3, 0.0038);

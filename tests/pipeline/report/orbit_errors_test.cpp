@@ -20,7 +20,8 @@ OrbitErrorRow row_of(const std::string& orbit, const std::string& method, double
   return {};
 }
 
-// Of terms up to gamma^2 = 31 (at 3.1 M) and an angular momentum of 9.8, in the last bits.
+// The bounds are a few last bits of terms up to gamma^2 = 31 (at 3.1 M) and of an angular momentum
+// of 9.8.
 TEST(OrbitErrors, OfClosedFormsLeaveEnergyAngularMomentumAndNormAlone) {
   int seen = 0;
   for (const OrbitErrorRow& row : quick()) {
@@ -44,8 +45,9 @@ TEST(OrbitErrors, OfClosedFormsInPlaceAreInTheLastBits) {
   EXPECT_GT(row_of("circular at 3.1 M, 3", "closed form", 0).norm_drift, 0) << "with 50 digits";
 }
 
-// Next to a singularity the rounding of tau counts: 7e-15 M at the end of the fall, of which 2e-9 M are
-// left there (r^(5/2)), and 1e-16 of 3e-6 M at r = 0.01 M on the way out.  gamma^2 is up to 1.5e7.
+// Next to a singularity the rounding of tau matters.  It is 7e-15 M at the end of the fall, where
+// 2e-9 M are left, since the time left goes like r^(5/2).  It is 1e-16 of 3e-6 M at r = 0.01 M on
+// the way out.  gamma^2 is up to 1.5e7.
 TEST(OrbitErrors, OfQuadraturesAreInTheLastBitsToo) {
   int seen = 0;
   for (const OrbitErrorRow& row : quick()) {
@@ -61,7 +63,7 @@ TEST(OrbitErrors, OfQuadraturesAreInTheLastBitsToo) {
   EXPECT_EQ(seen, 6);
 }
 
-// A step's error grows 1e4-fold while the orbit whirls, and comes out as a place on the way.
+// The error of a step grows 1e4-fold while the orbit whirls, and becomes an error in place.
 TEST(OrbitErrors, OfIntegrationsGrowInAWhirl) {
   for (const char* method : {"dopri5", "fehlberg78"})
     EXPECT_GT(row_of("whirl", method, 1e-9).phi_error,
@@ -69,7 +71,8 @@ TEST(OrbitErrors, OfIntegrationsGrowInAWhirl) {
         << method;
 }
 
-// The other way round: two methods that know nothing of the closed forms come to the same places.
+// The integrations check the closed forms in turn: they share no formula, and come to the same
+// places.
 TEST(OrbitErrors, OfIntegrationsFallWithTheTolerance) {
   for (const char* method : {"dopri5", "fehlberg78"}) {
     const OrbitErrorRow coarse = row_of("circular at 10 M", method, 1e-6),
@@ -86,7 +89,7 @@ TEST(OrbitErrors, OfIntegrationsFallWithTheTolerance) {
   }
 }
 
-// Below 6 M a circle is unstable: what a step gets wrong grows without end.
+// Below 6 M a circle is unstable, so the error of a step grows without end.
 TEST(OrbitErrors, OfIntegrationsGrowOnAnUnstableCircle) {
   for (const char* method : {"dopri5", "fehlberg78"}) {
     const OrbitErrorRow stable = row_of("circular at 10 M", method, 1e-9),

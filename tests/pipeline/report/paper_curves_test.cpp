@@ -51,7 +51,7 @@ TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
   const Curve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
   EXPECT_NEAR(near(curve, kPi), 0, 1e-8);
   EXPECT_LT(curve.points.front().y, -5.25 * kPi);
-  // Far from the hole little is missing to delta - pi but aberration.
+  // Far from the hole the curve differs from delta - pi by little more than aberration.
   EXPECT_NEAR(near(curve, 3),
               (3 - kPi) * std::sqrt((1 - std::sqrt(2 / 30.)) / (1 + std::sqrt(2 / 30.))), 0.02);
 }
@@ -61,7 +61,7 @@ TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
   const Curve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
   double most = -1e300;
   for (const PlotPoint& p : curve.points) most = std::max(most, p.y);
-  EXPECT_NEAR(most, -(2 * kPi - kPi / 2), 1e-4);  // arcsin(0) + pi/2 short of the turn
+  EXPECT_NEAR(most, -(2 * kPi - kPi / 2), 1e-4);  // a turn less arcsin(0) + pi/2
 }
 
 TEST(Figures, RegionFourFromWithinReachesTheArcsine) {

@@ -36,7 +36,7 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
         EXPECT_TRUE(std::isfinite(ray.slope) && ray.slope != 0);
         origins.insert(ray.origin);
       }
-    // Nowhere is but one thing seen, except in region IV.
+    // Every region but IV sees more than one origin.
     EXPECT_EQ(origins.size() > 1, of.region != std::string("IV"));
   }
 }
@@ -52,8 +52,8 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
     if (!row.is_default || (row.method != "table" && row.method != "exact")) continue;
     EXPECT_EQ(row.undecided, 0);
     EXPECT_GT(row.phi_worst, 0);
-    // Far from the hole an angle of 1e-7 that is given as its supplement has lost digits, which no
-    // sky shows.
+    // Far from the hole an angle of 1e-7 that is given as its supplement has lost digits, but no
+    // sky shows them.
     const double exact = row.difficulty == "far" ? 1e-10 : 1e-13;
     EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : exact);
     EXPECT_LT(row.sky_worst, row.method == "table" ? 1e-9 : 1e-12);
@@ -69,7 +69,7 @@ TEST(RayMethods, HaveTheirDefaultOnceAmongTheirSettings) {
     }
 }
 
-// A measure that cannot tell a wrong ray from a right one would be none.
+// The errors must tell a wrong ray from a right one.
 TEST(RayErrors, SeeAShiftedTruthAndAWrongOrigin) {
   const RayClass of = ray_classes().front();
   const RayMethod exact = compared_methods(true).at(1);

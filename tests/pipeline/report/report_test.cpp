@@ -20,7 +20,8 @@ Report small_report() {
                    {"a scene, with a comma", "many", 64, 0.001, 0.1, 1, 20},
                    {"a scene, with a comma", "many, none interpolated", 64, 0.001, 0.1, 2, 40},
                    {"a scene, with a comma", "many everywhere", 64, 0.0005, 0.1, 3, 60}};
-  // 100 ns for each further star, then 110 and 99; 20 and 10 for each further pixel.
+  // The slopes are 100, 110 and 99 ns for each further star, and 20 and 10 ns for each further
+  // pixel.
   report.costs.stars = {{"near", 64, 3e3, 1e3, 1e-3, 10},
                         {"near", 64, 3e3, 2e3, 1.1e-3, 11},
                         {"near", 64, 3e3, 12e3, 2.2e-3, 22},
@@ -80,7 +81,7 @@ TEST(ErrorPlots, HaveOneCurveForEveryMethod) {
   ASSERT_EQ(rays.curves.size(), 3U);
   EXPECT_EQ(rays.curves[0].name, "table");
   EXPECT_DOUBLE_EQ(rays.curves[0].points.at(0).x, 0.3);  // µs
-  EXPECT_GT(rays.curves[1].points.at(0).y, 0);           // no error at all can still be drawn
+  EXPECT_GT(rays.curves[1].points.at(0).y, 0);           // an error of 0 can still be drawn
   const Plot& frames = plot_of(plots, "frames_rms");
   ASSERT_EQ(frames.curves.size(), 3U);
   EXPECT_EQ(frames.curves[0].points.size(), 1U);
@@ -104,7 +105,7 @@ TEST(CostPlots, HaveOneCurveForEveryScene) {
   EXPECT_DOUBLE_EQ(pixels.curves[0].points.at(2).x, 16e4);
 }
 
-// The numbers follow from small_report's by hand.
+// The numbers follow by hand from those of small_report.
 TEST(CostsPage, StatesSlopesAndTheLargestRise) {
   const std::string page = costs_page(small_report());
   for (const char* fact :
@@ -135,7 +136,7 @@ TEST(CostsPage, SaysWhereTheDefaultErrsMoreThanTwiceTheResolution) {
                    {"b", "many (default)", 64, 0.003, 0.5, 2, 40},
                    {"b", "2 x 2 everywhere", 64, 0.002, 0.1, 4, 80}};
   const std::string page = costs_page(report);
-  // sqrt(1/2 * 3/2)
+  // The geometric mean of 1/2 and 3/2 is 0.87.
   EXPECT_NE(page.find("0.87 times its rms error in 0.50 times its time"), std::string::npos)
       << page;
   EXPECT_NE(page.find("in 1 of 2 scenes; the others, as times its error: b: 1.5."),
@@ -149,7 +150,7 @@ TEST(AccuracyPage, NamesTheMachineAndTheQuickestSoundWay) {
   const Machine on = this_machine();
   for (const std::string& fact : {on.processor, on.compiler, on.date})
     EXPECT_NE(page.find(fact), std::string::npos) << fact;
-  // The quicker method has lost a ray.
+  // The table is named, since the quicker method has lost a ray.
   EXPECT_NE(page.find("| I, ordinary | table (2^3 to the octave), 300 ns | table (2^3 to the "
                       "octave), 300 ns | exact, 1700 ns |"),
             std::string::npos)

@@ -65,11 +65,11 @@ double relative(const Wide& value, const Wide& truth) {
   return static_cast<double>(abs(value - truth) / abs(truth));
 }
 
-// Half a unit in the last place of a double and the table's own rounding.
+// The bound is half a unit in the last place of a double and the table's own rounding.
 constexpr double kPhi = 1e-15;
 
-// Beside the edge at r = 3 the table is off (tests/reference/README.md): those rows have a test of
-// their own.  One millionth away from it, its differences of phi still are.
+// Beside the edge at r = 3 the table is wrong (tests/reference/README.md), so those rows have a
+// test of their own.  A millionth away from the edge, only its differences of phi are still wrong.
 bool is_by_the_light_circle(const Row& row) {
   return row.request.edge && row.request.r == 3 && abs(row.request.offset) < Wide("1e-5");
 }
@@ -97,9 +97,9 @@ TEST(ReferenceRay, AgreesWithTheTable) {
   }
 }
 
-// At r = 3 the light circle itself is the observer's place, x = w - 1/3 = 0, and the azimuth is
-// int dx/sqrt(2 x^3 + x^2 + eps) from x = -1/3 or from infinity: with |x| = sqrt(eps) sinh(t)
-// nothing is left that a plain quadrature could not do.
+// An observer at r = 3 is on the light circle, x = w - 1/3 = 0.  The azimuth is the integral of
+// dx/sqrt(2 x^3 + x^2 + eps) from x = -1/3 or from infinity.  With |x| = sqrt(eps) sinh(t) the
+// integrand is so smooth that a plain quadrature will do.
 Wide quadrature_at_the_light_circle(const ReferenceRay& ray, ReferenceObserver observer) {
   const Wide s = sqrt(Wide(2) / 3), third = Wide(1) / 3;
   const bool is_static = observer == ReferenceObserver::kStatic;
@@ -115,7 +115,7 @@ Wide quadrature_at_the_light_circle(const ReferenceRay& ray, ReferenceObserver o
       },
       Wide(0), Wide(asinh(third / scale)), Wide("1e-12"));
   if (from_sky) return inner;
-  // x = 1/v^2 beyond 1/3
+  // The part beyond x = 1/3 is taken over v with x = 1/v^2.
   const Wide outer = rule.integrate(
       [&](const Wide& v) -> Wide {
         const Wide v2 = v * v;
@@ -145,7 +145,7 @@ TEST(ReferenceRay, WithoutKillingEnergyRegionFourSeesTheArcsine) {
     const ReferenceRay ray =
         reference_ray({ReferenceObserver::kFour, u, sharp_pi() / 2, std::nullopt, 0});
     EXPECT_EQ(ray.origin, ReferenceOrigin::kPastSingularity);
-    // acos in place of an asin that cancels for small r
+    // acos stands for an asin that would cancel for small r.
     EXPECT_LT(relative(ray.phi, acos(1 - u)), 1e-40) << r;
   }
 }
@@ -162,7 +162,7 @@ TEST(ReferenceRay, WithoutKillingEnergyRegionTwoSeesTheRestOfTheTurn) {
 TEST(ReferenceRay, InFlatSpaceLightGoesStraight) {
   const ReferenceRay ray =
       reference_ray({ReferenceObserver::kStatic, Wide("1e12"), Wide(2), std::nullopt, 0});
-  // what bends it is of the order of 1/r
+  // The bending is of the order of 1/r.
   EXPECT_LT(relative(ray.phi, sharp_pi() - 2), 1e-11);
   EXPECT_LT(relative(ray.slope, -1), 1e-11);
 }
