@@ -134,9 +134,9 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
 
 std::string view_rays(const std::vector<ViewRaySpeedRow>& rows) {
   std::string page =
-      "In a frame, where 128 view rays are traced together, one of them costs so much on one "
-      "thread, from the pixel's\ndirection to the place on the sky, aberration, redshift and "
-      "footprint included:\n\n"
+      "In a frame, where 128 view rays are traced together, this is the time of one of them on one "
+      "thread, from the\npixel's direction to the place on the sky, with aberration, redshift and "
+      "footprint:\n\n"
       "| observer | ns per view ray |\n|---|---|\n";
   for (const ViewRaySpeedRow& row : rows)
     page += fmt::format("| {} | {:.1f} |\n", row.from, row.ns);
