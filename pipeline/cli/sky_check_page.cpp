@@ -12,18 +12,19 @@ constexpr std::size_t kOthersShown = 4;
 
 void print_fit(const char* what, const OrientationFit& fit) {
   std::printf("%-7s %5.0f %%  %5.0f %%  %6.3f   %s\n", what, 100 * fit.stars, 100 * fit.clouds,
-              fit.band, told(fit.orientation).c_str());
+              fit.band, orientation_phrase(fit.orientation).c_str());
 }
 
 }  // namespace
 
-std::string told(const SkyCheck& check) {
+std::string verdict_sentence(const SkyCheck& check) {
   const std::string by = check.by_stars ? "by its stars" : "by its Milky Way";
   if (check.verdict == SkyVerdict::kAgrees)
-    return "it lies on the sky as stated, " + by + ": " + told(check.stated.orientation);
+    return "it lies on the sky as stated, " + by + ": " +
+           orientation_phrase(check.stated.orientation);
   if (check.verdict == SkyVerdict::kOther)
-    return "stated as " + told(check.stated.orientation) + ", but, " + by + ", it fits better as " +
-           told(check.others[0].orientation);
+    return "stated as " + orientation_phrase(check.stated.orientation) + ", but, " + by +
+           ", it fits better as " + orientation_phrase(check.others[0].orientation);
   return "neither its stars nor its Milky Way are clear enough to tell its orientation by";
 }
 

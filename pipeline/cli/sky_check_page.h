@@ -8,7 +8,7 @@
 namespace domefall {
 
 // One line: agrees; another fits clearly better, and which; or there is nothing to tell by.
-std::string told(const SkyCheck& check);
+std::string verdict_sentence(const SkyCheck& check);
 
 // Known places with what the map has there, then the orientations that fit best; to stdout.
 void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places);

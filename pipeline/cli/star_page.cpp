@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <nlohmann/json.hpp>
 
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/json_file.h"
-#include "pipeline/sky/catalogue/mapped_stars.h"
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 
 namespace domefall {
 namespace {

@@ -10,6 +10,7 @@
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/show/assets.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/make/import_sky.h"
 #include "pipeline/sky/make/starlight_map.h"
 #include "pipeline/sky/maps/sky_file.h"
@@ -104,7 +105,7 @@ void info(const std::string& path, bool verify) {
               file.map.levels()[0].size, file.map.levels().size(),
               static_cast<double>(file.map.bytes()) / 1e6);
   std::printf("picture      %s\n",
-              file.origin.picture ? told(*file.origin.picture).c_str() : "none");
+              file.origin.picture ? orientation_phrase(*file.origin.picture).c_str() : "none");
   std::fputs(file.origin.text.c_str(), stdout);
   if (!verify) return;
   verify_sky_file(path);
@@ -133,8 +134,8 @@ void check_map(const std::string& path, const std::string& stars) {
   const StarCatalogue catalogue = check_stars(stars);
   const SkyCheck check = check_orientation(*map, stated, catalogue);
   print_check(check, known_places(*map, catalogue));
-  if (check.verdict == SkyVerdict::kOther) throw InputError(path + ": " + told(check));
-  std::printf("\n%s\n", told(check).c_str());
+  if (check.verdict == SkyVerdict::kOther) throw InputError(path + ": " + verdict_sentence(check));
+  std::printf("\n%s\n", verdict_sentence(check).c_str());
 }
 
 void add_check_of_sky(CLI::App& sky) {
@@ -151,7 +152,7 @@ struct ImportOptions {
   std::string image, out, projection = "auto", frame, licence, stars;
   bool left = false, right = false, linear = false, srgb = false, cmb = false;
   double unit = 0;
-  CmbLook look;
+  CmbSettings look;
 };
 
 SkyImport import_of(const ImportOptions& o) {
@@ -175,11 +176,11 @@ SkyImport import_of(const ImportOptions& o) {
 void import_map(const ImportOptions& o) {
   const SkyImport import = import_of(o);
   const Orientation stated = import_sky(import);
-  std::fprintf(stderr, "%s: %s\n", o.out.c_str(), told(stated).c_str());
+  std::fprintf(stderr, "%s: %s\n", o.out.c_str(), orientation_phrase(stated).c_str());
   const StarCatalogue catalogue = check_stars(o.stars);
   const SkyCheck check = check_orientation(open_sky_file(o.out).map, stated, catalogue);
   std::fprintf(stderr, "%s%s\n", check.verdict == SkyVerdict::kOther ? "warning: " : "",
-               told(check).c_str());
+               verdict_sentence(check).c_str());
 }
 
 void add_orientation(CLI::App& verb, ImportOptions& o) {

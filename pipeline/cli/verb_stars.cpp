@@ -6,11 +6,11 @@
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/import/hipparcos_repair.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
-#include "pipeline/sky/catalogue/import/star_corrections.h"
-#include "pipeline/sky/catalogue/import/star_names.h"
+#include "pipeline/sky/catalogue/amend/hipparcos_repair.h"
+#include "pipeline/sky/catalogue/amend/star_corrections.h"
+#include "pipeline/sky/catalogue/amend/star_names.h"
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/star_file.h"
 
 namespace domefall {
@@ -24,17 +24,17 @@ struct Options {
 
 std::string format_names() {
   std::string names;
-  for (const Importer& each : importers()) names += std::string(each.name) + ", ";
+  for (const CatalogueFormat& each : catalogue_formats()) names += std::string(each.name) + ", ";
   return names + "auto";
 }
 
-const Importer& importer_for(const std::string& format, const Paths& inputs) {
+const CatalogueFormat& format_of(const std::string& format, const Paths& inputs) {
   if (format == "auto") {
-    if (const Importer* guessed = guess_importer(inputs)) return *guessed;
+    if (const CatalogueFormat* guessed = guess_format(inputs)) return *guessed;
     throw InputError(inputs.front().string() +
                      ": not known by how it begins; name the format: " + format_names());
   }
-  for (const Importer& each : importers())
+  for (const CatalogueFormat& each : catalogue_formats())
     if (each.name == format) return each;
   throw InputError("format " + format + ": must be one of " + format_names());
 }
@@ -69,11 +69,11 @@ void import(const Options& o) {
   for (const std::filesystem::path& input : inputs) refuse_overwriting(o.out, input);
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
     refuse_overwriting(o.out, input);
-  const Importer& importer = importer_for(o.format, inputs);
-  if (o.format == "auto") say("taken as " + std::string(importer.title));
-  ImportedCatalogue imported = importer.import(inputs);
+  const CatalogueFormat& format = format_of(o.format, inputs);
+  if (o.format == "auto") say("taken as " + std::string(format.title));
+  ImportedCatalogue imported = format.import(inputs);
   RawCatalogue& catalogue = imported.catalogue;
-  say(std::string(importer.title) + ": " + counted(catalogue.stars.size(), "star"));
+  say(std::string(format.title) + ": " + counted(catalogue.stars.size(), "star"));
   for (const std::string& note : imported.notes) say(note);
   if (!o.hipparcos.empty()) repair(catalogue, o.hipparcos);
   if (!o.names.empty()) add_names(catalogue, o.names);
@@ -82,7 +82,7 @@ void import(const Options& o) {
   keep_brighter(catalogue, o.faintest);
   if (catalogue.stars.empty()) throw InputError(o.inputs.front() + ": no star is left to write");
   sort_by_brightness(catalogue);
-  catalogue.text.made = "domefall " DOMEFALL_VERSION " stars import " + std::string(importer.name) +
+  catalogue.text.made = "domefall " DOMEFALL_VERSION " stars import " + std::string(format.name) +
                         (o.hipparcos.empty() ? "" : " --hipparcos") +
                         (o.names.empty() ? "" : " --names") +
                         (o.corrections.empty() ? "" : " --corrections");

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
-#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
 
 namespace domefall {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "pipeline/sky/catalogue/star_record.h"
+#include "pipeline/sky/catalogue/raw_catalogue.h"
 
 namespace domefall {
 

@@ -7,6 +7,7 @@
 #include "pipeline/show/assets.h"
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/section.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {

@@ -8,7 +8,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
 #include "pipeline/image/some_light.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
 
 namespace domefall {

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
 #include "trajectories/equatorial.h"

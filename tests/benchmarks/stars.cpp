@@ -18,6 +18,8 @@
 #include "pipeline/render/stars/star_images.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 
 namespace domefall {
 namespace {

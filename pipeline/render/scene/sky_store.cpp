@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
 
 namespace domefall {

@@ -1,7 +1,6 @@
-// Stars as the renderer needs them, read from a catalogue file.
+// Stars as the renderer needs them: directions, magnitudes, temperatures, and names to look for.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,10 +10,13 @@
 
 namespace domefall {
 
+// Julian year for which stars are placed unless a show asks for another.
+inline constexpr double kCatalogueEpoch = 2000;
+
 struct Star {
   SkyDirection direction;  // J2000
   float v_magnitude;       // Johnson V
-  float temperature;       // kelvin, of the blackbody it is drawn as
+  float temperature;       // K, of the blackbody as which it is drawn
 };
 
 struct NamedStar {
@@ -27,34 +29,14 @@ struct StarCatalogue {
   std::vector<NamedStar> names;
 };
 
-// Effective temperature (K) from B-V: Ballesteros 2012 (EPL 97, 34008), for blackbodies.
-// Domain clamped to -0.4 <= B-V <= 2.0 (22,000 K to 3,170 K).
-double temperature_from_b_v(double b_v);
+// A name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen" are one.
+std::string folded_star_name(std::string_view name);
 
-// Julian year for which positions are given unless a catalogue says otherwise.
-inline constexpr double kCatalogueEpoch = 2000;
-
-// Reads the stars of V <= max_magnitude, where they stand in the Julian year `epoch` (proper motion as
-// `moved`, star_record.h).  The file is one of two kinds, told apart by how it begins:
-//
-// - a *.stars file (star_file.h), of which only the stars wanted and their names are read: all 2.5 million
-//   of Tycho-2 in 0.1 s of CPU time.  Throws InputError with file and byte where it is damaged;
-// - a CSV with the columns ra_deg, dec_deg (J2000), v_mag and b_v, and perhaps name, designation,
-//   pm_ra_mas_yr (times cos Dec) and pm_dec_mas_yr; others and '#' lines are ignored; the names of all its
-//   stars are kept.  Throws InputError with file and line where a row is damaged.
-//
-// A star without colour is taken to have B-V = 0.6.
-StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
-                                  double epoch = kCatalogueEpoch);
-
-// What tells a *.stars file from every other one, from its header alone; nothing for other files.  Throws
-// InputError as read_star_catalogue.
-std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file);
-
-// By proper name or designation, ignoring case and spaces.
+// The first star of that folded name.
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name);
 
-// The catalogue's name nearest to a misspelt one, for error messages; empty if none is near.
+// The catalogue's name nearest to a misspelt one, for error messages.  Empty if none is nearer than a
+// third of its letters (at least two) inserted, deleted or replaced.
 std::string nearest_star_name(const StarCatalogue& catalogue, std::string_view name);
 
 }  // namespace domefall

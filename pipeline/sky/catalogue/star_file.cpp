@@ -1,9 +1,13 @@
 #include "pipeline/sky/catalogue/star_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <cassert>
+#include <cmath>
 #include <cstring>
 
+#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/sky/catalogue/star_file_layout.h"
@@ -11,7 +15,7 @@
 namespace domefall {
 namespace {
 
-// Numbers in a file stand where they stand: copied out, they need no alignment.
+// A number of the file, copied out because it need not be aligned.
 template <class T>
 T at(std::string_view bytes, std::size_t offset) {
   T value;
@@ -28,6 +32,80 @@ std::string next_line(std::string_view& text) {
 
 std::size_t block_count(std::size_t stars) { return (stars + kBlockStars - 1) / kBlockStars; }
 
+std::int32_t fixed(double component) {
+  return static_cast<std::int32_t>(
+      std::clamp(std::round(component * kUnitLength), 1 - kUnitLength, kUnitLength - 1));
+}
+
+StarRecord record_of(const CatalogueStar& star) {
+  const V3d& d = star.direction.v;
+  return {fixed(d.x),  fixed(d.y), fixed(d.z),  star.pm_ra,
+          star.pm_dec, star.v,     star.colour, star.id};
+}
+
+template <class T>
+std::string_view bytes_of(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// Each text becomes one line, so ends of lines within it become blanks.
+std::string text_of(const CatalogueText& text) {
+  std::string lines;
+  for (std::string line : {text.source, text.licence, text.made}) {
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    lines += line + '\n';
+  }
+  return lines;
+}
+
+std::string names_of(const std::vector<StarName>& names) {
+  std::string out;
+  for (const StarName& name : names) {
+    const std::string_view kept = std::string_view(name.name).substr(0, kLongestName);
+    out += bytes_of(name.star);
+    out += bytes_of(static_cast<std::uint32_t>(kept.size()));
+    out += kept;
+  }
+  return out;
+}
+
+std::string index_of(const std::vector<CatalogueStar>& stars, std::string_view records) {
+  std::string index;
+  for (std::size_t first = 0; first < stars.size(); first += kBlockStars) {
+    const std::size_t count = std::min<std::size_t>(kBlockStars, stars.size() - first);
+    const StarBlock block{
+        checksum(records.substr(first * sizeof(StarRecord), count * sizeof(StarRecord))),
+        stars[first + count - 1].v, 0};
+    index += bytes_of(block);
+  }
+  return index;
+}
+
+StarFileHeader header_of(const RawCatalogue& catalogue, const std::string& index,
+                         const std::string& text, const std::string& names) {
+  StarFileHeader head{};
+  head.magic = kStarMagic;
+  head.byte_order = kByteOrder;
+  head.version = kStarFileVersion;
+  head.stars = catalogue.stars.size();
+  head.epoch = catalogue.epoch;
+  head.record_size = sizeof(StarRecord);
+  head.block_stars = kBlockStars;
+  head.index_at = sizeof head;
+  head.text_at = head.index_at + index.size();
+  head.text_size = text.size();
+  head.names_at = head.text_at + head.text_size;
+  head.names_size = names.size();
+  const std::uint64_t end = head.names_at + head.names_size;
+  head.records_at = (end + kRecordAlignment - 1) / kRecordAlignment * kRecordAlignment;
+  head.file_size = head.records_at + head.stars * sizeof(StarRecord);
+  head.text_sum = checksum(text);
+  head.names_sum = checksum(names);
+  head.index_sum = checksum(index);
+  head.head_sum = checksum(bytes_of(head).substr(0, offsetof(StarFileHeader, head_sum)));
+  return head;
+}
+
 }  // namespace
 
 bool is_star_file(std::string_view bytes) {
@@ -35,7 +113,7 @@ bool is_star_file(std::string_view bytes) {
 }
 
 void StarFile::fail(std::size_t byte, const std::string& what) const {
-  throw InputError(file_.path().string() + ": byte " + std::to_string(byte) + ": " + what);
+  throw InputError(fmt::format("{}: byte {}: {}", file_.path().string(), byte, what));
 }
 
 void StarFile::fail_at(const StarRecord& record, const std::string& what) const {
@@ -47,9 +125,9 @@ std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint6
                                 const char* what) const {
   const std::string_view bytes = file_.bytes();
   if (at > bytes.size() || size > bytes.size() - at)
-    fail(at, std::string("the ") + what + " reaches beyond the end of the file");
+    fail(at, fmt::format("the {} reaches beyond the end of the file", what));
   const std::string_view found = bytes.substr(at, size);
-  if (checksum(found) != sum) fail(at, std::string("the ") + what + " is damaged");
+  if (checksum(found) != sum) fail(at, fmt::format("the {} is damaged", what));
   return found;
 }
 
@@ -64,22 +142,23 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
     fail(offsetof(StarFileHeader, byte_order), "the numbers are in another order of bytes");
   if (head.version != kStarFileVersion)
     fail(offsetof(StarFileHeader, version),
-         "the star catalogue is of version " + std::to_string(head.version) +
-             "; this Domefall reads version " + std::to_string(kStarFileVersion));
+         fmt::format("the star catalogue is of version {}; this Domefall reads version {}",
+                     head.version, kStarFileVersion));
   if (checksum(bytes.substr(0, offsetof(StarFileHeader, head_sum))) != head.head_sum)
     fail(0, "the header is damaged");
   if (head.file_size != bytes.size())
     fail(std::min<std::uint64_t>(head.file_size, bytes.size()),
-         "the star catalogue " +
-             std::string(bytes.size() < head.file_size ? "ends here" : "should end here") +
-             "; it has " + std::to_string(bytes.size()) + " bytes instead of " +
-             std::to_string(head.file_size));
+         fmt::format("the star catalogue {}; it has {} bytes instead of {}",
+                     bytes.size() < head.file_size ? "ends here" : "should end here", bytes.size(),
+                     head.file_size));
   if (head.stars > kMostStars || head.record_size != sizeof(StarRecord) ||
       head.block_stars != kBlockStars || head.records_at % alignof(StarRecord) != 0 ||
       head.records_at > bytes.size() ||
       (bytes.size() - head.records_at) / sizeof(StarRecord) != head.stars)
     fail(offsetof(StarFileHeader, stars), "the header contradicts itself");
-  stars_ = head.stars, records_at_ = head.records_at, epoch_ = head.epoch;
+  stars_ = head.stars;
+  records_at_ = head.records_at;
+  epoch_ = head.epoch;
   head_sum_ = head.head_sum;
   index_ = part(head.index_at, block_count(stars_) * sizeof(StarBlock), head.index_sum, "index");
   names_ = part(head.names_at, head.names_size, head.names_sum, "table of names");
@@ -87,15 +166,13 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
   for (std::size_t i = end; i < records_at_; ++i)
     if (bytes[i] != 0) fail(i, "the filling before the stars is damaged");
   std::string_view text = part(head.text_at, head.text_size, head.text_sum, "text");
-  text_.source = next_line(text), text_.licence = next_line(text), text_.made = next_line(text);
+  text_.source = next_line(text);
+  text_.licence = next_line(text);
+  text_.made = next_line(text);
 }
 
-// The header's checksum is over the checksums of all else.
-std::string StarFile::fingerprint() const {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(head_sum_));
-  return text;
-}
+// The header's checksum covers the checksums of everything else.
+std::string StarFile::fingerprint() const { return fmt::format("{:016x}", head_sum_); }
 
 void StarFile::check_block(std::size_t block) const {
   const std::size_t first = block * kBlockStars,
@@ -136,6 +213,24 @@ std::vector<StarName> StarFile::names(std::size_t stars) const {
     i += kNumbers + length;
   }
   return found;
+}
+
+void write_star_file(const std::filesystem::path& file, const RawCatalogue& catalogue) {
+  assert(catalogue.stars.size() <= kMostStars);
+  std::vector<StarRecord> records;
+  records.reserve(catalogue.stars.size());
+  for (const CatalogueStar& star : catalogue.stars) records.push_back(record_of(star));
+  const std::string_view record_bytes(reinterpret_cast<const char*>(records.data()),
+                                      records.size() * sizeof(StarRecord));
+  const std::string index = index_of(catalogue.stars, record_bytes);
+  const std::string text = text_of(catalogue.text), names = names_of(catalogue.names);
+  const StarFileHeader head = header_of(catalogue, index, text, names);
+  std::string bytes;
+  bytes.reserve(head.file_size);
+  bytes.append(bytes_of(head)).append(index).append(text).append(names);
+  bytes.resize(head.records_at, '\0');
+  bytes += record_bytes;
+  write_atomically(file, bytes);
 }
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
-// The binary star catalogue, *.stars: read by mapping it, so that a limit of magnitude touches only the
-// stars it needs.
+// The binary star catalogue, *.stars.  It is mapped into memory, so that a limit of magnitude touches
+// only the stars that it needs.
 //
 // Little-endian.  Offsets and sizes are in bytes:
 //
@@ -21,14 +21,14 @@
 //   index    for each block of records: 8 bytes checksum, 4 bytes V of its faintest star, 4 bytes 0
 //   text     three lines, UTF-8: source, licence, how it was made
 //   names    for each name: 4 bytes number of the star (from 0, ascending), 4 bytes length, the name
-//   records  brightest first: the unit vector (equatorial J2000) as 3 int32 times 2^-31; proper motion in
-//            right ascension (times cos Dec) and declination, mas a year, float; V, float; colour, float
-//            (star_record.h); identifier (star_id.h)
+//   records  brightest first: the unit vector (equatorial J2000) as 3 int32 times 2^-31; proper motion
+//            in right ascension (times cos Dec) and declination, mas a year, float; V, float; colour,
+//            float (star_colour.h); identifier (star_id.h)
 //
-// Checksums are XXH3, 64 bits; a block is checked when it is first read, so that nothing is used unchecked
+// Checksums are XXH3, 64 bits.  A block is checked when it is first read: nothing is used unchecked,
 // and nothing is read for its checksum alone.
 //
-// Accuracy: directions to 0.1 mas.
+// Accuracy: rounding moves a direction by less than 0.1 mas.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,7 @@
 #include <string_view>
 
 #include "pipeline/image/map_file.h"
-#include "pipeline/sky/catalogue/star_record.h"
+#include "pipeline/sky/catalogue/raw_catalogue.h"
 
 namespace domefall {
 
@@ -47,27 +47,27 @@ struct StarRecord {
 };
 static_assert(sizeof(StarRecord) == 32);
 
-// Whether a file's bytes begin as such a catalogue's do.
+// Whether bytes begin as those of such a file do.
 bool is_star_file(std::string_view bytes);
 
-// Throws InputError naming the file and the byte for whatever is no such file, not whole, damaged or of
-// a newer version.
 class StarFile {
  public:
+  // Throws InputError naming the file and the byte if it is no such file, not whole, damaged or of a
+  // newer version.
   explicit StarFile(const std::filesystem::path& file);
 
   std::size_t size() const { return stars_; }
   double epoch() const { return epoch_; }
   const CatalogueText& text() const { return text_; }
-  // Of all that the file holds, as hexadecimal digits.
+  // Digits that stand for all that the file holds.
   std::string fingerprint() const;
 
-  // The stars of V <= limit, compared as floats.  Checks the blocks that they are in.
+  // The stars of V <= limit, both as floats.  Throws InputError where one of their blocks is damaged.
   std::span<const StarRecord> up_to(double limit) const;
   // The names of the first `stars` stars.
   std::vector<StarName> names(std::size_t stars) const;
 
-  // Throws InputError naming the byte at which one of up_to()'s records begins.
+  // Throws InputError naming the byte at which a record that up_to() has returned begins.
   [[noreturn]] void fail_at(const StarRecord& record, const std::string& what) const;
 
  private:
@@ -84,8 +84,8 @@ class StarFile {
   CatalogueText text_;
 };
 
-// Its stars sorted by brightness (sort_by_brightness); finite numbers in their ranges, unit vectors.
-// Written atomically.  Throws as write_atomically.
+// Writes a catalogue whose stars are sorted by brightness (sort_by_brightness); its numbers are finite
+// and within their ranges.  The file appears whole or not at all; throws as write_atomically does.
 void write_star_file(const std::filesystem::path& file, const RawCatalogue& catalogue);
 
 }  // namespace domefall

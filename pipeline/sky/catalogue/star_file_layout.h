@@ -1,4 +1,4 @@
-// How the bytes of a *.stars file lie: star_file.h says what they mean.
+// The bytes of a .stars file as structures; star_file.h describes them.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kBlockStars = 4096;
 inline constexpr std::size_t kRecordAlignment = 64;
 inline constexpr std::uint64_t kMostStars = 1u << 31;
 inline constexpr std::uint32_t kLongestName = 256;
-inline constexpr double kUnit = 2147483648.0;  // 2^31
+inline constexpr double kUnitLength = 2147483648.0;  // 2^31, in which directions are written
 
 static_assert(std::endian::native == std::endian::little, "the file's numbers are little-endian");
 
@@ -30,6 +30,7 @@ struct StarFileHeader {
 };
 static_assert(sizeof(StarFileHeader) == 128 && offsetof(StarFileHeader, head_sum) == 120);
 
+// An entry of the index.
 struct StarBlock {
   std::uint64_t sum;
   float faintest;

@@ -8,20 +8,26 @@
 
 namespace domefall {
 
-// The two upper bits say which catalogue: none, Hipparcos, Henry Draper, Tycho; the rest is the number.
+// The two upper bits say which catalogue it is: none, Hipparcos, Henry Draper or Tycho.  The others
+// are the number in it.
 using StarId = std::uint32_t;
 
 inline constexpr StarId kNoStarId = 0;
 
-// The number: 1 to 2^30 - 1.
+// The last numbers of Hipparcos and of the Henry Draper Catalogue with its Extension.
+inline constexpr double kLastHip = 120416, kLastHd = 359083;
+
+// Identifiers of a number from 1 to 2^30 - 1.
 StarId hipparcos_id(std::uint32_t number);
 StarId henry_draper_id(std::uint32_t number);
-// [Hog et al. 2000, ReadMe of I/259]: regions 1 to 9537, numbers 1 to 12121, components 1 to 4.
+// By the ReadMe of I/259 (Hog et al. 2000), regions are 1 to 9537, numbers 1 to 12121 and components
+// 1 to 4.
 StarId tycho_id(std::uint32_t region, std::uint32_t number, std::uint32_t component);
 
-// "HIP 32349", "HD 48915", "TYC 5949-2777-1"; empty for none.
+// "HIP 32349", "HD 48915", "TYC 5949-2777-1"; empty for kNoStarId.
 std::string star_id_name(StarId id);
-// The same back, whatever the case and the blanks; nothing for other text and numbers out of range.
+// The identifier of such a name in any case and with any blanks.  Nothing for other text and for
+// numbers out of range.
 std::optional<StarId> parse_star_id(std::string_view text);
 
 }  // namespace domefall

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "pipeline/colour/colour_space.h"
+
 namespace domefall {
 namespace {
 
@@ -116,5 +118,33 @@ double HealpixMap::at(const V3d& direction) const {
 }
 
 int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestOfHealpix); }
+
+M33d frame_from_equatorial(SkyFrame frame) {
+  Orientation o;
+  o.frame = frame;
+  return panorama_from_equatorial(o);
+}
+
+int samples_across(const HealpixMap& map, const SkyPyramid::Level& level) {
+  return std::max(healpix_face(map.nside()) / level.size, 1);
+}
+
+double healpix_unit(const HealpixMap& map, double luminance) {
+  return sky_unit(luminance *
+                  std::max(0.0f, *std::max_element(map.values().begin(), map.values().end())));
+}
+
+void paint_healpix(const HealpixMap& map, SkyFrame frame, double luminance,
+                   const SkyPyramid& pyramid) {
+  const M33d turn = frame_from_equatorial(frame);
+  const double scale = luminance / pyramid.unit;
+  const ColourMatrix& m = working_from_rec709();
+  const auto painter = [&](const V3d& d, float* channel) {
+    const double grey = std::max(map.at(apply(turn, d)), 0.0) * scale;
+    for (int k = 0; k < 3; ++k)
+      channel[k] = static_cast<float>(grey * (m[k][0] + m[k][1] + m[k][2]));
+  };
+  paint(pyramid.levels[0], painter, samples_across(map, pyramid.levels[0]));
+}
 
 }  // namespace domefall

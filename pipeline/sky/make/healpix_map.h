@@ -1,8 +1,9 @@
-// Looks into HEALPix maps, straight between pixels.
+// Maps in the HEALPix pixelisation, sampled between their pixels, and the skies that they hold.
 #pragma once
 
 #include "pipeline/image/read_healpix.h"
-#include "trajectories/directions.h"
+#include "pipeline/sky/maps/orientation.h"
+#include "pipeline/sky/maps/sky_pyramid.h"
 
 namespace domefall {
 
@@ -11,12 +12,13 @@ class HealpixMap {
   // Bad pixels become `missing`.
   HealpixMap(HealpixFile file, float missing);
 
-  // Straight between the two nearest pixels of each of the two nearest rings (Gorski et al. 2005,
-  // sec. 5.1 for the rings), in the map's own coordinates; a pole is the mean of its four pixels.
+  // Value in a direction of the map's own coordinates, of any length.  It is linear between the two
+  // nearest pixels of each of the two nearest rings (Gorski et al. 2005, sec. 5.1), and linear in
+  // colatitude between the rings.  A pole has the mean of its four pixels.
   double at(const V3d& direction) const;
 
   int nside() const { return file_.nside; }
-  const std::vector<float>& values() const { return file_.values; }
+  const std::vector<float>& values() const { return file_.values; }  // in RING order
 
  private:
   struct Ring {
@@ -35,7 +37,20 @@ class HealpixMap {
 // The number in RING order of a pixel in NESTED order.
 long ring_from_nested(int nside, long pixel);
 
-// Texels along a cube face that keep a map's detail.
+// Texels along a cube face that keep a map's detail; at most 4096.
 int healpix_face(int nside);
+
+// Samples along the side of a texel, so that a level coarser than the map has means of the map.
+int samples_across(const HealpixMap& map, const SkyPyramid::Level& level);
+
+// Turns an equatorial direction into the coordinates of a frame.
+M33d frame_from_equatorial(SkyFrame frame);
+
+// Unit (sky_unit) of a colour map of grey light (D65), of which the value 1 is `luminance` cd/m^2.
+double healpix_unit(const HealpixMap& map, double luminance);
+
+// Sets the finest level of such a colour map, border and all.  Negative values are dark.
+void paint_healpix(const HealpixMap& map, SkyFrame frame, double luminance,
+                   const SkyPyramid& pyramid);
 
 }  // namespace domefall

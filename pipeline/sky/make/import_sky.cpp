@@ -9,7 +9,7 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/some_light.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
 
 namespace domefall {
@@ -68,7 +68,7 @@ double kelvin_of(const SkyImport& import, const std::string& units) {
                    "'); give the kelvin of a value of 1 as --unit");
 }
 
-std::string cmb_text(const CmbLook& look) {
+std::string cmb_text(const CmbSettings& look) {
   return "microwave background: at redshift " + std::to_string(look.redshift) + ", contrast " +
          std::to_string(look.contrast) + "\n";
 }
@@ -93,7 +93,7 @@ Orientation import_healpix(const SkyImport& import) {
   check_values(import, healpix);
   Orientation orientation;
   orientation.frame = frame_of(import, healpix);
-  CmbLook look = import.cmb.value_or(CmbLook{});
+  CmbSettings look = import.cmb.value_or(CmbSettings{});
   if (import.cmb) look.kelvin = kelvin_of(import, healpix.units);
   const HealpixMap map(std::move(healpix), 0);
   const double luminance = import.unit.value_or(kPanoramaUnit);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pipeline/image/light_image.h"
-#include "pipeline/sky/make/healpix_sky.h"
+#include "pipeline/sky/make/microwave_background.h"
 #include "pipeline/sky/maps/orientation.h"
 
 namespace domefall {
@@ -28,7 +28,7 @@ struct SkyImport {
   PixelEncoding encoding = PixelEncoding::kOfFile;
   int size = 0;    // of a face; 0: the image's own detail
   int column = 1;  // of a HEALPix file
-  std::optional<CmbLook> cmb;
+  std::optional<CmbSettings> cmb;
   std::string text;  // lines that are added to the file's own: licence, credit
 };
 

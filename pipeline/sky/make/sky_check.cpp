@@ -148,10 +148,10 @@ class Judge {
       : map_(map),
         catalogue_(catalogue),
         band_(band_of(catalogue)),
-        map_from_picture_(picture_from_equatorial(stated)) {}
+        map_from_picture_(panorama_from_equatorial(stated)) {}
 
   OrientationFit fit(const Orientation& orientation) const {
-    const M33d picture = picture_from_equatorial(orientation);
+    const M33d picture = panorama_from_equatorial(orientation);
     const auto in_map = [&](const V3d& d) {
       return apply_transposed(map_from_picture_, apply(picture, d));
     };

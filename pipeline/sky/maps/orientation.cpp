@@ -12,7 +12,7 @@ M33d galactic_from_equatorial() {
                       {-0.4838350155, 0.7469822445, 0.4559837762});
 }
 
-M33d picture_from_equatorial(const Orientation& o) {
+M33d panorama_from_equatorial(const Orientation& o) {
   const double turn = o.centre_deg * std::numbers::pi / 180;
   const double c = std::cos(turn), s = std::sin(turn);
   const double left = o.longitude_right ? -1 : 1, up = o.south_up ? -1 : 1;
@@ -23,7 +23,7 @@ M33d picture_from_equatorial(const Orientation& o) {
                       apply(own, column(frame, 2)));
 }
 
-std::string told(const Orientation& o) {
+std::string orientation_phrase(const Orientation& o) {
   const bool galactic = o.frame == SkyFrame::kGalactic;
   char text[120];
   std::snprintf(text, sizeof text, "%s, %s %g deg in the middle, growing to the %s, %s up",

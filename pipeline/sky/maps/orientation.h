@@ -22,12 +22,12 @@ struct Orientation {
 };
 
 // "equatorial, RA 270 in the middle, growing to the left, north up".
-std::string told(const Orientation& orientation);
+std::string orientation_phrase(const Orientation& orientation);
 
 // Turns an equatorial direction into one of the picture's own space, in which the middle of an
 // equirectangular picture is +x, its left quarter +y and its top +z.  A rotation or, where the
 // picture is mirrored, a reflection: the inverse is the transpose.
-M33d picture_from_equatorial(const Orientation& orientation);
+M33d panorama_from_equatorial(const Orientation& orientation);
 
 // Rotation from equatorial J2000 to galactic axes (x to the galactic centre, z to the north pole);
 // Hipparcos catalogue, vol. 1, eq. 1.5.11: to 0.4 mas.

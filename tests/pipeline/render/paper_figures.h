@@ -11,6 +11,7 @@
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/read_show.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 
 namespace domefall {
 

@@ -1,5 +1,6 @@
 // What the captions of [Riazuelo] say of stars and their ghosts, against the shows of shows/paper/.
 #include "pipeline/optics/silhouette.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "tests/pipeline/render/paper_figures.h"
 
 namespace domefall {

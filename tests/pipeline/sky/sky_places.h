@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {

@@ -7,9 +7,10 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_map.h"
 
 namespace domefall {

@@ -1,5 +1,7 @@
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -14,13 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::string plain(double bound) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.12g", bound);
-  return text;
-}
-
-// What a message may repeat of a file that may hold anything.
+// A message repeats only printable characters of a file, which may hold anything.
 std::string quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c >= ' ' && c <= '~' ? c : '?';
@@ -36,22 +32,21 @@ FixedColumns::FixedColumns(const std::filesystem::path& file, std::size_t shorte
 }
 
 void FixedColumns::fail(const std::string& what) const {
-  throw InputError(file_.path().string() + ":" + std::to_string(number_) + ": " + what);
+  throw InputError(fmt::format("{}:{}: {}", file_.path().string(), line_number_, what));
 }
 
 bool FixedColumns::next() {
   if (rest_.empty()) return false;
-  ++number_;
+  ++line_number_;
   const std::size_t end = rest_.find('\n');
   line_ = rest_.substr(0, end);
   rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
   if (line_.ends_with('\r')) line_.remove_suffix(1);
   const bool cut = end == std::string_view::npos && line_.size() < longest_;
   if (cut || line_.size() < shortest_ || line_.size() > longest_)
-    fail("a line has " +
-         (shortest_ < longest_ ? std::to_string(shortest_) + " to " : std::string()) +
-         std::to_string(longest_) + " bytes, this one " + std::to_string(line_.size()) +
-         (cut ? " at the end of the file, which is cut short" : ""));
+    fail(fmt::format("a line has {}{} bytes, this one {}{}",
+                     shortest_ < longest_ ? fmt::format("{} to ", shortest_) : "", longest_,
+                     line_.size(), cut ? " at the end of the file, which is cut short" : ""));
   return true;
 }
 
@@ -70,24 +65,30 @@ std::optional<double> FixedColumns::number(const NumberColumn& column) const {
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() ||
       !(value >= column.low && value <= column.high))
-    fail(std::string(column.name) + " (bytes " + std::to_string(column.first) + "-" +
-         std::to_string(column.last) + ") must be a number from " + plain(column.low) + " to " +
-         plain(column.high) + ", got " + quoted(whole));
+    fail(fmt::format("{} (bytes {}-{}) must be a number from {:.12g} to {:.12g}, got {}",
+                     column.name, column.first, column.last, column.low, column.high,
+                     quoted(whole)));
   return value;
 }
 
 double FixedColumns::required(const NumberColumn& column) const {
   const auto value = number(column);
   if (!value)
-    fail(std::string(column.name) + " (bytes " + std::to_string(column.first) + "-" +
-         std::to_string(column.last) + ") is blank");
+    fail(fmt::format("{} (bytes {}-{}) is blank", column.name, column.first, column.last));
   return *value;
 }
 
 std::uint32_t FixedColumns::whole(const NumberColumn& column) const {
   const double value = number(column).value_or(0);
-  if (value != std::floor(value)) fail(std::string(column.name) + " must be a whole number");
+  if (value != std::floor(value)) fail(fmt::format("{} must be a whole number", column.name));
   return static_cast<std::uint32_t>(value);
+}
+
+std::size_t first_line_length(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const std::string_view bytes = mapped.bytes();
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  return line.size() - (line.ends_with('\r') ? 1 : 0);
 }
 
 }  // namespace domefall

@@ -11,12 +11,12 @@
 
 namespace domefall {
 
-// Bytes first to last of a line, counted from 1, both included.
+// Bytes `first` to `last` of a line, counted from 1, both included.
 struct TextColumn {
   int first, last;
 };
 
-// A number, and the range beyond which it is a mistake.
+// A column of numbers, and the range beyond which a number is a mistake.
 struct NumberColumn {
   int first, last;
   const char* name;
@@ -25,22 +25,27 @@ struct NumberColumn {
 
 class FixedColumns {
  public:
-  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF); what is missing is blank.
+  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF).  What a line lacks at
+  // its end is blank.  Throws InputError for an empty file, and as MappedFile does.
   FixedColumns(const std::filesystem::path& file, std::size_t shortest, std::size_t longest);
 
-  // False at the end.  Throws InputError, with the line, for a line that is too short or too long, and
-  // for a last one that is cut short.
+  // Reads a line; false at the end of the file.  Throws InputError, with the line, if it is too short
+  // or too long, or is a last line that is cut short.
   bool next();
 
-  // Of the line read last.  Text comes without the blanks around it.
+  // The functions below return a column of the line that was read last.
+
+  // The text without the blanks around it.
   std::string_view text(const TextColumn& column) const;
   char letter(int byte) const {
     return static_cast<std::size_t>(byte) <= line_.size() ? line_[byte - 1] : ' ';
   }
-  // Nothing where it is blank.  Throws InputError, with the line, for what is no number within the range.
+  // Nothing where the column is blank.  Throws InputError, with the line, for what is no number within
+  // the column's range.
   std::optional<double> number(const NumberColumn& column) const;
+  // The same, but throws where the column is blank.
   double required(const NumberColumn& column) const;
-  // Whole numbers; 0 where it is blank.
+  // The same of a whole number; 0 where the column is blank.
   std::uint32_t whole(const NumberColumn& column) const;
 
   // Throws InputError: "FILE:LINE: what".
@@ -50,7 +55,10 @@ class FixedColumns {
   MappedFile file_;
   std::size_t shortest_, longest_;
   std::string_view rest_, line_;
-  std::size_t number_ = 0;  // of the line
+  std::size_t line_number_ = 0;
 };
+
+// Bytes of a file's first line without its end.  Throws as MappedFile does.
+std::size_t first_line_length(const std::filesystem::path& file);
 
 }  // namespace domefall

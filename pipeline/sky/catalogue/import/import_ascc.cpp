@@ -1,6 +1,8 @@
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/proper_motion.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
 // Byte-by-byte: the ReadMe of I/280B (Kharchenko 2001, Kin. Phys. Cel. Bod. 17, 409; version 3).
@@ -14,8 +16,8 @@ constexpr NumberColumn kRa{1, 12, "RAhour", 0, 24}, kDec{14, 25, "DEdeg", -90, 9
     kPmRa{50, 56, "pmRA", -1e7, 1e7}, kPmDec{58, 64, "pmDE", -1e7, 1e7},
     kB{78, 82, "Bmag", -5000, 99999}, kV{84, 88, "Vmag", -5000, 99999},
     kRegion{137, 140, "TYC1", 0, 9537}, kNumber{141, 145, "TYC2", 0, 12121},
-    kComponent{146, 146, "TYC3", 0, 4}, kHip{148, 153, "HIP", 0, 120416},
-    kHd{155, 160, "HD", 0, 359083};
+    kComponent{146, 146, "TYC3", 0, 4}, kHip{148, 153, "HIP", 0, kLastHip},
+    kHd{155, 160, "HD", 0, kLastHd};
 constexpr double kNoMotion = 999999, kUnmeasured = 99999, kFaintest = 40000;
 
 // Magnitudes; the file has thousandths of them.
@@ -69,7 +71,7 @@ ImportedCatalogue import_ascc(const Paths& inputs) {
   }
   if (unmeasured)
     out.notes.push_back(counted(unmeasured, "star") + " without a magnitude, left out");
-  name_by_hipparcos(out.catalogue.stars);
+  identify_by_hipparcos(out.catalogue.stars);
   out.catalogue.text = {"ASCC-2.5 version 3, CDS I/280B (Kharchenko & Roeser 2009)",
                         "as the catalogue service gives it", ""};
   return out;

@@ -1,17 +1,15 @@
 #include <charconv>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/json_file.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::uint32_t kLastHip = 120416;
 
 // One of the features, and where it is for a message.
 class Feature {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <set>
 
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
 #include "pipeline/sky/catalogue/import/spectral_type.h"
 #include "trajectories/equatorial.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 // Lines lose their trailing blanks on some ways; up to the type all of them have something.
 constexpr std::size_t kShortestLine = 41, kLongestLine = 48;
-constexpr NumberColumn kHd{1, 6, "HD", 1, 359083}, kRaHours{19, 20, "RAh", 0, 23},
+constexpr NumberColumn kHd{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 23},
     kRaTenths{21, 23, "RAdm", 0, 599}, kDecDegrees{25, 26, "DEd", 0, 90},
     kDecMinutes{27, 28, "DEm", 0, 59}, kVisual{30, 34, "Ptm", -2, 50},
     kPhotographic{37, 41, "Ptg", -2, 50};

@@ -1,8 +1,7 @@
 #include <array>
 
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
-#include "pipeline/sky/catalogue/import/table_star.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
+#include "pipeline/sky/catalogue/import/star_row.h"
 
 namespace domefall {
 namespace {
@@ -42,13 +41,13 @@ ImportedCatalogue import_hyg(const Paths& inputs) {
         continue;
       }
       const auto place = static_cast<std::uint32_t>(catalogue.stars.size());
-      catalogue.stars.push_back(read_table_star(row, kColumns));
+      catalogue.stars.push_back(read_star_row(row, kColumns));
       if (!proper.empty()) catalogue.names.push_back({place, std::string(proper)});
       const std::string bayer = bayer_name(row.text("bayer"), row.text("con"));
       if (!bayer.empty()) catalogue.names.push_back({place, bayer});
     }
   }
-  name_by_hipparcos(catalogue.stars);
+  identify_by_hipparcos(catalogue.stars);
   catalogue.text = {"HYG database (D. Nash, astronexus.com), from Hipparcos, Yale and Gliese",
                     "CC BY-SA 2.5 (versions 2 and 3) or 4.0 (version 4)", ""};
   return out;

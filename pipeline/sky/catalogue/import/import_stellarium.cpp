@@ -5,10 +5,12 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
+#include "pipeline/sky/catalogue/import/star_row.h"
 #include "pipeline/sky/catalogue/import/stellarium_zones.h"
-#include "pipeline/sky/catalogue/import/table_star.h"
+#include "pipeline/sky/catalogue/proper_motion.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 
 namespace domefall {
 namespace {
@@ -191,7 +193,7 @@ ImportedCatalogue import_stellarium(const Paths& inputs) {
     if (const fs::path motions = input / "hip_pm.dat"; fs::is_regular_file(motions, ignored))
       take_motions(motions, out.catalogue.stars);
   }
-  name_by_hipparcos(out.catalogue.stars);
+  identify_by_hipparcos(out.catalogue.stars);
   out.catalogue.text = {"Stellarium's star catalogues, from Hipparcos, Tycho-2 and NOMAD",
                         "GPL-2+ as in Debian's stellarium-data", ""};
   return out;

@@ -2,9 +2,11 @@
 #include <fstream>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/sky/catalogue/count_text.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/proper_motion.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
 // Byte-by-byte: the ReadMe of I/259 (Hog et al. 2000, A&A 355, L27).
@@ -20,7 +22,7 @@ constexpr int kMainParts = 20;
 // Common to both tables.
 constexpr NumberColumn kRegion{1, 4, "TYC1", 1, 9537}, kNumber{6, 10, "TYC2", 1, 12121},
     kComponent{12, 12, "TYC3", 1, 4}, kRa{16, 27, "RA", 0, 360}, kDec{29, 40, "Dec", -90, 90},
-    kPmRa{42, 48, "pmRA", -1e5, 1e5}, kPmDec{50, 56, "pmDE", -1e5, 1e5};
+    kPmRa{42, 48, "pmRA", -kFastest, kFastest}, kPmDec{50, 56, "pmDE", -kFastest, kFastest};
 constexpr int kPositionFlag = 14, kSupplementBand = 82;
 constexpr NumberColumn kObservedRa{153, 164, "observed RA", 0, 360},
     kObservedDec{166, 177, "observed Dec", -90, 90};
@@ -29,9 +31,9 @@ struct Photometry {
   NumberColumn bt, vt, hip;
 };
 constexpr Photometry kMain{
-    {111, 116, "BTmag", -5, 20}, {124, 129, "VTmag", -5, 20}, {143, 148, "HIP", 1, 120416}};
+    {111, 116, "BTmag", -5, 20}, {124, 129, "VTmag", -5, 20}, {143, 148, "HIP", 1, kLastHip}};
 constexpr Photometry kSupplement{
-    {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, 120416}};
+    {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, kLastHip}};
 
 // False where neither band was measured.
 bool read_photometry(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {
@@ -87,7 +89,7 @@ class Tycho {
     if (hipparcos_band_)
       out.notes.push_back(counted(hipparcos_band_, "row") +
                           " of the supplement with Hipparcos' Hp for V, without a colour");
-    name_by_hipparcos(stars_);
+    identify_by_hipparcos(stars_);
     out.catalogue.stars = std::move(stars_);
     out.catalogue.text = {"Tycho-2, CDS I/259 (Hog et al. 2000, A&A 355, L27), ESA",
                           "BSD-2-Clause as in Debian's source package tycho2", ""};

@@ -1,13 +1,12 @@
-// JSON files of others, the one door to nlohmann's library.
+// JSON files of others.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 
 namespace domefall {
 
-// Throws InputError: "FILE: byte N: ..." where it is no JSON.
+// Throws InputError, "FILE: byte N: ...", where the file is no JSON, and as MappedFile does.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 }  // namespace domefall

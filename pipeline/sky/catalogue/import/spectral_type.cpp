@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "pipeline/sky/catalogue/star_record.h"
+#include "pipeline/sky/catalogue/raw_catalogue.h"
 
 namespace domefall {
 namespace {

@@ -1,5 +1,5 @@
-// The triangles by which Stellarium's catalogues order the sky: an icosahedron, each triangle cut into four
-// again and again.
+// The triangles by which Stellarium's catalogues order the sky: those of an icosahedron, each cut into
+// four again and again.
 #pragma once
 
 #include <array>
@@ -10,22 +10,24 @@
 
 namespace domefall {
 
-// Cut more than so often they have more stars than there are.
+// The deepest level that is read, of 1.3 million zones.  A greater number in a file is a mistake.
 inline constexpr int kDeepestZones = 8;
 
-// 20 times 4^level.
+// Triangles of a level: 20 times 4^level.
 std::size_t zone_count(int level);
 
 class StellariumZones {
  public:
+  // The zones of a level from 0 to kDeepestZones.
   explicit StellariumZones(int level);
 
   struct Place {
     SkyDirection direction;
-    double
-        stretch;  // of a small motion there, square of the distance of the zone's plane: at least 1
+    // Factor (at least 1) by which a small motion there is longer in the zone's plane than on the unit
+    // sphere: the square of the distance from the centre.
+    double stretch;
   };
-  // x0, x1: -1 to 1 along the zone's axes, east and north.
+  // A place by its coordinates x0 and x1, from -1 to 1, along the zone's axes to the east and north.
   Place place(std::size_t zone, double x0, double x1) const;
 
  private:
@@ -33,7 +35,7 @@ class StellariumZones {
     V3d centre, east, north;
   };
   std::vector<Zone> zones_;
-  double scale_ = 0;  // of x0, x1: the same for all, so that the largest zone fits
+  double scale_ = 0;  // length of one unit of x0 and x1, by which the largest zone just fits
 };
 
 }  // namespace domefall

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/render/sky/sky_pass.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {

@@ -6,7 +6,7 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/simd/half_row.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {

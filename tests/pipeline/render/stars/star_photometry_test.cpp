@@ -6,6 +6,7 @@
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/photometry.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 
 namespace domefall {

@@ -6,8 +6,9 @@
 #include <random>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/mapped_stars.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "tests/pipeline/image/test_folder.h"
 #include "trajectories/equatorial.h"
 

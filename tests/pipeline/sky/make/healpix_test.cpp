@@ -9,7 +9,7 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/sky/make/healpix_map.h"
-#include "pipeline/sky/make/healpix_sky.h"
+#include "pipeline/sky/make/microwave_background.h"
 
 namespace domefall {
 namespace {
@@ -98,7 +98,7 @@ TEST(MicrowaveBackground, IsABlackbodyWithItsFluctuationsEnlarged) {
   file.values.assign(12, 0.05f);
   for (std::size_t k = 8; k < 12; ++k) file.values[k] = 100;
   const HealpixMap map(file, 0);
-  CmbLook look;
+  CmbSettings look;
   look.kelvin = 1e-3;
   const SkyPyramid pyramid(SkyMapKind::kThermal, cmb_unit(look), 16);
   paint_cmb(map, SkyFrame::kEquatorial, look, pyramid);

@@ -71,7 +71,7 @@ class ImportSky : public testing::Test {
 TEST_F(ImportSky, AHealpixMapWithoutAnyValueIsRefusedByName) {
   for (const bool cmb : {false, true}) {
     SkyImport import = healpix([](int k) { return k % 2 ? kUnseen : kNan; });
-    if (cmb) import.cmb = CmbLook{};
+    if (cmb) import.cmb = CmbSettings{};
     EXPECT_EQ(refusal_of(import),
               import.image.string() +
                   ": column 1 holds no value: all 48 pixels are missing (UNSEEN, NaN or infinite)");
@@ -84,7 +84,7 @@ TEST_F(ImportSky, AHealpixMapOfNegativeValuesIsNoLightButMayBeFluctuations) {
   EXPECT_THAT(refusal_of(import),
               HasSubstr("map.fits: there is no light in it: no value exceeds 0, "
                         "and they go down to -0.00046"));
-  import.cmb = CmbLook{};
+  import.cmb = CmbSettings{};
   EXPECT_EQ(refusal_of(import), "");
 }
 

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "pipeline/image/read_image.h"
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/sky/make/panorama.h"
 
 namespace domefall {
 namespace {
@@ -30,7 +31,7 @@ V3d at(double longitude, double latitude) {
 LightImage picture_of_stars(const Orientation& o) {
   LightImage image{{1024, 512}, 1};
   std::fill(image.pixels.pixels.begin(), image.pixels.pixels.end(), Imath::half(0.01f));
-  const M33d picture = picture_from_equatorial(o);
+  const M33d picture = panorama_from_equatorial(o);
   for (const Star& star : stars().stars) {
     if (star.v_magnitude > 5) break;
     const V3d d = apply(picture, star.direction.v);
@@ -53,13 +54,13 @@ TEST(Orientations, TurnTheSkyIntoThePicture) {
   const V3d middle(1, 0, 0), left(0, 1, 0), top(0, 0, 1);
   Orientation o;
   o.centre_deg = 270;
-  EXPECT_TRUE(near(apply(picture_from_equatorial(o), at(270, 0)), middle));
-  EXPECT_TRUE(near(apply(picture_from_equatorial(o), at(0, 0)), left));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(270, 0)), middle));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(0, 0)), left));
   o.longitude_right = true;
-  EXPECT_TRUE(near(apply(picture_from_equatorial(o), at(180, 0)), left));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(180, 0)), left));
   o.south_up = true;
-  EXPECT_TRUE(near(apply(picture_from_equatorial(o), at(0, -90)), top));
-  const M33d galactic = picture_from_equatorial({SkyFrame::kGalactic, false, false, 0});
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(0, -90)), top));
+  const M33d galactic = panorama_from_equatorial({SkyFrame::kGalactic, false, false, 0});
   // The galactic centre and the north galactic pole (J2000).
   EXPECT_TRUE((apply(galactic, at(266.40500, -28.93617)) - middle).length() < 1e-5);
   EXPECT_TRUE((apply(galactic, at(192.85948, 27.12825)) - top).length() < 1e-5);
@@ -76,7 +77,7 @@ TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
   const Orientation wrong{SkyFrame::kEquatorial, false, true, 270};
   const SkyCheck other = check_orientation(import_as(image, wrong, 512), wrong, stars());
   EXPECT_EQ(other.verdict, SkyVerdict::kOther);
-  EXPECT_EQ(other.others[0].orientation, truth) << told(other.others[0].orientation);
+  EXPECT_EQ(other.others[0].orientation, truth) << orientation_phrase(other.others[0].orientation);
 }
 
 // The shipped sky has no stars: its Milky Way has to tell.
@@ -94,8 +95,9 @@ TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
                                    Orientation{SkyFrame::kEquatorial, false, false, 180},
                                    Orientation{SkyFrame::kGalactic, false, false, 0}}) {
     const SkyCheck other = check_orientation(import_as(image, wrong, 128), wrong, stars());
-    EXPECT_EQ(other.verdict, SkyVerdict::kOther) << told(wrong);
-    EXPECT_EQ(other.others[0].orientation, Orientation{}) << told(other.others[0].orientation);
+    EXPECT_EQ(other.verdict, SkyVerdict::kOther) << orientation_phrase(wrong);
+    EXPECT_EQ(other.others[0].orientation, Orientation{})
+        << orientation_phrase(other.others[0].orientation);
   }
 }
 
@@ -103,7 +105,7 @@ TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
 TEST(SkyChecks, AMilkyWayAlongTheEquatorTellsItsOrientationToo) {
   const SkyMap sky = map_of_panorama(read_image(kAssets + "milky_way.exr"));
   const Orientation truth{SkyFrame::kGalactic, false, false, 0};
-  const M33d picture = picture_from_equatorial(truth);
+  const M33d picture = panorama_from_equatorial(truth);
   LightImage image{{512, 256}, kPanoramaUnit};
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 512; ++x) {
@@ -120,7 +122,8 @@ TEST(SkyChecks, AMilkyWayAlongTheEquatorTellsItsOrientationToo) {
     EXPECT_FALSE(check.by_stars);
     EXPECT_EQ(check.verdict, said == truth ? SkyVerdict::kAgrees : SkyVerdict::kOther);
     const OrientationFit& best = said == truth ? check.stated : check.others[0];
-    EXPECT_EQ(best.orientation, truth) << told(said) << " became " << told(best.orientation);
+    EXPECT_EQ(best.orientation, truth)
+        << orientation_phrase(said) << " became " << orientation_phrase(best.orientation);
     EXPECT_GT(best.band, 0.8);
     EXPECT_GT(best.clouds, 0.8);
   }

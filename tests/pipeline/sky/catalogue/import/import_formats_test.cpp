@@ -114,7 +114,7 @@ TEST_F(Imports, HygIsReadWithAndWithoutQuotesAndWithoutTheSun) {
     ASSERT_EQ(all.catalogue.names.size(), 4u);
     EXPECT_EQ(all.catalogue.names[1].name, "beta Ori");
     EXPECT_EQ(all.catalogue.names[3].name, "alpha1 Cru");
-    EXPECT_EQ(guess_importer({folder_ / "input"})->name, "hyg");
+    EXPECT_EQ(guess_format({folder_ / "input"})->name, "hyg");
   }
 }
 
@@ -164,7 +164,7 @@ TEST_F(Imports, StellariumStarsStandInTheirZones) {
   EXPECT_NEAR(star.colour, 16 * 4 / 127.0 - 0.5, 1e-6);
   EXPECT_EQ(star_id_name(star.id), "HIP 32349");
   EXPECT_NEAR(star.pm_ra, -600 / expected.stretch, 1e-4);
-  EXPECT_EQ(guess_importer({folder_ / "input"})->name, "stellarium");
+  EXPECT_EQ(guess_format({folder_ / "input"})->name, "stellarium");
 }
 
 TEST_F(Imports, StellariumBitFieldsAreUnpacked) {
@@ -219,23 +219,23 @@ TEST_F(Imports, OwnTablesKeepNamesNumbersAndMotions) {
   const auto input = file(
       "# a comment\nhip,ra_deg,dec_deg,v_mag,b_v,name,designation,pm_ra_mas_yr,pm_dec_mas_yr\n"
       "32349,101.2872,-16.7161,-1.44,0.009,Sirius,alpha CMa,-546,-1223\n,10,20,5,,,,,\n");
-  const RawCatalogue catalogue = import_table({input}).catalogue;
+  const RawCatalogue catalogue = import_csv({input}).catalogue;
   ASSERT_EQ(catalogue.stars.size(), 2u);
   EXPECT_EQ(star_id_name(catalogue.stars[0].id), "HIP 32349");
   EXPECT_EQ(catalogue.stars[0].pm_dec, -1223);
   EXPECT_EQ(catalogue.stars[1].colour, kNoColour);
   ASSERT_EQ(catalogue.names.size(), 2u);
   EXPECT_EQ(catalogue.names[1].name, "alpha CMa");
-  EXPECT_EQ(guess_importer({input})->name, "csv");
+  EXPECT_EQ(guess_format({input})->name, "csv");
 }
 
 TEST_F(Imports, WhatBeginsLikeNothingKnownIsNotGuessed) {
-  EXPECT_EQ(guess_importer({file("Dear reader,\nthis is a letter.\n")}), nullptr);
-  EXPECT_EQ(guess_importer({file("")}), nullptr);
-  EXPECT_EQ(guess_importer({folder_}), nullptr);
-  EXPECT_EQ(guess_importer({kRows / "tyc2.dat"})->name, "tycho2");
-  EXPECT_EQ(guess_importer({kRows / "suppl_1.dat"})->name, "tycho2");
-  EXPECT_EQ(guess_importer({kRows / "stars.json"})->name, "d3-celestial");
+  EXPECT_EQ(guess_format({file("Dear reader,\nthis is a letter.\n")}), nullptr);
+  EXPECT_EQ(guess_format({file("")}), nullptr);
+  EXPECT_EQ(guess_format({folder_}), nullptr);
+  EXPECT_EQ(guess_format({kRows / "tyc2.dat"})->name, "tycho2");
+  EXPECT_EQ(guess_format({kRows / "suppl_1.dat"})->name, "tycho2");
+  EXPECT_EQ(guess_format({kRows / "stars.json"})->name, "d3-celestial");
 }
 
 TEST_F(Imports, JsonThatIsNoStarsIsToldWithItsByteOrFeature) {

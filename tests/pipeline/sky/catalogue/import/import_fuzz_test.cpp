@@ -3,8 +3,9 @@
 #include <random>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/import/star_corrections.h"
-#include "pipeline/sky/catalogue/import/star_names.h"
+#include "pipeline/sky/catalogue/amend/star_corrections.h"
+#include "pipeline/sky/catalogue/amend/star_names.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
 #include "tests/pipeline/image/test_folder.h"
@@ -69,9 +70,9 @@ class Fuzz : public TestFolder {
   }
 
   int survive_import(const std::string& text, const char* name) {
-    for (const Importer& importer : importers())
-      if (importer.name == name)
-        return survive(text, [&](const auto& file) { return importer.import({file}).catalogue; });
+    for (const CatalogueFormat& format : catalogue_formats())
+      if (format.name == name)
+        return survive(text, [&](const auto& file) { return format.import({file}).catalogue; });
     return -1;
   }
 };

@@ -4,7 +4,8 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/sky/catalogue/import/spectral_type.h"
-#include "pipeline/sky/catalogue/mapped_stars.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "tests/pipeline/image/test_folder.h"
 #include "tests/pipeline/sky/sky_places.h"
 

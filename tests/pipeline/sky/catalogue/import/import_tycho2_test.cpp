@@ -1,7 +1,7 @@
 // Real rows of Tycho-2 and of d3-celestial's Hipparcos stars (tests/reference/README.md).
 #include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/import/hipparcos_repair.h"
-#include "pipeline/sky/catalogue/import/star_names.h"
+#include "pipeline/sky/catalogue/amend/hipparcos_repair.h"
+#include "pipeline/sky/catalogue/amend/star_names.h"
 #include "tests/pipeline/image/test_folder.h"
 #include "tests/pipeline/sky/sky_places.h"
 

@@ -1,11 +1,12 @@
-#include "pipeline/sky/catalogue/import/table_star.h"
+#include "pipeline/sky/catalogue/import/star_row.h"
 
-#include "pipeline/sky/catalogue/import/import_text.h"
+#include "pipeline/sky/catalogue/proper_motion.h"
+#include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 
-CatalogueStar read_table_star(const CsvFile& row, const StarColumns& c) {
+CatalogueStar read_star_row(const CsvFile& row, const StarColumns& c) {
   constexpr double kTurn = 360;
   CatalogueStar star;
   star.direction = sky_direction(row.required(c.ra, 0, kTurn / c.degrees) * c.degrees,

@@ -1,4 +1,4 @@
-#include "pipeline/sky/catalogue/import/star_corrections.h"
+#include "pipeline/sky/catalogue/amend/star_corrections.h"
 
 #include "pipeline/image/errors.h"
 #include "pipeline/sky/catalogue/star_id.h"

@@ -1,4 +1,4 @@
-#include "pipeline/sky/catalogue/import/importers.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -11,23 +11,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kImporters{
-    Importer{"tycho2", "Tycho-2 (I/259)", import_tycho2},
-    Importer{"ascc", "ASCC-2.5 (I/280B)", import_ascc},
-    Importer{"hd", "Henry Draper Catalogue (III/135A)", import_henry_draper},
-    Importer{"hyg", "HYG database", import_hyg},
-    Importer{"stellarium", "Stellarium's catalogues", import_stellarium},
-    Importer{"d3-celestial", "d3-celestial's GeoJSON", import_d3_celestial},
-    Importer{"csv", "Domefall's CSV", import_table},
+constexpr std::array kFormats{
+    CatalogueFormat{"tycho2", "Tycho-2 (I/259)", import_tycho2},
+    CatalogueFormat{"ascc", "ASCC-2.5 (I/280B)", import_ascc},
+    CatalogueFormat{"hd", "Henry Draper Catalogue (III/135A)", import_henry_draper},
+    CatalogueFormat{"hyg", "HYG database", import_hyg},
+    CatalogueFormat{"stellarium", "Stellarium's catalogues", import_stellarium},
+    CatalogueFormat{"d3-celestial", "d3-celestial's GeoJSON", import_d3_celestial},
+    CatalogueFormat{"csv", "Domefall's CSV", import_csv},
 };
 
-const Importer* named(std::string_view name) {
-  const auto found = std::find_if(kImporters.begin(), kImporters.end(),
-                                  [&](const Importer& each) { return each.name == name; });
-  return found == kImporters.end() ? nullptr : &*found;
+const CatalogueFormat* named(std::string_view name) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const CatalogueFormat& each) { return each.name == name; });
+  return found == kFormats.end() ? nullptr : &*found;
 }
 
-const Importer* guess_folder(const fs::path& folder) {
+const CatalogueFormat* guess_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "tyc2.dat.00", ignored)) return named("tycho2");
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
@@ -38,8 +38,8 @@ const Importer* guess_folder(const fs::path& folder) {
 
 bool is_bar(std::string_view line, std::size_t byte) { return line[byte - 1] == '|'; }
 
-// Tables by the lengths of their lines and what separates their columns.
-const Importer* guess_table(std::string_view line) {
+// Tables with fixed columns differ in the lengths of their lines and in what separates columns.
+const CatalogueFormat* guess_table(std::string_view line) {
   constexpr std::size_t kTycho = 206, kSupplement = 122, kAscc = 210, kDraper = 48;
   if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
   if (line.size() == kSupplement && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
@@ -48,7 +48,7 @@ const Importer* guess_table(std::string_view line) {
   return nullptr;
 }
 
-const Importer* guess_csv(std::string_view line) {
+const CatalogueFormat* guess_csv(std::string_view line) {
   std::string plain(line);
   std::erase(plain, '"');
   if (plain.starts_with("id,hip,hd,hr,gl,bf,proper,ra,dec")) return named("hyg");
@@ -60,9 +60,9 @@ const Importer* guess_csv(std::string_view line) {
 
 }  // namespace
 
-std::span<const Importer> importers() { return kImporters; }
+std::span<const CatalogueFormat> catalogue_formats() { return kFormats; }
 
-const Importer* guess_importer(const Paths& inputs) {
+const CatalogueFormat* guess_format(const Paths& inputs) {
   std::error_code ignored;
   if (inputs.empty()) return nullptr;
   if (fs::is_directory(inputs.front(), ignored)) return guess_folder(inputs.front());
@@ -74,7 +74,7 @@ const Importer* guess_importer(const Paths& inputs) {
   if (bytes.starts_with('{')) return named("d3-celestial");
   std::string_view line = bytes.substr(0, bytes.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
-  const Importer* csv = guess_csv(line);
+  const CatalogueFormat* csv = guess_csv(line);
   return csv ? csv : guess_table(line);
 }
 

@@ -1,11 +1,13 @@
-#include "pipeline/sky/catalogue/import/star_corrections.h"
+#include "pipeline/sky/catalogue/amend/star_corrections.h"
 
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "pipeline/sky/catalogue/import/table_star.h"
+#include "pipeline/image/csv_file.h"
+#include "pipeline/sky/catalogue/proper_motion.h"
+#include "pipeline/sky/catalogue/star_catalogue.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -13,14 +15,6 @@ namespace {
 
 // What a removed star has until the end, beyond every limit.
 constexpr float kRemoved = 2 * kNoMagnitude;
-
-std::string folded(std::string_view name) {
-  std::string out;
-  for (const char c : name)
-    if (c != ' ' && c != '_')
-      out.push_back(c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
-  return out;
-}
 
 // "HD 174638 | HIP 92420" at its bars.
 std::vector<std::string_view> alternatives(std::string_view cell) {
@@ -40,7 +34,7 @@ class Corrections {
     for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)
       if (catalogue.stars[i].id != kNoStarId) by_id_.emplace(catalogue.stars[i].id, i);
     for (const StarName& name : catalogue.names) {
-      const auto [at, first] = by_name_.emplace(folded(name.name), name.star);
+      const auto [at, first] = by_name_.emplace(folded_star_name(name.name), name.star);
       if (!first && at->second != name.star) ambiguous_.insert(at->first);
     }
   }
@@ -68,7 +62,7 @@ class Corrections {
       const auto found = by_id_.find(*id);
       if (found != by_id_.end()) return found->second;
     }
-    const auto found = by_name_.find(folded(alternative));
+    const auto found = by_name_.find(folded_star_name(alternative));
     if (found != by_name_.end() && ambiguous_.contains(found->first))
       row_.fail("several stars are called '" + std::string(alternative) + "'; name its number");
     return found == by_name_.end() ? std::nullopt : std::optional(found->second);
@@ -76,7 +70,7 @@ class Corrections {
 
   CatalogueStar& wanted() {
     const std::string_view cell = row_.text("star");
-    if (folded(cell).empty()) row_.fail("star is empty");
+    if (folded_star_name(cell).empty()) row_.fail("star is empty");
     for (const std::string_view alternative : alternatives(cell)) {
       const auto place = find(alternative);
       if (place && catalogue_.stars[*place].v != kRemoved) return catalogue_.stars[*place];
@@ -137,9 +131,9 @@ class Corrections {
     catalogue_.stars.push_back(star);
     if (star.id != kNoStarId) {
       by_id_.emplace(star.id, place);
-    } else if (!folded(cell).empty()) {
+    } else if (!folded_star_name(cell).empty()) {
       catalogue_.names.push_back({place, std::string(cell)});
-      by_name_.emplace(folded(cell), place);
+      by_name_.emplace(folded_star_name(cell), place);
     }
   }
 

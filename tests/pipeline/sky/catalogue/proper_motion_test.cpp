@@ -1,7 +1,10 @@
 // Where stars stand at other epochs, against places given by SIMBAD and against geometry.
+#include "pipeline/sky/catalogue/proper_motion.h"
+
 #include <cmath>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
 #include "tests/pipeline/image/test_folder.h"

@@ -1,6 +1,5 @@
-#include "pipeline/sky/catalogue/import/import_text.h"
-#include "pipeline/sky/catalogue/import/importers.h"
-#include "pipeline/sky/catalogue/import/table_star.h"
+#include "pipeline/sky/catalogue/import/catalogue_formats.h"
+#include "pipeline/sky/catalogue/import/star_row.h"
 
 namespace domefall {
 namespace {
@@ -10,20 +9,20 @@ constexpr StarColumns kColumns{"ra_deg",       "dec_deg",       "v_mag", "b_v",
 
 }  // namespace
 
-ImportedCatalogue import_table(const Paths& inputs) {
+ImportedCatalogue import_csv(const Paths& inputs) {
   ImportedCatalogue out;
   RawCatalogue& catalogue = out.catalogue;
   for (const std::filesystem::path& input : inputs) {
     CsvFile row(input, {"ra_deg", "dec_deg", "v_mag", "b_v"});
     while (row.next()) {
       const auto place = static_cast<std::uint32_t>(catalogue.stars.size());
-      catalogue.stars.push_back(read_table_star(row, kColumns));
+      catalogue.stars.push_back(read_star_row(row, kColumns));
       for (const char* column : {"name", "designation"})
         if (!row.text(column).empty())
           catalogue.names.push_back({place, std::string(row.text(column))});
     }
   }
-  name_by_hipparcos(catalogue.stars);
+  identify_by_hipparcos(catalogue.stars);
   catalogue.text = {inputs.front().filename().string(), "as the table's", ""};
   return out;
 }

@@ -1,4 +1,4 @@
-#include "pipeline/sky/make/equirectangular.h"
+#include "pipeline/sky/make/panorama.h"
 
 #include <algorithm>
 #include <array>
@@ -86,7 +86,7 @@ double panorama_unit(const LightImage& image, double luminance) {
 
 void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
                     const SkyPyramid& pyramid) {
-  paint_image(image.pixels, picture_from_equatorial(orientation),
+  paint_image(image.pixels, panorama_from_equatorial(orientation),
               luminance * image.unit / pyramid.unit, pyramid.levels[0]);
 }
 

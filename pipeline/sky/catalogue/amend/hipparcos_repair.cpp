@@ -1,4 +1,4 @@
-#include "pipeline/sky/catalogue/import/hipparcos_repair.h"
+#include "pipeline/sky/catalogue/amend/hipparcos_repair.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/sky/catalogue/import/star_names.h"
+#include "pipeline/sky/catalogue/amend/star_names.h"
 
 #include <array>
 #include <charconv>

@@ -1,0 +1,16 @@
+// Whole numbers in sentences.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace domefall {
+
+// "1,234".
+std::string with_commas(std::size_t count);
+
+// "1 row", "1,234 rows" for `what` = "row".
+std::string counted(std::size_t count, std::string_view what);
+
+}  // namespace domefall

@@ -1,0 +1,19 @@
+// A star from the row of a table whose columns have names.
+#pragma once
+
+#include "pipeline/image/csv_file.h"
+#include "pipeline/sky/catalogue/raw_catalogue.h"
+
+namespace domefall {
+
+struct StarColumns {
+  std::string_view ra, dec, v, b_v, pm_ra, pm_dec;  // names
+  double degrees;                                   // in one unit of ra
+  double bluest;                                    // the least B-V that is taken for a number
+};
+
+// The star of the row read last, identified by the columns `hip` and `hd` where there are such.
+// Throws InputError with the line.
+CatalogueStar read_star_row(const CsvFile& row, const StarColumns& columns);
+
+}  // namespace domefall

@@ -1,0 +1,63 @@
+// A star catalogue as importers hand it over and as catalogue files hold it: observed quantities,
+// from which star_catalogue.h's directions and temperatures are made when it is used.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/sky/catalogue/star_colour.h"
+#include "pipeline/sky/catalogue/star_id.h"
+#include "trajectories/directions.h"
+
+namespace domefall {
+
+// No star is as bright as the one or as faint as the other: beyond them a number is a mistake.
+inline constexpr double kBrightestV = -30, kFaintestV = 40;
+
+// The magnitude of a star whose catalogue gives none.  It lies beyond every limit, so that the star
+// is left out unless a correction gives it a magnitude.
+inline constexpr float kNoMagnitude = 99;
+
+struct CatalogueStar {
+  SkyDirection direction{V3d(1, 0, 0)};  // at the catalogue's epoch
+  float pm_ra = 0, pm_dec = 0;           // proper motion (proper_motion.h), mas a year
+  float v = 0;                           // magnitude, Johnson V
+  float colour = kNoColour;              // star_colour.h
+  StarId id = kNoStarId;
+
+  // Importers use these two; files do not hold them.
+  std::uint32_t hip = 0;    // Hipparcos number, 0 for none; the components of a star may share it
+  bool v_is_rough = false;  // V comes from another band, without a colour to convert it
+};
+
+struct StarName {
+  std::uint32_t star;  // index into the list of stars
+  std::string name;
+};
+
+// Lines for people.
+struct CatalogueText {
+  std::string source, licence;
+  std::string made;  // the command by which Domefall made the file
+};
+
+// The names are in ascending order of `star`; a star may have several.
+struct RawCatalogue {
+  std::vector<CatalogueStar> stars;
+  std::vector<StarName> names;
+  double epoch = 2000;  // Julian year of the positions
+  CatalogueText text;
+};
+
+// Sorts the stars, brightest first; stars of one magnitude keep their order.  Names follow their stars.
+void sort_by_brightness(RawCatalogue& catalogue);
+
+// Removes the stars fainter than V = `faintest`, and their names.
+void keep_brighter(RawCatalogue& catalogue, double faintest);
+
+// Gives the brightest star of each Hipparcos number that number as its identifier.  The other stars
+// keep what they have.
+void identify_by_hipparcos(std::vector<CatalogueStar>& stars);
+
+}  // namespace domefall

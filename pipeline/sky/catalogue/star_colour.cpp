@@ -1,0 +1,19 @@
+#include "pipeline/sky/catalogue/star_colour.h"
+
+#include <algorithm>
+
+namespace domefall {
+
+float colour_of_b_v(double b_v) { return std::clamp(static_cast<float>(b_v), kBluest, kReddest); }
+
+double temperature_from_b_v(double b_v) {
+  const double c = 0.92 * std::clamp(b_v, -0.4, 2.0);
+  return 4600 * (1 / (c + 1.7) + 1 / (c + 0.62));
+}
+
+double temperature_of(float colour) {
+  if (is_temperature(colour)) return colour;
+  return temperature_from_b_v(colour == kNoColour ? kAssumedColour : colour);
+}
+
+}  // namespace domefall
