@@ -36,7 +36,8 @@ TEST(Motion, OverACenturyIsTheProperMotionAlongBothAxes) {
     const SkyDirection then = at(star, 100);
     const double dec = std::asin(then.v.z) / kDegree, ra = std::atan2(then.v.y, then.v.x) / kDegree;
     const double east = std::remainder(ra - star.ra, 360) * std::cos(dec * kDegree);
-    // The curvature of the sky: some (1000 arcsec)^2 in radians, 5 arcsec, at Barnard's star; the others' less.
+    // The curvature of the sky: some (1000 arcsec)^2 in radians, 5 arcsec, at Barnard's star; the
+    // others' less.
     EXPECT_NEAR(east * 3600, star.pm_ra * 0.1, 0.4) << star.name;
     EXPECT_NEAR((dec - star.dec) * 3600, star.pm_dec * 0.1, 0.4) << star.name;
     EXPECT_NEAR(then.v.length(), 1, 3e-16);

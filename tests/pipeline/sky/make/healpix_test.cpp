@@ -81,8 +81,9 @@ TEST(Healpix, LooksBetweenPixelsAreSmooth) {
     places.emplace_back(normal(random), normal(random), normal(random));
   for (const V3d& raw : places) {
     const V3d d = raw.normalized();
-    // Half the curvature times a pixel squared.  About the poles, what a ring's square of four pixels
-    // misses of its circle: the slope, 0.58, times its radius, 0.0255, times 1 - cos 45 degrees.
+    // Half the curvature times a pixel squared.  About the poles, what a ring's square of four
+    // pixels misses of its circle: the slope, 0.58, times its radius, 0.0255, times 1 - cos 45
+    // degrees.
     EXPECT_NEAR(map.at(d), f(d), std::abs(d.z) > 0.97 ? 4.4e-3 : 6e-4) << d;
   }
 }
@@ -94,14 +95,14 @@ TEST(Healpix, MissingPixelsTakeTheirPlaceholder) {
 }
 
 TEST(MicrowaveBackground, IsABlackbodyWithItsFluctuationsEnlarged) {
-  HealpixFile file;  // in mK; even, but for a strong spot in the south
+  HealpixFile file;  // in mK; even, except for some strong pixels in the south
   file.values.assign(12, 0.05f);
   for (std::size_t k = 8; k < 12; ++k) file.values[k] = 100;
   const HealpixMap map(file, 0);
-  CmbSettings look;
-  look.kelvin = 1e-3;
-  const SkyPyramid pyramid(SkyMapKind::kThermal, cmb_unit(look), 16);
-  paint_cmb(map, SkyFrame::kEquatorial, look, pyramid);
+  CmbSettings cmb;
+  cmb.kelvin = 1e-3;
+  const SkyPyramid pyramid(SkyMapKind::kThermal, cmb_unit(cmb), 16);
+  paint_cmb(map, SkyFrame::kEquatorial, cmb, pyramid);
   pyramid.finish();
   const SkyMap sky = pyramid.map();
   const double warm = 2997.5 * (1 + 4000 * 0.05e-3 / 2.725), hot = 2997.5 * 1.5;
@@ -112,8 +113,8 @@ TEST(MicrowaveBackground, IsABlackbodyWithItsFluctuationsEnlarged) {
   EXPECT_NEAR(south.radiance / north.radiance, std::pow(hot / warm, 4),
               5e-3 * std::pow(hot / warm, 4));
   file.values.assign(12, 0);
-  paint_cmb(HealpixMap(file, 0), SkyFrame::kGalactic, look, pyramid);
-  EXPECT_NEAR(luminance(sky.sample({1, 0, 0}, 0)), look.luminance, 0.02 * look.luminance);
+  paint_cmb(HealpixMap(file, 0), SkyFrame::kGalactic, cmb, pyramid);
+  EXPECT_NEAR(luminance(sky.sample({1, 0, 0}, 0)), cmb.luminance, 0.02 * cmb.luminance);
 }
 
 }  // namespace

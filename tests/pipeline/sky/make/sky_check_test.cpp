@@ -27,14 +27,14 @@ V3d at(double longitude, double latitude) {
   return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
 }
 
-// A picture that lies as `o` says, of the stars as points on a dim ground.
-LightImage picture_of_stars(const Orientation& o) {
+// A panorama that lies as `o` says and shows the stars as points on a dim ground.
+LightImage panorama_of_stars(const Orientation& o) {
   LightImage image{{1024, 512}, 1};
   std::fill(image.pixels.pixels.begin(), image.pixels.pixels.end(), Imath::half(0.01f));
-  const M33d picture = panorama_from_equatorial(o);
+  const M33d panorama = panorama_from_equatorial(o);
   for (const Star& star : stars().stars) {
     if (star.v_magnitude > 5) break;
-    const V3d d = apply(picture, star.direction.v);
+    const V3d d = apply(panorama, star.direction.v);
     const int x = static_cast<int>((0.5 - std::atan2(d.y, d.x) / (2 * pi)) * 1024) & 1023;
     const int y = std::min(static_cast<int>((0.5 - std::asin(d.z) / pi) * 512), 511);
     for (int c = 0; c < 3; ++c) image.pixels.row(y)[3 * x + c] = 1;
@@ -68,7 +68,7 @@ TEST(Orientations, TurnTheSkyIntoThePicture) {
 
 TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
   const Orientation truth{SkyFrame::kGalactic, true, false, 90};
-  const LightImage image = picture_of_stars(truth);
+  const LightImage image = panorama_of_stars(truth);
   const SkyCheck right = check_orientation(import_as(image, truth, 512), truth, stars());
   EXPECT_EQ(right.verdict, SkyVerdict::kAgrees);
   EXPECT_TRUE(right.by_stars);
@@ -101,16 +101,17 @@ TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
   }
 }
 
-// A band along the middle row is much the same mirrored or upside down: what differs are its clouds.
+// A band along the middle row is much the same mirrored or upside down: what differs are its
+// clouds.
 TEST(SkyChecks, AMilkyWayAlongTheEquatorTellsItsOrientationToo) {
   const SkyMap sky = map_of_panorama(read_image(kAssets + "milky_way.exr"));
   const Orientation truth{SkyFrame::kGalactic, false, false, 0};
-  const M33d picture = panorama_from_equatorial(truth);
+  const M33d panorama = panorama_from_equatorial(truth);
   LightImage image{{512, 256}, kPanoramaUnit};
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 512; ++x) {
       const V3d d =
-          apply_transposed(picture, at(180 - (x + 0.5) * 360 / 512, 90 - (y + 0.5) * 180 / 256));
+          apply_transposed(panorama, at(180 - (x + 0.5) * 360 / 512, 90 - (y + 0.5) * 180 / 256));
       const double light = luminance(sky.sample(d, 0.01)) / kPanoramaUnit;
       for (int c = 0; c < 3; ++c) image.pixels.row(y)[3 * x + c] = static_cast<float>(light);
     }
@@ -136,13 +137,13 @@ TEST(SkyChecks, AnEvenSkyTellsNothing) {
 }
 
 TEST(SkyChecks, AKnownStarStandsOutOfItsSurroundings) {
-  const auto places = known_places(import_as(picture_of_stars({}), {}, 512), stars());
+  const auto places = known_places(import_as(panorama_of_stars({}), {}, 512), stars());
   ASSERT_EQ(places.size(), 18u);
   EXPECT_EQ(places[0].name, "Sirius");
   EXPECT_GT(places[0].contrast, 3);
 }
 
-// A quarter of the texels: each is the mean of four looks, and light is kept.
+// With half the texels along a face, each is the mean of four samples, and light is kept.
 TEST(PanoramaImport, ACoarserMapIsTheMeanOfFinerLooks) {
   LightImage image{{256, 128}, 2};
   for (int y = 0; y < 128; ++y)

@@ -28,7 +28,8 @@ SkyMap map_of(const std::vector<FaintStar>& stars, double blur, int size, double
   return pyramid.map();
 }
 
-// Independently of how the map was made: looks in equal areas of (longitude, sine of latitude).
+// Independent of how the map was made: the mean of samples in equal areas of (longitude, sine of
+// latitude).
 double flux_of(const SkyMap& map) {
   constexpr int kRows = 600, kColumns = 1200;
   double sum = 0;
@@ -63,7 +64,7 @@ TEST(Starlight, TheLightOfTheMapIsThatOfTheStars) {
 }
 
 // At a corner, on an edge and in the middle of a face: the same round Gaussian of the same height.
-// The nearest texels are up to 0.18 sigma away, where a look between them finds 1.7 % less.
+// The nearest texels are up to 0.18 sigma away, where a sample between them is 1.7 % less.
 TEST(Starlight, AStarIsAsRoundAndAsBrightAnywhereOnTheCube) {
   const double blur = 0.03, flux = 1e-10;
   for (const V3d& raw : {V3d(1, 0, 0), V3d(1, 1, 1), V3d(-1, 1, 0), V3d(0.3, -1, 0.98)}) {

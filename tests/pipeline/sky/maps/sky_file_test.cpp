@@ -22,7 +22,7 @@ class SkyFiles : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Channel 0 tells where a texel looks.
+  // Channel 0 depends on the direction of a texel.
   static void write(const fs::path& path, int size) {
     NewSkyFile file(
         path, SkyMapKind::kColour, 0x1p-20, size,
@@ -65,7 +65,7 @@ TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
   EXPECT_EQ(file.map.unit(), 0x1p-20);
   EXPECT_EQ(file.map.levels().size(), 6u);
   EXPECT_EQ(file.origin.text, "source: a test\nlicence: none\n");
-  EXPECT_EQ(file.origin.picture, (Orientation{SkyFrame::kGalactic, true, false, 266.5}));
+  EXPECT_EQ(file.origin.panorama, (Orientation{SkyFrame::kGalactic, true, false, 266.5}));
   for (const SkyLevel& level : file.map.levels())
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(level.texels) % 4096, 0u);
   for (const V3d& d : {V3d(0, 0, 1), V3d(1, 0, 0), V3d(-0.6, 0, -0.8)})
@@ -124,7 +124,7 @@ TEST_F(SkyFiles, AMapIsMappedAndNotRead) {
   const SkyFile file = open_sky_file(path);
   ASSERT_GT(file.map.bytes(), 66'000'000u);
   ASSERT_GE(resident(path), 0);
-  // A small cap looked at finely, and the whole sky looked at coarsely.
+  // A small cap is sampled finely, and the whole sky coarsely.
   for (int k = 0; k < 1000; ++k) {
     file.map.sample({1, 1e-4 * k, 0.01 * (k % 10)}, 0);
     file.map.sample({std::cos(k), std::sin(k), std::sin(7.0 * k)}, 0.2);
@@ -132,7 +132,7 @@ TEST_F(SkyFiles, AMapIsMappedAndNotRead) {
   EXPECT_LT(resident(path), 6000) << "KiB of 87,000";
 }
 
-// And not taken for a picture.
+// Such a file is not taken for an image either.
 TEST_F(SkyFiles, OneShorterThanItsHeaderIsToldAsSuch) {
   const fs::path path = folder_ / "short.sky";
   for (const std::size_t length : {0, 5, 63}) {

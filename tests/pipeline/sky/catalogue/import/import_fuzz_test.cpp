@@ -1,4 +1,5 @@
-// Files with bytes changed, cut out and doubled: each gives stars that can be written and read, or an InputError.
+// Files with bytes changed, cut out and doubled: each gives stars that can be written and read, or
+// an InputError.
 #include <limits>
 #include <random>
 

@@ -1,5 +1,6 @@
-// Rows laid out byte by byte as the ReadMe of III/135A says.  The J2000 places of the first test are those that
-// the catalogue service publishes; their B1900 numbers are the ones in the catalogue.
+// Rows laid out byte by byte as the ReadMe of III/135A says.  The J2000 places of the first test
+// are those that the catalogue service publishes; their B1900 numbers are the ones in the
+// catalogue.
 #include <cstdio>
 
 #include "pipeline/image/errors.h"

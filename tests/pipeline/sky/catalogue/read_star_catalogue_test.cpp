@@ -1,0 +1,46 @@
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "pipeline/image/errors.h"
+#include "trajectories/equatorial.h"
+
+namespace domefall {
+namespace {
+
+const std::string kAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
+
+TEST(Stars, AreTheNakedEyeSky) {
+  const StarCatalogue catalogue = read_star_catalogue(kAssets + "naked_eye_stars.csv", 6.5);
+  EXPECT_EQ(catalogue.stars.size(), 8874u);
+  EXPECT_TRUE(
+      std::is_sorted(catalogue.stars.begin(), catalogue.stars.end(),
+                     [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; }));
+  for (const auto& [name, ra, dec] :
+       {std::tuple("Sirius", 101.287155, -16.716116), std::tuple("vega", 279.234735, 38.783689),
+        std::tuple("alpha Ori", 88.792939, 7.407064)}) {
+    const auto found = find_star(catalogue, name);
+    ASSERT_TRUE(found) << name;
+    EXPECT_LT((found->v - sky_direction(ra, dec).v).length(), 3e-6) << "0.5 arcsec";
+  }
+  EXPECT_EQ(read_star_catalogue(kAssets + "naked_eye_stars.csv", 1.5).stars.size(), 23u);
+  EXPECT_EQ(nearest_star_name(catalogue, "Betelguese"), "Betelgeuse");
+}
+
+TEST(Stars, ADamagedRowIsNamedByFileAndLine) {
+  const auto file = std::filesystem::temp_directory_path() / "domefall_damaged_catalogue.csv";
+  std::ofstream(file) << "ra_deg,dec_deg,v_mag,b_v,name,designation\n1,2,3,0.5,,\n1,200,3,0.5,,\n";
+  try {
+    read_star_catalogue(file, 6.5);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with(file.string() + ":3")) << error.what();
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace domefall
