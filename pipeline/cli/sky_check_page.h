@@ -7,10 +7,12 @@
 
 namespace domefall {
 
-// One line: agrees; another fits clearly better, and which; or there is nothing to tell by.
+// One line: that the stated orientation agrees, that another fits clearly better and which, or that
+// nothing can be told.
 std::string verdict_sentence(const SkyCheck& check);
 
-// Known places with what the map has there, then the orientations that fit best; to stdout.
+// Prints the known places with what the map has there, then the orientations that fit best, to
+// stdout.
 void print_check(const SkyCheck& check, const std::vector<KnownPlace>& places);
 
 }  // namespace domefall

@@ -1,11 +1,12 @@
 #include "pipeline/cli/star_page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "pipeline/sky/catalogue/count_text.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
@@ -28,7 +29,7 @@ struct Facts {
 };
 
 Facts facts_of(const StarFile& file) {
-  // Their place in the file is told where a record is none.
+  // Making stars of all records names the byte of one that is none.
   stars_of(file, std::numeric_limits<double>::infinity(), file.epoch());
   const auto stars = file.up_to(std::numeric_limits<double>::infinity());
   Facts facts;
@@ -44,24 +45,19 @@ Facts facts_of(const StarFile& file) {
     if (star.colour == kNoColour) ++facts.colourless;
     if (star.pm_ra != 0 || star.pm_dec != 0) ++facts.moving;
   }
-  if (!stars.empty()) facts.brightest = stars.front().v, facts.faintest = stars.back().v;
+  if (!stars.empty()) {
+    facts.brightest = stars.front().v;
+    facts.faintest = stars.back().v;
+  }
   facts.names = file.names(stars.size());
   return facts;
 }
 
-std::string line(const char* name, const std::string& value) {
-  std::array<char, 32> label{};
-  std::snprintf(label.data(), label.size(), "%-12s ", name);
-  return value.empty() ? "" : label.data() + value + "\n";
+std::string line(std::string_view name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("{:12} {}\n", name, value);
 }
 
-std::string number(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
-// As decimals, not as the float's bits written out.
+// The decimals of a magnitude, without those that a float adds to them.
 double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 
 }  // namespace
@@ -70,14 +66,14 @@ std::string star_page(const StarFile& file) {
   const Facts facts = facts_of(file);
   std::string page =
       line("source", file.text().source) + line("licence", file.text().licence) +
-      line("made", file.text().made) + line("epoch", number("J%.2f", file.epoch())) +
+      line("made", file.text().made) + line("epoch", fmt::format("J{:.2f}", file.epoch())) +
       line("stars", with_commas(file.size())) +
-      line("V", number("%.2f to ", facts.brightest) + number("%.2f", facts.faintest)) +
+      line("V", fmt::format("{:.2f} to {:.2f}", facts.brightest, facts.faintest)) +
       line("names", with_commas(facts.names.size())) +
       line("no colour", with_commas(facts.colourless)) +
-      line("moving", with_commas(facts.moving) + ", with a proper motion");
+      line("moving", fmt::format("{}, with a proper motion", with_commas(facts.moving)));
   for (const Count& count : facts.counts)
-    page += line(number("V <= %g", count.limit).c_str(), with_commas(count.stars));
+    page += line(fmt::format("V <= {:g}", count.limit), with_commas(count.stars));
   return page;
 }
 

@@ -1,4 +1,4 @@
-// What a .stars catalogue holds, for readers and for programs.
+// What a .stars catalogue holds, for people and for programs.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// Source, licence, epoch, counts down to each magnitude.  Reads and checks the whole file: throws InputError
-// where it is damaged.
+// Source, licence, epoch and counts down to each magnitude, as text and as JSON.  Both read and
+// check the whole file, and throw InputError where it is damaged.
 std::string star_page(const StarFile& file);
 std::string star_json(const StarFile& file);
 

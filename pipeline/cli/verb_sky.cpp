@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -21,7 +23,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Deeper than any catalogue.
+// V that is fainter than every catalogue's last star.
 constexpr double kEveryStar = 30;
 
 struct BuildOptions {
@@ -30,13 +32,14 @@ struct BuildOptions {
   int size = 0;
 };
 
-// 0 is a face's own best size.
+void say(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+
+// Refuses a size that no face may have.  0 leaves the size to the program.
 void check_size(int size, int largest) {
   if (size == 0) return;
   if (size < 4 || size > largest || (size & (size - 1)) != 0)
-    throw InputError("--size " + std::to_string(size) +
-                     ": the size of a face must be a power of two from 4 to " +
-                     std::to_string(largest));
+    throw InputError(fmt::format(
+        "--size {}: the size of a face must be a power of two from 4 to {}", size, largest));
 }
 
 void build(const BuildOptions& o) {
@@ -44,32 +47,31 @@ void build(const BuildOptions& o) {
   const double blur = o.blur_deg * kDegree;
   const int size = o.size ? o.size : starlight_face(blur);
   if (std::numbers::pi / 2 / size > 1.5 * blur)
-    throw InputError("--size " + std::to_string(size) + ": too coarse for a blur of " +
-                     std::to_string(o.blur_deg) + " degrees; at least " +
-                     std::to_string(static_cast<int>(std::ceil(60 / o.blur_deg))));
+    throw InputError(
+        fmt::format("--size {}: too coarse for a blur of {:f} degrees; at least {:.0f}", size,
+                    o.blur_deg, std::ceil(60 / o.blur_deg)));
   refuse_overwriting(o.out, o.stars);
   const StarCatalogue catalogue = read_star_catalogue(o.stars, kEveryStar);
   const std::vector<FaintStar> stars = fainter_stars(catalogue, o.fainter_than);
   if (stars.empty())
-    throw InputError(o.stars + ": no star is fainter than V = " + std::to_string(o.fainter_than));
+    throw InputError(fmt::format("{}: no star is fainter than V = {:f}", o.stars, o.fainter_than));
   StarlightMap light(size);
   for (const BlurClass& spread : blur_classes(stars, blur, o.smooth_to))
     light.add(spread.stars, spread.blur);
-  char about[256];
-  std::snprintf(about, sizeof about,
-                "made by: domefall sky build, %zu stars fainter than V = %g, blur %g deg, "
-                "smooth to V = %g, gain %g\n",
-                stars.size(), o.fainter_than, o.blur_deg, o.smooth_to, o.gain);
+  const std::string about = fmt::format(
+      "made by: domefall sky build, {} stars fainter than V = {:g}, blur {:g} deg, "
+      "smooth to V = {:g}, gain {:g}\n"
+      "source: {}\n",
+      stars.size(), o.fainter_than, o.blur_deg, o.smooth_to, o.gain,
+      std::filesystem::path(o.stars).filename().string());
   NewSkyFile file(o.out, SkyMapKind::kThermal, sky_unit(o.gain * light.greatest()), size,
-                  {about + ("source: " + std::filesystem::path(o.stars).filename().string()) + "\n",
-                   std::nullopt});
+                  {about, std::nullopt});
   light.write(file.pyramid(), o.gain);
   file.finish();
   double flux = 0;
   for (const FaintStar& s : stars) flux += s.flux;
-  std::fprintf(stderr,
-               "%zu stars, %.6g W/m^2 of light; the map has %.6g W/m^2, times a gain of %g\n",
-               stars.size(), flux, light.flux(), o.gain);
+  say(fmt::format("{} stars, {:.6g} W/m^2 of light; the map has {:.6g} W/m^2, times a gain of {:g}",
+                  stars.size(), flux, light.flux(), o.gain));
 }
 
 void add_build(CLI::App& sky) {
@@ -98,18 +100,17 @@ void add_build(CLI::App& sky) {
 void info(const std::string& path, bool verify) {
   const SkyFile file = open_sky_file(path);
   const bool thermal = file.map.kind() == SkyMapKind::kThermal;
-  std::printf("kind         %s\n",
-              thermal ? "thermal: radiance and temperature" : "colour: working-space RGB");
-  std::printf("unit         %.9g %s\n", file.map.unit(), thermal ? "W/m^2/sr" : "cd/m^2");
-  std::printf("faces        6 of %d x %d, %zu levels, %.1f MB\n", file.map.levels()[0].size,
-              file.map.levels()[0].size, file.map.levels().size(),
-              static_cast<double>(file.map.bytes()) / 1e6);
-  std::printf("picture      %s\n",
-              file.origin.picture ? orientation_phrase(*file.origin.picture).c_str() : "none");
-  std::fputs(file.origin.text.c_str(), stdout);
+  fmt::print("kind         {}\n",
+             thermal ? "thermal: radiance and temperature" : "colour: working-space RGB");
+  fmt::print("unit         {:.9g} {}\n", file.map.unit(), thermal ? "W/m^2/sr" : "cd/m^2");
+  fmt::print("faces        6 of {0} x {0}, {1} levels, {2:.1f} MB\n", file.map.levels()[0].size,
+             file.map.levels().size(), static_cast<double>(file.map.bytes()) / 1e6);
+  fmt::print("picture      {}\n",
+             file.origin.panorama ? orientation_phrase(*file.origin.panorama) : "none");
+  fmt::print("{}", file.origin.text);
   if (!verify) return;
   verify_sky_file(path);
-  std::puts("verified     every face is as it was written");
+  fmt::print("verified     every face is as it was written\n");
 }
 
 void add_info(CLI::App& sky) {
@@ -121,7 +122,8 @@ void add_info(CLI::App& sky) {
   verb->callback([file, verify] { info(*file, *verify); });
 }
 
-// Against the naked-eye stars that come with Domefall, unless others are named.
+// The stars to check with: those named or, where none are, the naked-eye stars that come with
+// Domefall.
 StarCatalogue check_stars(const std::string& file) {
   return read_star_catalogue(file.empty() ? shipped_asset(kNakedEyeStars).string() : file,
                              kEveryStar);
@@ -129,13 +131,13 @@ StarCatalogue check_stars(const std::string& file) {
 
 void check_map(const std::string& path, const std::string& stars) {
   Orientation stated;
-  if (is_sky_file(path)) stated = open_sky_file(path).origin.picture.value_or(stated);
+  if (is_sky_file(path)) stated = open_sky_file(path).origin.panorama.value_or(stated);
   const auto map = read_sky(path);
   const StarCatalogue catalogue = check_stars(stars);
   const SkyCheck check = check_orientation(*map, stated, catalogue);
   print_check(check, known_places(*map, catalogue));
   if (check.verdict == SkyVerdict::kOther) throw InputError(path + ": " + verdict_sentence(check));
-  std::printf("\n%s\n", verdict_sentence(check).c_str());
+  fmt::print("\n{}\n", verdict_sentence(check));
 }
 
 void add_check_of_sky(CLI::App& sky) {
@@ -152,12 +154,13 @@ struct ImportOptions {
   std::string image, out, projection = "auto", frame, licence, stars;
   bool left = false, right = false, linear = false, srgb = false, cmb = false;
   double unit = 0;
-  CmbSettings look;
+  CmbSettings background;
 };
 
 SkyImport import_of(const ImportOptions& o) {
   SkyImport import = o.import;
-  import.image = o.image, import.out = o.out;
+  import.image = o.image;
+  import.out = o.out;
   refuse_overwriting(o.out, o.image);
   check_size(import.size, kLargestFace);
   if (o.projection == "equirectangular") import.projection = SkyProjection::kEquirectangular;
@@ -168,7 +171,7 @@ SkyImport import_of(const ImportOptions& o) {
   if (o.linear) import.encoding = PixelEncoding::kLinear;
   if (o.srgb) import.encoding = PixelEncoding::kSrgb;
   if (o.unit > 0) import.unit = o.unit;
-  if (o.cmb) import.cmb = o.look;
+  if (o.cmb) import.cmb = o.background;
   if (!o.licence.empty()) import.text = "licence: " + o.licence + "\n";
   return import;
 }
@@ -176,11 +179,10 @@ SkyImport import_of(const ImportOptions& o) {
 void import_map(const ImportOptions& o) {
   const SkyImport import = import_of(o);
   const Orientation stated = import_sky(import);
-  std::fprintf(stderr, "%s: %s\n", o.out.c_str(), orientation_phrase(stated).c_str());
+  say(fmt::format("{}: {}", o.out, orientation_phrase(stated)));
   const StarCatalogue catalogue = check_stars(o.stars);
   const SkyCheck check = check_orientation(open_sky_file(o.out).map, stated, catalogue);
-  std::fprintf(stderr, "%s%s\n", check.verdict == SkyVerdict::kOther ? "warning: " : "",
-               verdict_sentence(check).c_str());
+  say((check.verdict == SkyVerdict::kOther ? "warning: " : "") + verdict_sentence(check));
 }
 
 void add_orientation(CLI::App& verb, ImportOptions& o) {
@@ -200,15 +202,15 @@ void add_orientation(CLI::App& verb, ImportOptions& o) {
 void add_cmb(CLI::App& verb, ImportOptions& o) {
   CLI::Option* cmb = verb.add_flag(
       "--cmb", o.cmb, "the map holds fluctuations of the microwave background's temperature");
-  verb.add_option("--cmb-redshift", o.look.redshift, "it is shown as it was at this redshift")
+  verb.add_option("--cmb-redshift", o.background.redshift, "it is shown as it was at this redshift")
       ->check(number_in(250.0, 1e5))
       ->needs(cmb)
       ->capture_default_str();
-  verb.add_option("--cmb-contrast", o.look.contrast, "factor on the fluctuations")
+  verb.add_option("--cmb-contrast", o.background.contrast, "factor on the fluctuations")
       ->check(number_in(0.0, 1e6))
       ->needs(cmb)
       ->capture_default_str();
-  verb.add_option("--cmb-luminance", o.look.luminance, "cd/m^2, of its mean temperature")
+  verb.add_option("--cmb-luminance", o.background.luminance, "cd/m^2, of its mean temperature")
       ->check(number_in(1e-9, 1e3))
       ->needs(cmb)
       ->capture_default_str();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -31,21 +33,22 @@ std::string format_names() {
 const CatalogueFormat& format_of(const std::string& format, const Paths& inputs) {
   if (format == "auto") {
     if (const CatalogueFormat* guessed = guess_format(inputs)) return *guessed;
-    throw InputError(inputs.front().string() +
-                     ": not known by how it begins; name the format: " + format_names());
+    throw InputError(fmt::format("{}: not known by how it begins; name the format: {}",
+                                 inputs.front().string(), format_names()));
   }
   for (const CatalogueFormat& each : catalogue_formats())
     if (each.name == format) return each;
-  throw InputError("format " + format + ": must be one of " + format_names());
+  throw InputError(fmt::format("format {}: must be one of {}", format, format_names()));
 }
 
-void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+void say(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
 void repair(RawCatalogue& catalogue, const std::string& file) {
   const ImportedCatalogue hipparcos = import_d3_celestial({file});
   const HipparcosRepair done = repair_by_hipparcos(catalogue, hipparcos.catalogue);
-  say(file + ": V of " + counted(done.stars, "star") + ", colour of " + with_commas(done.colours) +
-      " that had none, " + counted(done.added, "star") + " added");
+  say(fmt::format("{}: V of {}, colour of {} that had none, {} added", file,
+                  counted(done.stars, "star"), with_commas(done.colours),
+                  counted(done.added, "star")));
   catalogue.text.source += "; V and colours by " + hipparcos.catalogue.text.source;
   catalogue.text.licence += "; " + hipparcos.catalogue.text.licence;
 }
@@ -55,13 +58,11 @@ std::size_t without_colour(const std::vector<CatalogueStar>& stars) {
       stars.begin(), stars.end(), [](const CatalogueStar& s) { return s.colour == kNoColour; }));
 }
 
-void tell_result(const RawCatalogue& catalogue, const std::string& out) {
-  char range[64];
-  std::snprintf(range, sizeof range, "V %.2f to %.2f", catalogue.stars.front().v,
-                catalogue.stars.back().v);
-  say(out + ": " + counted(catalogue.stars.size(), "star") + ", " + range + ", " +
-      counted(catalogue.names.size(), "name") + ", " +
-      with_commas(without_colour(catalogue.stars)) + " without colour, drawn as B-V 0.6");
+void say_result(const RawCatalogue& catalogue, const std::string& out) {
+  say(fmt::format("{}: {}, V {:.2f} to {:.2f}, {}, {} without colour, drawn as B-V {}", out,
+                  counted(catalogue.stars.size(), "star"), catalogue.stars.front().v,
+                  catalogue.stars.back().v, counted(catalogue.names.size(), "name"),
+                  with_commas(without_colour(catalogue.stars)), kAssumedColour));
 }
 
 void import(const Options& o) {
@@ -70,24 +71,25 @@ void import(const Options& o) {
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
     refuse_overwriting(o.out, input);
   const CatalogueFormat& format = format_of(o.format, inputs);
-  if (o.format == "auto") say("taken as " + std::string(format.title));
+  if (o.format == "auto") say(fmt::format("taken as {}", format.title));
   ImportedCatalogue imported = format.import(inputs);
   RawCatalogue& catalogue = imported.catalogue;
-  say(std::string(format.title) + ": " + counted(catalogue.stars.size(), "star"));
+  say(fmt::format("{}: {}", format.title, counted(catalogue.stars.size(), "star")));
   for (const std::string& note : imported.notes) say(note);
   if (!o.hipparcos.empty()) repair(catalogue, o.hipparcos);
   if (!o.names.empty()) add_names(catalogue, o.names);
   if (!o.corrections.empty())
-    say(o.corrections + ": " + counted(apply_corrections(catalogue, o.corrections), "correction"));
+    say(fmt::format("{}: {}", o.corrections,
+                    counted(apply_corrections(catalogue, o.corrections), "correction")));
   keep_brighter(catalogue, o.faintest);
   if (catalogue.stars.empty()) throw InputError(o.inputs.front() + ": no star is left to write");
   sort_by_brightness(catalogue);
-  catalogue.text.made = "domefall " DOMEFALL_VERSION " stars import " + std::string(format.name) +
-                        (o.hipparcos.empty() ? "" : " --hipparcos") +
-                        (o.names.empty() ? "" : " --names") +
-                        (o.corrections.empty() ? "" : " --corrections");
+  catalogue.text.made =
+      fmt::format("domefall " DOMEFALL_VERSION " stars import {}{}{}{}", format.name,
+                  o.hipparcos.empty() ? "" : " --hipparcos", o.names.empty() ? "" : " --names",
+                  o.corrections.empty() ? "" : " --corrections");
   write_star_file(o.out, catalogue);
-  tell_result(catalogue, o.out);
+  say_result(catalogue, o.out);
 }
 
 void add_import(CLI::App& stars) {

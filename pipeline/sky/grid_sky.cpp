@@ -15,7 +15,8 @@ constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
 // Luminance (cd/m^2) at no redshift: a light square is as bright as the heart of the Milky Way.
 constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
 
-// The square wave of half period 1 (+1 on [0, 1)) averaged over a box of this width.
+// Returns the mean, over a box of this width about x, of the square wave that is 1 on [0, 1) and -1
+// on [1, 2).
 double box_filtered_wave(double x, double width) {
   const auto integral = [](double t) {
     const double phase = t - 2 * std::floor(t / 2);
@@ -33,7 +34,7 @@ WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g)
   const double across = std::hypot(d.x, d.y);
   const double width = std::max(footprint, 1e-9);
   const double to_pole = std::atan2(across, std::abs(d.z));
-  // Its edge blurred over the footprint; of a footprint wider than the disc, the share that it fills.
+  // The disc's edge is blurred over the footprint.  Of a wider footprint it fills only a share.
   const double share = std::min(1.0, kCell * kCell / (width * width));
   const double disc = share * std::clamp((kPolarRadius - to_pole) / width + 0.5, 0.0, 1.0);
   WorkingRgb light{0, 0, 0};

@@ -1,5 +1,7 @@
 #include "pipeline/sky/read_sky.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -17,16 +19,16 @@ namespace {
 FloatImage read_panorama(const std::filesystem::path& file) {
   FloatImage image = read_image(file);
   if (image.width < 4 || image.height < 2 || image.width != 2 * image.height)
-    throw InputError(
-        file.string() + ": a panorama is twice as wide as high, at least 4 x 2 pixels; " +
-        "this one is " + std::to_string(image.width) + " x " + std::to_string(image.height));
+    throw InputError(fmt::format(
+        "{}: a panorama is twice as wide as high, at least 4 x 2 pixels; this one is {} x {}",
+        file.string(), image.width, image.height));
   const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   check_light(file, *least, *most);
   return image;
 }
 
-// A smaller file is read to its end in a moment, and damage told before it is in a picture; of a larger
-// one only what is looked at is to be read.
+// A .sky file up to this size is verified when it is opened, which takes a moment.  Of a larger one
+// only what is sampled is to be read.
 constexpr std::uintmax_t kReadWhole = std::uintmax_t{256} << 20;
 
 }  // namespace

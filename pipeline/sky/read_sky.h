@@ -9,11 +9,11 @@
 
 namespace domefall {
 
-// A .sky file, told by how it begins, is mapped; any other file is read as an equirectangular image
-// (SkyMap's constructor).  Throws InputError naming the file.
+// Opens a .sky file (is_sky_file), or makes a map of an equirectangular image (map_of_panorama).
+// Throws InputError naming the file.
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file);
 
-// Of all that decides what the file looks like, without reading a .sky file whole.
+// Returns a digest of what decides how the sky looks.  A .sky file is not read whole for it.
 std::string sky_digest(const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -7,10 +7,10 @@
 
 namespace domefall {
 
-// "1,234".
+// Returns "1,234" for 1234.
 std::string with_commas(std::size_t count);
 
-// "1 row", "1,234 rows" for `what` = "row".
+// Returns "1 row", "1,234 rows" for `what` = "row".
 std::string counted(std::size_t count, std::string_view what);
 
 }  // namespace domefall

@@ -15,8 +15,8 @@ namespace domefall {
 // No star is as bright as the one or as faint as the other: beyond them a number is a mistake.
 inline constexpr double kBrightestV = -30, kFaintestV = 40;
 
-// The magnitude of a star whose catalogue gives none.  It lies beyond every limit, so that the star
-// is left out unless a correction gives it a magnitude.
+// A star whose catalogue gives no magnitude has this one.  It lies beyond every limit, so that the
+// star is left out unless a correction gives it a magnitude.
 inline constexpr float kNoMagnitude = 99;
 
 struct CatalogueStar {
@@ -36,7 +36,7 @@ struct StarName {
   std::string name;
 };
 
-// Lines for people.
+// These lines are for people.
 struct CatalogueText {
   std::string source, licence;
   std::string made;  // the command by which Domefall made the file
@@ -50,7 +50,8 @@ struct RawCatalogue {
   CatalogueText text;
 };
 
-// Sorts the stars, brightest first; stars of one magnitude keep their order.  Names follow their stars.
+// Sorts the stars, brightest first; stars of one magnitude keep their order.  Names follow their
+// stars.
 void sort_by_brightness(RawCatalogue& catalogue);
 
 // Removes the stars fainter than V = `faintest`, and their names.

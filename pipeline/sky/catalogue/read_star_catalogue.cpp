@@ -26,7 +26,7 @@ bool is_star(const StarRecord& r, double length2) {
          is_colour(r.colour) && std::isfinite(r.pm_ra) && std::isfinite(r.pm_dec);
 }
 
-// Where the row's star stands in that year.
+// Returns where the row's star stands in that year.
 SkyDirection direction_of(const CsvFile& row, double epoch) {
   const double ra = row.required("ra_deg", 0, 360), dec = row.required("dec_deg", -90, 90);
   const double pm_ra = row.number("pm_ra_mas_yr", -kFastest, kFastest).value_or(0);

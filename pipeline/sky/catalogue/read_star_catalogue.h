@@ -14,11 +14,11 @@ class StarFile;
 // Reads the stars of V <= max_magnitude, where they stand in the Julian year `epoch` (`moved` in
 // proper_motion.h).  A file that begins as a .stars file does is one; any other file is a table.
 //
-// - Of a .stars file (star_file.h) only the stars wanted and their names are read.  All 2.5 million of
-//   Tycho-2 take 0.1 s of CPU time.  Throws InputError with file and byte where it is damaged.
+// - Of a .stars file (star_file.h) only the stars wanted and their names are read.  All 2.5 million
+//   of Tycho-2 take 0.1 s of CPU time.  Throws InputError with file and byte where it is damaged.
 // - A table (csv_file.h) has the columns ra_deg, dec_deg (J2000), v_mag and b_v, and perhaps name,
-//   designation, pm_ra_mas_yr (times cos Dec) and pm_dec_mas_yr; others are ignored.  The names of all
-//   its stars are kept.  Throws InputError with file and line where a row is damaged.
+//   designation, pm_ra_mas_yr (times cos Dec) and pm_dec_mas_yr; others are ignored.  The names of
+//   all its stars are kept.  Throws InputError with file and line where a row is damaged.
 //
 // A star without colour is drawn as one of kAssumedColour.
 StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
@@ -28,8 +28,9 @@ StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_
 // record holds no unit vector or a number out of its range.
 StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch);
 
-// What tells a .stars file from every other, from its header alone; nothing for other files.  Throws
-// InputError as read_star_catalogue does.
+// Returns digits that tell a .stars file from every other, from its header alone, or nothing for
+// another kind of file.
+// Throws InputError as read_star_catalogue does.
 std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file);
 
 }  // namespace domefall

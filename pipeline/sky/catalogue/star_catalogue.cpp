@@ -5,7 +5,8 @@
 namespace domefall {
 namespace {
 
-// Levenshtein's distance, row by row: row[j] is that of a's first i letters to b's first j.
+// Returns Levenshtein's distance.  After i steps row[j] is that of a's first i letters to b's first
+// j.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

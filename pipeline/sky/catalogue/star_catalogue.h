@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// Julian year for which stars are placed unless a show asks for another.
+// Stars are placed as in this Julian year unless a show asks for another.
 inline constexpr double kCatalogueEpoch = 2000;
 
 struct Star {
@@ -29,14 +29,15 @@ struct StarCatalogue {
   std::vector<NamedStar> names;
 };
 
-// A name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen" are one.
+// Returns a name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen"
+// are one.
 std::string folded_star_name(std::string_view name);
 
-// The first star of that folded name.
+// Returns the first star of that folded name.
 std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name);
 
-// The catalogue's name nearest to a misspelt one, for error messages.  Empty if none is nearer than a
-// third of its letters (at least two) inserted, deleted or replaced.
+// Returns the name nearest to a misspelt one, for error messages.  Empty if none is nearer than
+// a third of its letters (at least two) inserted, deleted or replaced.
 std::string nearest_star_name(const StarCatalogue& catalogue, std::string_view name);
 
 }  // namespace domefall

@@ -3,25 +3,27 @@
 
 namespace domefall {
 
-// A colour is one number: B-V (magnitudes) from kBluest to kReddest, a temperature (K) from kColdest
-// to kHottest, or kNoColour where a catalogue gives neither.  The three ranges do not overlap.
+// A colour is one number: B-V (magnitudes) from kBluest to kReddest, a temperature (K) from
+// kColdest to kHottest, or kNoColour where a catalogue gives neither.  The three ranges do not
+// overlap.
 inline constexpr float kBluest = -2, kReddest = 10;
 inline constexpr float kColdest = 500, kHottest = 1e6F;
 inline constexpr float kNoColour = 99;
 
-// B-V of a star that has no colour: it is near the median of naked-eye stars.
+// A star that has no colour is drawn with this B-V, which is near the median of naked-eye stars.
 inline constexpr double kAssumedColour = 0.6;
 
 inline bool is_temperature(float colour) { return colour >= kColdest; }
 
-// B-V as a colour; what lies outside the range of B-V is moved to its end.
+// Returns B-V as a colour; what lies outside the range of B-V is moved to its end.
 float colour_of_b_v(double b_v);
 
-// Effective temperature (K) for B-V, by Ballesteros 2012 (EPL 97, 34008), who takes stars for
-// blackbodies.  B-V is held to -0.4 to 2.0, so the result lies between 3,170 K and 22,000 K.
+// Returns the effective temperature (K) for B-V, by Ballesteros 2012 (EPL 97, 34008), who takes
+// stars for blackbodies.  B-V is held to -0.4 to 2.0, so the result lies between 3,170 K and 22,000
+// K.
 double temperature_from_b_v(double b_v);
 
-// Temperature (K) of the blackbody as which a star of this colour is drawn.
+// Returns the temperature (K) of the blackbody as which a star of this colour is drawn.
 double temperature_of(float colour);
 
 }  // namespace domefall

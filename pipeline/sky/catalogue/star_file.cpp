@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-// A number of the file, copied out because it need not be aligned.
+// Copies a number out of the file, since it need not be aligned there.
 template <class T>
 T at(std::string_view bytes, std::size_t offset) {
   T value;

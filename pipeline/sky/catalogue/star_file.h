@@ -1,9 +1,9 @@
-// The binary star catalogue, *.stars.  It is mapped into memory, so that a limit of magnitude touches
-// only the stars that it needs.
+// The binary star catalogue, *.stars.  It is mapped into memory, so that a limit of magnitude
+// touches only the stars that it needs.
 //
 // Little-endian.  Offsets and sizes are in bytes:
 //
-//   0    8  89 "STARS" 0D 0A          no text file begins so, and none survives a change of line ends
+//   0    8  89 "STARS" 0D 0A          text does not begin so, and a change of line ends shows
 //   8    4  0x01020304                in the order of the bytes of all numbers
 //   12   4  version, 1
 //   16   8  size of the file
@@ -20,13 +20,13 @@
 //
 //   index    for each block of records: 8 bytes checksum, 4 bytes V of its faintest star, 4 bytes 0
 //   text     three lines, UTF-8: source, licence, how it was made
-//   names    for each name: 4 bytes number of the star (from 0, ascending), 4 bytes length, the name
-//   records  brightest first: the unit vector (equatorial J2000) as 3 int32 times 2^-31; proper motion
-//            in right ascension (times cos Dec) and declination, mas a year, float; V, float; colour,
-//            float (star_colour.h); identifier (star_id.h)
+//   names    for each name: 4 bytes number of the star (from 0, ascending), 4 bytes length, name
+//   records  brightest first: the unit vector (equatorial J2000) as 3 int32 times 2^-31; as floats
+//            proper motion in right ascension (times cos Dec) and declination, mas a year, V, and
+//            colour (star_colour.h); identifier (star_id.h)
 //
-// Checksums are XXH3, 64 bits.  A block is checked when it is first read: nothing is used unchecked,
-// and nothing is read for its checksum alone.
+// Checksums are XXH3, 64 bits.  A block is checked when it is first read: nothing is used
+// unchecked, and nothing is read for its checksum alone.
 //
 // Accuracy: rounding moves a direction by less than 0.1 mas.
 #pragma once
@@ -47,24 +47,25 @@ struct StarRecord {
 };
 static_assert(sizeof(StarRecord) == 32);
 
-// Whether bytes begin as those of such a file do.
+// Returns whether bytes begin as those of such a file do.
 bool is_star_file(std::string_view bytes);
 
 class StarFile {
  public:
-  // Throws InputError naming the file and the byte if it is no such file, not whole, damaged or of a
-  // newer version.
+  // Throws InputError naming the file and the byte if it is no such file, not whole, damaged or of
+  // a newer version.
   explicit StarFile(const std::filesystem::path& file);
 
   std::size_t size() const { return stars_; }
   double epoch() const { return epoch_; }
   const CatalogueText& text() const { return text_; }
-  // Digits that stand for all that the file holds.
+  // Returns digits that stand for all that the file holds.
   std::string fingerprint() const;
 
-  // The stars of V <= limit, both as floats.  Throws InputError where one of their blocks is damaged.
+  // Returns the stars of V <= limit, both as floats.  Throws InputError where one of their blocks
+  // is damaged.
   std::span<const StarRecord> up_to(double limit) const;
-  // The names of the first `stars` stars.
+  // Returns the names of the first `stars` stars.
   std::vector<StarName> names(std::size_t stars) const;
 
   // Throws InputError naming the byte at which a record that up_to() has returned begins.
@@ -84,8 +85,9 @@ class StarFile {
   CatalogueText text_;
 };
 
-// Writes a catalogue whose stars are sorted by brightness (sort_by_brightness); its numbers are finite
-// and within their ranges.  The file appears whole or not at all; throws as write_atomically does.
+// Writes a catalogue whose stars are sorted by brightness (sort_by_brightness); its numbers are
+// finite and within their ranges.  The file appears whole or not at all; throws as write_atomically
+// does.
 void write_star_file(const std::filesystem::path& file, const RawCatalogue& catalogue);
 
 }  // namespace domefall

@@ -30,7 +30,7 @@ struct StarFileHeader {
 };
 static_assert(sizeof(StarFileHeader) == 128 && offsetof(StarFileHeader, head_sum) == 120);
 
-// An entry of the index.
+// The index has one entry for each block.
 struct StarBlock {
   std::uint64_t sum;
   float faintest;

@@ -1,5 +1,7 @@
 #include "pipeline/sky/catalogue/star_id.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <vector>
 
@@ -8,13 +10,15 @@ namespace {
 
 enum Kind : std::uint32_t { kNone = 0, kHip = 1, kHd = 2, kTycho = 3 };
 
+// Kind, region and number begin at these of the 32 bits; region and number are those of a Tycho
+// star, whose component less 1 is in the two lowest bits.
 constexpr int kKindBit = 30, kRegionBit = 16, kNumberBit = 2;
 constexpr StarId kLargest = (1u << kKindBit) - 1;
 constexpr std::uint32_t kRegions = 9537, kNumbers = 12121, kComponents = 4;
 
 constexpr StarId of_kind(Kind kind, std::uint32_t number) { return (kind << kKindBit) | number; }
 
-// Whole numbers between dashes; empty if there is anything else.
+// Returns the numbers of a text such as "5949-2777-1", or nothing if there is anything else in it.
 std::vector<std::uint32_t> numbers_of(std::string_view text) {
   std::vector<std::uint32_t> numbers;
   for (;;) {
@@ -41,13 +45,13 @@ std::string star_id_name(StarId id) {
   const StarId number = id & kLargest;
   switch (id >> kKindBit) {
     case kHip:
-      return "HIP " + std::to_string(number);
+      return fmt::format("HIP {}", number);
     case kHd:
-      return "HD " + std::to_string(number);
+      return fmt::format("HD {}", number);
     case kTycho:
-      return "TYC " + std::to_string(number >> kRegionBit) + "-" +
-             std::to_string((number >> kNumberBit) & ((1u << (kRegionBit - kNumberBit)) - 1)) +
-             "-" + std::to_string((number & (kComponents - 1)) + 1);
+      return fmt::format("TYC {}-{}-{}", number >> kRegionBit,
+                         (number >> kNumberBit) & ((1u << (kRegionBit - kNumberBit)) - 1),
+                         (number & (kComponents - 1)) + 1);
     default:
       return "";
   }

@@ -14,20 +14,20 @@ using StarId = std::uint32_t;
 
 inline constexpr StarId kNoStarId = 0;
 
-// The last numbers of Hipparcos and of the Henry Draper Catalogue with its Extension.
+// The numbers of Hipparcos, and of the Henry Draper Catalogue with its Extension, end here.
 inline constexpr double kLastHip = 120416, kLastHd = 359083;
 
-// Identifiers of a number from 1 to 2^30 - 1.
+// These make identifiers of a number from 1 to 2^30 - 1.
 StarId hipparcos_id(std::uint32_t number);
 StarId henry_draper_id(std::uint32_t number);
-// By the ReadMe of I/259 (Hog et al. 2000), regions are 1 to 9537, numbers 1 to 12121 and components
-// 1 to 4.
+// By the ReadMe of I/259 (Hog et al. 2000), regions are 1 to 9537, numbers 1 to 12121 and
+// components 1 to 4.
 StarId tycho_id(std::uint32_t region, std::uint32_t number, std::uint32_t component);
 
-// "HIP 32349", "HD 48915", "TYC 5949-2777-1"; empty for kNoStarId.
+// Returns "HIP 32349", "HD 48915", "TYC 5949-2777-1", or nothing for kNoStarId.
 std::string star_id_name(StarId id);
-// The identifier of such a name in any case and with any blanks.  Nothing for other text and for
-// numbers out of range.
+// Returns the identifier of such a name in any case and with any blanks.  Nothing for other text
+// and for numbers out of range.
 std::optional<StarId> parse_star_id(std::string_view text);
 
 }  // namespace domefall

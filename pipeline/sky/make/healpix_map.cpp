@@ -13,9 +13,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kLargestOfHealpix = 4096;
+constexpr int kLargestFaceOfHealpix = 4096;
 
-// Every other bit of a number, from its lowest.
+// Returns the number made of every other bit, beginning with the lowest.
 long every_other_bit(long bits) {
   long out = 0;
   for (int k = 0; bits >> (2 * k) != 0; ++k) out |= ((bits >> (2 * k)) & 1) << k;
@@ -24,9 +24,9 @@ long every_other_bit(long bits) {
 
 }  // namespace
 
-// Gorski et al. 2005, sec. 5.2: a base pixel's southern corner has the coordinates (0, 0), from which
-// x grows to the north-east and y to the north-west; it is kRing/4 of the way to the south pole and
-// kEast eighths of a turn from longitude 0.
+// Gorski et al. 2005, sec. 5.2.  A base pixel's southern corner has the coordinates (0, 0), from
+// which x grows to the north-east and y to the north-west.  It is kRing/4 of the way to the south
+// pole and kEast eighths of a turn from longitude 0.
 long ring_from_nested(int nside, long pixel) {
   static constexpr std::array<int, 12> kRing{2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
   static constexpr std::array<int, 12> kEast{1, 3, 5, 7, 0, 2, 4, 6, 1, 3, 5, 7};
@@ -38,7 +38,7 @@ long ring_from_nested(int nside, long pixel) {
   const long before = ring < n        ? 2 * ring * (ring - 1)
                       : ring <= 3 * n ? 2 * n * (n - 1) + (ring - n) * 4 * n
                                       : 12 * n * n - 2 * north * (north + 1);
-  // Twice the place along the ring, from 1 at the first pixel.
+  // Twice the number along the ring, which is 1 for the first pixel.
   const long east = kEast[static_cast<std::size_t>(base)] * (length / 4) + x - y + 2 - shifted;
   return before + (east / 2 - 1 + length) % length;
 }
@@ -56,8 +56,8 @@ HealpixMap::HealpixMap(HealpixFile file, float missing) : file_(std::move(file))
   file_.nested = false;
 }
 
-// The caps' rings have 4, 8, ... pixels and are all shifted by half a pixel; those between have
-// 4 nside and are shifted every other time.
+// Gorski et al. 2005, sec. 5.1.  The rings of the polar caps have 4, 8, ... pixels and are all
+// shifted by half a pixel.  Those between have 4 nside pixels, and every other of them is shifted.
 HealpixMap::Ring HealpixMap::ring(long number) const {
   const long n = file_.nside, north = std::min(number, 4 * n - number);
   const auto nn = static_cast<double>(n);
@@ -66,7 +66,8 @@ HealpixMap::Ring HealpixMap::ring(long number) const {
             std::acos(static_cast<double>(2 * n - number) * 2 / (3 * nn)),
             (number - n) % 2 == 0 ? 0.5 : 0.0};
   const auto k = static_cast<double>(north);
-  // 1 - z = k^2 / (3 n^2), as twice a sine squared: exact near the pole.
+  // 1 - z = k^2 / (3 n^2) is twice the square of sin(theta/2), which keeps its digits near the
+  // pole.
   const double theta = 2 * std::asin(k / (nn * std::sqrt(6.0)));
   if (number == north) return {2 * north * (north - 1), 4 * north, theta, 0.5};
   return {12 * n * n - 2 * north * (north + 1), 4 * north, pi - theta, 0.5};
@@ -86,7 +87,7 @@ double HealpixMap::pole(std::size_t first) const {
   return (static_cast<double>(v[0]) + v[1] + v[2] + v[3]) / 4;
 }
 
-// The last ring at or north of a place; 0 beyond the first.
+// Returns the last ring at or north of a place, or 0 if that is north of the first.
 long HealpixMap::ring_above(double z, double across) const {
   const double n = file_.nside, from_pole = across * across / (1 + std::abs(z));
   if (std::abs(z) <= 2.0 / 3) return static_cast<long>(n * (2 - 1.5 * z));
@@ -103,21 +104,23 @@ double HealpixMap::at(const V3d& direction) const {
   double from = 0, to = pi, a = 0, b = 0;
   if (above >= 1) {
     const Ring r = ring(above);
-    from = r.theta, a = on_ring(r, phi);
+    from = r.theta;
+    a = on_ring(r, phi);
   } else {
     a = pole(0);
   }
   if (above < last) {
     const Ring r = ring(above + 1);
-    to = r.theta, b = on_ring(r, phi);
+    to = r.theta;
+    b = on_ring(r, phi);
   } else {
     b = pole(file_.values.size() - 4);
   }
-  // On a ring itself rounding may have found its neighbour.
+  // For a place on a ring, rounding may have found the ring beside it.
   return a + std::clamp((theta - from) / (to - from), 0.0, 1.0) * (b - a);
 }
 
-int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestOfHealpix); }
+int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestFaceOfHealpix); }
 
 M33d frame_from_equatorial(SkyFrame frame) {
   Orientation o;

@@ -12,9 +12,9 @@ class HealpixMap {
   // Bad pixels become `missing`.
   HealpixMap(HealpixFile file, float missing);
 
-  // Value in a direction of the map's own coordinates, of any length.  It is linear between the two
-  // nearest pixels of each of the two nearest rings (Gorski et al. 2005, sec. 5.1), and linear in
-  // colatitude between the rings.  A pole has the mean of its four pixels.
+  // Returns the value in a direction of the map's own coordinates, of any length.  It is linear
+  // between the two nearest pixels of each of the two nearest rings (Gorski et al. 2005, sec. 5.1),
+  // and linear in colatitude between the rings.  A pole has the mean of its four pixels.
   double at(const V3d& direction) const;
 
   int nside() const { return file_.nside; }
@@ -34,19 +34,21 @@ class HealpixMap {
   HealpixFile file_;  // in RING order
 };
 
-// The number in RING order of a pixel in NESTED order.
+// Returns the number in RING order of a pixel in NESTED order.
 long ring_from_nested(int nside, long pixel);
 
-// Texels along a cube face that keep a map's detail; at most 4096.
+// Returns the texels along a cube face that keep a map's detail; at most 4096.
 int healpix_face(int nside);
 
-// Samples along the side of a texel, so that a level coarser than the map has means of the map.
+// Returns the samples along the side of a texel, so that a level coarser than the map has means of
+// the map.
 int samples_across(const HealpixMap& map, const SkyPyramid::Level& level);
 
 // Turns an equatorial direction into the coordinates of a frame.
 M33d frame_from_equatorial(SkyFrame frame);
 
-// Unit (sky_unit) of a colour map of grey light (D65), of which the value 1 is `luminance` cd/m^2.
+// Returns the unit (sky_unit) of a colour map of grey light (D65), of which the value 1 is
+// `luminance` cd/m^2.
 double healpix_unit(const HealpixMap& map, double luminance);
 
 // Sets the finest level of such a colour map, border and all.  Negative values are dark.

@@ -1,5 +1,7 @@
 #include "pipeline/sky/make/import_sky.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +29,8 @@ bool is_fits(const std::filesystem::path& path) {
 }
 
 SkyOrigin origin_of(const SkyImport& import, const Orientation& orientation) {
-  return {"source: " + import.image.filename().string() + "\n" + import.text, orientation};
+  return {fmt::format("source: {}\n{}", import.image.filename().string(), import.text),
+          orientation};
 }
 
 Orientation import_panorama(const SkyImport& import) {
@@ -36,9 +39,9 @@ Orientation import_panorama(const SkyImport& import) {
   const int width = image.pixels.width, height = image.pixels.height;
   if (width < 4 || height < 2 || width != 2 * height)
     fail(import,
-         "an equirectangular picture is twice as wide as high, at least 4 x 2 pixels; "
-         "this one is " +
-             std::to_string(width) + " x " + std::to_string(height));
+         fmt::format("an equirectangular picture is twice as wide as high, at least 4 x 2 pixels; "
+                     "this one is {} x {}",
+                     width, height));
   const double luminance = import.unit.value_or(kPanoramaUnit);
   NewSkyFile file(import.out, SkyMapKind::kColour, panorama_unit(image, luminance),
                   import.size ? import.size : panorama_face(width),
@@ -54,37 +57,43 @@ SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
   if (c.starts_with('G') || c.starts_with('g')) return SkyFrame::kGalactic;
   if (c.starts_with('C') || c.starts_with('Q') || c.starts_with("EQ")) return SkyFrame::kEquatorial;
   if (c.empty()) fail(import, "it does not say in which coordinates it is; give --frame");
-  fail(import, "its coordinates (COORDSYS) are '" + c + "'; only galactic and equatorial are read");
+  fail(
+      import,
+      fmt::format("its coordinates (COORDSYS) are '{}'; only galactic and equatorial are read", c));
 }
 
-// Of "K", "mK,thermodynamic", "uK_CMB" and the like.
+// Returns how many kelvin the unit of TUNIT is: "K", "mK,thermodynamic", "uK_CMB" and the like.
 double kelvin_of(const SkyImport& import, const std::string& units) {
   if (import.unit) return *import.unit;
   if (units.starts_with('K')) return 1;
   if (units.starts_with("mK") || units.starts_with("milliK")) return 1e-3;
   if (units.starts_with("uK") || units.starts_with("microK") || units.starts_with("muK"))
     return 1e-6;
-  fail(import, "it does not say in what its temperatures are (TUNIT is '" + units +
-                   "'); give the kelvin of a value of 1 as --unit");
+  fail(import, fmt::format("it does not say in what its temperatures are (TUNIT is '{}'); give the "
+                           "kelvin of a value of 1 as --unit",
+                           units));
 }
 
-std::string cmb_text(const CmbSettings& look) {
-  return "microwave background: at redshift " + std::to_string(look.redshift) + ", contrast " +
-         std::to_string(look.contrast) + "\n";
+std::string cmb_text(const CmbSettings& cmb) {
+  return fmt::format("microwave background: at redshift {:f}, contrast {:f}\n", cmb.redshift,
+                     cmb.contrast);
 }
 
-// Bad pixels are NaN.  A microwave background's fluctuations may be negative.
+// Refuses a map of bad pixels, which are NaN, and one without light.  The fluctuations of a
+// microwave background may be negative.
 void check_values(const SkyImport& import, const HealpixFile& healpix) {
   bool good = false;
   float least = 0, most = 0;
   for (const float v : healpix.values) {
     if (std::isnan(v)) continue;
-    good = true, least = std::min(least, v), most = std::max(most, v);
+    good = true;
+    least = std::min(least, v);
+    most = std::max(most, v);
   }
   if (!good)
-    fail(import, "column " + std::to_string(import.column) + " holds no value: all " +
-                     std::to_string(healpix.values.size()) +
-                     " pixels are missing (UNSEEN, NaN or infinite)");
+    fail(import, fmt::format("column {} holds no value: all {} pixels are missing (UNSEEN, NaN or "
+                             "infinite)",
+                             import.column, healpix.values.size()));
   if (!import.cmb) check_light(import.image, least, most);
 }
 
@@ -93,17 +102,17 @@ Orientation import_healpix(const SkyImport& import) {
   check_values(import, healpix);
   Orientation orientation;
   orientation.frame = frame_of(import, healpix);
-  CmbSettings look = import.cmb.value_or(CmbSettings{});
-  if (import.cmb) look.kelvin = kelvin_of(import, healpix.units);
+  CmbSettings cmb = import.cmb.value_or(CmbSettings{});
+  if (import.cmb) cmb.kelvin = kelvin_of(import, healpix.units);
   const HealpixMap map(std::move(healpix), 0);
   const double luminance = import.unit.value_or(kPanoramaUnit);
   SkyOrigin origin = origin_of(import, orientation);
-  if (import.cmb) origin.text += cmb_text(look);
+  if (import.cmb) origin.text += cmb_text(cmb);
   NewSkyFile file(import.out, import.cmb ? SkyMapKind::kThermal : SkyMapKind::kColour,
-                  import.cmb ? cmb_unit(look) : healpix_unit(map, luminance),
+                  import.cmb ? cmb_unit(cmb) : healpix_unit(map, luminance),
                   import.size ? import.size : healpix_face(map.nside()), std::move(origin));
   if (import.cmb)
-    paint_cmb(map, orientation.frame, look, file.pyramid());
+    paint_cmb(map, orientation.frame, cmb, file.pyramid());
   else
     paint_healpix(map, orientation.frame, luminance, file.pyramid());
   file.finish();

@@ -10,7 +10,7 @@ namespace {
 
 double mean_temperature(const CmbSettings& cmb) { return kCmbTemperature * cmb.redshift; }
 
-// What the radiance of a full surface is multiplied by.
+// Returns the factor by which the radiance of a full surface is multiplied.
 double thinning(const CmbSettings& cmb) {
   return cmb.luminance / luminance(blackbody_colours().surface(mean_temperature(cmb)));
 }

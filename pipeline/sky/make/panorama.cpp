@@ -12,17 +12,17 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kLargestOfImage = 4096;
+constexpr int kLargestFaceOfImage = 4096;
 
-// Catmull-Rom weights at t in [0, 1) between the second and the third of four samples.
+// Returns the Catmull-Rom weights of four samples at t in [0, 1) between the second and the third.
 std::array<double, 4> catmull_rom(double t) {
   const double t2 = t * t, t3 = t2 * t;
   return {(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2,
           (t3 - t2) / 2};
 }
 
-// Cubic look into an equirectangular image with its middle at +x, its left quarter at +y and its top
-// at +z; a row beyond a pole is the one across it.
+// Interpolates, by cubics, in an equirectangular image with its middle at +x, its left quarter at
+// +y and its top at +z.  A row beyond a pole is the one across it, turned by half its width.
 template <class T>
 std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d) {
   const int w = image.width, h = image.height;
@@ -33,8 +33,10 @@ std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d)
   std::array<double, 3> sum{};
   for (int j = 0; j < 4; ++j) {
     int row = static_cast<int>(y0) - 1 + j, turn = 0;
-    if (row < 0) row = -1 - row, turn = w / 2;
-    if (row >= h) row = 2 * h - 1 - row, turn = w / 2;
+    if (row < 0 || row >= h) {
+      row = row < 0 ? -1 - row : 2 * h - 1 - row;
+      turn = w / 2;
+    }
     const T* line = image.row(row);
     for (int i = 0; i < 4; ++i) {
       const int column = (static_cast<int>(x0) - 1 + i + turn + 2 * w) % w;
@@ -42,11 +44,12 @@ std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d)
       for (int c = 0; c < 3; ++c) sum[c] += wx[i] * wy[j] * static_cast<float>(texel[c]);
     }
   }
-  for (double& c : sum) c = std::max(c, 0.0);  // a cubic undershoots beside a bright spot
+  for (double& c : sum) c = std::max(c, 0.0);  // a cubic undershoots beside a bright star
   return sum;
 }
 
-// The greatest value of any channel in the working space; a cubic overshoots it by less than 1.6.
+// Returns the greatest value of any channel in the working space.  Cubic interpolation exceeds it
+// by a factor below 1.6, for which sky_unit() leaves room.
 template <class T>
 double greatest_working(const ImageRgb<T>& image) {
   const ColourMatrix& m = working_from_rec709();
@@ -63,13 +66,13 @@ template <class T>
 void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
                  const SkyPyramid::Level& level) {
   const ColourMatrix& m = working_from_rec709();
-  const int looks = std::max(panorama_face(image.width) / level.size, 1);
+  const int across = std::max(panorama_face(image.width) / level.size, 1);
   const auto painter = [&image, &to_picture, &m, scale](const V3d& d, float* channel) {
     const auto c = equirectangular_at(image, apply(to_picture, d));
     for (int k = 0; k < 3; ++k)
       channel[k] = static_cast<float>(scale * (m[k][0] * c[0] + m[k][1] * c[1] + m[k][2] * c[2]));
   };
-  paint(level, painter, looks);
+  paint(level, painter, across);
 }
 
 }  // namespace
@@ -77,7 +80,7 @@ void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
 int panorama_face(int width) {
   int size = 4;
   while (size < width / 2) size *= 2;
-  return std::min(size, kLargestOfImage);
+  return std::min(size, kLargestFaceOfImage);
 }
 
 double panorama_unit(const LightImage& image, double luminance) {

@@ -1,4 +1,4 @@
-// Panoramas in the equirectangular projection, as images come.
+// Panoramas in the equirectangular projection, as images come, made into colour maps.
 #pragma once
 
 #include "pipeline/image/frame_buffer.h"
@@ -9,20 +9,24 @@
 
 namespace domefall {
 
-// A map from an equirectangular image, linear Rec.709, equatorial J2000, seen from inside: the middle
-// column is RA 0h, RA grows to the left, and the top row is Dec +90.  The image is twice as wide as it
-// is high, and at least 4 x 2.
+// A pixel value of 1 in a panorama's file stands for this luminance (cd/m^2).
+inline constexpr double kPanoramaUnit = 1e-4;
+
+// Makes a map from an image in linear Rec.709, equatorial J2000 and seen from inside: the middle
+// column is RA 0h, RA grows to the left, and the top row is Dec +90.  The image is twice as wide as
+// it is high, and at least 4 x 2.
 SkyMap map_of_panorama(const FloatImage& image);
 
-// Texels along a face that keep the detail of an image of this width: half as fine as its pixels,
-// so that bilinear looks between texels stay smooth.  At most 4096.
+// Returns the texels along a face that keep the detail of an image of this width.  They are half as
+// fine as its pixels, so that samples, which are linear between texels, stay smooth.  At most 4096.
 int panorama_face(int width);
 
-// The unit for a colour map of the image, linear Rec.709, whose value 1 is this luminance (cd/m^2).
+// Returns the unit (sky_unit) of a colour map of an image, linear Rec.709, of which the value 1 is
+// `luminance` cd/m^2.
 double panorama_unit(const LightImage& image, double luminance);
 
-// The finest level of a colour map, border and all; a level coarser than panorama_face() has the
-// means of finer looks.
+// Sets the finest level of such a map, border and all.  If it is coarser than panorama_face(), its
+// texels are means of several samples.
 void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
                     const SkyPyramid& pyramid);
 

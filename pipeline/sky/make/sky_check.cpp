@@ -14,12 +14,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kBrightest = 150, kDensest = 40'000;
-constexpr double kStandsOut = 1.3;  // a point over its surroundings
+// A point or a cloud stands out of its surroundings from this contrast on.
+constexpr double kStandsOut = 1.3;
 constexpr double kCloudStandsOut = 1.15;
 constexpr double kStarsEnough = 0.5, kStarsMargin = 0.15, kBandEnough = 0.3, kBandMargin = 0.1;
 constexpr int kBandFace = 16;
 constexpr double kBandBlur = 5 * kDegree;
-constexpr double kKernelEnd = 8;  // as an exponent
+constexpr double kKernelEnd = 8;  // the Gaussian is cut at exp(-8)
 constexpr int kNamedStars = 10;
 
 double light(const SkyMap& map, const V3d& direction, double footprint) {
@@ -59,7 +60,7 @@ struct NamedPlace {
   }
 };
 
-// NED and SIMBAD, J2000; the radius is what stands out of the surroundings.
+// Places by NED and SIMBAD, J2000.  The radius is that of what stands out of the surroundings.
 constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -69.8, 2.5},
                                              {"Small Magellanic Cloud", 13.2, -72.8, 1.2},
                                              {"M 31", 10.68, 41.27, 0.5},
@@ -69,13 +70,13 @@ constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -6
                                              {"Scutum Cloud", 281.3, -6.5, 1.5},
                                              {"Coalsack (dark)", 192.5, -62.9, 1.5, true}}};
 
-// Of a disc to the median of a ring around it.
+// Returns the light of a disc over the median of a ring around it.
 double contrast(const SkyMap& map, const V3d& d, double radius) {
   const std::vector<double> around = ring(map, d, 2.5 * radius, radius);
   return ratio(light(map, d, radius), around[around.size() / 2]);
 }
 
-// Whether there is a point of light at a place, give or take a texel or a tenth of a degree.
+// Whether there is a point of light within a texel or a tenth of a degree of a place.
 bool stands_out(const SkyMap& map, const V3d& d) {
   const double texel = std::numbers::pi / 2 / map.levels()[0].size;
   const double near = std::max(texel, 0.1 * kDegree);
@@ -98,7 +99,7 @@ std::vector<double> ranks(const std::vector<double>& values) {
   return rank;
 }
 
-// Pearson's.  0 if either is all the same.
+// Returns Pearson's correlation, or 0 if one of the two is constant.
 double correlation(const std::vector<double>& x, const std::vector<double>& y) {
   const auto mean = [](const std::vector<double>& v) {
     return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
@@ -113,7 +114,7 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
-// Places all over the sky, and how densely the stars stand there, by rank.
+// A band holds places all over the sky and the ranks of the density of stars there.
 struct Band {
   std::vector<V3d> places;
   std::vector<double> density;
@@ -202,10 +203,12 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
   const Judge judge(map, stated, catalogue);
   SkyCheck check{SkyVerdict::kUnclear, false, judge.fit(stated), {}};
   for (const Orientation& o : alternatives(stated)) check.others.push_back(judge.fit(o));
-  // Pictures with stars: somewhere most of the bright ones are found, which elsewhere are not.
+  // With stars in the map, one orientation finds most of the bright ones and another does not.
   double most = check.stated.stars, least = most;
-  for (const OrientationFit& f : check.others)
-    most = std::max(most, f.stars), least = std::min(least, f.stars);
+  for (const OrientationFit& f : check.others) {
+    most = std::max(most, f.stars);
+    least = std::min(least, f.stars);
+  }
   check.by_stars = most >= kStarsEnough && most - least >= 2 * kStarsMargin;
   const auto score = [&check](const OrientationFit& f) {
     return check.by_stars ? f.stars : (f.band + f.clouds) / 2;
@@ -225,7 +228,7 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
 std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& catalogue) {
   std::vector<KnownPlace> places;
   const double texel = std::numbers::pi / 2 / map.levels()[0].size;
-  // Names lie exactly where their stars do.
+  // A name has exactly the direction of its star.
   for (const Star& star : catalogue.stars) {
     if (places.size() == kNamedStars) break;
     const auto name = std::find_if(

@@ -1,4 +1,5 @@
-// Whether a sky map lies on the sky as it is said to, by the stars that everybody knows.
+// The check of a sky map finds out, by well-known stars, clouds and galaxies, whether the map lies
+// on the sky as it is said to.
 #pragma once
 
 #include <string>
@@ -10,17 +11,18 @@
 
 namespace domefall {
 
-// How a map fits the sky if its picture had lain like this.
+// The fit is how well a map would agree with the sky if its panorama had lain like this.
 struct OrientationFit {
   Orientation orientation;
-  double stars;  // part of the brightest stars at whose places a point stands out, 0 to 1
-  // Rank correlation of its light with the density of the catalogue's stars, -1 to 1.
+  double stars;  // share of the brightest stars at whose places a point stands out, 0 to 1
+  // Rank correlation (Spearman) of the map's light with the density of the catalogue's stars, -1 to
+  // 1.
   double band;
-  double clouds;  // part of eight known clouds and galaxies that stand out, 0 to 1
+  double clouds;  // share of eight known clouds and galaxies that stand out, 0 to 1
 };
 
 enum class SkyVerdict {
-  kAgrees,   // as it is said to
+  kAgrees,   // the map lies as it is said to
   kOther,    // another orientation fits clearly better
   kUnclear,  // it shows neither stars nor a Milky Way that could tell
 };
@@ -32,24 +34,28 @@ struct SkyCheck {
   std::vector<OrientationFit> others;  // the best first
 };
 
-// Compares the orientation that a map was made with to the 31 others with the frame, the direction of
-// longitude, the top and the middle (by quarter turns) changed.  Points of light at the places of the
-// 150 brightest stars decide, where there are any: half of them at least, and at least 0.15 more than
-// elsewhere.  A picture without stars is judged by its Milky Way, which the density of the catalogue's
-// 40,000 brightest stars tells to be there, and by its clouds, which tell it from its mirror images:
-// the mean of `band` and `clouds` must be 0.3 at least, and 0.1 more than otherwise.
+// Compares the orientation with which a map was made to the 31 others that differ in frame,
+// direction of longitude, top, and middle by quarter turns.
+//
+// A map has stars if some orientation finds points of light at half of the 150 brightest stars, and
+// at 0.3 more of them than another.  The best orientation by `stars` then decides if it is at least
+// 0.15 better than the stated one.  A map without stars is judged by its Milky Way, which lies
+// where the 40,000 brightest stars are dense, and by clouds, which tell it from its mirror images.
+// The mean of `band` and `clouds` must then be at least 0.3, and 0.1 more than that of the stated
+// orientation.
 SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
                            const StarCatalogue& catalogue);
 
-// The light at a place over the median of that around it.
+// The contrast is the map's light at a known place over the median of the light around it.
 struct KnownPlace {
   std::string name;
   SkyDirection direction;
   double radius;    // radians
-  double contrast;  // of a disc of that radius to a ring of 2.5 times that; 1 where all is dark
+  double contrast;  // of a disc of that radius to a ring of 2.5 times that; 1 if all is dark
 };
 
-// The brightest stars that have names, then galaxies and clouds that a sky without stars shows too.
+// Returns the brightest stars that have names, then galaxies and clouds, which a sky without stars
+// shows too.
 std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& catalogue);
 
 }  // namespace domefall

@@ -13,22 +13,23 @@ namespace {
 
 constexpr double kCut = 4;  // standard deviations
 constexpr int kKernelSteps = 4096;
-constexpr double kBlurStep = 1.5;  // between classes
+constexpr double kBlurStep = 1.5;  // factor between the blurs of neighbouring classes
 
-// Stars that stand close together.
+// A cell holds the light of stars that stand close together.
 struct Cell {
-  V3d direction{0, 0, 0};  // weighted by flux
+  V3d direction{0, 0, 0};  // sum of directions, weighted by flux
   double flux = 0, weighted = 0;
 };
 
-// The coarsest grid whose cells are within two thirds of the blur.
+// Returns the cells along a face of the coarsest grid whose cells are within two thirds of the
+// blur.
 int cell_grid(double blur, int size) {
   int n = 1;
   while (n < size && std::numbers::pi / 2 / n > blur / 1.5) n *= 2;
   return n;
 }
 
-// By cell, then in the catalogue's order: the sums do not depend on anything else.
+// Adds up the stars of each cell in the catalogue's order, on which alone the sums depend.
 std::vector<Cell> gather(const std::vector<FaintStar>& stars, int n) {
   std::vector<Cell> cells(6 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
   for (const FaintStar& star : stars) {
@@ -51,8 +52,10 @@ struct Span {
   int first, last;  // texels; none if last < first
 };
 
-// Texels of one axis of a face that a cap of radius `angle` may touch.  Seen along the other axis the
-// cap is within asin(sin(angle) / length of its centre's projection) of the centre.
+// Returns the texels along one axis of a face that a cap of radius `angle` may touch.  `ahead` and
+// `aside` are the components of its centre along the face's normal and that axis.  Projected on
+// their plane, the cap is within asin(sin(angle) / length) of its centre, where `length` is that of
+// the projected centre.
 Span texels_within(double ahead, double aside, double angle, int n) {
   const double length = std::hypot(ahead, aside);
   double low = -1, high = 1;
@@ -115,7 +118,7 @@ std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double 
   for (std::size_t k = 0; k <= most; ++k)
     classes.push_back({blur * std::pow(kBlurStep, static_cast<double>(k)), {}});
   for (const FaintStar& star : stars) {
-    // The peak is flux over blur squared.
+    // A peak is flux over blur squared, and five magnitudes are a factor of 100 in flux.
     const double wider = std::pow(10, 0.2 * std::max(smooth_to - star.v_magnitude, 0.0));
     const auto k = static_cast<std::size_t>(std::lround(std::log(wider) / std::log(kBlurStep)));
     classes[std::min(k, most)].stars.push_back(star);
@@ -136,8 +139,9 @@ StarlightMap::StarlightMap(int size)
       const double u = place(i, size), v = place(j, size);
       inverse_length_[flat(j, i, size)] = static_cast<float>(1 / std::sqrt(1 + u * u + v * v));
     }
-  // Of 1 - cos(angle), which for small angles is half its square; less what it is at the cut, so that
-  // it ends without a step.  A step beyond the end holds 0.
+  // The Gaussian as a function of 1 - cos(angle), which for small angles is half of angle^2.  Its
+  // value at the cut is subtracted, so that it ends without a step; the entries from there on are
+  // 0.
   const double end = std::exp(-kCut * kCut / 2);
   for (int k = 0; k <= kKernelSteps; ++k)
     kernel_.push_back(static_cast<float>(std::exp(-kCut * kCut / 2 * k / kKernelSteps) - end));
@@ -151,9 +155,10 @@ void StarlightMap::add(const std::vector<FaintStar>& stars, double blur) {
     if (cell.flux > 0) spread(cell.direction.normalized(), cell.flux, cell.weighted, blur);
 }
 
-// Twice over the texels of the cap: their weights and what these sum up to, then the light.
+// Goes over the texels of the cap twice: first for their weights and the sum of these times solid
+// angles, then to add the light.
 void StarlightMap::spread(const V3d& direction, double flux, double weighted, double blur) {
-  const double reach = kCut * kCut * blur * blur / 2;  // of 1 - cos
+  const double reach = kCut * kCut * blur * blur / 2;  // 1 - cos(angle) at the cut
   const double angle = std::acos(1 - reach);
   const auto steps = static_cast<float>(kKernelSteps / (2 * reach));
   std::array<FaceBox, 6> boxes;
@@ -168,7 +173,7 @@ void StarlightMap::spread(const V3d& direction, double flux, double weighted, do
       const float* inverse = &inverse_length_[flat(j, 0, size_)];
       for (int i = columns.first; i <= columns.last; ++i) {
         const float u = (static_cast<float>(i) + 0.5f) * step - 1;
-        // The chord from the components' differences: 1 - cos(angle) itself would lose all digits.
+        // The squared chord is 2 (1 - cos(angle)); made of differences it keeps its digits.
         const float x = centre[0] - inverse[i], y = centre[1] - u * inverse[i],
                     z = centre[2] - v * inverse[i];
         const float at = (x * x + y * y + z * z) * steps;

@@ -1,8 +1,9 @@
 // The cube on whose faces sky maps are kept: which face a direction meets, and where on it.
 //
-// Face 2a looks along axis a (x, y, z), face 2a + 1 against it.  With (a, b, c) the axes in cyclic
-// order, u = d_b/|d_a| and v = d_c/|d_a| on both, so that opposite faces are mirror images.  Texel
-// (i, j) of n x n has its centre at u = (2 i + 1)/n - 1, v = (2 j + 1)/n - 1; row j follows row j - 1.
+// Face 2a is the one towards axis a (x, y, z), and face 2a + 1 the one opposite.  With (a, b, c)
+// the axes in cyclic order, a direction d has u = d_b/|d_a| and v = d_c/|d_a| on both, so opposite
+// faces are mirror images.  Texel (i, j) of n x n has its centre at u = (2 i + 1)/n - 1 and v = (2
+// j + 1)/n - 1; it is stored behind row j - 1.
 #pragma once
 
 #include <cmath>
@@ -16,7 +17,8 @@ struct FacePoint {
   double u, v;  // in [-1, 1], along the next two axes
 };
 
-// Any vector but 0, of any length.  On an edge the earlier axis owns it.
+// Returns the point where a vector, of any length but 0, meets the cube.  An edge belongs to the
+// earlier axis.
 inline FacePoint face_of(const V3d& d) {
   const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
   if (x >= y && x >= z) return {d.x < 0 ? 1 : 0, d.y / x, d.z / x};
@@ -24,7 +26,7 @@ inline FacePoint face_of(const V3d& d) {
   return {d.z < 0 ? 5 : 4, d.x / z, d.y / z};
 }
 
-// The inverse, also beyond the face's edges.  Not of unit length.
+// Returns the inverse, which also holds beyond the face's edges.  The result is not of unit length.
 inline V3d direction_of(const FacePoint& p) {
   const int axis = p.face / 2;
   V3d d;
@@ -34,7 +36,8 @@ inline V3d direction_of(const FacePoint& p) {
   return d;
 }
 
-// The place of texel (i, j), which may be of the border, on a face of n x n.
+// Returns the centre of texel (i, j) on a face of n x n.  Texels of the border have i or j of -1 or
+// n.
 inline FacePoint texel_centre(int face, int i, int j, int n) {
   return {face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1};
 }

@@ -1,5 +1,5 @@
-// Memory for what is looked at all over: in large pages, where the system has them, so that finding a
-// page costs nothing.
+// Memory for arrays that are read in no order.  It comes in large pages where the system has them,
+// so that few of them are needed and the processor keeps all of their addresses.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// Zeroed.  Throws std::bad_alloc.
+// Returns so many bytes of 0.  Throws std::bad_alloc.
 std::shared_ptr<void> large_pages(std::size_t bytes);
 
 }  // namespace domefall

@@ -1,7 +1,8 @@
 #include "pipeline/sky/maps/orientation.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace domefall {
@@ -16,7 +17,7 @@ M33d panorama_from_equatorial(const Orientation& o) {
   const double turn = o.centre_deg * std::numbers::pi / 180;
   const double c = std::cos(turn), s = std::sin(turn);
   const double left = o.longitude_right ? -1 : 1, up = o.south_up ? -1 : 1;
-  // Rows: the middle, the left quarter and the top of the picture, in the frame's axes.
+  // The rows are the panorama's middle, left quarter and top in the frame's axes.
   const M33d own = from_columns({c, -s * left, 0}, {s, c * left, 0}, {0, 0, up});
   const M33d frame = o.frame == SkyFrame::kGalactic ? galactic_from_equatorial() : M33d();
   return from_columns(apply(own, column(frame, 0)), apply(own, column(frame, 1)),
@@ -25,11 +26,10 @@ M33d panorama_from_equatorial(const Orientation& o) {
 
 std::string orientation_phrase(const Orientation& o) {
   const bool galactic = o.frame == SkyFrame::kGalactic;
-  char text[120];
-  std::snprintf(text, sizeof text, "%s, %s %g deg in the middle, growing to the %s, %s up",
-                galactic ? "galactic" : "equatorial", galactic ? "longitude" : "RA", o.centre_deg,
-                o.longitude_right ? "right" : "left", o.south_up ? "south" : "north");
-  return text;
+  return fmt::format("{}, {} {:g} deg in the middle, growing to the {}, {} up",
+                     galactic ? "galactic" : "equatorial", galactic ? "longitude" : "RA",
+                     o.centre_deg, o.longitude_right ? "right" : "left",
+                     o.south_up ? "south" : "north");
 }
 
 }  // namespace domefall

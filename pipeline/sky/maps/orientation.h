@@ -1,4 +1,4 @@
-// How the picture that a sky map was made from lies on the sky.
+// How the panorama that a sky map was made from lies on the sky.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace domefall {
 
 enum class SkyFrame { kEquatorial, kGalactic };  // J2000; IAU 1958 poles
 
-// Of an equirectangular picture as one looks at it.  Longitude is right ascension or galactic
-// longitude, latitude is declination or galactic latitude.
+// This is the orientation of an equirectangular panorama as one looks at it.  Longitude is right
+// ascension or galactic longitude; latitude is declination or galactic latitude.
 struct Orientation {
   SkyFrame frame = SkyFrame::kEquatorial;
   // Seen from inside, as the sky is, longitude grows to the left.
@@ -21,16 +21,16 @@ struct Orientation {
   bool operator==(const Orientation&) const = default;
 };
 
-// "equatorial, RA 270 in the middle, growing to the left, north up".
+// Returns, say, "equatorial, RA 270 in the middle, growing to the left, north up".
 std::string orientation_phrase(const Orientation& orientation);
 
-// Turns an equatorial direction into one of the picture's own space, in which the middle of an
-// equirectangular picture is +x, its left quarter +y and its top +z.  A rotation or, where the
-// picture is mirrored, a reflection: the inverse is the transpose.
+// Turns an equatorial direction into the panorama's own space, in which its middle is +x, its left
+// quarter +y and its top +z.  The matrix is a rotation or, where the panorama is mirrored, a
+// reflection, so its inverse is its transpose.
 M33d panorama_from_equatorial(const Orientation& orientation);
 
-// Rotation from equatorial J2000 to galactic axes (x to the galactic centre, z to the north pole);
-// Hipparcos catalogue, vol. 1, eq. 1.5.11: to 0.4 mas.
+// Returns the rotation from equatorial J2000 to galactic axes: x to the galactic centre, z to the
+// north pole.  Hipparcos catalogue, vol. 1, eq. 1.5.11, accurate to 0.4 mas.
 M33d galactic_from_equatorial();
 
 }  // namespace domefall

@@ -1,12 +1,12 @@
 #include "pipeline/sky/maps/sky_file.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -63,7 +63,7 @@ std::size_t file_bytes(int size, std::size_t text) {
   return bytes;
 }
 
-// Of a header as it lies in memory.
+// Returns the checksum of a header, in which the place for it counts as 0.
 std::uint64_t header_checksum(std::string_view header) {
   std::string copy(header);
   std::memset(copy.data() + offsetof(Header, checksum), 0, sizeof Header::checksum);
@@ -85,13 +85,13 @@ std::vector<SkyPyramid::Level> lay_out(std::byte* file, int size, std::size_t te
   return levels;
 }
 
-std::uint32_t picture_flags(const std::optional<Orientation>& o) {
+std::uint32_t panorama_flags(const std::optional<Orientation>& o) {
   if (!o) return kNoPicture;
   return (o->frame == SkyFrame::kGalactic ? kGalactic : 0) |
          (o->longitude_right ? kLongitudeRight : 0) | (o->south_up ? kSouthUp : 0);
 }
 
-std::optional<Orientation> picture_of(const Header& h) {
+std::optional<Orientation> panorama_of(const Header& h) {
   if (h.picture & kNoPicture) return std::nullopt;
   return Orientation{h.picture & kGalactic ? SkyFrame::kGalactic : SkyFrame::kEquatorial,
                      (h.picture & kLongitudeRight) != 0, (h.picture & kSouthUp) != 0, h.centre_deg};
@@ -99,10 +99,10 @@ std::optional<Orientation> picture_of(const Header& h) {
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::size_t byte,
                        const std::string& what) {
-  throw InputError(path.string() + ": byte " + std::to_string(byte) + ": " + what);
+  throw InputError(fmt::format("{}: byte {}: {}", path.string(), byte, what));
 }
 
-// The fixed part, checked as far as it can be by itself.
+// Reads the fixed part and checks what holds for any map.
 Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
   if (file.size() < sizeof h) fail_cut_short(path, kExtension, file.size(), sizeof h);
@@ -110,8 +110,8 @@ Header read_header(const std::filesystem::path& path, std::string_view file) {
   if (h.magic != kMagic) fail(path, 0, "this is not a .sky file");
   if (h.version != kVersion)
     fail(path, offsetof(Header, version),
-         "a .sky file of version " + std::to_string(h.version) + "; this Domefall reads version " +
-             std::to_string(kVersion));
+         fmt::format("a .sky file of version {}; this Domefall reads version {}", h.version,
+                     kVersion));
   if (h.header_bytes < sizeof h || h.header_bytes > kMostHeader || h.header_bytes % kPage)
     fail(path, offsetof(Header, header_bytes), "the header is damaged: its size makes no sense");
   if (file.size() < h.header_bytes) fail(path, file.size(), "the file ends within its header");
@@ -119,15 +119,14 @@ Header read_header(const std::filesystem::path& path, std::string_view file) {
     fail(path, offsetof(Header, checksum), "the header is damaged: its checksum is off");
   if (file.size() != h.file_bytes)
     fail(path, std::min(file.size(), static_cast<std::size_t>(h.file_bytes)),
-         "the file has " + std::to_string(file.size()) + " bytes instead of " +
-             std::to_string(h.file_bytes));
+         fmt::format("the file has {} bytes instead of {}", file.size(), h.file_bytes));
   return h;
 }
 
-// A header whose checksum is right may still come from a program that is wrong.
+// Checks the values: a program that is wrong may have written a header with the right checksum.
 void check_sense(const std::filesystem::path& path, const Header& h) {
   if (h.kind > static_cast<std::uint32_t>(SkyMapKind::kThermal))
-    fail(path, offsetof(Header, kind), "unknown kind of map " + std::to_string(h.kind));
+    fail(path, offsetof(Header, kind), fmt::format("unknown kind of map {}", h.kind));
   if (h.levels < 1 || h.levels > kMostLevels)
     fail(path, offsetof(Header, levels), "a map has 1 to 14 levels");
   if (!(h.unit > 0) || !std::isfinite(h.unit))
@@ -180,8 +179,8 @@ Header header_of(const SkyMap& map, const SkyOrigin& origin) {
   h.header_bytes = static_cast<std::uint32_t>(header_bytes(h.levels, h.text_bytes));
   h.unit = map.unit();
   h.kind = static_cast<std::uint32_t>(map.kind());
-  h.picture = picture_flags(origin.picture);
-  h.centre_deg = origin.picture ? origin.picture->centre_deg : 0;
+  h.picture = panorama_flags(origin.panorama);
+  h.centre_deg = origin.panorama ? origin.panorama->centre_deg : 0;
   return h;
 }
 
@@ -239,14 +238,11 @@ SkyFile open_sky_file(const std::filesystem::path& path) {
       sizeof(Header) + open.entries.size() * sizeof(LevelEntry), open.header.text_bytes);
   return {SkyMap(static_cast<SkyMapKind>(open.header.kind), open.header.unit, std::move(levels),
                  open.file),
-          {std::string(text), picture_of(open.header)}};
+          {std::string(text), panorama_of(open.header)}};
 }
 
 std::string sky_file_digest(const std::filesystem::path& path) {
-  std::array<char, 17> text;
-  std::snprintf(text.data(), text.size(), "%016llx",
-                static_cast<unsigned long long>(open_file(path).header.checksum));
-  return text.data();
+  return fmt::format("{:016x}", open_file(path).header.checksum);
 }
 
 void verify_sky_file(const std::filesystem::path& path) {
@@ -257,8 +253,8 @@ void verify_sky_file(const std::filesystem::path& path) {
       if (face_checksum(level, face) == e.checksum[static_cast<std::size_t>(face)]) continue;
       const auto* start = reinterpret_cast<const char*>(level.face(face));
       fail(path, static_cast<std::size_t>(start - open.file->bytes().data()),
-           "face " + std::to_string(face) + " of the level of size " + std::to_string(level.size) +
-               " is damaged: its checksum is off");
+           fmt::format("face {} of the level of size {} is damaged: its checksum is off", face,
+                       level.size));
     }
 }
 

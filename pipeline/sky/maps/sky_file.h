@@ -1,8 +1,8 @@
-// Sky maps on the disk (.sky), laid out so that a map of any size is used without being read: its
-// levels are mapped, and the pages that looks touch are all that the disk is asked for.
+// Sky maps on the disk (.sky).  A map of any size is used without being read: its levels are mapped
+// into memory, and the disk is asked only for the pages that samples touch.
 //
-// Little-endian.  A header of whole pages, then the levels, finest first, each at a multiple of 4096
-// bytes and as SkyLevel has it in memory.  The header:
+// Little-endian.  A header of whole pages is followed by the levels, finest first, each at a
+// multiple of 4096 bytes and as SkyLevel has it in memory.  The header:
 //
 //   0  8 bytes  "DOMESKY", 0            32  f64  unit (SkyMap::unit)
 //   8  u32      version, 1              40  u32  kind (SkyMapKind)    44  u32  number of levels
@@ -12,7 +12,7 @@
 //   64 and on: per level u32 size, u32 0, u64 place in the file, 6 x u64 checksums of its faces;
 //   then the text (UTF-8, lines "source: ...", "licence: ..."), then zeros.
 //
-// Checksums are XXH3, 64 bits; that of the header is taken with 0 in its own place.
+// Checksums are XXH3, 64 bits.  That of the header is taken with 0 in its own place.
 #pragma once
 
 #include <filesystem>
@@ -27,16 +27,18 @@
 
 namespace domefall {
 
-// Where a map came from.
+// The origin says where a map came from.
 struct SkyOrigin {
-  std::string text;                    // source and licence, for people; up to 64 KiB
-  std::optional<Orientation> picture;  // of the picture it was made from; none if it was no picture
+  std::string text;                     // source and licence, for people; up to 64 KiB
+  std::optional<Orientation> panorama;  // of the panorama it was made from, if it was one
 };
 
-// A file in the making: fill the finest level of pyramid(), border and all, then finish().
+// A file in the making.  Its user fills the finest level of pyramid(), border and all, then calls
+// finish().
 class NewSkyFile {
  public:
-  // `size` is that of a face: a power of two to kLargestFace.  Throws as NewMappedFile does.
+  // `size` is that of a face, a power of two up to kLargestFace.  Throws as NewMappedFile does, and
+  // InputError for a text that is too long.
   NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, double unit, int size,
              SkyOrigin origin);
 
@@ -50,22 +52,24 @@ class NewSkyFile {
   SkyPyramid pyramid_;
 };
 
-// Whether the file begins as a .sky file does, or should: it is named so and shorter than a header.
-// False if it cannot be read.
+// Returns whether the file is a .sky file by how it begins or, if it is shorter than a header, by
+// its name.  False if it cannot be read.
 bool is_sky_file(const std::filesystem::path& path);
 
 struct SkyFile {
   SkyMap map;  // the file stays mapped as long as this or a copy of it lives
   SkyOrigin origin;
 };
-// Checks the header, and that the file is as long as it says.  Throws InputError with file and byte
-// for a file that is none, damaged, cut short or of a newer version.
+// Checks the header and the length of the file.  Throws InputError with file and byte for a file
+// that is no .sky file, damaged, cut short or of a newer version.
 SkyFile open_sky_file(const std::filesystem::path& path);
 
-// The checksum in the header, which stands for the whole file: frames are known by it.
+// Returns the checksum in the header, as digits.  It covers the checksums of the faces, so it
+// stands for the whole file in the keys of frames.
 std::string sky_file_digest(const std::filesystem::path& path);
 
-// Reads everything.  Throws InputError with file and byte of the first face whose checksum is off.
+// Reads the whole file.  Throws InputError with file and byte of the first face whose checksum is
+// off.
 void verify_sky_file(const std::filesystem::path& path);
 
 }  // namespace domefall

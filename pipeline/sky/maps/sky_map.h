@@ -1,5 +1,5 @@
-// A panorama as the renderer reads it: six square faces of a cube with a mip chain, so that a look
-// costs no trigonometry, has no pole and no seam, and can be filtered by its footprint.
+// A sky map is a panorama as the renderer samples it: six square faces of a cube with a mip chain.
+// A sample costs no trigonometry, meets no pole and no seam, and is filtered by its footprint.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,21 @@
 
 namespace domefall {
 
-// The luminance (cd/m^2) that a pixel value of 1 in a panorama file stands for.
-inline constexpr double kPanoramaUnit = 1e-4;
-
-// What a texel's channels hold, in units of SkyMap::unit().
+// The kind says what a texel's channels hold, in units of SkyMap::unit().
 enum class SkyMapKind : std::uint32_t {
   // r, g, b of the working space, 0.
   kColour = 0,
-  // I, I theta, 0, 0: a patch of blackbody light of bolometric radiance I (sigma T^4/pi of a full
-  // surface) and theta = log2(T / kThermalBase).  Both add up when light is added, so a filter gives
-  // the radiance and the mean of log T that it weighs.
+  // I, I theta, 0, 0: blackbody light of bolometric radiance I (sigma T^4/pi of a full surface) and
+  // theta = log2(T / kThermalBase).  Both I and I theta add up when light is added, so a filter
+  // gives the radiance and the mean of log T weighted by it.
   kThermal = 1,
 };
 
-// Kelvin.  T exceeds it, so that theta > 0.
+// Every temperature of a map exceeds this one (kelvin), so that theta > 0.
 inline constexpr double kThermalBase = 256;
 
-// Six faces of (size + 2)^2 texels, row by row, with a border of one texel around each (what a look
-// between the outermost texels of two faces needs).  Faces and their axes: cube_face.h.
+// A level has six faces (cube_face.h) of (size + 2)^2 texels, row by row.  The border of one texel
+// around each is what a sample between the outermost texels of two faces needs.
 struct SkyLevel {
   int size;  // texels along an edge of a face, without the border
   const SkyTexel* texels;
@@ -43,35 +40,39 @@ struct SkyLevel {
   }
 };
 
-// Light that a blackbody of some temperature (K) gives, of this bolometric radiance (W/m^2/sr).  At
-// frequency ratio g its luminance is BlackbodyColours::per_flux(g temperature) radiance g^4.
+// This is blackbody light of a temperature (K) and a bolometric radiance (W/m^2/sr), which is less
+// than that of a full surface.  At frequency ratio g its colour is BlackbodyColours::per_flux(g
+// temperature) radiance g^4.
 struct ThermalLight {
   double radiance, temperature;
 };
 
 class SkyMap {
  public:
-  // Of levels that `owner` keeps alive: sizes are powers of two, each half the one before, down to 1.
+  // The sizes of the levels are powers of two, each half of the one before, down to 1.  `owner`
+  // keeps their texels alive.
   SkyMap(SkyMapKind kind, double unit, std::vector<SkyLevel> levels,
          std::shared_ptr<const void> owner);
 
   SkyMapKind kind() const { return kind_; }
-  // What a half of value 1 stands for: cd/m^2 (kColour) or W/m^2/sr (kThermal).  A power of two near
-  // which the brightest texel is 2^13 to 2^15, so that light down to 2^-27 of it is kept to 2^-11.
+  // The unit is what a half of value 1 stands for: cd/m^2 (kColour) or W/m^2/sr (kThermal).
+  // sky_unit() makes the brightest texel 2^13 to 2^14, so that light down to 2^-27 of it is kept to
+  // 2^-11.
   double unit() const { return unit_; }
   const std::vector<SkyLevel>& levels() const { return levels_; }
 
-  // Light (cd/m^2, working space) in a direction (of any length), averaged over about `footprint`
-  // radians.  Of a thermal map: at frequency ratio 1.
+  // Returns the light (cd/m^2, working space) in a direction of any length, averaged over about
+  // `footprint` radians.  For a thermal map it is that at frequency ratio 1.
   WorkingRgb sample(const V3d& direction, double footprint) const;
-  // Of a thermal map: {0, kThermalBase} where it is dark.
+  // Returns the light of a thermal map before it becomes a colour; it is {0, kThermalBase} where
+  // the map is dark.
   ThermalLight sample_thermal(const V3d& direction, double footprint) const;
 
   std::size_t bytes() const;
 
  private:
   struct Value {
-    float channel[4];  // halves, decoded; without the unit
+    float channel[4];  // of texels, not yet multiplied by the unit
   };
   static Value bilinear(const SkyLevel& level, int face, double u, double v);
   Value filtered(const V3d& direction, double footprint) const;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kGreatestExponent = 14;
 
-// Of four texels that become one.
+// Returns the texel that four become in the next level.
 SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
   SkyTexel out{};
   for (int k = 0; k < 4; ++k)
@@ -26,7 +26,7 @@ SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const Sky
   return out;
 }
 
-// Between which two inner texels a place is, and how far from the first: 0 to 1.
+// A place lies between two inner texels, at a distance from the first of 0 to 1.
 struct Between {
   int first, second;
   float part;
@@ -38,8 +38,8 @@ Between between(double u, int n) {
   return {first, std::min(first + 1, n - 1), static_cast<float>(x - first)};
 }
 
-// What the neighbouring face has where a texel of the border looks, between its inner texels.
-SkyTexel looked_across(const SkyPyramid::Level& level, int face, int i, int j) {
+// Returns what the neighbouring face has in the direction of a texel of the border.
+SkyTexel sample_across(const SkyPyramid::Level& level, int face, int i, int j) {
   const int n = level.size;
   const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
   const Between x = between(at.u, n), y = between(at.v, n);
@@ -68,21 +68,21 @@ void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
   fill_border(coarse);
 }
 
-// Row j - 1 of face k, where `row` counts all rows of all faces.
-void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painter, int looks) {
-  const int n = level.size, fine = n * looks, face = row / (n + 2), j = row % (n + 2) - 1;
+// Sets one row; `row` counts all rows of all faces, borders included.
+void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painter, int across) {
+  const int n = level.size, fine = n * across, face = row / (n + 2), j = row % (n + 2) - 1;
   for (int i = -1; i <= n; ++i) {
     std::array<float, 4> sum{};
-    for (int y = 0; y < looks; ++y)
-      for (int x = 0; x < looks; ++x) {
+    for (int y = 0; y < across; ++y)
+      for (int x = 0; x < across; ++x) {
         std::array<float, 4> channel{};
-        painter(direction_of(texel_centre(face, i * looks + x, j * looks + y, fine)),
+        painter(direction_of(texel_centre(face, i * across + x, j * across + y, fine)),
                 channel.data());
         for (int k = 0; k < 4; ++k) sum[k] += channel[k];
       }
     SkyTexel& texel = level.at(face, i, j);
     for (int k = 0; k < 4; ++k)
-      texel.channel[k] = half_bits(sum[k] / static_cast<float>(looks * looks));
+      texel.channel[k] = half_bits(sum[k] / static_cast<float>(across * across));
   }
 }
 
@@ -136,19 +136,19 @@ void fill_border(const SkyPyramid::Level& level) {
   const int n = level.size;
   for (int face = 0; face < 6; ++face)
     for (int k = -1; k <= n; ++k) {
-      level.at(face, k, -1) = looked_across(level, face, k, -1);
-      level.at(face, k, n) = looked_across(level, face, k, n);
-      level.at(face, -1, k) = looked_across(level, face, -1, k);
-      level.at(face, n, k) = looked_across(level, face, n, k);
+      level.at(face, k, -1) = sample_across(level, face, k, -1);
+      level.at(face, k, n) = sample_across(level, face, k, n);
+      level.at(face, -1, k) = sample_across(level, face, -1, k);
+      level.at(face, n, k) = sample_across(level, face, n, k);
     }
 }
 
-void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks) {
-  // The caller may hold a lock.  A thread that waits here for the last rows must not take up another
-  // task meanwhile, since that may wait for the same lock.
+void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int across) {
+  // The caller may hold a lock.  A thread that waits here for the last rows must not take up
+  // another task meanwhile, since that may wait for the same lock.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(0, 6 * (level.size + 2),
-                      [&](int row) { paint_row(level, row, painter, looks); });
+                      [&](int row) { paint_row(level, row, painter, across); });
   });
 }
 

@@ -1,4 +1,4 @@
-// Sky maps in the making: the levels' memory, the rounding to halves, the coarser levels, the borders.
+// Sky maps in the making: the memory of the levels, the coarser levels, the borders.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,11 @@
 
 namespace domefall {
 
-// The unit in which `greatest` (> 0; of any channel of any texel) is 2^13 to 2^14.  1 if it is 0.
+// Returns the unit, a power of two, in which `greatest` is at least 2^13 and less than 2^14.
+// `greatest` is the largest value of any channel of any texel; if it is 0, the unit is 1.
 double sky_unit(double greatest);
 
-// The sizes of a map's levels, from `size`, a power of two, to 1.
+// Returns the sizes of a map's levels, from `size`, a power of two, down to 1.
 std::vector<int> level_sizes(int size);
 
 struct SkyPyramid {
@@ -30,27 +31,27 @@ struct SkyPyramid {
   std::vector<Level> levels;
   std::shared_ptr<void> owner;
 
-  // In memory of its own, zeroed.  `size` is a power of two, at most kLargestFace.
+  // Makes a dark map in memory of its own.  `size` is a power of two, at most kLargestFace.
   SkyPyramid(SkyMapKind of_kind, double in_unit, int size);
-  // In memory that `of_owner` keeps alive.
+  // Makes a map in memory that `of_owner` keeps alive.
   SkyPyramid(SkyMapKind of_kind, double in_unit, std::vector<Level> in,
              std::shared_ptr<void> of_owner);
 
-  // The coarser levels from the finest, whose border is set already; then `this` is a map.
+  // Makes the coarser levels from the finest, whose border is set already.  Then map() is complete.
   void finish() const;
   SkyMap map() const;
 };
 
 inline constexpr int kLargestFace = 8192;
 
-// Each border texel looks across the edge, at the face that owns its direction, and is what a look
-// there sees between that face's inner texels.
+// Sets the border of every face.  A texel of the border has a direction that belongs to the face
+// across the edge; it becomes what a sample there finds between that face's inner texels.
 void fill_border(const SkyPyramid::Level& level);
 
-// Channels (in units of the map) at a place of the sphere, which need not have unit length.  Called
-// from several threads.
+// Returns the channels, in units of the map, in a direction of any length.  Several threads call it
+// at the same time.
 using SkyPainter = std::function<void(const V3d& direction, float channel[4])>;
-// Sets the finest level, border and all; each texel is the mean of looks x looks places.
-void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int looks = 1);
+// Sets a level, border and all.  Each texel is the mean of `across` x `across` samples.
+void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int across = 1);
 
 }  // namespace domefall

@@ -1,5 +1,7 @@
 #include "pipeline/sky/catalogue/amend/star_corrections.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
@@ -13,10 +15,10 @@
 namespace domefall {
 namespace {
 
-// What a removed star has until the end, beyond every limit.
+// The magnitude of a removed star until the end.  It lies beyond every limit.
 constexpr float kRemoved = 2 * kNoMagnitude;
 
-// "HD 174638 | HIP 92420" at its bars.
+// Returns the parts between the bars of "HD 174638 | HIP 92420".
 std::vector<std::string_view> alternatives(std::string_view cell) {
   std::vector<std::string_view> found;
   for (;;) {
@@ -50,7 +52,7 @@ class Corrections {
       else if (action.empty())
         change(wanted_once());
       else
-        row_.fail("action must be add, remove or empty, got '" + std::string(action) + "'");
+        row_.fail(fmt::format("action must be add, remove or empty, got '{}'", action));
     }
     keep_brighter(catalogue_, kNoMagnitude);
     return rows;
@@ -64,7 +66,7 @@ class Corrections {
     }
     const auto found = by_name_.find(folded_star_name(alternative));
     if (found != by_name_.end() && ambiguous_.contains(found->first))
-      row_.fail("several stars are called '" + std::string(alternative) + "'; name its number");
+      row_.fail(fmt::format("several stars are called '{}'; name its number", alternative));
     return found == by_name_.end() ? std::nullopt : std::optional(found->second);
   }
 
@@ -75,18 +77,18 @@ class Corrections {
       const auto place = find(alternative);
       if (place && catalogue_.stars[*place].v != kRemoved) return catalogue_.stars[*place];
     }
-    row_.fail("the catalogue has no star '" + std::string(cell) + "'");
+    row_.fail(fmt::format("the catalogue has no star '{}'", cell));
   }
 
-  // Of two rows about one star the later would undo the earlier without a word.
+  // A second row about a star is refused, because it would undo the first without a word.
   CatalogueStar& wanted_once() {
     CatalogueStar& star = wanted();
     if (!seen_.insert(&star - catalogue_.stars.data()).second)
-      row_.fail("the star '" + std::string(row_.text("star")) + "' is corrected twice");
+      row_.fail(fmt::format("the star '{}' is corrected twice", row_.text("star")));
     return star;
   }
 
-  // Whether the row gives any of a star's numbers, which are taken.
+  // Gives the star the numbers of the row; false if there are none.
   bool take_numbers(CatalogueStar& star) {
     const auto v = row_.number("v_mag", kBrightestV, kFaintestV);
     const auto b_v = row_.number("b_v", kBluest, kReddest);
@@ -103,7 +105,10 @@ class Corrections {
     if (b_v) star.colour = static_cast<float>(*b_v);
     if (temperature) star.colour = static_cast<float>(*temperature);
     if (ra) star.direction = sky_direction(*ra, *dec);
-    if (pm_ra) star.pm_ra = static_cast<float>(*pm_ra), star.pm_dec = static_cast<float>(*pm_dec);
+    if (pm_ra) {
+      star.pm_ra = static_cast<float>(*pm_ra);
+      star.pm_dec = static_cast<float>(*pm_dec);
+    }
     return v || b_v || temperature || ra || pm_ra;
   }
 
@@ -122,9 +127,9 @@ class Corrections {
     const std::string_view cell = row_.text("star");
     star.id = parse_star_id(cell).value_or(kNoStarId);
     for (const std::string_view alternative : alternatives(cell))
-      if (find(alternative))
-        row_.fail("the catalogue has a star '" + std::string(cell) + "' already");
-    row_.required("ra_deg", 0, 360), row_.required("dec_deg", -90, 90);
+      if (find(alternative)) row_.fail(fmt::format("the catalogue has a star '{}' already", cell));
+    row_.required("ra_deg", 0, 360);
+    row_.required("dec_deg", -90, 90);
     row_.required("v_mag", kBrightestV, kFaintestV);
     take_numbers(star);
     const auto place = static_cast<std::uint32_t>(catalogue_.stars.size());
@@ -142,7 +147,7 @@ class Corrections {
   std::unordered_map<StarId, std::uint32_t> by_id_;
   std::unordered_map<std::string, std::uint32_t> by_name_;
   std::unordered_set<std::string> ambiguous_;  // names of several stars
-  std::unordered_set<std::ptrdiff_t> seen_;    // stars that a row was about
+  std::unordered_set<std::ptrdiff_t> seen_;    // indices of stars that a row has named
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "pipeline/sky/catalogue/amend/star_names.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <unordered_map>
@@ -15,7 +17,7 @@ using nlohmann::json;
 struct Spelling {
   std::string_view sign, text;
 };
-// In UTF-8; the final sigma is one too.
+// Greek letters, the final sigma among them, and superscripts in UTF-8.
 constexpr std::array<Spelling, 35> kSpellings{
     {{"α", "alpha"},   {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"},
      {"ζ", "zeta"},    {"η", "eta"},  {"θ", "theta"}, {"ι", "iota"},  {"κ", "kappa"},
@@ -41,7 +43,7 @@ std::string designation(const json& entry) {
   std::string label = spelt_out(text_of(entry, "bayer"));
   if (label.empty()) label = text_of(entry, "flam");
   const std::string constellation = text_of(entry, "c");
-  return label.empty() || constellation.empty() ? "" : label + " " + constellation;
+  return label.empty() || constellation.empty() ? "" : fmt::format("{} {}", label, constellation);
 }
 
 std::unordered_map<StarId, std::uint32_t> places_of(const RawCatalogue& catalogue) {
@@ -56,14 +58,15 @@ std::unordered_map<StarId, std::uint32_t> places_of(const RawCatalogue& catalogu
 void add_names(RawCatalogue& catalogue, const std::filesystem::path& file) {
   const json document = read_json(file);
   if (!document.is_object())
-    throw InputError(file.string() + ": this is no list of names by Hipparcos number");
+    throw InputError(
+        fmt::format("{}: this is no list of names by Hipparcos number", file.string()));
   const auto places = places_of(catalogue);
   for (const auto& [key, entry] : document.items()) {
     std::uint32_t hip = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), hip);
     if (error != std::errc() || end != key.data() + key.size() || !entry.is_object())
-      throw InputError(file.string() + ": '" + key.substr(0, 40) +
-                       "': this is no Hipparcos number with names");
+      throw InputError(fmt::format("{}: '{}': this is no Hipparcos number with names",
+                                   file.string(), key.substr(0, 40)));
     const auto found = places.find(hipparcos_id(hip));
     if (found == places.end()) continue;
     for (const std::string& name : {text_of(entry, "name"), designation(entry)})

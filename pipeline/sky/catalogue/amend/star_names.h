@@ -7,9 +7,10 @@
 
 namespace domefall {
 
-// Adds the names of d3-celestial's starnames.json: proper names, and Bayer letters or Flamsteed numbers
-// with the constellation ("Sirius", "alpha CMa", "61 Cyg").  Entries of stars that the catalogue does
-// not have are passed over.  Throws InputError where the file is damaged or something else.
+// Adds the names of d3-celestial's starnames.json: proper names, and Bayer letters or Flamsteed
+// numbers with the constellation ("Sirius", "alpha CMa", "61 Cyg").  Entries of stars that the
+// catalogue does not have are passed over.  Throws InputError where the file is damaged or
+// something else.
 void add_names(RawCatalogue& catalogue, const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -3,8 +3,8 @@
 // A further format is a function import_NAME in a file of that name, declared below and listed in
 // catalogue_formats.cpp.  An importer reads whole files and trusts nothing in them: whatever their
 // bytes, it returns stars within the ranges of raw_catalogue.h or throws InputError, with file and
-// line (or byte), for what is damaged, cut short or of another kind.  A star without a magnitude has
-// kNoMagnitude.
+// line (or byte), for what is damaged, cut short or of another kind.  A star without a magnitude
+// has kNoMagnitude.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +32,8 @@ struct CatalogueFormat {
 
 std::span<const CatalogueFormat> catalogue_formats();
 
-// The format of the first input by what lies in the folder or how the file begins; null where that
-// does not tell.  Throws InputError where the file cannot be read.
+// Guesses the format of the first input by what lies in the folder or how the file begins; null
+// where that does not tell.  Throws InputError where the file cannot be read.
 const CatalogueFormat* guess_format(const Paths& inputs);
 
 // Tycho-2, CDS I/259: the folder with tyc2.dat.00 to .19 and suppl_1.dat, or such files, which the
@@ -41,13 +41,14 @@ const CatalogueFormat* guess_format(const Paths& inputs);
 // B-V = 0.850 (BT - VT), by note 7 of its ReadMe; V from one band alone is marked as rough.
 ImportedCatalogue import_tycho2(const Paths& inputs);
 
-// d3-celestial's stars.N.json: GeoJSON points with the Hipparcos number as id, without proper motion.
+// d3-celestial's stars.N.json: GeoJSON points with the Hipparcos number as id, without proper
+// motion.
 ImportedCatalogue import_d3_celestial(const Paths& inputs);
 
 // Henry Draper Catalogue and Extension, CDS III/135A: catalog.dat.  Positions of B1900, good to 1.5
 // arcminutes, are turned to J2000.  V is the photovisual magnitude or, where there is none, the
-// photographic one less the colour.  Colours come from spectral types (spectral_type.h).  Deleted and
-// repeated entries, nebulae and clusters are left out.
+// photographic one less the colour.  Colours come from spectral types (spectral_type.h).  Deleted
+// and repeated entries, nebulae and clusters are left out.
 ImportedCatalogue import_henry_draper(const Paths& inputs);
 
 // ASCC-2.5, CDS I/280B: its cc*.dat files.  Positions of J1991.25 are moved to J2000.

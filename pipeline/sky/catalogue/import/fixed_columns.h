@@ -11,12 +11,12 @@
 
 namespace domefall {
 
-// Bytes `first` to `last` of a line, counted from 1, both included.
+// A column has the bytes `first` to `last` of a line, counted from 1, both included.
 struct TextColumn {
   int first, last;
 };
 
-// A column of numbers, and the range beyond which a number is a mistake.
+// Beyond the range `low` to `high` a number of the column is a mistake.
 struct NumberColumn {
   int first, last;
   const char* name;
@@ -25,27 +25,27 @@ struct NumberColumn {
 
 class FixedColumns {
  public:
-  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF).  What a line lacks at
-  // its end is blank.  Throws InputError for an empty file, and as MappedFile does.
+  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF).  What a line lacks
+  // at its end is blank.  Throws InputError for an empty file, and as MappedFile does.
   FixedColumns(const std::filesystem::path& file, std::size_t shortest, std::size_t longest);
 
-  // Reads a line; false at the end of the file.  Throws InputError, with the line, if it is too short
-  // or too long, or is a last line that is cut short.
+  // Reads a line; false at the end of the file.  Throws InputError, with the line, if it is too
+  // short or too long, or is a last line that is cut short.
   bool next();
 
   // The functions below return a column of the line that was read last.
 
-  // The text without the blanks around it.
+  // Returns the text without the blanks around it.
   std::string_view text(const TextColumn& column) const;
   char letter(int byte) const {
     return static_cast<std::size_t>(byte) <= line_.size() ? line_[byte - 1] : ' ';
   }
-  // Nothing where the column is blank.  Throws InputError, with the line, for what is no number within
-  // the column's range.
+  // Returns nothing where the column is blank.  Throws InputError, with the line, for what is no
+  // number within the column's range.
   std::optional<double> number(const NumberColumn& column) const;
-  // The same, but throws where the column is blank.
+  // Returns the same, but throws where the column is blank.
   double required(const NumberColumn& column) const;
-  // The same of a whole number; 0 where the column is blank.
+  // Returns a whole number, or 0 where the column is blank.
   std::uint32_t whole(const NumberColumn& column) const;
 
   // Throws InputError: "FILE:LINE: what".
@@ -58,7 +58,7 @@ class FixedColumns {
   std::size_t line_number_ = 0;
 };
 
-// Bytes of a file's first line without its end.  Throws as MappedFile does.
+// Returns the length of a file's first line without its end.  Throws as MappedFile does.
 std::size_t first_line_length(const std::filesystem::path& file);
 
 }  // namespace domefall

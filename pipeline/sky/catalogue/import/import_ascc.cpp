@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "pipeline/sky/catalogue/count_text.h"
 #include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/fixed_columns.h"
@@ -5,7 +7,8 @@
 #include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
-// Byte-by-byte: the ReadMe of I/280B (Kharchenko 2001, Kin. Phys. Cel. Bod. 17, 409; version 3).
+// The columns are those of the ReadMe of I/280B (Kharchenko 2001, Kin. Phys. Cel. Bod. 17, 409;
+// version 3).
 namespace domefall {
 namespace {
 
@@ -20,16 +23,17 @@ constexpr NumberColumn kRa{1, 12, "RAhour", 0, 24}, kDec{14, 25, "DEdeg", -90, 9
     kHd{155, 160, "HD", 0, kLastHd};
 constexpr double kNoMotion = 999999, kUnmeasured = 99999, kFaintest = 40000;
 
-// Magnitudes; the file has thousandths of them.
+// Returns a magnitude, of which the file has thousandths.
 std::optional<double> magnitude(const FixedColumns& line, const NumberColumn& column) {
   constexpr double kMillimagnitude = 1e-3;
   const auto value = line.number(column);
   if (!value || *value == kUnmeasured) return std::nullopt;
-  if (*value > kFaintest) line.fail(std::string(column.name) + " is neither a magnitude nor 99999");
+  if (*value > kFaintest)
+    line.fail(fmt::format("{} is neither a magnitude nor 99999", column.name));
   return *value * kMillimagnitude;
 }
 
-// mas a year; the file has hundredths of them.
+// Returns a proper motion in mas a year, of which the file has hundredths.
 float motion(const FixedColumns& line, const NumberColumn& column) {
   constexpr double kHundredth = 0.01;
   const double value = line.number(column).value_or(kNoMotion);
@@ -45,7 +49,8 @@ StarId identifier(const FixedColumns& line) {
 
 CatalogueStar read_star(const FixedColumns& line) {
   CatalogueStar star;
-  star.pm_ra = motion(line, kPmRa), star.pm_dec = motion(line, kPmDec);
+  star.pm_ra = motion(line, kPmRa);
+  star.pm_dec = motion(line, kPmDec);
   star.direction = moved(sky_direction(line.required(kRa) * kDegreesPerHour, line.required(kDec)),
                          star.pm_ra, star.pm_dec, 2000 - kEpoch);
   const auto b = magnitude(line, kB), v = magnitude(line, kV);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "pipeline/image/errors.h"
@@ -11,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// One of the features, and where it is for a message.
+// A feature of the list knows its index for messages.
 class Feature {
  public:
   Feature(const std::filesystem::path& file, std::size_t index, const json& value)
@@ -33,20 +35,19 @@ class Feature {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(file_.string() + ": features[" + std::to_string(index_) + "]: " + what);
+    throw InputError(fmt::format("{}: features[{}]: {}", file_.string(), index_, what));
   }
 
   const json& member(const json& of, const char* name) const {
     const auto found = of.is_object() ? of.find(name) : of.end();
-    if (!of.is_object() || found == of.end()) fail(std::string("has no ") + name);
+    if (!of.is_object() || found == of.end()) fail(fmt::format("has no {}", name));
     return *found;
   }
 
   double number(const json& value, const char* name, double low, double high) const {
     const double number = value.is_number() ? value.get<double>() : high + 1;
     if (!(number >= low && number <= high))
-      fail(std::string(name) + " must be a number from " + std::to_string(static_cast<int>(low)) +
-           " to " + std::to_string(static_cast<int>(high)));
+      fail(fmt::format("{} must be a number from {:.12g} to {:.12g}", name, low, high));
     return number;
   }
 
@@ -55,7 +56,7 @@ class Feature {
     return static_cast<std::uint32_t>(id);
   }
 
-  // Text, perhaps none.
+  // B-V comes as text, which may be empty.
   float colour(const json& value) const {
     if (!value.is_string()) fail("bv must be a number in quotes, or empty quotes");
     const auto& text = value.get_ref<const std::string&>();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,11 +11,11 @@
 #include "pipeline/sky/catalogue/import/spectral_type.h"
 #include "trajectories/equatorial.h"
 
-// Byte-by-byte: the ReadMe of III/135A (Cannon & Pickering 1918-1924).
+// The columns are those of the ReadMe of III/135A (Cannon & Pickering 1918-1924).
 namespace domefall {
 namespace {
 
-// Lines lose their trailing blanks on some ways; up to the type all of them have something.
+// A line may have lost its trailing blanks; each has something up to the column before the type.
 constexpr std::size_t kShortestLine = 41, kLongestLine = 48;
 constexpr NumberColumn kHd{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 23},
     kRaTenths{21, 23, "RAdm", 0, 599}, kDecDegrees{25, 26, "DEd", 0, 90},
@@ -22,11 +24,12 @@ constexpr NumberColumn kHd{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 2
 constexpr TextColumn kType{43, 45};
 constexpr int kSign = 24, kRemark = 48;
 constexpr double kNebula = 20, kVariable = 30, kNova = 40, kCluster = 50;
-// Entered twice, says the ReadMe: the same as HD 194629.
+// By the ReadMe this star was entered twice; it is HD 194629.
 constexpr std::uint32_t kRepeated = 194648;
 
-// B1900 (FK4) to J2000 (FK5), columns of the rows below: Newcomb's precession to B1950, then Standish 1982.  The
-// terms left out (aberration's E-terms, 0.35 arcseconds) are far below the catalogue's 0.1 min.
+// Turns a direction of B1900 (FK4) to J2000 (FK5).  The matrix is the product of Newcomb's
+// precession to B1950 and the matrix of Standish 1982.  The E-terms of aberration, 0.35 arcseconds,
+// are left out; they are far below the 0.1 minute to which the catalogue gives right ascension.
 SkyDirection to_j2000(const SkyDirection& b1900) {
   const V3d& p = b1900.v;
   const V3d q(0.999702924 * p.x - 0.0223531344 * p.y - 0.00971607525 * p.z,
@@ -46,7 +49,7 @@ SkyDirection position(const FixedColumns& line) {
   return to_j2000(sky_direction(hours * kDegreesPerHour, sign == '-' ? -degrees : degrees));
 }
 
-// What cannot be a magnitude is one of the catalogue's codes.
+// Returns nothing for the catalogue's codes, which are greater than any magnitude.
 std::optional<double> measured(std::optional<double> magnitude) {
   return magnitude && *magnitude < kNebula ? magnitude : std::nullopt;
 }
@@ -59,7 +62,7 @@ float magnitude(const FixedColumns& line, float colour) {
   if (const auto visual = measured(line.number(kVisual))) return static_cast<float>(*visual);
   const auto photographic = measured(line.number(kPhotographic));
   if (!photographic) return kNoMagnitude;
-  // Its index photographic less visual is 0 at A0, 1 at K0: nearly B-V.
+  // The catalogue's index, photographic less visual, is 0 at A0 and 1 at K0, which is nearly B-V.
   const double index = is_temperature(colour) ? 0
                        : colour == kNoColour  ? kAssumedColour
                                               : static_cast<double>(colour);
@@ -71,8 +74,8 @@ bool is_nebula_or_cluster(const FixedColumns& line) {
     const double m = line.number(column).value_or(0);
     if (m == kNebula || m == kCluster) return true;
     if (m > kNebula && m != kVariable && m != kNova)
-      line.fail(std::string(column.name) +
-                " must be a magnitude below 20 or one of the codes 20, 30, 40, 50");
+      line.fail(fmt::format("{} must be a magnitude below 20 or one of the codes 20, 30, 40, 50",
+                            column.name));
   }
   return false;
 }
@@ -80,7 +83,7 @@ bool is_nebula_or_cluster(const FixedColumns& line) {
 std::vector<std::string> notes_of(const Skipped& skipped) {
   std::vector<std::string> notes;
   const auto note = [&notes](std::size_t count, const char* what, const char* why) {
-    if (count) notes.push_back(counted(count, what) + " " + why);
+    if (count) notes.push_back(fmt::format("{} {}", counted(count, what), why));
   };
   note(skipped.deleted, "row", "marked as deleted, left out");
   note(skipped.repeated, "row", "repeating another number, left out");

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 
 #include "pipeline/sky/catalogue/import/catalogue_formats.h"
@@ -8,7 +10,7 @@ namespace {
 
 constexpr StarColumns kColumns{"ra", "dec", "mag", "ci", "pmra", "pmdec", 15, -kReddest};
 
-// "Alp", "Alp-1", "Kap-2" and the constellation: "alpha CMa", "alpha1 Cru".
+// Returns "alpha CMa" for "Alp" and "CMa", "alpha1 Cru" for "Alp-1" and "Cru".
 std::string bayer_name(std::string_view letter, std::string_view constellation) {
   static constexpr std::array<std::string_view, 24> kLetters{
       "alpha", "beta",  "gamma",  "delta",   "epsilon", "zeta", "eta",     "theta",
@@ -22,7 +24,7 @@ std::string bayer_name(std::string_view letter, std::string_view constellation) 
     if (abbreviated != start) continue;
     const std::size_t dash = letter.find('-');
     const std::string_view index = dash == std::string_view::npos ? "" : letter.substr(dash + 1);
-    return std::string(full) + std::string(index) + " " + std::string(constellation);
+    return fmt::format("{}{} {}", full, index, constellation);
   }
   return "";
 }

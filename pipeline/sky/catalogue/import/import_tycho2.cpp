@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -9,7 +11,7 @@
 #include "pipeline/sky/catalogue/star_colour.h"
 #include "trajectories/equatorial.h"
 
-// Byte-by-byte: the ReadMe of I/259 (Hog et al. 2000, A&A 355, L27).
+// The columns are those of the ReadMe of I/259 (Hog et al. 2000, A&A 355, L27).
 namespace domefall {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr std::size_t kMainLine = 206, kSupplementLine = 122;
 constexpr double kSupplementEpoch = 1991.25;
 constexpr int kMainParts = 20;
 
-// Common to both tables.
+// These columns are the same in both tables.
 constexpr NumberColumn kRegion{1, 4, "TYC1", 1, 9537}, kNumber{6, 10, "TYC2", 1, 12121},
     kComponent{12, 12, "TYC3", 1, 4}, kRa{16, 27, "RA", 0, 360}, kDec{29, 40, "Dec", -90, 90},
     kPmRa{42, 48, "pmRA", -kFastest, kFastest}, kPmDec{50, 56, "pmDE", -kFastest, kFastest};
@@ -35,12 +37,12 @@ constexpr Photometry kMain{
 constexpr Photometry kSupplement{
     {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, kLastHip}};
 
-// False where neither band was measured.
+// Reads magnitude, colour and Hipparcos number; false where neither band was measured.
 bool read_photometry(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {
   const auto bt = line.number(columns.bt), vt = line.number(columns.vt);
   star.hip = line.whole(columns.hip);
   if (!bt && !vt) return false;
-  // One band alone: as if the colour were the one such stars are drawn with.
+  // For a star with one band alone, the colour with which it is drawn is assumed.
   const double bt_vt = bt && vt ? *bt - *vt : kAssumedColour / 0.850;
   if (bt && vt) star.colour = colour_of_b_v(0.850 * bt_vt);
   star.v_is_rough = !bt || !vt;
@@ -108,13 +110,10 @@ class Tycho {
   std::size_t unmeasured_ = 0, hipparcos_band_ = 0;
 };
 
-// The whole catalogue: a part that is missing would be a hole in the sky.
+// Returns all files of the catalogue.  A part that is missing would be a hole in the sky.
 Paths parts_of(const fs::path& folder) {
   Paths parts;
-  for (int i = 0; i < kMainParts; ++i) {
-    const std::string number = std::to_string(i);
-    parts.push_back(folder / ("tyc2.dat." + std::string(number.size() < 2 ? "0" : "") + number));
-  }
+  for (int i = 0; i < kMainParts; ++i) parts.push_back(folder / fmt::format("tyc2.dat.{:02}", i));
   parts.push_back(folder / "suppl_1.dat");
   for (const fs::path& part : parts)
     if (!fs::is_regular_file(part))

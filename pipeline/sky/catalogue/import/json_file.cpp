@@ -1,5 +1,7 @@
 #include "pipeline/sky/catalogue/import/json_file.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
 
@@ -12,9 +14,9 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(file.string() + ": byte " + std::to_string(error.byte) +
-                     ": this is no JSON, or not all of it");
-  } catch (const nlohmann::json::exception&) {  // a number beyond all bounds
+    throw InputError(
+        fmt::format("{}: byte {}: this is no JSON, or not all of it", file.string(), error.byte));
+  } catch (const nlohmann::json::exception&) {  // a number that a double does not hold
     throw InputError(file.string() + ": holds a number that cannot be read");
   }
 }

@@ -6,7 +6,8 @@
 
 namespace domefall {
 
-// Throws InputError, "FILE: byte N: ...", where the file is no JSON, and as MappedFile does.
+// Reads a JSON file.  Throws InputError, "FILE: byte N: ...", where the file is no JSON, and as
+// MappedFile does.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -12,8 +12,8 @@ struct StarColumns {
   double bluest;                                    // the least B-V that is taken for a number
 };
 
-// The star of the row read last, identified by the columns `hip` and `hd` where there are such.
-// Throws InputError with the line.
+// Returns the star of the row read last, identified by the columns `hip` and `hd` where there are
+// such.  Throws InputError with the line.
 CatalogueStar read_star_row(const CsvFile& row, const StarColumns& columns);
 
 }  // namespace domefall

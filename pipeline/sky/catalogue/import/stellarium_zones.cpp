@@ -29,7 +29,7 @@ std::vector<Triangle> icosahedron() {
   return triangles;
 }
 
-// Each into the three at its corners and the one in the middle, in the files' order.
+// Cuts each triangle into the three at its corners and the one in the middle, in the files' order.
 std::vector<Triangle> cut(const std::vector<Triangle>& triangles) {
   std::vector<Triangle> smaller;
   smaller.reserve(4 * triangles.size());

@@ -1,5 +1,5 @@
-// The triangles by which Stellarium's catalogues order the sky: those of an icosahedron, each cut into
-// four again and again.
+// The triangles by which Stellarium's catalogues order the sky: those of an icosahedron, each cut
+// into four again and again.
 #pragma once
 
 #include <array>
@@ -10,24 +10,26 @@
 
 namespace domefall {
 
-// The deepest level that is read, of 1.3 million zones.  A greater number in a file is a mistake.
+// No deeper level is read; this one has 1.3 million zones.  A greater number in a file is a
+// mistake.
 inline constexpr int kDeepestZones = 8;
 
-// Triangles of a level: 20 times 4^level.
+// A level has 20 times 4^level triangles.
 std::size_t zone_count(int level);
 
 class StellariumZones {
  public:
-  // The zones of a level from 0 to kDeepestZones.
+  // Makes the zones of a level from 0 to kDeepestZones.
   explicit StellariumZones(int level);
 
   struct Place {
     SkyDirection direction;
-    // Factor (at least 1) by which a small motion there is longer in the zone's plane than on the unit
-    // sphere: the square of the distance from the centre.
+    // This is the factor (at least 1) by which a small motion there is longer in the zone's plane
+    // than on the unit sphere: the square of the distance from the centre.
     double stretch;
   };
-  // A place by its coordinates x0 and x1, from -1 to 1, along the zone's axes to the east and north.
+  // Returns a place by its coordinates x0 and x1, from -1 to 1, along the zone's axes to the east
+  // and north.
   Place place(std::size_t zone, double x0, double x1) const;
 
  private:
