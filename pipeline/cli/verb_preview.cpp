@@ -31,7 +31,7 @@ void flatten(const Show& show, FrameState& state, const Projection& flat) {
     flatten(show, *vanishing, flat);
     state.vanishing = vanishing;
   }
-  const Segment& segment = show.timeline[static_cast<std::size_t>(state.segment)];
+  const Segment& segment = segment_of(show, state.segment);
   const bool dome = std::holds_alternative<Domemaster>(show.projection);
   const bool by_angles =
       std::holds_alternative<EulerAngles>(segment.camera.attitude) ||

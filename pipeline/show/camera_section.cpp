@@ -47,8 +47,10 @@ Stereographic read_flat(const Item* size) {
 
 Projection read_projection(const Section& show, const Section& camera) {
   const Item* size = show.find("size");
-  if (camera.choice("projection", {"domemaster", "stereographic"}) == std::size_t{1})
-    return read_flat(size);
+  const bool flat =
+      camera.word<bool>("projection", {{"domemaster", false}, {"stereographic", true}})
+          .value_or(false);
+  if (flat) return read_flat(size);
   return read_dome(size);
 }
 
@@ -71,12 +73,11 @@ std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras
 }
 
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
-  static constexpr std::array<std::string_view, 3> kWords{"hole", "motion", "outward"};
-  if (item.node.IsScalar() && item.node.Scalar() == kWords[0]) return LookAtHole{};
-  if (item.node.IsScalar() && item.node.Scalar() == kWords[1]) return LookAlongMotion{};
-  if (item.node.IsScalar() && item.node.Scalar() == kWords[2]) return LookOutward{};
+  static const Words<Attitude, 3> kWords{
+      {{"hole", LookAtHole{}}, {"motion", LookAlongMotion{}}, {"outward", LookOutward{}}}};
+  if (const auto attitude = meaning(item, kWords)) return attitude;
   if (peek(item, "keyframe")) return read_other_keyframe(item, named);
-  if (const auto place = read_sky_place(item, lookup, kWords)) return LookAtSky{*place};
+  if (const auto place = read_sky_place(item, lookup, names_of(kWords))) return LookAtSky{*place};
   return std::nullopt;
 }
 
@@ -93,8 +94,8 @@ std::optional<Attitude> read_attitude(const Section& camera, const NamedCameras&
   return look_at ? read_look_at(*look_at, named, lookup) : std::nullopt;
 }
 
-std::optional<double> read_angle(const Section& camera, std::string_view key, double most) {
-  const auto degrees = camera.number(key, kDegrees.within(-most, most));
+std::optional<double> read_angle(const Section& camera, std::string_view key, const Range& range) {
+  const auto degrees = camera.number(key, range);
   return degrees ? std::optional(radians(*degrees)) : std::nullopt;
 }
 
@@ -102,11 +103,10 @@ CameraKeys read_keys(const Section& camera, const Projection& projection, const 
                      Lookup& lookup) {
   CameraKeys keys;
   keys.attitude = read_attitude(camera, named, lookup);
-  keys.roll = read_angle(camera, "roll_deg", 3600);
-  keys.elevation = read_angle(camera, "elevation_deg", 90);
-  keys.dome_tilt = read_angle(camera, "dome_tilt_deg", 90);
-  if (const auto fov = camera.number("fov_deg", kDegrees.above(0).below(360)))
-    keys.fov = radians(*fov);
+  keys.values[Channel::kRoll] = read_angle(camera, "roll_deg", kDegrees.within(-3600, 3600));
+  keys.values[Channel::kElevation] = read_angle(camera, "elevation_deg", kDegrees.within(-90, 90));
+  keys.values[Channel::kDomeTilt] = read_angle(camera, "dome_tilt_deg", kDegrees.within(-90, 90));
+  keys.values[Channel::kFov] = read_angle(camera, "fov_deg", kDegrees.above(0).below(360));
   const bool dome = std::holds_alternative<Domemaster>(projection);
   for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
     if (const Item* item = camera.find(key); item && !dome)
@@ -150,7 +150,7 @@ ShowCamera read_show_camera(const Section& show, Lookup& lookup) {
   result.projection = read_projection(show, camera);
   result.keys = read_keys(camera, result.projection, result.named, lookup);
   if (auto* flat = std::get_if<Stereographic>(&result.projection))
-    flat->fov = result.keys.fov.value_or(flat->fov);
+    flat->fov = result.keys.values[Channel::kFov].value_or(flat->fov);
   if (const Item* cameras = show.find("cameras")) read_named_cameras(*cameras, result, lookup);
   return result;
 }
@@ -169,12 +169,10 @@ CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup)
 }
 
 CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
-  if (is_euler(own.attitude)) keys.roll = keys.elevation = std::nullopt;
+  if (is_euler(own.attitude))
+    keys.values[Channel::kRoll] = keys.values[Channel::kElevation] = std::nullopt;
   if (own.attitude) keys.attitude = own.attitude;
-  if (own.roll) keys.roll = own.roll;
-  if (own.elevation) keys.elevation = own.elevation;
-  if (own.dome_tilt) keys.dome_tilt = own.dome_tilt;
-  if (own.fov) keys.fov = own.fov;
+  lay_over(keys.values, own.values);
   return keys;
 }
 
@@ -183,9 +181,10 @@ Camera camera_from(const CameraKeys& keys, const Projection& projection) {
   const bool dome = std::holds_alternative<Domemaster>(projection);
   Camera camera;
   camera.attitude = keys.attitude.value_or(LookAtHole{});
-  camera.roll = keys.roll.value_or(0);
-  camera.elevation = keys.elevation.value_or(dome ? radians(kDomeElevationDeg) : 0);
-  camera.dome_tilt = keys.dome_tilt.value_or(0);
+  camera.roll = keys.values[Channel::kRoll].value_or(0);
+  camera.elevation =
+      keys.values[Channel::kElevation].value_or(dome ? radians(kDomeElevationDeg) : 0);
+  camera.dome_tilt = keys.values[Channel::kDomeTilt].value_or(0);
   return camera;
 }
 

@@ -12,8 +12,7 @@ namespace domefall {
 // What a camera section says; a segment's is laid over the show's, key by key.
 struct CameraKeys {
   std::optional<Attitude> attitude;
-  std::optional<double> roll, elevation, dome_tilt;  // radians
-  std::optional<double> fov;                         // radians; flat pictures
+  ChannelValues values;  // of kRoll, kElevation, kDomeTilt and kFov
 };
 
 // What camera sections may name: the entries of `cameras`, and keyframes that bear a name.

@@ -9,21 +9,12 @@
 namespace domefall {
 namespace {
 
-const Segment& segment_of(const Show& show, int k) {
-  return show.timeline[static_cast<std::size_t>(k)];
-}
-
-double value_of(const Segment& s, Channel channel, double t, double constant) {
-  const auto& curve = s.curves[static_cast<std::size_t>(channel)];
-  return curve ? value_at(*curve, t) : constant;
-}
-
 // Everything of the camera but its attitude.
 Camera camera_at(const Segment& s, double t) {
   Camera camera = s.camera;
-  camera.roll = value_of(s, Channel::kRoll, t, camera.roll);
-  camera.elevation = value_of(s, Channel::kElevation, t, camera.elevation);
-  camera.dome_tilt = value_of(s, Channel::kDomeTilt, t, camera.dome_tilt);
+  camera.roll = value_at(s, Channel::kRoll, t, camera.roll);
+  camera.elevation = value_at(s, Channel::kElevation, t, camera.elevation);
+  camera.dome_tilt = value_at(s, Channel::kDomeTilt, t, camera.dome_tilt);
   return camera;
 }
 

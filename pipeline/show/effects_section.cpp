@@ -1,5 +1,7 @@
 #include "pipeline/show/effects_section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,7 @@ namespace domefall {
 namespace {
 
 bool read_switch(const Section& section, std::string_view key) {
-  return section.choice(key, {"true", "false"}).value_or(0) == 0;
+  return section.word<bool>(key, {{"true", true}, {"false", false}}).value_or(true);
 }
 
 // The one of a frame's pictures that lies on or inside a horizon; null if none does.
@@ -46,10 +48,11 @@ Effects read_effects(const Section& show) {
   effects.doppler_colour = read_switch(s, "doppler_colour");
   effects.intensity = read_switch(s, "intensity");
   effects.lensing = read_switch(s, "lensing");
-  constexpr Amplification kBy[] = {Amplification::kStars, Amplification::kNone,
-                                   Amplification::kEverything};
+  using enum Amplification;
   effects.amplification =
-      kBy[s.choice("amplification", {"stars", "none", "everything"}).value_or(0)];
+      s.word<Amplification>("amplification",
+                            {{"stars", kStars}, {"none", kNone}, {"everything", kEverything}})
+          .value_or(kStars);
   return effects;
 }
 
@@ -60,9 +63,9 @@ void check_effects(const Item& root, const Show& show) {
   const auto effects = peek(root, "effects");
   const auto lensing = effects ? peek(*effects, "lensing") : std::nullopt;
   (lensing ? *lensing : root)
-      .fail("can be false outside the horizon only (r > 2), but frame " +
-            std::to_string(found->frame) + ", in timeline[" + std::to_string(found->segment) +
-            "], lies at r = " + short_number(found->observer.r) + " (units of M)");
+      .fail(fmt::format("can be false outside the horizon only (r > 2), but frame {}, in "
+                        "timeline[{}], lies at r = {} (units of M)",
+                        found->frame, found->segment, short_number(found->observer.r)));
 }
 
 }  // namespace domefall

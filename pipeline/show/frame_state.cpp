@@ -9,36 +9,19 @@
 namespace domefall {
 namespace {
 
-const Segment& segment_of(const Show& show, int k) {
-  return show.timeline[static_cast<std::size_t>(k)];
-}
-
-const std::optional<Curve>& curve_of(const Segment& s, Channel channel) {
-  return s.curves[static_cast<std::size_t>(channel)];
-}
-
-double value_of(const Segment& s, Channel channel, double t, double constant) {
-  const auto& curve = curve_of(s, channel);
-  return curve ? value_at(*curve, t) : constant;
-}
-
 FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   FrameSettings settings;
-  settings.ev = value_of(s, Channel::kEv, t, show.exposure.ev);
-  const auto set = [&](FrameSettings::Sky& sky, const RegionSky& own, Channel gain,
-                       Channel star_gain, Channel magnitude) {
-    sky.background_gain = value_of(s, gain, t, own.background_gain);
-    sky.star_gain = value_of(s, star_gain, t, own.star_gain);
-    sky.max_magnitude = value_of(s, magnitude, t, own.stars.value_or(StarField{}).max_magnitude);
-    const auto& limit = curve_of(s, magnitude);
+  settings.ev = value_at(s, Channel::kEv, t, show.exposure.ev);
+  for (const SkyRegion region : kEverySky) {
+    const RegionSky& own = show.sky[region];
+    FrameSettings::Sky& sky = settings.sky[region];
+    sky.background_gain = value_at(s, gain_channel(region), t, own.background_gain);
+    sky.star_gain = value_at(s, star_gain_channel(region), t, own.star_gain);
+    const Channel magnitude = max_magnitude_channel(region);
+    sky.max_magnitude = value_at(s, magnitude, t, own.stars.value_or(StarField{}).max_magnitude);
+    const std::optional<Curve>& limit = s.curves[magnitude];
     sky.soft_limit = limit && limit->keys.size() > 1;
-  };
-  set(settings.sky[SkyRegion::kI], show.sky[SkyRegion::kI], Channel::kGainOne,
-      Channel::kStarGainOne, Channel::kMagnitudeOne);
-  set(settings.sky[SkyRegion::kIII], show.sky[SkyRegion::kIII], Channel::kGainThree,
-      Channel::kStarGainThree, Channel::kMagnitudeThree);
-  settings.sky[SkyRegion::kIV].background_gain =
-      value_of(s, Channel::kGainFour, t, show.sky[SkyRegion::kIV].background_gain);
+  }
   return settings;
 }
 
@@ -50,7 +33,7 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   state.segment = segment;
   state.projection = show.projection;
   if (auto* flat = std::get_if<Stereographic>(&state.projection))
-    flat->fov = value_of(s, Channel::kFov, t, flat->fov);
+    flat->fov = value_at(s, Channel::kFov, t, flat->fov);
   state.settings = settings_at(show, s, t);
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =

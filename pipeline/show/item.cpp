@@ -130,6 +130,10 @@ std::optional<int> read_whole_number(const Item& item, const Range& range) {
   return std::nullopt;
 }
 
+bool is_word(const Item& item, std::string_view word) {
+  return item.node.IsScalar() && item.node.Scalar() == word;
+}
+
 std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words) {
   const auto text = scalar(item, listed(words));
   if (!text) return std::nullopt;

@@ -5,11 +5,13 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipeline/show/problems.h"
@@ -63,8 +65,31 @@ bool is_text_or_number(const Item& item);
 std::optional<std::string> read_text(const Item& item);
 std::optional<double> read_number(const Item& item, const Range& range);
 std::optional<int> read_whole_number(const Item& item, const Range& range);
+
+// Whether the item is this word, so far as that can be said before it is known what it may be.
+bool is_word(const Item& item, std::string_view word);
 // The index of one of the words.
 std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words);
+
+// Words of show files and what they stand for.
+template <class T, std::size_t N>
+using Words = std::array<std::pair<std::string_view, T>, N>;
+
+template <class T, std::size_t N>
+constexpr std::array<std::string_view, N> names_of(const Words<T, N>& words) {
+  std::array<std::string_view, N> names;
+  for (std::size_t k = 0; k < N; ++k) names[k] = words[k].first;
+  return names;
+}
+
+// What the item stands for if it is one of the words.  Anything else is left to another reader.
+template <class T, std::size_t N>
+std::optional<T> meaning(const Item& item, const Words<T, N>& words) {
+  for (const auto& [word, value] : words)
+    if (is_word(item, word)) return value;
+  return std::nullopt;
+}
+
 // Not empty; the elements' paths end in [k].
 std::optional<std::vector<Item>> read_list(const Item& item);
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,

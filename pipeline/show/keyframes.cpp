@@ -3,24 +3,21 @@
 namespace domefall {
 namespace {
 
-double& value_of(ChannelValues& values, Channel channel) {
-  return *values[static_cast<std::size_t>(channel)];
-}
-
 Keyframe read_keyframe(const Item& item, double start, double latest, ShowCamera& camera,
                        Lookup& lookup) {
   const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "sky"});
   Keyframe keyframe;
   const auto at = s.required_number("at_s", Range{"seconds"}.within(0, latest));
   keyframe.at_s = start + at.value_or(0);
-  keyframe.ease = static_cast<Ease>(s.choice("ease", {"smooth", "linear", "hold"}).value_or(0));
+  keyframe.ease =
+      s.word<Ease>("ease",
+                   {{"smooth", Ease::kSmooth}, {"linear", Ease::kLinear}, {"hold", Ease::kHold}})
+          .value_or(Ease::kSmooth);
   keyframe.values = read_values(s);
   if (const Item* own = s.find("camera")) {
     const CameraKeys keys = read_camera(*own, camera, lookup);
     keyframe.attitude = keys.attitude;
-    const ChannelValues values = camera_values(keys);
-    for (std::size_t k = 0; k < kChannels; ++k)
-      if (values[k]) keyframe.values[k] = values[k];
+    lay_over(keyframe.values, keys.values);
   }
   if (const Item* name = s.find("name"))
     if (const auto text = read_text(*name); text && keyframe.attitude)
@@ -29,15 +26,6 @@ Keyframe read_keyframe(const Item& item, double start, double latest, ShowCamera
 }
 
 }  // namespace
-
-ChannelValues camera_values(const CameraKeys& keys) {
-  ChannelValues values;
-  values[static_cast<std::size_t>(Channel::kRoll)] = keys.roll;
-  values[static_cast<std::size_t>(Channel::kElevation)] = keys.elevation;
-  values[static_cast<std::size_t>(Channel::kDomeTilt)] = keys.dome_tilt;
-  values[static_cast<std::size_t>(Channel::kFov)] = keys.fov;
-  return values;
-}
 
 std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
                                      ShowCamera& camera, Lookup& lookup) {
@@ -58,10 +46,11 @@ std::vector<Keyframe> read_keyframes(const Item& item, double start, double late
 std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
                                    double start, double value_there) {
   Curve curve;
-  for (Keyframe keyframe : keyframes) {
-    if (!keyframe.values[static_cast<std::size_t>(channel)]) continue;
+  for (const Keyframe& keyframe : keyframes) {
+    const std::optional<double>& value = keyframe.values[channel];
+    if (!value) continue;
     if (curve.keys.empty() && keyframe.at_s > start) curve.keys.push_back({start, value_there});
-    curve.keys.push_back({keyframe.at_s, value_of(keyframe.values, channel), keyframe.ease});
+    curve.keys.push_back({keyframe.at_s, *value, keyframe.ease});
   }
   if (curve.keys.empty()) return std::nullopt;
   return curve;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/show/camera_section.h"
-#include "pipeline/show/values_section.h"
+#include "pipeline/show/channel_values.h"
 
 namespace domefall {
 
@@ -19,9 +19,6 @@ struct Keyframe {
 // keyframes bear are entered into `camera`.
 std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
                                      ShowCamera& camera, Lookup& lookup);
-
-// What a camera's keys say of the camera's channels.
-ChannelValues camera_values(const CameraKeys& keys);
 
 // The curve of a channel through those keyframes that give it, nothing if none does.  It begins at
 // `start` with the value that is there without them, unless a keyframe stands there.

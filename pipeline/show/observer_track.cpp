@@ -8,10 +8,6 @@
 namespace domefall {
 namespace {
 
-const Segment& segment_of(const Show& show, int k) {
-  return show.timeline[static_cast<std::size_t>(k)];
-}
-
 // r* = r + 2 ln|r/2 - 1|; v = u + 2 r*.
 double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
 

@@ -1,9 +1,13 @@
 #include "pipeline/show/read_show.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/show/camera_track.h"
 #include "pipeline/show/effects_section.h"
-#include "pipeline/show/picture_sections.h"
+#include "pipeline/show/exposure_section.h"
+#include "pipeline/show/grade_section.h"
 #include "pipeline/show/sky_section.h"
+#include "pipeline/show/stars_section.h"
 #include "pipeline/show/timeline_section.h"
 #include "pipeline/show/yaml_document.h"
 #include "trajectories/equatorial.h"
@@ -29,8 +33,8 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
       s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
   if (mass && *mass > 0 && *mass < kFewestSolarMasses)
     s.find("mass_solar")
-        ->fail("must be 0 (flat space) or at least " + short_number(kFewestSolarMasses) +
-               " (solar masses), got " + short_number(*mass));
+        ->fail(fmt::format("must be 0 (flat space) or at least {} (solar masses), got {}",
+                           short_number(kFewestSolarMasses), short_number(*mass)));
   if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
 }
 

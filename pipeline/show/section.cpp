@@ -92,12 +92,6 @@ std::optional<double> Section::required_number(std::string_view key, const Range
   return item ? read_number(*item, range) : std::nullopt;
 }
 
-std::optional<std::size_t> Section::choice(std::string_view key,
-                                           std::initializer_list<std::string_view> words) const {
-  const Item* item = find(key);
-  return item ? read_choice(*item, {words.begin(), words.size()}) : std::nullopt;
-}
-
 std::optional<Item> peek(const Item& map, std::string_view key) {
   if (!map.node.IsMap()) return std::nullopt;
   for (const auto& entry : map.node)

@@ -34,8 +34,15 @@ class Section {
   // The fallback, in the same unit, if the key is not given.
   double number(std::string_view key, const Range& range, double fallback) const;
   std::optional<double> required_number(std::string_view key, const Range& range) const;
-  std::optional<std::size_t> choice(std::string_view key,
-                                    std::initializer_list<std::string_view> words) const;
+  // What the word under a key stands for; nothing if the key is not given or its word is not known.
+  template <class T, std::size_t N>
+  std::optional<T> word(std::string_view key,
+                        const std::pair<std::string_view, T> (&words)[N]) const {
+    const Item* item = find(key);
+    const auto table = std::to_array(words);
+    const auto chosen = item ? read_choice(*item, names_of(table)) : std::nullopt;
+    return chosen ? std::optional(words[*chosen].second) : std::nullopt;
+  }
 
  private:
   void add(const YAML::Node& key, const YAML::Node& value, std::span<const std::string_view> known);

@@ -5,6 +5,11 @@
 
 namespace domefall {
 
+double value_at(const Segment& segment, Channel channel, double t, double constant) {
+  const std::optional<Curve>& curve = segment.curves[channel];
+  return curve ? value_at(*curve, t) : constant;
+}
+
 std::vector<double> segment_times(const Show& show) {
   std::vector<double> times;
   times.reserve(show.timeline.size() + 1);

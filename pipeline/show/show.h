@@ -2,7 +2,6 @@
 // with every default filled in.  docs/show-format.md describes the file key by key.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "pipeline/grade/grade_settings.h"
 #include "pipeline/show/camera.h"
+#include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
 #include "pipeline/show/placement.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
@@ -52,23 +52,6 @@ struct AttitudeKey {
   std::vector<V3d> turns{};
 };
 
-// What keyframes can change, besides the attitude.
-enum class Channel {
-  kRoll,
-  kElevation,
-  kDomeTilt,
-  kFov,  // radians, flat pictures
-  kEv,
-  kGainOne,  // of a sky's background
-  kGainThree,
-  kGainFour,
-  kStarGainOne,
-  kStarGainThree,
-  kMagnitudeOne,  // the faintest stars taken
-  kMagnitudeThree
-};
-inline constexpr std::size_t kChannels = 12;
-
 struct Segment {
   std::string type = "static";  // of its trajectory, in the words of show files
   double duration_s = 0;        // show seconds, > 0
@@ -80,8 +63,9 @@ struct Segment {
   Placement placement;
   Camera camera;                       // where nothing is keyframed
   std::vector<AttitudeKey> attitudes;  // keyframes in ascending order; empty: camera.attitude
-  // By Channel, where the show or the segment keyframes it or the segment has a value of its own.
-  std::array<std::optional<Curve>, kChannels> curves;
+  // Those channels have a curve that the show or the segment keyframes, or of which the segment has a
+  // value of its own.
+  PerChannel<std::optional<Curve>> curves;
 };
 
 // ---- the sky ----
@@ -195,6 +179,13 @@ struct Show {
 inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
 
 inline constexpr int kMostFrames = 10'000'000;
+
+inline const Segment& segment_of(const Show& show, int k) {
+  return show.timeline[static_cast<std::size_t>(k)];
+}
+
+// The value of a channel t seconds into the show: that of its curve, or else `constant`.
+double value_at(const Segment& segment, Channel channel, double t, double constant);
 
 // Show seconds at which each segment begins, and, last, at which the show ends.
 std::vector<double> segment_times(const Show& show);

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "pipeline/show/assets.h"
+#include "pipeline/show/channel_values.h"
 #include "pipeline/show/nearest_word.h"
-#include "pipeline/show/values_section.h"
 
 namespace domefall {
 namespace {
@@ -102,24 +102,30 @@ void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (const auto found = read_background(item, lookup, true)) sky.background = *found;
 }
 
+// The sky of region I where the show says nothing else.  The shipped files are asked for only where it
+// does not name others.
+RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup) {
+  RegionSky sky;
+  if (!own.find("background"))
+    if (const auto background = milky_way(root, lookup)) sky.background = *background;
+  if (!own.find("stars"))
+    if (const auto file = lookup.shipped(root, kNakedEyeStars)) sky.stars = StarField{*file};
+  return sky;
+}
+
 }  // namespace
 
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
   const Section sky = subsection(
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
-  const Section one = subsection(sky, "region_I", {"background", "gain", "stars"});
-  const Section three = subsection(sky, "region_III", {"background", "gain", "stars"});
-  // The shipped files are asked for only where the show does not name others.
-  if (!one.find("background"))
-    if (const auto background = milky_way(root, lookup))
-      show.sky[SkyRegion::kI].background = *background;
-  if (!one.find("stars"))
-    if (const auto file = lookup.shipped(root, kNakedEyeStars))
-      show.sky[SkyRegion::kI].stars = {*file, 6.5};
-  read_region(one, lookup, show.sky[SkyRegion::kI]);
-  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
-  read_region(three, lookup, show.sky[SkyRegion::kIII]);
-  if (const Item* four = sky.find("region_IV"))
+  RegionSky before;
+  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
+    const Section own = subsection(sky, kSkyKeys[region], {"background", "gain", "stars"});
+    if (region == SkyRegion::kI) before = default_sky(root, own, lookup);
+    read_region(own, lookup, before);
+    show.sky[region] = before;
+  }
+  if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV]))
     read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);
   show.panorama_shift.blueshift_power =
       sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);

@@ -1,5 +1,7 @@
 #include "pipeline/show/timeline_section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -77,43 +79,28 @@ class TimelineReader {
     if (*dissolve <= most)
       segment.dissolve_s = *dissolve;
     else
-      item->fail("must be at most " + short_number(most) +
-                 " (seconds), which is how long this segment and what is left of the one before "
-                 "it last, got " +
-                 short_number(*dissolve));
+      item->fail(
+          fmt::format("must be at most {} (seconds), which is how long this segment and "
+                      "what is left of the one before it last, got {}",
+                      short_number(most), short_number(*dissolve)));
   }
 
-  double constant_of(const Camera& camera, Channel channel) const {
-    const auto stars = [](const RegionSky& sky) { return sky.stars.value_or(StarField{}); };
-    switch (channel) {
-      case Channel::kRoll:
-        return camera.roll;
-      case Channel::kElevation:
-        return camera.elevation;
-      case Channel::kDomeTilt:
-        return camera.dome_tilt;
-      case Channel::kFov: {
-        const auto* flat = std::get_if<Stereographic>(&show_.projection);
-        return flat ? flat->fov : 0;
-      }
-      case Channel::kEv:
-        return show_.exposure.ev;
-      case Channel::kGainOne:
-        return show_.sky[SkyRegion::kI].background_gain;
-      case Channel::kGainThree:
-        return show_.sky[SkyRegion::kIII].background_gain;
-      case Channel::kGainFour:
-        return show_.sky[SkyRegion::kIV].background_gain;
-      case Channel::kStarGainOne:
-        return show_.sky[SkyRegion::kI].star_gain;
-      case Channel::kStarGainThree:
-        return show_.sky[SkyRegion::kIII].star_gain;
-      case Channel::kMagnitudeOne:
-        return stars(show_.sky[SkyRegion::kI]).max_magnitude;
-      case Channel::kMagnitudeThree:
-        break;
+  // The values of the show, which hold wherever neither a segment nor a keyframe says otherwise.
+  PerChannel<double> constants(const Camera& camera) const {
+    PerChannel<double> values;
+    values[Channel::kRoll] = camera.roll;
+    values[Channel::kElevation] = camera.elevation;
+    values[Channel::kDomeTilt] = camera.dome_tilt;
+    if (const auto* flat = std::get_if<Stereographic>(&show_.projection))
+      values[Channel::kFov] = flat->fov;
+    values[Channel::kEv] = show_.exposure.ev;
+    for (const SkyRegion region : kEverySky) {
+      const RegionSky& sky = show_.sky[region];
+      values[gain_channel(region)] = sky.background_gain;
+      values[star_gain_channel(region)] = sky.star_gain;
+      values[max_magnitude_channel(region)] = sky.stars.value_or(StarField{}).max_magnitude;
     }
-    return stars(show_.sky[SkyRegion::kIII]).max_magnitude;
+    return values;
   }
 
   // Camera, exposure and skies, each from the nearest that says it: the segment's keyframes, the
@@ -122,25 +109,19 @@ class TimelineReader {
     CameraKeys own;
     if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
     ChannelValues values = read_values(section);
-    const ChannelValues of_camera = camera_values(own);
-    for (std::size_t k = 0; k < kChannels; ++k)
-      if (of_camera[k]) values[k] = of_camera[k];
+    lay_over(values, own.values);
     std::vector<Keyframe> keyframes;
     if (const Item* list = section.find("keyframes"))
       keyframes = read_keyframes(*list, begin, segment.duration_s, camera_, lookup_);
 
     segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
-    const Camera shows = camera_from(camera_.keys, show_.projection);
-    const Camera& there = segment.camera;
-    for (std::size_t k = 0; k < kChannels; ++k) {
-      const auto channel = static_cast<Channel>(k);
-      const auto of_show = curve_through(keyframes_, channel, 0, constant_of(shows, channel));
-      std::optional<Curve>& curve = segment.curves[k];
-      if (values[k])
-        curve = Curve{{{begin, *values[k]}}};
-      else if (of_show)
-        curve = of_show;
-      const double base = curve ? value_at(*curve, begin) : constant_of(there, channel);
+    const PerChannel<double> of_show = constants(camera_from(camera_.keys, show_.projection)),
+                             of_segment = constants(segment.camera);
+    for (const Channel channel : kEveryChannel) {
+      std::optional<Curve>& curve = segment.curves[channel];
+      curve = values[channel] ? Curve{{{begin, *values[channel]}}}
+                              : curve_through(keyframes_, channel, 0, of_show[channel]);
+      const double base = value_at(segment, channel, begin, of_segment[channel]);
       if (auto through = curve_through(keyframes, channel, begin, base)) curve = through;
     }
     if (!own.attitude)
@@ -221,8 +202,8 @@ void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, d
   for (std::size_t k = 0; k < keyframes.size(); ++k)
     if (keyframes[k].at_s > end)
       peek((*read_list(list))[k], "at_s")
-          ->fail("lies behind the end of the show at " + short_number(end) + " s, got " +
-                 short_number(keyframes[k].at_s));
+          ->fail(fmt::format("lies behind the end of the show at {} s, got {}", short_number(end),
+                             short_number(keyframes[k].at_s)));
 }
 
 }  // namespace
@@ -242,14 +223,16 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
     reader.read(item);
     const double frames = reader.end() * show.frames_per_second;
     if (fitted && frames > kMostFrames)
-      item.fail("brings the show to " + short_number(frames) + " frames; at most " +
-                std::to_string(kMostFrames) + " are possible");
+      item.fail(fmt::format("brings the show to {} frames; at most {} are possible",
+                            short_number(frames), kMostFrames));
     fitted = frames <= kMostFrames;
   }
   if (reader.end() * show.frames_per_second < 0.5)
-    list->fail("ends after " + short_number(reader.end()) + " s, before half a frame is over; at " +
-               short_number(show.frames_per_second) + " frames per second a frame lasts " +
-               short_number(1 / show.frames_per_second) + " s");
+    list->fail(
+        fmt::format("ends after {} s, before half a frame is over; at {} frames per second a "
+                    "frame lasts {} s",
+                    short_number(reader.end()), short_number(show.frames_per_second),
+                    short_number(1 / show.frames_per_second)));
   if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
   return reader.take();
 }

@@ -1,5 +1,7 @@
 #include "pipeline/show/timing_section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,19 +23,18 @@ std::optional<Leg> read_leg(const Section& s, std::string_view key, std::string_
     item->fail("says on which leg " + std::string(radius) + " lies; give that too");
     return std::nullopt;
   }
-  const auto leg = s.choice(key, {"inward", "outward"});
-  return leg ? std::optional(*leg == 0 ? Leg::kInward : Leg::kOutward) : std::nullopt;
+  return s.word<Leg>(key, {{"inward", Leg::kInward}, {"outward", Leg::kOutward}});
 }
 
 void fail_unreached(const Item& item, const Trajectory& trajectory, std::optional<Leg> leg,
                     const char* when) {
   const auto [low, high] = reach(trajectory);
-  std::string range = "it stays at r = " + short_number(low) + " M";
+  std::string range = fmt::format("it stays at r = {} M", short_number(low));
   if (low < high)
-    range = "it moves between r = " + short_number(low) + " M and " +
-            (std::isinf(high) ? "infinity" : short_number(high) + " M");
-  item.fail("is not passed " + (leg ? "on the " + leg_name(*leg) + " leg " : std::string()) + when +
-            "; " + range);
+    range = fmt::format("it moves between r = {} M and {}", short_number(low),
+                        std::isinf(high) ? "infinity" : short_number(high) + " M");
+  item.fail(fmt::format("is not passed {}{}; {}",
+                        leg ? fmt::format("on the {} leg ", leg_name(*leg)) : "", when, range));
 }
 
 std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
@@ -45,9 +46,10 @@ std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
     if (!tau) return std::nullopt;
     if (*tau > birth(trajectory) && *tau < lifetime(trajectory)) return tau;
     s.find("from_tau_m")
-        ->fail("must lie within the trajectory, that is between " +
-               short_number(birth(trajectory)) + " and " + short_number(lifetime(trajectory)) +
-               " (units of M), got " + short_number(*tau));
+        ->fail(fmt::format(
+            "must lie within the trajectory, that is between {} and {} (units of M), got {}",
+            short_number(birth(trajectory)), short_number(lifetime(trajectory)),
+            short_number(*tau)));
     return std::nullopt;
   }
   if (!given) {
@@ -88,8 +90,9 @@ std::optional<double> read_end_time(const Section& s, const Trajectory& trajecto
   if (!tau) return std::nullopt;
   if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
   s.find("to_tau_m")
-      ->fail("must be at least " + short_number(begin) + ", where the segment begins, and below " +
-             short_number(lifetime(trajectory)) + " (units of M), got " + short_number(*tau));
+      ->fail(fmt::format(
+          "must be at least {}, where the segment begins, and below {} (units of M), got {}",
+          short_number(begin), short_number(lifetime(trajectory)), short_number(*tau)));
   return std::nullopt;
 }
 
@@ -100,9 +103,10 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   const double end = begin + rate->span;
   if (end < lifetime(trajectory)) return Timing{begin, end, Pace::kSteady, rate->begin, rate->end};
   const Item* given = s.one_of({"rate_m_per_s", "time_lapse"});
-  const std::string what = "lets " + short_number(rate->span) +
-                           " M of proper time pass in the segment, but the trajectory ends " +
-                           short_number(lifetime(trajectory) - begin) + " M after its beginning";
+  const std::string what = fmt::format(
+      "lets {} M of proper time pass in the segment, but the trajectory ends {} M after its "
+      "beginning",
+      short_number(rate->span), short_number(lifetime(trajectory) - begin));
   if (given)
     given->fail(what + "; slow it down, shorten duration_s or give to_r");
   else
@@ -118,15 +122,16 @@ bool check_end(const Section& s, const Trajectory& trajectory, double tau) {
     const double wanted = s.number("to_r", kRadius).value_or(end.r);
     if (std::abs(end.r - wanted) <= kEndTolerance * wanted) return true;
     to_r->fail(
-        "lies too close to the singularity: the proper time of this trajectory, rounded, leads to "
-        "r = " +
-        short_number(end.r) + " M instead; end farther out");
+        fmt::format("lies too close to the singularity: the proper time of this trajectory, "
+                    "rounded, leads to r = {} M instead; end farther out",
+                    short_number(end.r)));
     return false;
   }
   if (end.r >= kNearest * (1 - 1e-9) && end.r <= kFarthest * (1 + 1e-9)) return true;
   const Item* given = s.one_of({"to_tau_m", "rate_m_per_s", "time_lapse"});
-  const std::string what = "leads to r = " + short_number(end.r) + " M; shows go from " +
-                           short_number(kNearest) + " to " + short_number(kFarthest) + " M";
+  const std::string what =
+      fmt::format("leads to r = {} M; shows go from {} to {} M", short_number(end.r),
+                  short_number(kNearest), short_number(kFarthest));
   if (given)
     given->fail(what);
   else
@@ -170,26 +175,32 @@ std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optiona
 bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
   const Item* item = s.find("pace");
   if (!item) return true;
-  const auto pace = s.choice(
-      "pace", {"steady", "eased", "eased_in", "eased_out", "slowing", "quickening", "frozen"});
+  enum class Word { kSteady, kEased, kEasedIn, kEasedOut, kSlowing, kQuickening, kFrozen };
+  const auto pace = s.word<Word>("pace", {{"steady", Word::kSteady},
+                                          {"eased", Word::kEased},
+                                          {"eased_in", Word::kEasedIn},
+                                          {"eased_out", Word::kEasedOut},
+                                          {"slowing", Word::kSlowing},
+                                          {"quickening", Word::kQuickening},
+                                          {"frozen", Word::kFrozen}});
   if (!pace) return false;
   const Item* rate = s.find("rate_m_per_s");
   const bool ramped = rate && rate->node.IsSequence();
   switch (*pace) {
-    case 0:
+    case Word::kSteady:
       return true;
-    case 1:
+    case Word::kEased:
       timing.pace = Pace::kEased;
       break;
-    case 2:
+    case Word::kEasedIn:
       timing.rate_begin = 0, timing.rate_end = 2;
       break;
-    case 3:
+    case Word::kEasedOut:
       timing.rate_begin = 2, timing.rate_end = 0;
       break;
-    case 4:
-    case 5: {
-      const bool slowing = *pace == 4;
+    case Word::kSlowing:
+    case Word::kQuickening: {
+      const bool slowing = *pace == Word::kSlowing;
       timing.pace = slowing ? Pace::kSlowing : Pace::kQuickening;
       const bool singular = reach(trajectory).first == 0;
       if (singular && std::isfinite(slowing ? lifetime(trajectory) : birth(trajectory))) break;
@@ -198,7 +209,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
                      : "of 'quickening' needs a trajectory that begins in the past singularity");
       return false;
     }
-    default:
+    case Word::kFrozen:
       timing.tau_end = timing.tau_begin;
       for (const char* key : {"to_r", "to_tau_m", "rate_m_per_s", "time_lapse", "orbits"})
         if (const Item* other = s.find(key)) {
@@ -217,7 +228,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
   const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");
-  if (pace && pace->node.IsScalar() && pace->node.Scalar() == "frozen") {
+  if (pace && is_word(*pace, "frozen")) {
     if (!read_pace(s, trajectory, timing)) return std::nullopt;
     return timing;
   }

@@ -1,5 +1,7 @@
 #include "pipeline/show/trajectory_section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -56,8 +58,8 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
     const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
     (pace ? *pace : item)
-        .fail("makes " + short_number(orbits) + " orbits in the segment; at most " +
-              short_number(kMostOrbits) + " are possible");
+        .fail(fmt::format("makes {} orbits in the segment; at most {} are possible",
+                          short_number(orbits), short_number(kMostOrbits)));
     return std::nullopt;
   }
   return timed(s, CircularOrbit{*r}, *rate, mirrored);
@@ -69,14 +71,14 @@ std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const R
   const double most = proper_time_to(fall, std::max(kNearest, fall.from_r / kLongestFall));
   if (!rate || rate->span <= most) return rate;
   s.one_of({"rate_m_per_s", "time_lapse"})
-      ->fail("lets " + short_number(rate->span) +
-             " M of proper time pass in the segment, but from r = " + short_number(fall.from_r) +
-             " the singularity is " + short_number(lifetime(fall)) +
-             " M away; slow it down, shorten duration_s or give to_r");
+      ->fail(fmt::format("lets {} M of proper time pass in the segment, but from r = {} the "
+                         "singularity is {} M away; slow it down, shorten duration_s or give to_r",
+                         short_number(rate->span), short_number(fall.from_r),
+                         short_number(lifetime(fall))));
   return std::nullopt;
 }
 
-std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage) {
+std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "region",
                          "rest_r", "angular_momentum", "v_inf", "impact_parameter", "from_leg",
                          "from_tau_m", "to_leg", "to_tau_m"});
@@ -89,7 +91,7 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
   const bool mirrored = is_in_region_three(s);
   if (timing && !to) {
     const Item* pace = s.find("pace");
-    if (pace && pace->node.IsScalar() && pace->node.Scalar() == "slowing") {
+    if (pace && is_word(*pace, "slowing")) {
       pace->fail("of 'slowing' needs to_r, not a rate");
       return std::nullopt;
     }
@@ -99,18 +101,21 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
   const double end = to_r.value_or(kDefaultEnd);
   if (end >= *from_r) {
     (to ? to : s.find("from_r"))
-        ->fail(to ? "must stay below from_r = " + short_number(*from_r) + " (units of M), got " +
-                        short_number(end) + ": a free fall only goes inward"
-                  : "must exceed " + short_number(end) +
-                        " (units of M), the default of to_r, got " + short_number(*from_r) +
-                        ": a free fall only goes inward");
+        ->fail(to ? fmt::format("must stay below from_r = {} (units of M), got {}: a free fall "
+                                "only goes inward",
+                                short_number(*from_r), short_number(end))
+                  : fmt::format("must exceed {} (units of M), the default of to_r, got {}: a free "
+                                "fall only goes inward",
+                                short_number(end), short_number(*from_r)));
     return std::nullopt;
   }
   if (end * kLongestFall < *from_r) {
     (to ? to : s.find("from_r"))
-        ->fail(std::string(to ? "" : "needs to_r, whose default 0.05 is too deep: to_r ") +
-               "must be at least from_r / 1e8 = " + short_number(*from_r / kLongestFall) +
-               " (units of M), got " + short_number(end) + "; fall on in a further segment");
+        ->fail(
+            fmt::format("{}must be at least from_r / 1e8 = {} (units of M), got {}; fall on in a "
+                        "further segment",
+                        to ? "" : "needs to_r, whose default 0.05 is too deep: to_r ",
+                        short_number(*from_r / kLongestFall), short_number(end)));
     return std::nullopt;
   }
   return timed(s, fall, Rate{proper_time_to(fall, end)}, mirrored);
@@ -149,15 +154,6 @@ std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stag
   return TimedTrajectory{stage.before->trajectory, *timing, placement};
 }
 
-constexpr std::array<std::string_view, 11> kTypes{"static", "circular", "parabolic", "hyperbolic",
-                                                  "bound",  "infall",   "thrown",    "kruskal",
-                                                  "path",   "velocity", "continue"};
-
-// These work in flat space too.
-bool needs_hole(std::string_view type) {
-  return type != "static" && type != "velocity" && type != "continue";
-}
-
 // A fall that says more than RadialInfall knows.
 bool is_curved(const Item& item) {
   static constexpr std::array<std::string_view, 8> kKeys{
@@ -167,26 +163,45 @@ bool is_curved(const Item& item) {
                      [&item](std::string_view key) { return peek(item, key).has_value(); });
 }
 
-std::optional<TimedTrajectory> read_kind(std::string_view type, const Item& item,
-                                         const Stage& stage, Lookup& lookup) {
-  if (type == "static") return read_static(item, stage);
-  if (type == "circular") return read_circular(item, stage);
-  if (type == "parabolic") return read_parabolic(item, stage);
-  if (type == "hyperbolic") return read_hyperbolic(item, stage);
-  if (type == "bound") return read_bound(item, stage);
-  if (type == "infall")
-    return is_curved(item) ? read_curved_infall(item, stage) : read_infall(item, stage);
-  if (type == "thrown") return read_thrown(item, stage, lookup);
-  if (type == "kruskal") return read_kruskal(item, stage);
-  if (type == "path") return read_path(item, stage, lookup);
-  if (type == "velocity") return read_velocity(item, stage, lookup);
-  return read_continue(item, stage);
+std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage) {
+  return is_curved(item) ? read_curved_infall(item, stage) : read_radial_infall(item, stage);
 }
+
+// What a trajectory may be: the word for its type, whether flat space has it, and its reader.
+struct Type {
+  std::string_view name;
+  bool in_flat_space;
+  std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
+};
+
+// The reader of a type that names neither files nor stars.
+template <std::optional<TimedTrajectory> (*Read)(const Item&, const Stage&)>
+std::optional<TimedTrajectory> without_lookup(const Item& item, const Stage& stage, Lookup&) {
+  return Read(item, stage);
+}
+
+constexpr std::array kTypes{Type{"static", true, without_lookup<read_static>},
+                            Type{"circular", false, without_lookup<read_circular>},
+                            Type{"parabolic", false, without_lookup<read_parabolic>},
+                            Type{"hyperbolic", false, without_lookup<read_hyperbolic>},
+                            Type{"bound", false, without_lookup<read_bound>},
+                            Type{"infall", false, without_lookup<read_infall>},
+                            Type{"thrown", false, read_thrown},
+                            Type{"kruskal", false, without_lookup<read_kruskal>},
+                            Type{"path", false, read_path},
+                            Type{"velocity", true, read_velocity},
+                            Type{"continue", true, without_lookup<read_continue>}};
+
+constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
+  std::array<std::string_view, kTypes.size()> names;
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = kTypes[k].name;
+  return names;
+}();
 
 }  // namespace
 
 bool is_in_region_three(const Section& s) {
-  return s.choice("region", {"I", "III"}).value_or(0) == 1;
+  return s.word<bool>("region", {{"I", false}, {"III", true}}).value_or(false);
 }
 
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
@@ -194,19 +209,20 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   const auto type = peek(item, "type");
   if (!type) {
     if (item.node.IsMap())
-      item.problems->add(item.at, item.path + ".type is missing: " + listed(kTypes));
+      item.problems->add(item.at, item.path + ".type is missing: " + listed(kTypeNames));
     else
       item.fail("must be a map with a type, e.g. {type: infall, from_r: 30}, got " + kind_of(item));
     return std::nullopt;
   }
-  const auto kind = read_choice(*type, kTypes);
-  if (!kind) return std::nullopt;
-  if (!stage.mass_solar && needs_hole(kTypes[*kind])) {
-    type->fail("'" + type->node.Scalar() +
-               "' needs a black hole: give the show black_hole.mass_solar");
+  const auto chosen = read_choice(*type, kTypeNames);
+  if (!chosen) return std::nullopt;
+  const Type& kind = kTypes[*chosen];
+  if (!stage.mass_solar && !kind.in_flat_space) {
+    type->fail(
+        fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
     return std::nullopt;
   }
-  return read_kind(kTypes[*kind], item, stage, lookup);
+  return kind.read(item, stage, lookup);
 }
 
 }  // namespace domefall

@@ -72,14 +72,15 @@ V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVeloc
 
 std::optional<V3d> read_direction(const Item& item, const Stage& stage, const GivenVelocity& frame,
                                   Lookup& lookup) {
-  static constexpr std::array<std::string_view, 6> kWords{"inward",   "outward", "forward",
-                                                          "backward", "north",   "south"};
-  static const std::array<V3d, 6> kDirections{V3d(-1, 0, 0), V3d(1, 0, 0),  V3d(0, 0, 1),
-                                              V3d(0, 0, -1), V3d(0, -1, 0), V3d(0, 1, 0)};
-  for (std::size_t k = 0; k < kWords.size(); ++k)
-    if (item.node.IsScalar() && item.node.Scalar() == kWords[k]) return kDirections[k];
+  static const Words<V3d, 6> kWords{{{"inward", V3d(-1, 0, 0)},
+                                     {"outward", V3d(1, 0, 0)},
+                                     {"forward", V3d(0, 0, 1)},
+                                     {"backward", V3d(0, 0, -1)},
+                                     {"north", V3d(0, -1, 0)},
+                                     {"south", V3d(0, 1, 0)}}};
+  if (const auto direction = meaning(item, kWords)) return direction;
   if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
-  const auto place = read_sky_place(item, lookup, kWords);
+  const auto place = read_sky_place(item, lookup, names_of(kWords));
   if (!place) return std::nullopt;
   if (frame.region == Region::kIV) {
     item.fail("names a place on the sky, but from region IV no sky is seen");
@@ -143,11 +144,14 @@ Tetrad tetrad_of(Region region, Against against) {
 }  // namespace
 
 std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radius_key) {
-  const auto against = static_cast<Against>(
-      s.choice("against", {"static", "free_fall", "outgoing", "constant_t"}).value_or(0));
-  std::optional<Region> region;
-  if (const auto named = s.choice("region", {"I", "II", "III", "IV"}))
-    region = static_cast<Region>(*named);
+  const auto against = s.word<Against>("against", {{"static", Against::kStatic},
+                                                   {"free_fall", Against::kFreeFall},
+                                                   {"outgoing", Against::kOutgoing},
+                                                   {"constant_t", Against::kConstantT}})
+                           .value_or(Against::kStatic);
+  const auto region = s.word<Region>(
+      "region",
+      {{"I", Region::kI}, {"II", Region::kII}, {"III", Region::kIII}, {"IV", Region::kIV}});
   if (region && !is_found_in(against, *region)) {
     s.find("region")->fail(std::string("of ") + region_name(*region) +
                            " has no observer of the kind that 'against' names: static is found in "

@@ -134,19 +134,6 @@ void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quant
 
 // ---- keyframes ----
 
-constexpr const char* kChannelNames[kChannels] = {"roll_deg",
-                                                  "elevation_deg",
-                                                  "dome_tilt_deg",
-                                                  "fov_deg",
-                                                  "exposure.ev",
-                                                  "sky.region_I.gain",
-                                                  "sky.region_III.gain",
-                                                  "sky.region_IV.gain",
-                                                  "sky.region_I.stars.gain",
-                                                  "sky.region_III.stars.gain",
-                                                  "sky.region_I.stars.max_magnitude",
-                                                  "sky.region_III.stars.max_magnitude"};
-
 // Warns of what jumps at keyframes with `ease: hold`.
 class Holds {
  public:
@@ -154,11 +141,11 @@ class Holds {
 
   void all() {
     for (int k = 0; k < static_cast<int>(show_.timeline.size()); ++k) {
-      const Segment& segment = show_.timeline[static_cast<std::size_t>(k)];
-      for (std::size_t c = 0; c < kChannels; ++c)
+      const Segment& segment = segment_of(show_, k);
+      for (const Channel channel : kEveryChannel)
         // A jump of the exposure is found when frames are compared.
-        if (segment.curves[c] && static_cast<Channel>(c) != Channel::kEv)
-          of_curve(k, *segment.curves[c], kChannelNames[c]);
+        if (segment.curves[channel] && channel != Channel::kEv)
+          of_curve(k, *segment.curves[channel], key_of(channel));
       for (std::size_t i = 1; i < segment.attitudes.size(); ++i)
         if (segment.attitudes[i].ease == Ease::kHold)
           add(k, segment.attitudes[i].at_s,
@@ -167,7 +154,7 @@ class Holds {
   }
 
  private:
-  void of_curve(int segment, const Curve& curve, const char* name) {
+  void of_curve(int segment, const Curve& curve, const std::string& name) {
     for (std::size_t i = 1; i < curve.keys.size(); ++i)
       if (curve.keys[i].ease == Ease::kHold && curve.keys[i].value != curve.keys[i - 1].value)
         add(segment, curve.keys[i].at_s, fmt::format("{} jumps at a keyframe that holds", name));

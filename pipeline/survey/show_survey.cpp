@@ -90,7 +90,7 @@ double part_of(const Segment& segment, double tau) {
 }
 
 SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
-  const Segment& segment = show.timeline[static_cast<std::size_t>(k)];
+  const Segment& segment = segment_of(show, k);
   const Timing& timing = segment.timing;
   const SampledPath path(
       segment, static_cast<int>(

@@ -20,11 +20,10 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
 
 // The faintest stars of a sky that any frame takes.
 double deepest_magnitude(const Show& show, SkyRegion which, double constant) {
-  const auto channel = static_cast<std::size_t>(which == SkyRegion::kI ? Channel::kMagnitudeOne
-                                                                       : Channel::kMagnitudeThree);
   double deepest = constant;
   for (const Segment& segment : show.timeline)
-    if (const auto& curve = segment.curves[channel]) deepest = std::max(deepest, largest(*curve));
+    if (const auto& curve = segment.curves[max_magnitude_channel(which)])
+      deepest = std::max(deepest, largest(*curve));
   return deepest;
 }
 

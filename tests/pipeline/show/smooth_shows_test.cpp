@@ -126,7 +126,7 @@ bool is_critical(const Show& show, double t) {
   for (const double join : segment_times(show))
     if (std::abs(join - t) < near) return true;
   const Segment& s = show.timeline[static_cast<std::size_t>(segment_at(show, t))];
-  for (const auto& curve : s.curves)
+  for (const auto& curve : s.curves.values)
     if (curve && begins_or_ends(*curve, t, near)) return true;
   return std::any_of(s.attitudes.begin(), s.attitudes.end(),
                      [&](const auto& key) { return std::abs(key.at_s - t) < near; });

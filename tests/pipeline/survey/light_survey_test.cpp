@@ -14,8 +14,7 @@ TEST(LightSurvey, FindsTheBrightestFrameAndKeepsItsMean) {
   show.timeline[0].duration_s = 6;
   show.timeline[0].timing.tau_end = 1;
   // The middle is brightest, and the ends are fades.
-  show.timeline[0].curves[static_cast<std::size_t>(Channel::kEv)] =
-      Curve{{{0, -9}, {2, 0}, {3, 1}, {4, 0.5}, {6, -8}}};
+  show.timeline[0].curves[Channel::kEv] = Curve{{{0, -9}, {2, 0}, {3, 1}, {4, 0.5}, {6, -8}}};
   Renderer renderer(show, 2);
   const LightSurvey found = survey_light(show, renderer, nullptr);
   EXPECT_EQ(found.frames, 7);

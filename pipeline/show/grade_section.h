@@ -1,4 +1,4 @@
-// The sections that shape the picture: `stars`, `exposure`, `grade` and `output`.
+// The show's `grade` and `output`: what is made of scene-linear frames.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -7,9 +7,10 @@
 
 namespace domefall {
 
-PointSpreadLaw read_point_spread(const Section& show);
-Exposure read_exposure(const Section& show);
+// Reads `grade`; the shipped configuration stands in for one that is not named.
 GradeSettings read_grade(const Section& show, const Lookup& lookup);
+
+// Reads `output: {graded}`.
 GradedFormat read_graded_format(const Section& show);
 
 }  // namespace domefall

@@ -1,0 +1,17 @@
+// The sections `exposure` and `sky` of a segment or a keyframe, which name channels.
+#pragma once
+
+#include "pipeline/show/channel.h"
+#include "pipeline/show/section.h"
+
+namespace domefall {
+
+inline constexpr Range kStops = Range{"stops"}.within(-30, 30);
+inline constexpr Range kGain = kPureNumber.within(0, 1e6);
+inline constexpr Range kMagnitudes = Range{"magnitudes"}.within(-30, 40);
+
+// Reads `exposure: {ev}` and `sky: {region_I: {gain, stars: {gain, max_magnitude}}, ...}` of a section.
+// The camera's channels stay empty.
+ChannelValues read_values(const Section& section);
+
+}  // namespace domefall

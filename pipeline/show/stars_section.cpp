@@ -1,0 +1,52 @@
+#include "pipeline/show/stars_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace domefall {
+namespace {
+
+// Defaults of the law.
+constexpr double kMinSigmaDeg = 0.05, kMaxSigmaDeg = 0.3;
+constexpr double kHalo = 0.15, kHaloSigmaDeg = 0.2;
+constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
+                                                      "max_sigma_deg"};
+constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
+
+}  // namespace
+
+PointSpreadLaw read_point_spread(const Section& show) {
+  const Section s = subsection(show, "stars",
+                               {"law", "min_sigma_deg", "growth", "reference_magnitude",
+                                "max_sigma_deg", "halo", "halo_sigma_deg", "white_core"});
+  const bool psf = s.word<bool>("law", {{"size", false}, {"psf", true}}).value_or(false);
+  const auto keys_of_other_law =
+      psf ? std::span<const std::string_view>(kKeysOfSize) : std::span(kKeysOfPsf);
+  for (const std::string_view key : keys_of_other_law)
+    if (const Item* item = s.find(key))
+      item->fail(psf ? "belongs to stars.law: size, but the law is psf"
+                     : "belongs to stars.law: psf, but the law is size");
+  const Range sigma = kDegrees.above(0).at_most(10);
+  PointSpreadLaw law;
+  const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
+  const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
+  if (!psf && most < least)
+    s.find("max_sigma_deg")
+        ->fail(fmt::format("must be at least min_sigma_deg = {} (degrees), got {}",
+                           short_number(least), short_number(most)));
+  law.min_sigma = radians(least);
+  law.max_sigma = radians(most);
+  law.growth = s.number("growth", kPureNumber.within(0, 0.5), law.growth);
+  law.reference_magnitude =
+      s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40), law.reference_magnitude);
+  law.white_core = s.number("white_core", kPureNumber.within(0, 1e6), kWhiteCore);
+  if (!psf) return law;
+  law.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
+  law.halo_sigma = radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
+  return law;
+}
+
+}  // namespace domefall
