@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/cli/render_time.h"
 #include "pipeline/survey/light_survey.h"
+#include "pipeline/survey/render_time.h"
 #include "pipeline/survey/show_jumps.h"
 #include "pipeline/survey/show_survey.h"
 

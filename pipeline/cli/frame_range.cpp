@@ -1,5 +1,7 @@
 #include "pipeline/cli/frame_range.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <numeric>
@@ -14,7 +16,7 @@ namespace {
   throw InputError("--frames " + text + ": " + what);
 }
 
-// A whole number at the front of `rest`, which it is taken off.
+// Removes a whole number from the front of `rest` and returns it.
 int take_number(std::string_view& rest, const std::string& text) {
   int value = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
@@ -23,6 +25,7 @@ int take_number(std::string_view& rest, const std::string& text) {
   return value;
 }
 
+// Removes a character from the front of `rest`, and returns whether it was there.
 bool take(std::string_view& rest, char c) {
   if (rest.empty() || rest[0] != c) return false;
   rest.remove_prefix(1);
@@ -46,8 +49,7 @@ std::vector<int> parse_frames(const std::string& text, int count) {
     if (last < first) fail(text, "the range ends before it begins");
     if (step < 1) fail(text, "the step must be at least 1");
     if (last >= count)
-      fail(text, "the show has " + std::to_string(count) + " frames, the last is " +
-                     std::to_string(count - 1));
+      fail(text, fmt::format("the show has {} frames, the last is {}", count, count - 1));
     for (long k = first; k <= last; k += step) frames.insert(static_cast<int>(k));
   } while (take(rest, ','));
   if (!rest.empty()) fail(text, "expected frames such as 7, 0-299 or 0-599x10");

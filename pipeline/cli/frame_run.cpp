@@ -1,5 +1,7 @@
 #include "pipeline/cli/frame_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -36,6 +38,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// A run with what it makes once: the grader, the keys, the renderer.
 class Run {
  public:
   explicit Run(const FrameRun& run)
@@ -51,8 +54,9 @@ class Run {
 
   void all() {
     Progress progress(run_.frames.size());
-    // One frame is graded and written while the next is rendered, into the memory of the one before.  A
-    // large one is written first: two of 8k, and a graded one, would take more than 1.5 GiB.
+    // While one frame is graded and written, the next is rendered, into the memory of the one
+    // before.  A large frame is written first, since two of 8k and a graded one would take more
+    // than 1.5 GiB.
     const bool large =
         std::int64_t{columns(run_.show.projection)} * rows(run_.show.projection) > kMostPixelsOfTwo;
     std::future<void> writing;
@@ -103,9 +107,7 @@ class Run {
   bool grades() const { return run_.show.graded_format != GradedFormat::kNone; }
 
   std::filesystem::path path(const char* folder, int frame, const char* extension) const {
-    char number[16];
-    std::snprintf(number, sizeof number, "_%05d.", frame);
-    return run_.folder / folder / (name_ + number + extension);
+    return run_.folder / folder / fmt::format("{}_{:05d}.{}", name_, frame, extension);
   }
   std::filesystem::path linear_path(int frame) const { return path("linear", frame, "exr"); }
   std::filesystem::path graded_path(int frame) const {
@@ -130,7 +132,8 @@ class Run {
           ": the frame is missing, damaged or of another version of the show; render it first");
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
-      // All that the run will need: a damaged file is told before the first frame, not in the middle.
+      // All that the run needs is loaded at once, so that a damaged file ends it before its first
+      // frame.
       for (const int number : run_.frames) {
         const FrameState other = frame_state(run_.show, number);
         renderer_->load(plan_frame(run_.show, other));
@@ -146,7 +149,7 @@ class Run {
                      describe(plan_frame(run_.show, state), times).c_str());
     } catch (const std::runtime_error& error) {
       if (dynamic_cast<const InputError*>(&error)) throw;
-      throw std::runtime_error("frame " + std::to_string(state.frame) + ": " + error.what());
+      throw std::runtime_error(fmt::format("frame {}: {}", state.frame, error.what()));
     }
   }
 
@@ -165,7 +168,8 @@ class Run {
     return info;
   }
 
-  // Packing pixels is most of the work, so the two files are made side by side.
+  // Writes the files that are asked for.  Packing pixels is most of the work, so the two are made
+  // side by side.
   void write(const FrameState& state, const std::string& key, const HalfFrame& frame, bool linear,
              bool graded) const {
     double linear_s = 0, grade_s = 0, graded_s = 0;
@@ -189,7 +193,8 @@ class Run {
           state.frame, linear_s, graded_s, grade_s);
   }
 
-  // Some rows are graded while those before are packed.  Returns the seconds that were waited for grades.
+  // Writes a graded file, of which some rows are graded while those before are packed.  Returns the
+  // seconds spent waiting for grades.
   double write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
                             const GradedInfo& info) const {
     constexpr int kRows = GradedFile::kRows;
@@ -212,7 +217,7 @@ class Run {
     return waited_s;
   }
 
-  // Rows y0 <= y < y1, each thread a part of them.
+  // The rows y0 <= y < y1, of which each thread grades a part.
   GradedFrame graded_rows(const HalfFrame& frame, int y0, int y1) const {
     GradedFrame out(frame.width, y1 - y0);
     const int parts = file_threads();
@@ -251,7 +256,7 @@ class Run {
 
 constexpr int kSmallest = 16, kLargest = 16384;
 
-// -1 for what is no whole number.
+// The number that a text is; -1 if it is no whole number.
 int whole_number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

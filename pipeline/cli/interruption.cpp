@@ -7,7 +7,7 @@ namespace {
 
 volatile std::sig_atomic_t caught = 0;
 
-// A second signal finds the default action and ends the program at once.
+// Remembers a signal.  A second one finds the default action and ends the program at once.
 void remember(int signal) {
   caught = signal;
   std::signal(signal, SIG_DFL);

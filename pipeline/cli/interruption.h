@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM end a run between frames, so that nothing half-made stays behind.
+// Lets SIGINT and SIGTERM end a run between frames, so that nothing half-made stays behind.
 #pragma once
 
 namespace domefall {
@@ -7,7 +7,7 @@ struct Interrupted {
   int signal;
 };
 
-// From here on the two signals are remembered; without it they end the program at once.
+// Remembers the two signals from now on.  Without this call they end the program at once.
 void catch_interruptions();
 
 // Throws Interrupted if a signal has come.

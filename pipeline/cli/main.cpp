@@ -1,7 +1,11 @@
-// domefall: a show file in, graded Domemaster frames out.
+// The program domefall, which makes graded Domemaster frames from a show file.
 //
-// Exit codes: 0 done; 2 the input is wrong and trying again is useless; 75 worth trying again, here
-// or elsewhere; 128 + n stopped by signal n; 1 anything else.
+// Its exit codes are
+//   0        it is done
+//   2        the input is wrong, and trying again is useless
+//   75       it is worth trying again, here or elsewhere
+//   128 + n  signal n has stopped it
+//   1        anything else
 
 #include <cerrno>
 #include <cstdio>
@@ -23,7 +27,7 @@ int report(const char* message, int code) {
   return code;
 }
 
-// What other programs read must have reached them.
+// Returns the code if all output has been written, since other programs may read it.
 int flushed(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   throw domefall::TemporaryError(std::string("standard output: ") + std::strerror(errno));
@@ -43,7 +47,7 @@ int run(int argc, char** argv) {
   domefall::add_report(app);
   domefall::add_stars(app);
   domefall::add_sky(app);
-  // A wrong DOMEFALL_SIMD is told before anything is made.
+  // A wrong DOMEFALL_SIMD ends the program before anything is made.
   app.parse_complete_callback([] { domefall::simd_in_use(); });
   try {
     app.parse(argc, argv);

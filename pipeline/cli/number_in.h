@@ -1,4 +1,4 @@
-// A check of an option's number, as CLI::Range, which NaN passes.
+// A check of an option's number like CLI::Range, which lets NaN pass.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -39,7 +39,7 @@ void Progress::draw() const {
   const std::size_t done = made_ + skipped_;
   const std::size_t filled = total_ > 0 ? kWidth * done / total_ : kWidth;
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  // The rate counts frames that were made; skipping costs next to nothing and says nothing.
+  // The rate is of frames that were made, since skipping one takes next to no time.
   const double rate = static_cast<double>(made_) / seconds();
   std::fprintf(stderr, "\r[%s] %zu/%zu frames", bar.c_str(), done, total_);
   if (made_ > 0) {

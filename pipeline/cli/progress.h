@@ -1,4 +1,4 @@
-// A line on the terminal that says how far a run is; silent where there is no terminal.
+// A line on the terminal that says how far a run is.  It is silent where there is no terminal.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  // One more frame is done: made, or found good already.
+  // Each counts one more frame: one that was made, or one that was there and good.
   void made();
   void skipped();
 

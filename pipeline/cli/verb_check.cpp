@@ -12,8 +12,8 @@
 namespace domefall {
 namespace {
 
-// A file that is there may still be damaged: what the frames will read is read, also where no frame
-// that is looked at shows it.
+// Loads all that the frames will read, since a file may be damaged and none of the frames that are
+// measured need show it.
 void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
   const auto visits = [&survey](Region region) {
     return std::find(survey.regions.begin(), survey.regions.end(), region) != survey.regions.end();
@@ -24,7 +24,8 @@ void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) 
   if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
 }
 
-// Nothing where no temporary file can be written: that is no fault of the show's.
+// The time to render; nothing where it is not worth measuring, or where no temporary file can be
+// written, which is no fault of the show.
 std::optional<RenderTime> time_to_render(const Show& show, Renderer& renderer,
                                          const Grader* grader) {
   if (!is_worth_measuring(show)) return std::nullopt;

@@ -23,8 +23,9 @@ struct Options {
   double fov_deg = 100;
 };
 
-// A dome show on a flat screen: the look of someone in the seats, straight at what the camera looks
-// at, or 45 degrees up the front of the dome where it is given by angles.
+// Gives a frame the flat projection.  The view of a dome is that of someone in the seats, straight
+// at the camera's target or, where the camera is given by angles, 45 degrees up the front of the
+// dome.
 void flatten(const Show& show, FrameState& state, const Projection& flat) {
   if (state.vanishing) {
     auto vanishing = std::make_shared<FrameState>(*state.vanishing);
@@ -59,7 +60,8 @@ void preview(const Options& o) {
       resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
   FrameState state = frame_state(show, o.frame);
   flatten(show, state, flat);
-  // A screen is not a dome; of a show's own configuration we know no displays.
+  // The default display is for domes, and a preview for screens.  The displays of a show's own
+  // configuration are not known.
   if (show.grade.display.empty() && show.grade.config == shipped_asset(kDomeConfig))
     show.grade.display = "sRGB - Display";
   const Grader grader(show.grade);

@@ -26,15 +26,15 @@ PixelPosition parse_pixel(const std::string& text) {
   return at;
 }
 
-// What becomes of a blackbody there under the effects that the show keeps.
-void print_effects(const Effects& effects, const ViewRay& look, double width) {
-  const double g = look.frequency_ratio, colour = colour_ratio(effects, g);
+// Prints what becomes of a blackbody at the place that the ray hits, under the effects of the show.
+void print_effects(const Effects& effects, const ViewRay& ray, double width) {
+  const double g = ray.frequency_ratio, colour = colour_ratio(effects, g);
   const double colour2 = colour * colour;
   std::printf("thermal sky  temperature times %.6g, bolometric intensity times %.6g\n", colour,
               surface_brightness_ratio(effects, g) * colour2 * colour2);
   if (effects.amplification == Amplification::kEverything)
     std::printf("amplified    %.6g times, over the pixel's width\n",
-                amplification(look.bundle, width));
+                amplification(ray.bundle, width));
 }
 
 void probe(const Options& o) {
@@ -45,21 +45,21 @@ void probe(const Options& o) {
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
-  const ViewRay look =
+  const ViewRay ray =
       ViewTracer(state, optics, show.effects).trace(direction_at(show.projection, pixel));
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
   if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
-  const Equatorial at = equatorial({look.sky_direction});
-  const bool singularity = look.sky == SkyRegion::kIV;
+  const Equatorial at = equatorial({ray.sky_direction});
+  const bool singularity = ray.sky == SkyRegion::kIV;
   std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
-              singularity ? "the past singularity, region" : "sky", name_of(look.sky), at.ra_deg,
+              singularity ? "the past singularity, region" : "sky", name_of(ray.sky), at.ra_deg,
               at.dec_deg);
-  if (!singularity) std::printf("1 + z        %.9g\n", 1 / look.frequency_ratio);
-  std::printf("compression  %.6g towards the hole, %.6g across\n", look.radial_scale,
-              look.tangential_scale);
+  if (!singularity) std::printf("1 + z        %.9g\n", 1 / ray.frequency_ratio);
+  std::printf("compression  %.6g towards the hole, %.6g across\n", ray.radial_scale,
+              ray.tangential_scale);
   if (!singularity && show.effects != Effects{})
-    print_effects(show.effects, look, pixel_angle(show.projection, pixel));
+    print_effects(show.effects, ray, pixel_angle(show.projection, pixel));
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ struct Options {
   bool explain = false;
 };
 
-// Shared by render and grade: both walk the same frames and put them in the same places.
+// Does the work of render and of grade, which go over the same frames and put them in the same
+// places.
 void run(const Options& o, bool render) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);

@@ -58,9 +58,9 @@ TraceObserver observer_of(const RayTable& table, const std::string& name) {
   table.fail("observer must be rain, static, outgoing, T_II or T_IV, got '" + name + "'");
 }
 
-// Beyond 1e12 the silhouette is a point to double precision; below 1e-9, the two skies touch.  The
-// distances from the horizon and the light circle come from the decimals, of which a double of r near
-// there would have lost most.
+// Reads r.  Beyond 1e12 the silhouette is a point to double precision, and below 1e-9 the two skies
+// touch.  The distances from the horizon and the light circle come from the decimals, most of which
+// a double of an r near them would lose.
 Radius radius_of(const RayTable& table, TraceObserver observer, const std::string& text) {
   const long double r = table.number(text, "r");
   if (!(r >= 1e-9L && r <= 1e12L))
@@ -76,7 +76,7 @@ Radius radius_of(const RayTable& table, TraceObserver observer, const std::strin
           static_cast<double>(Decimal(exact - 3))};
 }
 
-// The edge and the offset make delta, which must be an angle.
+// Reads a ray that is given by its offset from an edge.  The sum must be an angle from 0 to pi.
 void read_edge(const RayTable& table, const std::string& edge, const std::string& offset,
                RayRequest& q) {
   if (edge != "silhouette" && edge != "region3")
@@ -100,7 +100,7 @@ RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& c
   }
   if (!cell[RayTable::kOffset].empty()) table.fail("offset is given without an edge");
   q.delta = table.number(cell[RayTable::kDelta], "delta");
-  // pi itself, rounded up in a decimal, is meant as pi.
+  // A decimal that is pi rounded up is taken as pi.
   constexpr long double kPi = std::numbers::pi_v<long double>;
   if (!(q.delta >= 0 && q.delta <= kPi * (1 + 1e-12L)))
     table.fail("delta must be from 0 to pi, got " + cell[RayTable::kDelta]);

@@ -5,7 +5,7 @@
 
 namespace domefall {
 
-// Each adds its subcommand, which does its work when the line is parsed.
+// Each adds its subcommand, which does its work when the command line is parsed.
 void add_check(CLI::App& app);
 void add_render(CLI::App& app);
 void add_grade(CLI::App& app);

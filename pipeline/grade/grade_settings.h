@@ -1,5 +1,5 @@
-// What turns a scene-linear frame into one for a projector or screen: an OpenColorIO display and
-// view, after the show's own ASC CDL.
+// The settings of a grade, which turns a scene-linear frame into one for a projector or a screen:
+// the show's own ASC CDL, then an OpenColorIO display and view.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 namespace domefall {
 
 struct GradeSettings {
-  std::filesystem::path config;  // OpenColorIO's; read_show puts in the shipped one
-  std::string display;           // empty: the configuration's default
-  std::string view;              // empty: the display's default
-  // ASC CDL, applied in ACEScct before the view; these defaults leave the frame as it is.
+  std::filesystem::path config;  // of OpenColorIO
+  std::string display;           // empty for the configuration's default
+  std::string view;              // empty for the display's default
+  // The ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.
   std::array<double, 3> slope{1, 1, 1}, offset{0, 0, 0}, power{1, 1, 1};
   double saturation = 1;
 };

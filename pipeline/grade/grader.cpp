@@ -1,10 +1,12 @@
 #include "pipeline/grade/grader.h"
 
 #include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/image/errors.h"
@@ -19,7 +21,7 @@ using Code = std::array<unsigned short, 3>;
 
 void apply(const ocio::CPUProcessor& cpu, const Imath::half* in, unsigned short* out, long pixels) {
   constexpr std::ptrdiff_t half = sizeof(Imath::half), word = sizeof(unsigned short);
-  // OpenColorIO takes what it reads as void*, too.
+  // OpenColorIO takes void* even for what it only reads.
   const ocio::PackedImageDesc source(const_cast<Imath::half*>(in), pixels, 1, 3,
                                      ocio::BIT_DEPTH_F16, half, 3 * half, 3 * half * pixels);
   ocio::PackedImageDesc target(out, pixels, 1, 3, ocio::BIT_DEPTH_UINT16, word, 3 * word,
@@ -34,7 +36,7 @@ Code graded_black(const ocio::CPUProcessor& cpu) {
   return code;
 }
 
-// Columns begin <= x < end hold all of a row that is not black.
+// The columns begin <= x < end, outside which a row is black.
 struct Lit {
   int begin, end;
 };
@@ -62,7 +64,8 @@ struct Grader::Processor {
 
 namespace {
 
-// A user's settings for other programs, which would make one node's frames differ from another's.
+// Removes a user's settings for other programs, which would make one node's frames differ from
+// another's.
 void ignore_environment() {
   for (const char* name : {"OCIO_ACTIVE_DISPLAYS", "OCIO_ACTIVE_VIEWS", "OCIO_INACTIVE_COLORSPACES",
                            "OCIO_OPTIMIZATION_FLAGS"})
@@ -80,20 +83,21 @@ ocio::ConstConfigRcPtr read_config(const GradeSettings& settings) {
   }
 }
 
+// The names at(0) to at(count - 1) in quotes, for a message.
 template <class At>
 std::string listed(int count, At at) {
-  std::string list;
-  for (int k = 0; k < count; ++k) list += (k ? ", '" : "'") + std::string(at(k)) + "'";
-  return list;
+  std::vector<std::string> names;
+  for (int k = 0; k < count; ++k) names.push_back(fmt::format("'{}'", at(k)));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::string chosen_display(const ocio::Config& config, const GradeSettings& settings) {
   if (settings.display.empty()) return config.getDefaultDisplay();
   for (int k = 0; k < config.getNumDisplays(); ++k)
     if (settings.display == config.getDisplay(k)) return settings.display;
-  throw InputError(settings.config.string() + " has no display '" + settings.display +
-                   "'; it has " +
-                   listed(config.getNumDisplays(), [&](int k) { return config.getDisplay(k); }));
+  throw InputError(
+      fmt::format("{} has no display '{}'; it has {}", settings.config.string(), settings.display,
+                  listed(config.getNumDisplays(), [&](int k) { return config.getDisplay(k); })));
 }
 
 std::string chosen_view(const ocio::Config& config, const GradeSettings& settings,
@@ -103,8 +107,9 @@ std::string chosen_view(const ocio::Config& config, const GradeSettings& setting
   const auto at = [&](int k) { return config.getView(display.c_str(), k); };
   for (int k = 0; k < count; ++k)
     if (settings.view == at(k)) return settings.view;
-  throw InputError(settings.config.string() + " has no view '" + settings.view +
-                   "' for the display '" + display + "'; it has " + listed(count, at));
+  throw InputError(fmt::format("{} has no view '{}' for the display '{}'; it has {}",
+                               settings.config.string(), settings.view, display,
+                               listed(count, at)));
 }
 
 bool changes_anything(const GradeSettings& s) {
@@ -119,7 +124,8 @@ ocio::TransformRcPtr space_change(const char* from, const char* to) {
   return change;
 }
 
-// In the configuration's space for colour timing, ACEScct in ours.
+// Appends the CDL in the configuration's space for colour timing, which is ACEScct in the shipped
+// one.
 void append_cdl(ocio::GroupTransform& group, const GradeSettings& settings) {
   auto cdl = ocio::CDLTransform::Create();
   cdl->setSlope(settings.slope.data());
@@ -151,8 +157,9 @@ Grader::Grader(const GradeSettings& settings) {
         ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
     processor_ = std::make_shared<const Processor>(Processor{cpu, graded_black(*cpu)});
   } catch (const ocio::Exception& error) {
-    throw InputError(settings.config.string() + ": the view '" + view_ + "' of the display '" +
-                     display_ + "' cannot be made from " + kWorkingSpaceName + ": " + error.what());
+    throw InputError(fmt::format("{}: the view '{}' of the display '{}' cannot be made from {}: {}",
+                                 settings.config.string(), view_, display_, kWorkingSpaceName,
+                                 error.what()));
   }
 }
 

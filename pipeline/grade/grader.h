@@ -1,4 +1,4 @@
-// SkyStore-linear frames to display-encoded ones, by OpenColorIO.
+// Grades scene-linear frames for a display, by OpenColorIO.
 #pragma once
 
 #include <memory>
@@ -9,27 +9,31 @@
 
 namespace domefall {
 
-// ACEScg -> the show's ASC CDL in ACEScct, left out altogether where it changes nothing -> display
-// and view of an OpenColorIO configuration -> 16 bits, clamped and rounded.  A pixel depends on
-// nothing but its own input; copies share one processor and may be used by any number of threads.
+// The grade of a show.  It takes ACEScg through the show's ASC CDL in ACEScct, unless that changes
+// nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
+// rounded.  A pixel depends on its own input alone.  Copies share one processor, and any number of
+// threads may use it.
 //
-// Measured, one thread of a 2-core machine, a domemaster of 4096 pixels: 0.6 s by the shipped view
-// Dome (27 million pixels a second), 1.5 s by ACES SDR, 0.4 s by Star log, 0.3 s by Un-tone-mapped.
+// One thread of a 2-core machine took 0.6 s for a domemaster of 4096 pixels by the shipped view
+// Dome (27 million pixels a second), 1.5 s by ACES SDR, 0.4 s by Star log and 0.3 s by
+// Un-tone-mapped.
 class Grader {
  public:
-  // Throws InputError for a configuration that cannot be used or is not named, and for an unknown
-  // display or view with the list of those known.
+  // Throws InputError if the configuration is not named or cannot be used, and if it does not have
+  // the display or the view, with a list of those that it has.
   explicit Grader(const GradeSettings& settings);
 
-  // Rows y0 <= y < y1 to out[y1 - y0][width][3].  Any split into rows gives the same values.
+  // Grades the rows y0 <= y < y1 into out[y1 - y0][width][3].  Any split into rows gives the same
+  // values.
   void grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out) const;
-  // The whole frame, on the calling thread.
+  // Grades the whole frame on the calling thread.
   GradedFrame grade(const HalfFrame& in) const;
 
-  // A name for what it does to a pixel: of all transforms and of the contents of the files they read.
+  // A digest of what it does to a pixel: of all transforms and of the contents of the files they
+  // read.
   const std::string& transform_id() const { return transform_id_; }
 
-  // As settled by the settings and the configuration's defaults.
+  // Those of the settings, or the configuration's defaults.
   const std::string& display() const { return display_; }
   const std::string& view() const { return view_; }
 

@@ -6,7 +6,7 @@
 namespace domefall {
 
 std::filesystem::path assets_folder() {
-  // Nothing in Domefall changes its environment.
+  // getenv is safe among threads, since nothing in Domefall changes its environment.
   if (const char* named = std::getenv("DOMEFALL_ASSETS"); named && *named)  // NOLINT
     return named;
   std::error_code error;

@@ -12,8 +12,8 @@
 namespace domefall {
 namespace {
 
-// SkyStore "up" where a target leaves it free: the north of the orbit, -Theta, or of the sky where there
-// is no hole to orbit; outward (R) for a target within 0.06 degrees of that axis.
+// The scene's "up", which a target leaves free.  It is the north of the orbit, -Theta, or that of
+// the sky in flat space.  For a target within 0.06 degrees of that axis it is outward, R.
 V3d up_across(const V3d& target, const ObserverState& o) {
   const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
   const V3d outward(1, 0, 0);
@@ -26,7 +26,8 @@ M33d rolled(const V3d& x, const V3d& y, const V3d& z, double angle) {
   return from_columns(x * c - y * s, y * c + x * s, z);
 }
 
-// [Riazuelo] sec. sec_cam: A, B, C are the boosted Theta, Phi, R.
+// The axes after rotations by phi about C, vartheta about the new B and psi about the new C, where
+// A, B and C are the boosted Theta, Phi and R.  [Riazuelo] sec. sec_cam.
 M33d euler_axes(const EulerAngles& angle) {
   const V3d a(0, 1, 0), b(0, 0, 1), c(1, 0, 0);
   const V3d a1 = a * std::cos(angle.phi) + b * std::sin(angle.phi);
@@ -37,15 +38,15 @@ M33d euler_axes(const EulerAngles& angle) {
                       b1 * std::cos(angle.psi) - a2 * std::sin(angle.psi), z);
 }
 
-// What stood at elevation e in the front stands at e + tilt.
+// The axes of a dome that leans forward: what stood at elevation e in front stands at e + tilt.
 M33d tilted(const M33d& axes, double tilt) {
   const V3d y = column(axes, 1), z = column(axes, 2);
   const double c = std::cos(tilt), s = std::sin(tilt);
   return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
 }
 
-// The largest of the four components is found from the trace or a diagonal
-// element, without cancellation.
+// The unit quaternion of a rotation.  Its largest component is computed from the trace or from a
+// diagonal element, where nothing cancels, and the others from it.
 Imath::Quatd quaternion_of(const M33d& m) {
   const double trace = m[0][0] + m[1][1] + m[2][2];
   if (trace > 0) {
@@ -63,8 +64,9 @@ Imath::Quatd quaternion_of(const M33d& m) {
   return {(m[k][j] - m[j][k]) / (4 * v[i]), v.x, v.y, v.z};
 }
 
-// motion_direction in the frame whose directions are drawn: for one at rest outside the horizon that
-// is where the observer goes; inside, the same continuation.
+// motion_direction in the frame whose directions are drawn.  Outside the horizon that frame may be
+// at rest, and the direction is where the observer moves against it; inside, it is continued as
+// usual.
 V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
   if (!vantage.measured) return motion_direction(o);
   if (o.r > 2) return *vantage.measured;
@@ -76,7 +78,8 @@ V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
 }  // namespace
 
 V3d motion_direction(const ObserverState& o) {
-  // d/dt = T +- sqrt(2/r) R in rain or the outgoing tetrad, here seen from the observer's frame.
+  // d/dt = T + sqrt(2/r) R in rain and T - sqrt(2/r) R in the outgoing tetrad.  The boost into the
+  // observer's frame turns its spatial part k into k - c (1 - c.k/(1 + gamma)), c = gamma v.
   const double s = std::sqrt(2 / o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
@@ -93,7 +96,7 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
   if (std::holds_alternative<LookAlongMotion>(attitude))
     return motion_seen(o, vantage).normalized();
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
-    // From region IV no sky is seen; outward is where its images come up at r = 2.
+    // From region IV no sky is seen.  At r = 2 its images appear in the outward direction.
     if (o.region == Region::kIV) return to_observer(vantage.celerity, V3d(1, 0, 0)).direction;
     const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
     const V3d image = effects.lensing ? primary_image(o.r, o.tetrad, source).v
@@ -114,7 +117,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
   const V3d& f = *target;
   const V3d up = up_across(f, observer), right = f.cross(up);
   if (!dome) return rolled(right, -up, f, camera.roll);
-  // Roll turns the scene about the target, so it comes before the target is set on the dome.
+  // Roll turns the scene about the target, so it is applied before the target is put on the dome.
   const M33d screen = rolled(right, -up, f, camera.roll);
   const V3d x = column(screen, 0), u = -column(screen, 1);
   const double elevation = camera.elevation + camera.dome_tilt;
@@ -126,7 +129,7 @@ V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
   const Imath::Quatd q = quaternion_of(to * from.transposed());
   const double sine = q.v.length();
   const double angle = 2 * std::atan2(sine, q.r);
-  // No turn at all, or whole ones: about the axis it had.
+  // A rotation by no angle or by whole turns has any axis; it keeps the one before.
   const V3d axis = sine > 0 ? q.v / sine : before.normalized();
   const double turns = std::round((before.dot(axis) - angle) / (2 * std::numbers::pi));
   return axis * (angle + 2 * std::numbers::pi * turns);

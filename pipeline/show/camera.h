@@ -1,4 +1,4 @@
-// Where a camera looks.
+// How a camera is oriented.
 #pragma once
 
 #include <variant>
@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// [Riazuelo] sec. sec_cam: rotations by phi about C, vartheta about B', psi about C', of the
-// boosted (Theta, Phi, R).  Radians.
+// Rotations of the boosted (Theta, Phi, R) by phi about C, vartheta about B' and psi about C', in
+// radians.  [Riazuelo] sec. sec_cam.
 struct EulerAngles {
   double phi = 0, vartheta = 0, psi = 0;
 };
@@ -22,13 +22,13 @@ using Attitude = std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngle
 
 struct Camera {
   Attitude attitude = LookAtHole{};
-  double roll =
-      0;  // radians, about the line of sight, clockwise on the image; not with Euler angles
-  double elevation = 0;  // radians above the dome's front rim at which a look-at target stands;
-                         // Domemaster only
-  double dome_tilt =
-      0;  // radians by which the theatre's dome leans towards the front: the image is
-          // turned so that what stood at elevation e stands at e + dome_tilt
+  // Radians about the line of sight, clockwise on the image.  Euler angles do not use it.
+  double roll = 0;
+  // Radians above the dome's front rim at which a target stands.  Only a Domemaster uses it.
+  double elevation = 0;
+  // Radians by which the theatre's dome leans towards the front.  The image of a Domemaster is
+  // turned so that what stood at elevation e stands at e + dome_tilt.
+  double dome_tilt = 0;
 };
 
 }  // namespace domefall

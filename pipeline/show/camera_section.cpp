@@ -22,7 +22,7 @@ Domemaster read_dome(const Item* size) {
   }
   for (std::size_t k = 0; k < kSizeNames.size(); ++k)
     if (size->node.Scalar() == kSizeNames[k]) return {1024 << k};
-  // Words and '3k' are told the names, numbers the bounds.
+  // For a word, and for '3k', the message names the sizes; for a number it names the bounds.
   if (size->node.Scalar().find_first_not_of("+-.0123456789") != std::string::npos)
     size->fail("must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '" +
                shown(size->node.Scalar()) + "'" + did_you_mean(size->node.Scalar(), kSizeNames));
@@ -57,7 +57,7 @@ Projection read_projection(const Section& show, const Section& camera) {
 constexpr std::array<std::string_view, 7> kKeys{
     "projection", "fov_deg", "look_at", "euler_deg", "roll_deg", "elevation_deg", "dome_tilt_deg"};
 
-// {keyframe: NAME}
+// Reads {keyframe: NAME}: the attitude of a keyframe that bears the name.
 std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
   const Section s(item, {"keyframe"});
   const Item* name = s.find("keyframe");
@@ -120,7 +120,7 @@ bool is_euler(const std::optional<Attitude>& attitude) {
   return attitude && std::holds_alternative<EulerAngles>(*attitude);
 }
 
-// The keys of a camera other than the show's own, which alone says what kind of picture it is.
+// Reads a camera other than the show's own, which alone gives the projection.
 CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup& lookup) {
   const Section camera(item, kKeys);
   if (const Item* fixed = camera.find("projection"))
@@ -176,7 +176,7 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
   return keys;
 }
 
-// An elevation is not heeded with Euler angles, but a keyframe may turn from them to a target.
+// Euler angles do not use an elevation, but a keyframe may turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
   const bool dome = std::holds_alternative<Domemaster>(projection);
   Camera camera;

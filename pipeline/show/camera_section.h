@@ -1,4 +1,4 @@
-// The keys of `camera`, of the show and of a segment.
+// The section `camera` of a show, a segment or a keyframe, and the show's `cameras`.
 #pragma once
 
 #include <map>
@@ -9,13 +9,13 @@
 
 namespace domefall {
 
-// What a camera section says; a segment's is laid over the show's, key by key.
+// What a camera section says.  That of a segment is laid over the show's, key by key.
 struct CameraKeys {
   std::optional<Attitude> attitude;
   ChannelValues values;  // of kRoll, kElevation, kDomeTilt and kFov
 };
 
-// What camera sections may name: the entries of `cameras`, and keyframes that bear a name.
+// What camera sections may refer to: the entries of `cameras`, and keyframes that bear a name.
 struct NamedCameras {
   std::map<std::string, CameraKeys, std::less<>> cameras;
   std::map<std::string, Attitude, std::less<>> keyframes;
@@ -27,17 +27,17 @@ struct ShowCamera {
   NamedCameras named;
 };
 
-// The show's `camera` and `cameras`.
+// Reads the show's `camera`, its `cameras`, and its `size`, which depends on the projection.
 ShowCamera read_show_camera(const Section& show, Lookup& lookup);
 
-// A camera of a segment or a keyframe: the name of an entry of `cameras`, or a map.
+// Reads the camera of a segment or a keyframe, which is the name of an entry of `cameras` or a map.
 CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup);
 
-// One camera's keys with another's laid over them.  A new attitude replaces the old one; Euler
-// angles drop the roll and elevation of a look-at attitude.
+// One camera's keys with those of another, `own`, laid over them.  A new attitude replaces the old
+// one.  Euler angles drop the roll and the elevation that went with a target.
 CameraKeys laid_over(CameraKeys keys, const CameraKeys& own);
 
-// Fills in the defaults.
+// The camera with defaults filled in: the hole as the target, on a dome 45 degrees above the rim.
 Camera camera_from(const CameraKeys& keys, const Projection& projection);
 
 }  // namespace domefall

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// Everything of the camera but its attitude.
+// The camera at an instant, except for its attitude.
 Camera camera_at(const Segment& s, double t) {
   Camera camera = s.camera;
   camera.roll = value_at(s, Channel::kRoll, t, camera.roll);
@@ -18,10 +18,12 @@ Camera camera_at(const Segment& s, double t) {
   return camera;
 }
 
-// Steps in which the way from one keyframe to the next is followed, to know which of the turns that
-// lead to the same attitude goes on from the one before.
+// The way from one keyframe to the next is followed in these steps.  Rotations that differ by whole
+// turns lead to the same attitude, and at each step the one that goes on from the step before is
+// taken.
 constexpr int kTurnSteps = 64;
 
+// The camera's rotation from one attitude to the next, while the targets of both may move.
 class Turn {
  public:
   Turn(const Show& show, int segment, const Projection& projection, const AttitudeKey& from,
@@ -38,7 +40,7 @@ class Turn {
     return turned_by(axes(from_, t, observer), turn * done);
   }
 
-  // The turns at the first so many steps of the way.
+  // The rotations at the first `steps` steps of the way.
   std::vector<V3d> followed(int steps) const {
     std::vector<V3d> turns;
     turns.reserve(static_cast<std::size_t>(steps));
@@ -53,7 +55,8 @@ class Turn {
   }
 
  private:
-  // The turn may begin before the segment and end after it; during its dissolves the segment is itself.
+  // The segment seen at t, since the turn may begin before its own segment and end after it.
+  // During a dissolve two are seen, and its own counts.
   int segment_then(double t) const {
     const auto s = static_cast<std::size_t>(segment_);
     const double begin = segment_times(show_)[s];

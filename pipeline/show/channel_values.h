@@ -10,8 +10,8 @@ inline constexpr Range kStops = Range{"stops"}.within(-30, 30);
 inline constexpr Range kGain = kPureNumber.within(0, 1e6);
 inline constexpr Range kMagnitudes = Range{"magnitudes"}.within(-30, 40);
 
-// Reads `exposure: {ev}` and `sky: {region_I: {gain, stars: {gain, max_magnitude}}, ...}` of a section.
-// The camera's channels stay empty.
+// Reads `exposure: {ev}` and `sky: {region_I: {gain, stars: {gain, max_magnitude}}, ...}` of a
+// section.  The camera's channels stay empty.
 ChannelValues read_values(const Section& section);
 
 }  // namespace domefall

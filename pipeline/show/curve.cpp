@@ -8,11 +8,12 @@ namespace {
 
 using Keys = std::vector<CurveKey>;
 
-// Of the stretch that ends at key k.
+// The mean slope of the stretch that ends at key k.
 double secant(const Keys& keys, std::size_t k) {
   return (keys[k].value - keys[k - 1].value) / (keys[k].at_s - keys[k - 1].at_s);
 }
 
+// The curve's slope at key k, as value_at describes it.
 double slope_at(const Keys& keys, std::size_t k) {
   if (k == 0 || k + 1 == keys.size()) return 0;
   const Ease before = keys[k].ease, after = keys[k + 1].ease;
@@ -26,8 +27,9 @@ double slope_at(const Keys& keys, std::size_t k) {
   return (a + b) / (a / in + b / out);
 }
 
-// Beside a straight stretch the slope could carry a smooth one beyond its ends; thrice the secant
-// never does.
+// The slope at an end of a stretch whose secant is `chord`.  The slope of a straight neighbour
+// could carry the cubic beyond its ends, which a slope of up to three secants does not (Fritsch and
+// Carlson 1980).
 double tamed(double slope, double chord) {
   if (!(slope * chord > 0)) return 0;
   return std::abs(slope) > 3 * std::abs(chord) ? 3 * chord : slope;

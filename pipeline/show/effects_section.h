@@ -6,10 +6,12 @@
 
 namespace domefall {
 
+// Reads the section; what it does not name is as in nature.
 Effects read_effects(const Section& show);
 
-// Reports `lensing: false` where a frame lies on or inside a horizon: nothing is at rest there whose
-// straight lines light could follow.  `root` is the whole file; `show` has been read without a mistake.
+// Reports `lensing: false` if a frame lies on or inside a horizon, where no frame is at rest whose
+// straight lines light could follow.  `root` is the whole file, and `show` was read without a
+// mistake.
 void check_effects(const Item& root, const Show& show);
 
 }  // namespace domefall

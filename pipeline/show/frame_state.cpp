@@ -41,7 +41,7 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   return state;
 }
 
-// `segment`: the frame's.
+// The state of a frame of that segment, with the segment that vanishes during a dissolve.
 FrameState state_at(const Show& show, int segment, int frame, double t) {
   FrameState state = state_in(show, segment, frame, t);
   const double dissolve = segment_of(show, segment).dissolve_s;

@@ -1,4 +1,4 @@
-// One frame of a show: what the renderer needs, a pure function of show and frame number.
+// The state of one frame: what the renderer needs of it, a pure function of show and frame number.
 #pragma once
 
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace domefall {
 
-// What keyframes may have changed of exposure and skies, at one instant.
+// The values of exposure and skies at one instant, which keyframes may have changed.
 struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
     double max_magnitude = 6.5;
-    // The limit is keyframed: stars fade in over the last half magnitude before it, so that none
-    // pops up.  Else all up to it are whole.
+    // True if the limit is keyframed.  Stars then fade in over the last half magnitude before it,
+    // so that none appears at once.  Otherwise all up to the limit have their whole light.
     bool soft_limit = false;
   };
   double ev = 0;
-  PerSky<Sky> sky;  // region IV has no stars
+  PerSky<Sky> sky;  // of region IV only background_gain is used
 };
 
 struct FrameState {
@@ -29,20 +29,22 @@ struct FrameState {
   ObserverState observer;
   Projection projection;
   FrameSettings settings;
-  // During a dissolve the segment that vanishes, and the part it still has of the light.
+  // During a dissolve: the state in the segment that vanishes, and the part of the light that is
+  // still its.  Null and 0 otherwise.
   std::shared_ptr<const FrameState> vanishing;
   double vanishing_part = 0;
 };
 
-// frame in [0, frame_count(show)).  Frame n shows the instant n / frames_per_second.
+// The state of a frame, from 0 to frame_count(show) - 1.  Frame n shows the instant
+// n / frames_per_second.
 FrameState frame_state(const Show& show, int frame);
 
-// The states in the middles of `count` (>= 1) equal parts of the time for which a frame's shutter is open.
-// That time ends where the frame's segment does: a cut is not blurred.
+// The states in the middles of `count` (>= 1) equal parts of the time for which a frame's shutter
+// is open.  That time is cut off at the ends of the frame's segment, so that a cut is not blurred.
 std::vector<FrameState> exposure_states(const Show& show, int frame, int count);
 
-// Gives `other` the columns and rows of `state`'s picture, which a caller may have changed, but not its
-// field of view.
+// Gives `other`, and the state that vanishes in it, the projection of `state`, which a caller may
+// have resized.  A flat one keeps its own field of view.
 void take_size(const FrameState& state, FrameState& other);
 
 }  // namespace domefall

@@ -1,5 +1,7 @@
 #include "pipeline/show/item.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -14,10 +16,10 @@ namespace {
 bool is_quoted(const Item& item) { return item.node.Tag() == "!"; }
 
 std::string in_unit(const Range& range) {
-  return range.unit.empty() ? "" : " (" + std::string(range.unit) + ")";
+  return range.unit.empty() ? "" : fmt::format(" ({})", range.unit);
 }
 
-// The scalar's characters, unless it is tagged or its quote is open.
+// The characters of a scalar.  Reports an item that is none, and one with a tag or an open quote.
 std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
   if (!item.node.IsScalar()) {
     item.fail("must be " + wanted + ", got " + kind_of(item));
@@ -35,7 +37,7 @@ std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
   return item.node.Scalar();
 }
 
-// .nan, -.inf and the like, which YAML takes for numbers.
+// Whether a text is .nan, -.inf or the like, which YAML takes for numbers.
 bool is_yaml_special(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const auto is = [&](std::string_view word) {
@@ -44,7 +46,7 @@ bool is_yaml_special(std::string_view text) {
   return is(".nan") || is(".inf");
 }
 
-// What to do about a text that should have been a number and is one but for its `rest`.
+// The advice for a text that would be a number without its `rest`.
 std::string_view mended(std::string_view rest, const Range& range) {
   if (rest.empty()) return "; leave the quotes out";
   if (rest[0] == ',') return "; write a decimal point";
@@ -53,6 +55,7 @@ std::string_view mended(std::string_view rest, const Range& range) {
   return range.unit.empty() || rest[0] == 'x' ? "" : "; leave the unit out";
 }
 
+// What the value must do to keep the bound that it breaks; nothing if it keeps both.
 std::optional<std::string> broken_bound(const Range& range, double value) {
   if (range.low_excluded && !(value > range.low)) return "exceed " + short_number(range.low);
   if (!range.low_excluded && !(value >= range.low)) return "be at least " + short_number(range.low);
@@ -151,11 +154,11 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
     return std::nullopt;
   }
   std::vector<Item> items;
-  for (const auto& child : item.node) {  // an iterator's value: the node, and more for maps
+  for (const auto& child : item.node) {  // an iterator's value is a node, and a pair for maps
     const auto mark = child.Mark();
     items.push_back({static_cast<const YAML::Node&>(child),
                      {mark.line, mark.column},
-                     item.path + "[" + std::to_string(items.size()) + "]",
+                     fmt::format("{}[{}]", item.path, items.size()),
                      item.problems});
   }
   return items;
@@ -164,9 +167,9 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
                                                 const Range& range) {
   if (!item.node.IsSequence() || item.node.size() != count) {
-    item.fail("must be a list of " + std::to_string(count) + " numbers" + in_unit(range) +
-              ", got " +
-              (item.node.IsSequence() ? std::to_string(item.node.size()) : kind_of(item)));
+    item.fail(
+        fmt::format("must be a list of {} numbers{}, got {}", count, in_unit(range),
+                    item.node.IsSequence() ? fmt::to_string(item.node.size()) : kind_of(item)));
     return std::nullopt;
   }
   std::vector<double> values;

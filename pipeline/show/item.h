@@ -1,5 +1,5 @@
-// A value in a show file that knows its place and its path ("timeline[0].trajectory.from_r"), and
-// the readers that check kind, unit and range.  A reader that finds a mistake reports it and
+// A value in a show file, which knows its place and its path ("timeline[0].trajectory.from_r"), and
+// the readers that check its kind, unit and range.  A reader that finds a mistake reports it and
 // returns nothing, so that the rest of the file is still checked.
 #pragma once
 
@@ -20,17 +20,17 @@
 namespace domefall {
 
 struct Item {
-  const YAML::Node node;  // const: assigning a YAML::Node would change the tree
-  TextPlace at;           // of the value; of its key where the value is empty
-  std::string path;       // empty: the whole show
+  const YAML::Node node;  // const, since assigning a YAML::Node changes the tree
+  TextPlace at;           // of the value, or of its key where the value is empty
+  std::string path;       // empty for the whole show
   Problems* problems;
 
-  // Reports "PATH what", here.
+  // Reports "PATH what" at the place of the value.
   void fail(const std::string& what) const;
 };
 
-// Bounds of a number.  Only the bound that is broken is named, with its unit and, where the law is
-// not obvious, with its reason.
+// Bounds of a number.  A message names only the bound that is broken, with its unit and, for a
+// lower bound that is not obvious, with its reason.
 struct Range {
   std::string_view unit{};
   double low = -std::numeric_limits<double>::infinity();
@@ -57,11 +57,13 @@ inline constexpr Range kPureNumber{};
 inline constexpr Range kDegrees{"degrees"};
 inline constexpr Range kUnitsOfM{"units of M"};
 
-// For a message, what the item is: "a map", "a list", "nothing", the text '3' or 3 in quotes.
+// What the item is, for a message: "a map", "a list", "nothing", "'3'", or "the text '3'" where the
+// file has quotes.
 std::string kind_of(const Item& item);
 
 bool is_text_or_number(const Item& item);
-// Plain words, quoted text or a number taken as text; not empty, no control characters.
+// Reads plain words, quoted text, or a number as text.  Text must not be empty, and may have no
+// control characters.
 std::optional<std::string> read_text(const Item& item);
 std::optional<double> read_number(const Item& item, const Range& range);
 std::optional<int> read_whole_number(const Item& item, const Range& range);
@@ -90,7 +92,7 @@ std::optional<T> meaning(const Item& item, const Words<T, N>& words) {
   return std::nullopt;
 }
 
-// Not empty; the elements' paths end in [k].
+// Reads a list of at least one entry.  The paths of its entries end in [k].
 std::optional<std::vector<Item>> read_list(const Item& item);
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
                                                 const Range& range);

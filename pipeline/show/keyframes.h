@@ -1,4 +1,4 @@
-// The lists `keyframes`, of the show and of a segment, and how they are laid over what stays.
+// The lists `keyframes` of a show and of its segments, and the curves through them.
 #pragma once
 
 #include <vector>
@@ -15,15 +15,16 @@ struct Keyframe {
   ChannelValues values;
 };
 
-// `start`: the show's seconds that at_s counts from.  `latest`: the largest at_s allowed.  Names that
-// keyframes bear are entered into `camera`.
+// Reads a list.  `start` is the show's second from which at_s counts, and `latest` the largest at_s
+// allowed.  Keyframes that bear a name are entered into `camera`.
 std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
                                      ShowCamera& camera, Lookup& lookup);
 
-// The curve of a channel through those keyframes that give it, nothing if none does.  It begins at
-// `start` with the value that is there without them, unless a keyframe stands there.
+// The curve of a channel through the keyframes that give it; nothing if none does.  It begins at
+// `start` with `value_there`, the value without keyframes, unless a keyframe stands there.
 std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
                                    double start, double value_there);
+// The same for attitudes; empty if no keyframe gives one.
 std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,
                                            const Attitude& attitude_there);
 

@@ -1,4 +1,4 @@
-// What a show names: files and stars.
+// Finds the files and stars that a show names.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,20 @@ namespace domefall {
 
 class Lookup {
  public:
-  // `folder` of the show file; empty if it was named without one.
+  // `folder` is that of the show file, empty if the file was named without one.
   explicit Lookup(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // A regular, readable file, sought beside the show and then as the process finds it.
+  // A regular, readable file of that name beside the show or, failing that, in the working folder.
   std::optional<std::filesystem::path> find(const std::string& name) const;
-  // The same, reporting what is not there.
+  // The same; reports a file that is not found.
   std::optional<std::filesystem::path> file(const Item& item, const std::string& name) const;
-  // One of the files that come with Domefall; `item` is what asked for it.
+  // One of the files that come with Domefall.  Reports one that is missing at `item`, which needs
+  // it.
   std::optional<std::filesystem::path> shipped(const Item& item, std::string_view name) const;
 
-  // A star of the shipped naked-eye catalogue, which is read when the first one is named.  `words`
-  // are what else could have been meant.
+  // The place of a star of the shipped naked-eye catalogue, which is read when the first star is
+  // named.  `words` are what the item could have been besides, for the message about an unknown
+  // name.
   std::optional<SkyDirection> star(const Item& item, std::span<const std::string_view> words = {});
 
  private:
@@ -31,7 +33,7 @@ class Lookup {
   std::optional<StarCatalogue> stars_;
 };
 
-// A star's name, {star: NAME} or {ra_deg: , dec_deg: }, J2000.
+// Reads a place on the sky: a star's name, {star: NAME}, or {ra_deg: X, dec_deg: Y} in J2000.
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
                                            std::span<const std::string_view> words = {});
 

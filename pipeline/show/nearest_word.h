@@ -1,4 +1,4 @@
-// What the author of a show probably meant.
+// Finds the known word that the author of a show probably meant.
 #pragma once
 
 #include <span>
@@ -7,20 +7,23 @@
 
 namespace domefall {
 
-// The known word that is probably meant by another, tried in this order: equal but for case, '-' and
-// blanks; equal but for a unit that was left out (fov for fov_deg); at most three insertions,
-// deletions, replacements and swaps of neighbours away, and fewer than half the letters; equal but
-// for another unit (from_radius for from_r); a beginning of it (three letters at least).  Empty if
-// none is near.
+// The known word that is probably meant by another; empty if none is near.  The first rule that
+// fits decides:
+// - it is equal but for case, '-' and blanks;
+// - it is equal but for a unit that was left out (fov for fov_deg);
+// - it is at most three insertions, deletions, replacements and swaps of neighbours away, and fewer
+//   than half the letters;
+// - it is equal but for another unit (from_radius for from_r);
+// - it begins with the given word, which has three letters at least.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
-// "; did you mean X?", or nothing.
+// "; did you mean X?", or an empty text if no word is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
-// Optimal string alignment (restricted Damerau-Levenshtein) distance.
+// The optimal string alignment distance (restricted Damerau-Levenshtein).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// "a, b or c"
+// The words as a list for a sentence: "a, b or c".
 std::string listed(std::span<const std::string_view> words);
 
 }  // namespace domefall

@@ -8,13 +8,13 @@
 namespace domefall {
 namespace {
 
-// r* = r + 2 ln|r/2 - 1|; v = u + 2 r*.
+// The tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
 double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
 
-// Integral of a rate that goes from `a` to `b` like 3 t^2 - 2 t^3.
+// The integral from 0 to t of the rate a + (b - a) (3 t^2 - 2 t^3).
 double ramp(double a, double b, double t) { return t * (a + (b - a) * t * t * (1 - t / 2)); }
 
-// A place on the timeline where one segment hands over to the next.
+// What one segment hands over to the next.
 struct Joint {
   M33d axes;
   double azimuth = 0, null_time = 0;
@@ -22,8 +22,8 @@ struct Joint {
   double r = kFlatSpace;
 };
 
-// The null time that a point has if it goes on from the joint: the constant of its trajectory's own
-// count.  From v to u and back by r*; the count starts anew where the two do not meet.
+// What must be added to the null time of a trajectory, so that it goes on from the joint.  Between
+// v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
 double null_offset(const Joint& joint, const OrbitPoint& start) {
   double reached = joint.null_time;
   if (start.tetrad != joint.tetrad) {

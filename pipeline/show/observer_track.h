@@ -1,4 +1,4 @@
-// Where the observer is, and how it moves, along the timeline.
+// The observer's place and motion along the timeline.
 #pragma once
 
 #include "pipeline/show/show.h"
@@ -6,22 +6,23 @@
 
 namespace domefall {
 
-// Proper time of a segment's trajectory when `part` of its duration, 0 to 1, has passed.
+// The proper time of a segment's trajectory (M; seconds in flat space) when `part` of the segment's
+// duration, 0 to 1, has passed.
 double proper_time_at(const Segment& segment, double part);
 
-// The observer's state without a camera (tetrad_from_camera is the identity).  Places join: the axes
-// on the sky and the null time run on from segment to segment.
-// `part` of the segment's duration, 0 to 1, has passed.
+// The observer's state when `part` of a segment, 0 to 1, has passed.  It has no camera yet:
+// tetrad_from_camera is the identity.  The axes on the sky, the azimuth and the null time run on
+// from segment to segment.
 ObserverState observer_at(const Show& show, int segment, double part);
 
-// Of a frame: durations such as 0.1 s add up to a little more than the instant they mean, and the
-// frame at a cut belongs to what follows it.
-inline constexpr double kCutTolerance = 1e-6;  // frames
+// In frames.  Durations such as 0.1 s add up to a little more than they mean, and the frame at a
+// cut must still belong to the segment that follows it.
+inline constexpr double kCutTolerance = 1e-6;
 
-// The segment seen at an instant; during a dissolve the later one.
+// The index of the segment seen at an instant; during a dissolve that of the later one.
 int segment_at(const Show& show, double show_time_s);
 
-// How much of a segment has passed, 0 to 1.
+// The part of a segment that has passed at an instant, 0 to 1.
 double part_at(const Show& show, int segment, double show_time_s);
 
 }  // namespace domefall

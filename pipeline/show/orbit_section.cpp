@@ -19,7 +19,7 @@ constexpr Range kExcess = kPureNumber.within(1e-20, 1e9);
 constexpr Range kSpeed = Range{"speed of light = 1"}.above(0).below(1);
 constexpr double kFallEnd = 0.05;
 
-// The keys of every orbit, and its own.
+// A section with the keys of every orbit and those of one type.
 Section orbit_section(const Item& item, std::initializer_list<std::string_view> own) {
   std::vector<std::string_view> keys{"type",         "region",     "from_r", "from_leg",
                                      "from_tau_m",   "to_r",       "to_leg", "to_tau_m",
@@ -28,8 +28,9 @@ Section orbit_section(const Item& item, std::initializer_list<std::string_view> 
   return {item, keys};
 }
 
-// Trajectories begin their messages with the name of the quantity that is out of bounds: it is told at
-// the place of its key, or else at that of the key that asked for the orbit.
+// Reports that an orbit does not exist.  Trajectories begin their messages with the name of the
+// quantity that is out of bounds.  If the show gives that quantity, its key is blamed, else the key
+// `asked`.
 void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
   const std::size_t space = message.find(' ');
   const std::string_view quantity = std::string_view(message).substr(0, space);
@@ -40,6 +41,7 @@ void fail_impossible(const Section& s, const Item& asked, const std::string& mes
     asked.fail("asks for what does not exist: " + message);
 }
 
+// What make() returns, unless it throws because the orbit does not exist.
 template <class Make>
 std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& make) {
   try {
@@ -109,7 +111,7 @@ std::optional<Geodesic> read_ellipse(const Section& s) {
   return made(s, *s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
 }
 
-// What falls from infinity, with the place where tau = 0.
+// Reads a fall from infinity.  Its tau is 0 at from_r.
 std::optional<Geodesic> read_captured(const Section& s) {
   const auto from_r = s.required_number("from_r", kRadius);
   if (s.find("v_inf")) {
@@ -128,7 +130,7 @@ std::optional<Geodesic> read_captured(const Section& s) {
   return made(s, *blamed, [&] { return fall_from_infinity(momentum, *from_r); });
 }
 
-// From rest at rest_r, tau = 0 there.
+// Reads a fall from rest at rest_r, where its tau is 0.
 std::optional<Geodesic> read_dropped(const Section& s) {
   const auto rest_r =
       s.number("rest_r", kUnitsOfM.above(kStaticInnermost, "nothing rests at or inside the horizon")
@@ -139,7 +141,8 @@ std::optional<Geodesic> read_dropped(const Section& s) {
   return made(s, *blamed, [&] { return fall_from_rest(*rest_r, momentum); });
 }
 
-// Its direction leaves the plane of the orbit before by turning about R.
+// The placement of an orbit that sets out with this celerity, which may leave the plane of the
+// orbit before.
 Placement placement_of(const V3d& celerity, bool mirrored) {
   Placement placement{mirrored};
   const double north = -celerity.y, forward = celerity.z;

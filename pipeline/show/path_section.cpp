@@ -15,14 +15,15 @@ constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetrad::kRainOfThree,
                                          Tetrad::kOutgoingToThree};
 
-// dr/dtau and dphi/dtau of a celerity against a tetrad: u = gamma T + c, and r falls with T of rain.
+// Sets dr/dtau and dphi/dtau from a celerity c against a tetrad.  With u = gamma T + c, dr/dtau is
+// c_R - sqrt(2/r) gamma for rain, along whose T r falls, and c_R + sqrt(2/r) gamma for outgoing.
 void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
   const double gamma = std::sqrt(1 + celerity.length2()), s = std::sqrt(2 / key.r);
   key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
   key.azimuth_rate = celerity.z / key.r;
 }
 
-// `speed` and `direction` against the static observer there.
+// Reads `speed` or `lorentz_factor` and `direction`, against the static observer at the key.
 void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup& lookup) {
   if (!s.find("speed") && !s.find("lorentz_factor")) return;
   if (!(key.r > kStaticInnermost)) {
@@ -75,7 +76,7 @@ struct Table {
   Tetrad tetrad = Tetrad::kRain;
 };
 
-// What `domefall states` writes, or any table with some of these columns.
+// Reads what `domefall states` writes, or any table with some of its columns.
 Table read_table(const std::filesystem::path& file) {
   CsvFile csv(file, {"proper_time", "r"});
   Table table;

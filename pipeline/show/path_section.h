@@ -1,11 +1,11 @@
-// Trajectories that are given point by point.
+// Trajectories of type `path`, which are given point by point.
 #pragma once
 
 #include "pipeline/show/trajectory_section.h"
 
 namespace domefall {
 
-// Keyframes in the show file, or the rows of a CSV file.
+// Reads a path through keyframes in the show file, or through the rows of a CSV file.
 std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup);
 
 }  // namespace domefall

@@ -1,5 +1,7 @@
 #include "pipeline/show/problems.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -11,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostListed = 100;
 
+// Whether a byte of UTF-8 goes on with the character of the byte before.
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 }  // namespace
@@ -24,14 +27,14 @@ Problems::Problems(std::string file, std::string text) : file_(std::move(file)) 
 void Problems::add(TextPlace at, const std::string& what) { problems_.push_back({at, what}); }
 
 std::string Problems::place(TextPlace at) const {
-  // What yaml-cpp misses at the end of the file is put behind its last character.
+  // yaml-cpp places what it misses at the end of the file beyond the last line.
   const bool at_end = at.line >= static_cast<int>(lines_.size());
   const std::size_t line = at_end ? lines_.size() - 1 : static_cast<std::size_t>(at.line);
   const std::size_t bytes = at_end ? lines_[line].size() : static_cast<std::size_t>(at.column);
   const std::string before = lines_[line].substr(0, bytes);
   const auto column =
       before.size() - static_cast<std::size_t>(std::ranges::count_if(before, continues_character));
-  return file_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": ";
+  return fmt::format("{}:{}:{}: ", file_, line + 1, column + 1);
 }
 
 void Problems::raise() const {
@@ -44,7 +47,7 @@ void Problems::raise() const {
   for (std::size_t k = 0; k < std::min(sorted.size(), kMostListed); ++k)
     message.append(k > 0 ? "\n" : "").append(place(sorted[k].at)).append(sorted[k].what);
   if (sorted.size() > kMostListed)
-    message += "\n" + file_ + ": and " + std::to_string(sorted.size() - kMostListed) + " more";
+    message += fmt::format("\n{}: and {} more", file_, sorted.size() - kMostListed);
   throw InputError(message);
 }
 

@@ -1,4 +1,4 @@
-// Everything that is wrong with a show file, gathered so that its author mends it in one go.
+// The mistakes in a show file, gathered so that its author can mend all of them at once.
 #pragma once
 
 #include <string>
@@ -7,23 +7,23 @@
 
 namespace domefall {
 
-// A place in the text, counted from 0 as yaml-cpp does; the column in bytes.
+// A place in the text, counted from 0 as yaml-cpp does, with the column in bytes.
 struct TextPlace {
   int line = 0, column = 0;
 };
 
 class Problems {
  public:
-  // `file` as the user named it; `text` is its content.
+  // `file` is the name that the user gave, and `text` the file's content.
   Problems(std::string file, std::string text);
 
   void add(TextPlace at, const std::string& what);
 
   std::size_t count() const { return problems_.size(); }
 
-  // Throws InputError with one line for each problem, in the order of the file:
-  // "FILE:LINE:COLUMN: what", counted from 1 and the column in characters, as editors do.
-  // Does nothing if there is none.
+  // Throws InputError if there are problems, with one line for each (at most 100) in the order of
+  // the file: "FILE:LINE:COLUMN: what".  Lines and columns are counted from 1, the column in
+  // characters, as editors do.
   void raise() const;
 
  private:
@@ -38,8 +38,8 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
-// A piece of the user's text for a message: on one line, without control characters, cut after 40
-// characters.
+// A piece of the user's text for a message.  It is cut after 40 characters, and control characters
+// become blanks.
 std::string shown(std::string_view text);
 
 }  // namespace domefall

@@ -15,10 +15,10 @@
 namespace domefall {
 namespace {
 
-// Sagittarius A*.
+// The place of Sagittarius A*.
 constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936;
 constexpr double kHeadingDeg = 90, kMostSolarMasses = 1e13;
-// Far below any hole that could still be there; keeps proper times finite.
+// A mass that keeps proper times finite.  Holes as light as this have long evaporated.
 constexpr double kFewestSolarMasses = 1e-20;
 
 void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
@@ -27,7 +27,7 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (const Item* at = s.find("at"))
     show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
   show.heading = radians(s.number("heading_deg", kDegrees.within(-360, 360), kHeadingDeg));
-  // A hole whose mass is misspelt or in error is still a hole for the rest of the checks.
+  // With a mass that is misspelt or in error the rest of the show is still checked for a hole.
   if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return;
   const auto mass =
       s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));

@@ -1,4 +1,4 @@
-// From a show file to a Show.  docs/show-format.md describes the file.
+// Reads a show file, which docs/show-format.md describes.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace domefall {
 
-// Reads and checks everything: keys, kinds, units, ranges, the files and stars that are named, and
-// whether the orbits exist.  Images, catalogues and the grading configuration are looked for, not
-// opened; star names alone make it read the naked-eye catalogue.
-// Throws InputError with a line for each mistake, in the order of the file (at most 100):
+// Reads and checks everything: keys, kinds, units and ranges, the files and stars that are named,
+// and whether the orbits exist.  Images, catalogues and the grading configuration must be there,
+// but are not opened, except that a star's name needs the naked-eye catalogue.
+// Throws InputError with a line for each mistake (at most 100), in the order of the file, such as
 //   shows/infall.yaml:4:12: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3
 // and TemporaryError if reading breaks off.
 Show read_show(const std::filesystem::path& file);

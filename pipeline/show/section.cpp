@@ -1,5 +1,7 @@
 #include "pipeline/show/section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "pipeline/show/nearest_word.h"
@@ -44,8 +46,8 @@ void Section::add(const YAML::Node& key, const YAML::Node& value,
     return;
   }
   if (const auto first = entries_.find(name); first != entries_.end()) {
-    problems.add(place_of(key), path + " is repeated; it is given at line " +
-                                    std::to_string(first->second.line + 1) + " already");
+    problems.add(place_of(key), fmt::format("{} is repeated; it is given at line {} already", path,
+                                            first->second.line + 1));
     return;
   }
   const bool empty = !value.IsMap() && !value.IsSequence() && !value.IsScalar();
@@ -88,7 +90,7 @@ double Section::number(std::string_view key, const Range& range, double fallback
 }
 
 std::optional<double> Section::required_number(std::string_view key, const Range& range) const {
-  const Item* item = require(key, range.unit.empty() ? "" : " (" + std::string(range.unit) + ")");
+  const Item* item = require(key, range.unit.empty() ? "" : fmt::format(" ({})", range.unit));
   return item ? read_number(*item, range) : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// A map in a show file, with the keys it may have.
+// A map in a show file, checked against the keys that it may have.
 #pragma once
 
 #include <initializer_list>
@@ -12,26 +12,27 @@ namespace domefall {
 
 class Section {
  public:
-  // A section that the show leaves out: none of its keys is given.
+  // A section that the show leaves out, so that none of its keys is given.
   Section() = default;
-  // Reports an item that is no map, unknown keys (with the nearest known one) and repeated keys,
-  // which yaml-cpp would accept.
+  // Reports an item that is no map, unknown keys, each with the nearest known one, and repeated
+  // keys, which yaml-cpp would accept.
   Section(const Item& item, std::span<const std::string_view> known);
   Section(const Item& item, std::initializer_list<std::string_view> known)
       : Section(item, std::span(known.begin(), known.size())) {}
 
-  // The value of a key; null if it is not given.
+  // The value of a key, or null if the key is not given.
   const Item* find(std::string_view key) const;
-  // Whether an unknown key has been reported with this one as what was probably meant.
+  // Whether an unknown key was reported for which this one was probably meant.
   bool is_misspelt(std::string_view key) const { return misspelt_.contains(key); }
-  // Reports a missing key, unless a misspelling of it has been reported.
+  // The same, but reports a key that is missing, unless a misspelling of it was reported.
   const Item* require(std::string_view key, const std::string& what) const;
-  // Reports keys that exclude each other; returns the first of them that is given.
+  // The first of the keys that is given, or null.  Reports each further one, since they exclude
+  // each other.
   const Item* one_of(std::initializer_list<std::string_view> keys) const;
 
-  // Nothing if the key is not given or its value is wrong.
+  // The number under a key; nothing if the key is not given or its value is wrong.
   std::optional<double> number(std::string_view key, const Range& range) const;
-  // The fallback, in the same unit, if the key is not given.
+  // The same, with a fallback in the same unit.
   double number(std::string_view key, const Range& range, double fallback) const;
   std::optional<double> required_number(std::string_view key, const Range& range) const;
   // What the word under a key stands for; nothing if the key is not given or its word is not known.
@@ -56,14 +57,15 @@ class Section {
   std::set<std::string, std::less<>> misspelt_;
 };
 
-// The value of a key, before it is known which keys the map may have; nothing if it is no map.
+// The value of a key, read before it is known which keys the map may have; nothing if there is no
+// such key, or no map.
 std::optional<Item> peek(const Item& map, std::string_view key);
 
-// All entries of a map whose keys are names of the user's own, in the file's order; repeated ones are
-// reported.
+// All entries of a map whose keys are names that the user chose, in the order of the file.  Reports
+// repeated names.
 std::vector<std::pair<std::string, Item>> entries_of(const Item& map);
 
-// A section under a key, empty if the key is not given.
+// The section under a key; an empty one if the key is not given.
 Section subsection(const Section& parent, std::string_view key,
                    std::span<const std::string_view> known);
 inline Section subsection(const Section& parent, std::string_view key,

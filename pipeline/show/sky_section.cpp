@@ -14,11 +14,11 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   return std::nullopt;
 }
 
-// Beyond, motion in a straight line says nothing any more.
+// Beyond these years a star's motion is no straight line.
 constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
 
-// Of the words the last is only for the past singularity.
+// Reads a background as a word or as a file.  Only the past singularity may have rings.
 std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup,
                                              bool singularity = false) {
   static constexpr std::array<std::string_view, 4> kAllWords{"milky_way", "grid", "black", "rings"};
@@ -73,7 +73,7 @@ void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
   sky.stars = field;
 }
 
-// What the section says, laid over `sky`.
+// Reads the sky of region I or III into `sky`, which keeps what the section does not name.
 void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
   if (const Item* background = section.find("background"))
     if (const auto found = read_background(*background, lookup)) sky.background = *found;
@@ -93,7 +93,7 @@ void read_singularity(const Section& section, const Lookup& lookup, RegionSky& s
     section.find("period_m")->fail("is the period of rings; the background must be rings");
 }
 
-// The past singularity: only a background, in full or as a word.
+// Reads the sky of the past singularity, which is a background alone: a word, or a map.
 void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (item.node.IsMap()) {
     read_singularity(Section(item, {"background", "gain", "period_m"}), lookup, sky);
@@ -102,8 +102,8 @@ void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (const auto found = read_background(item, lookup, true)) sky.background = *found;
 }
 
-// The sky of region I where the show says nothing else.  The shipped files are asked for only where it
-// does not name others.
+// The sky of region I where the show says nothing else.  The shipped files are asked for only where
+// it does not name others.
 RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup) {
   RegionSky sky;
   if (!own.find("background"))
@@ -118,7 +118,7 @@ RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
   const Section sky = subsection(
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
-  RegionSky before;
+  RegionSky before;  // region III has what region I has, but for what its own section names
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
     const Section own = subsection(sky, kSkyKeys[region], {"background", "gain", "stars"});
     if (region == SkyRegion::kI) before = default_sky(root, own, lookup);

@@ -7,7 +7,8 @@
 
 namespace domefall {
 
-// `show` is the root, which stands for a sky section that is left out.
+// Reads the section into `show`.  A shipped file that is missing is reported at `root`, the whole
+// file, since the section may be left out.
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show);
 
 }  // namespace domefall

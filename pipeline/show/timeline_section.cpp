@@ -22,13 +22,14 @@ bool is_at_rest(const Trajectory& trajectory) {
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
-// Whether the camera of a segment, which lasts from `begin` to `end`, ever looks so.
+// Whether the camera of a segment, which lasts from `begin` to `end`, ever has an attitude of this
+// kind.
 template <class Kind>
-bool ever_looks(const Segment& s, double begin, double end) {
+bool ever_has(const Segment& s, double begin, double end) {
   if (s.attitudes.empty()) return std::holds_alternative<Kind>(s.camera.attitude);
   for (std::size_t k = 0; k < s.attitudes.size(); ++k) {
     const bool last = k + 1 == s.attitudes.size();
-    // A key is looked at from the one before it to the one behind it.
+    // An attitude matters from the keyframe before it to the one after it.
     const bool gone = !last && s.attitudes[k + 1].at_s <= begin;
     const bool still_to_come = k > 0 && s.attitudes[k - 1].at_s >= end;
     if (!gone && !still_to_come && std::holds_alternative<Kind>(s.attitudes[k].attitude))
@@ -37,6 +38,7 @@ bool ever_looks(const Segment& s, double begin, double end) {
   return false;
 }
 
+// Reads segment after segment, since each begins where the one before ends.
 class TimelineReader {
  public:
   TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
@@ -54,7 +56,7 @@ class TimelineReader {
         section.required_number("duration_s", Range{"seconds"}.above(0)).value_or(1);
     read_dissolve(section, segment);
     const double begin = end_ - segment.dissolve_s;
-    read_picture(section, begin, segment);
+    read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
     end_ = begin + segment.duration_s;
     so_far_.timeline.push_back(std::move(segment));
@@ -64,7 +66,8 @@ class TimelineReader {
   std::vector<Segment> take() { return std::move(so_far_.timeline); }
 
  private:
-  // A picture fades in from one other at a time.
+  // At most two segments are seen at a time, so that a dissolve begins after that of the segment
+  // before has ended.
   void read_dissolve(const Section& section, Segment& segment) const {
     const Item* item = section.find("dissolve_s");
     if (!item) return;
@@ -103,9 +106,9 @@ class TimelineReader {
     return values;
   }
 
-  // Camera, exposure and skies, each from the nearest that says it: the segment's keyframes, the
-  // segment, the show's keyframes, the show.
-  void read_picture(const Section& section, double begin, Segment& segment) {
+  // Reads camera, exposure and skies.  Each value is taken from the first of these that gives it:
+  // the segment's keyframes, the segment, the show's keyframes, the show.
+  void read_view(const Section& section, double begin, Segment& segment) {
     CameraKeys own;
     if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
     ChannelValues values = read_values(section);
@@ -132,7 +135,8 @@ class TimelineReader {
       segment.attitudes = std::move(through);
   }
 
-  // The nearest of the show's keyframes before an instant, from which a segment's own turn away.
+  // The attitude of the last keyframe before an instant, from which the segment's own keyframes
+  // turn away.
   static Attitude attitude_at(const Segment& segment, double t) {
     Attitude attitude = segment.camera.attitude;
     for (const AttitudeKey& key : segment.attitudes)
@@ -143,7 +147,7 @@ class TimelineReader {
   void read_motion(const Item& item, const Section& section, double begin, Segment& segment) {
     const Item* trajectory = section.find("trajectory");
     std::optional<TimedTrajectory> motion;
-    const std::size_t told = item.problems->count();
+    const std::size_t reported = item.problems->count();
     Stage stage{show_.mass_solar, axes_before(), segment.duration_s, nullptr};
     if (!so_far_.timeline.empty()) stage.before = &so_far_.timeline.back();
     if (!trajectory && !show_.mass_solar) {
@@ -153,8 +157,9 @@ class TimelineReader {
       if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
     }
     if (!motion) {
-      // Whatever is wrong with it has been told; a show without its motion must not come about.
-      if (trajectory && item.problems->count() == told)
+      // The readers have reported what is wrong.  In any case a segment without motion must not
+      // pass.
+      if (trajectory && item.problems->count() == reported)
         trajectory->fail("leads nowhere that a show can follow");
       return;
     }
@@ -179,11 +184,11 @@ class TimelineReader {
     };
     const bool sees_no_sky = region_at(segment.timing.tau_begin) == Region::kIV &&
                              region_at(segment.timing.tau_end) == Region::kIV;
-    if (sees_no_sky && ever_looks<LookAtSky>(segment, begin, end))
+    if (sees_no_sky && ever_has<LookAtSky>(segment, begin, end))
       item.fail(
           "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
           "the segment another camera.look_at");
-    if (is_at_rest(segment.trajectory) && ever_looks<LookAlongMotion>(segment, begin, end))
+    if (is_at_rest(segment.trajectory) && ever_has<LookAlongMotion>(segment, begin, end))
       item.fail(
           "has a camera that looks along the motion, but its observer does not move; give "
           "the segment another camera.look_at");
@@ -193,11 +198,11 @@ class TimelineReader {
   ShowCamera camera_;
   std::vector<Keyframe> keyframes_;
   Lookup& lookup_;
-  Show so_far_;  // the segments read, and where the first begins
+  Show so_far_;  // the segments read, and the place of the hole
   double end_ = 0;
 };
 
-// Keyframes behind the end are never seen.
+// Reports keyframes behind the end of the show, which would never be seen.
 void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, double end) {
   for (std::size_t k = 0; k < keyframes.size(); ++k)
     if (keyframes[k].at_s > end)

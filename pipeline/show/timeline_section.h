@@ -6,7 +6,7 @@
 
 namespace domefall {
 
-// `show` has everything but its timeline already.
+// Reads the segments of a `show` that has everything else but its grade already.
 std::vector<Segment> read_timeline(const Section& section, const Show& show,
                                    const ShowCamera& camera, Lookup& lookup);
 

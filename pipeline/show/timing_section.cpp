@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
 constexpr double kDefaultRate = 1;      // M per second
-constexpr double kEndTolerance = 1e-3;  // of r at the end of a segment
+constexpr double kEndTolerance = 1e-3;  // relative, of r at the end of a segment
 constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
@@ -63,7 +63,7 @@ std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
   return tau;
 }
 
-// The first passage behind the beginning, on one leg or on either.
+// Proper time of the first passage of r after the beginning, on one leg or on either.
 std::optional<double> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
                               double begin) {
   const double after = begin + 1e-12 * (1 + std::abs(begin));
@@ -114,11 +114,11 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   return std::nullopt;
 }
 
-// Of free fall without end a show holds what doubles tell apart.
+// Reports an end that doubles do not resolve, and one outside the radii that shows may have.
 bool check_end(const Section& s, const Trajectory& trajectory, double tau) {
   const OrbitPoint end = point_at(trajectory, tau);
   if (const Item* to_r = s.find("to_r")) {
-    // What is left to the singularity may be less than the rounding of the proper time before it.
+    // The time left to the singularity may be less than the rounding of the proper time before it.
     const double wanted = s.number("to_r", kRadius).value_or(end.r);
     if (std::abs(end.r - wanted) <= kEndTolerance * wanted) return true;
     to_r->fail(

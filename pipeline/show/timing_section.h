@@ -1,5 +1,5 @@
-// The keys of a trajectory that say which part of it a segment shows, and how the observer's clock
-// runs meanwhile.
+// The keys of a trajectory that name the part of it that a segment shows, and how the observer's
+// clock runs meanwhile.
 #pragma once
 
 #include <initializer_list>
@@ -10,48 +10,50 @@
 
 namespace domefall {
 
-// Where a segment happens.
+// What a trajectory must know of the segment that it belongs to.
 struct Stage {
-  std::optional<double> mass_solar;  // nothing: flat space
+  std::optional<double> mass_solar;  // none in flat space
   M33d axes;                         // of the reference tetrad on the sky, where the segment begins
   double duration_s = 1;             // of the segment
-  const Segment* before = nullptr;   // the segment before, if there is one
+  const Segment* before = nullptr;   // null for the first segment
 };
 
-// Proper time (units of M; seconds in flat space) that passes in `seconds`.
+// The proper time (units of M; seconds in flat space) that passes in `seconds` of the observer's
+// clock.
 double proper_time_in(const Stage& stage, double seconds);
 
-inline constexpr double kNearest = 1e-6, kFarthest = 1e9;  // r, units of M
+inline constexpr double kNearest = 1e-6, kFarthest = 1e9;  // the radii of shows, units of M
 
 // How proper time runs in the segment.
 struct Rate {
-  double span = 0;  // of proper time in the whole segment
-  double begin = 1, end = 1;
+  double span = 0;            // proper time that passes in the whole segment
+  double begin = 1, end = 1;  // how fast it runs at both ends, as parts of the mean
 };
 
-// By `rate_m_per_s` (one number, or those at begin and end), `time_lapse` or `orbits` of that period;
-// 1 M per second without any.  Nothing if it is in error.
+// Reads `rate_m_per_s` (one number, or those at begin and end), `time_lapse` or `orbits`, which
+// counts in the given period.  Without any of them 1 M passes per second.  Nothing is returned for
+// an error.
 std::optional<Rate> read_rate(const Section& s, const Stage& stage,
                               std::optional<double> period = std::nullopt);
 
-// How `pace` shapes a run whose ends are fixed: to `timing`.  False, and reported, if the trajectory
-// has no such pace.
+// Reads `pace` into a timing whose ends are fixed.  Reports a pace that the trajectory cannot have,
+// and returns whether there was no mistake.
 bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing);
 
-// Where a segment of a world line begins and ends if the show does not say it.
+// Where a segment of a world line begins and ends if the show does not say so.
 struct Defaults {
-  std::optional<double> tau;                                // nothing: the show must say it
-  Leg leg = Leg::kInward;                                   // on which from_r is sought
-  double after = -std::numeric_limits<double>::infinity();  // from where on
-  // The end; without either 1 M of proper time passes per second.
-  std::optional<double> to_r, to_tau;
+  std::optional<double> tau;  // of the beginning; none if it must be given
+  Leg leg = Leg::kInward;     // on which from_r is sought
+  double after = -std::numeric_limits<double>::infinity();  // tau from which on it is sought
+  std::optional<double> to_r, to_tau;  // the end; with neither 1 M of proper time passes per second
 };
 
-// from_r, from_leg, from_tau_m; to_r, to_leg, to_tau_m, rate_m_per_s, time_lapse; pace.
+// Reads the beginning (from_r, from_leg, from_tau_m), the end (to_r, to_leg, to_tau_m,
+// rate_m_per_s, time_lapse) and the pace.  Nothing is returned for an error.
 std::optional<Timing> read_timing(const Section& s, const Stage& stage,
                                   const Trajectory& trajectory, const Defaults& defaults);
 
-// The same for a trajectory that goes on from tau: only the end and the pace are read.
+// Reads the end and the pace alone, for a trajectory whose beginning is known.
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                double begin, const Defaults& defaults = {});
 

@@ -14,13 +14,14 @@ namespace domefall {
 namespace {
 
 constexpr double kDefaultEnd = 0.05;
-// So that the azimuth keeps nine digits behind the point.
+// The azimuth of this many orbits still has nine digits behind the point.
 constexpr double kMostOrbits = 1e6;
-// A fall is timed from its start.  Rounding of r^(3/2) there misplaces an end at 1e-8 of the start
-// by 6e-4 of itself, at 1e-9 by 2 %, at 1e-11 it can be 0 (measured, 2e5 random falls each).
+// The largest ratio of the radii of a fall.  A fall is timed from its start, and rounding of
+// r^(3/2) there misplaces an end at 1e-8 of the start by 6e-4 of itself and one at 1e-9 by 2 %,
+// while one at 1e-11 may come out as 0 (measured on 2e5 random falls each).
 constexpr double kLongestFall = 1e8;
 
-// Of what is not a world line with an end of its own.
+// The timing of a trajectory that is given by a rate, from tau = 0 on.
 std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& trajectory,
                                      const Rate& rate, bool mirrored) {
   Timing timing{0, rate.span, Pace::kSteady, rate.begin, rate.end};
@@ -65,7 +66,7 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   return timed(s, CircularOrbit{*r}, *rate, mirrored);
 }
 
-// The end of a fall that is timed by a rate; it must come before the singularity.
+// Reads the rate of a fall that is timed by one.  The segment must end before the singularity.
 std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
   const auto rate = read_rate(s, stage);
   const double most = proper_time_to(fall, std::max(kNearest, fall.from_r / kLongestFall));
@@ -139,7 +140,7 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
   return timed(s, *trajectory, Rate{proper_time_in(stage, stage.duration_s)}, false);
 }
 
-// What the segment before did goes on.
+// Reads a trajectory that goes on with that of the segment before.
 std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stage) {
   const Section s(item,
                   {"type", "to_r", "to_leg", "to_tau_m", "rate_m_per_s", "time_lapse", "pace"});
@@ -154,7 +155,7 @@ std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stag
   return TimedTrajectory{stage.before->trajectory, *timing, placement};
 }
 
-// A fall that says more than RadialInfall knows.
+// Whether a fall has keys that RadialInfall does not cover.
 bool is_curved(const Item& item) {
   static constexpr std::array<std::string_view, 8> kKeys{
       "rest_r",   "angular_momentum", "v_inf",  "impact_parameter",

@@ -1,4 +1,4 @@
-// The keys of a segment's `trajectory`.
+// The section `trajectory` of a segment.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -13,9 +13,10 @@ struct TimedTrajectory {
   Placement placement;
 };
 
-// `region`: I or III, which has the same orbits.
+// Reads `region`, which is I or III.  Both have the same orbits.
 bool is_in_region_three(const Section& s);
 
+// Reads a trajectory of any type.  Nothing is returned for an error, which is reported.
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
                                                Lookup& lookup);
 

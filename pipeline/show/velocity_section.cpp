@@ -15,7 +15,7 @@ constexpr double kMostLorentzFactor = 1e9;
 constexpr Range kFactors = kPureNumber.within(1, kMostLorentzFactor);
 constexpr Range kSpeeds = Range{"speed of light = 1"}.at_least(0).below(1);
 
-// gamma v: a speed in double precision would not hold a Lorentz factor of 1e9.
+// Velocities are held as gamma v, since a speed in double precision has no Lorentz factor of 1e9.
 double gamma_v_of_factor(double factor) { return std::sqrt((factor - 1) * (factor + 1)); }
 double gamma_v_of_speed(double v) { return v / std::sqrt((1 - v) * (1 + v)); }
 
@@ -35,7 +35,7 @@ const Item* two_speeds(const Section& s) {
   return nullptr;
 }
 
-// Of what starts from rest in a direction, so that it has one.
+// The rapidity of what starts from rest.  It is not 0, so that there is a direction.
 constexpr double kLeastRapidity = 1e-8;
 
 std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Item& item) {
@@ -64,7 +64,7 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-// Where an observer sees a place on its home sky.
+// The direction in which an observer sees a place on its home sky.
 V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
   const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
@@ -97,7 +97,7 @@ const Item* require_direction(const Section& s) {
 
 enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
 
-// Where each of these is found.
+// Whether a region has observers of that kind.
 bool is_found_in(Against against, Region region) {
   switch (against) {
     case Against::kStatic:
@@ -112,7 +112,7 @@ bool is_found_in(Against against, Region region) {
   return region == Region::kII || region == Region::kIV;
 }
 
-// The radii at which an observer of that kind, in that region if one is named, can be.
+// The radii at which an observer of that kind can be, in that region if one is named.
 Range radii(Against against, std::optional<Region> region) {
   if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(2);
   if (against == Against::kStatic && !region)
@@ -126,7 +126,7 @@ Range radii(Against against, std::optional<Region> region) {
   return kUnitsOfM.at_least(kNearest).at_most(2);
 }
 
-// The region that the show names, or the one of free fall from region I or out to it.
+// The region that the show names, or that of a free fall from region I or of a rise to it.
 Region region_of(const std::optional<Region>& named, Against against, double r) {
   if (named) return *named;
   if (r > 2) return Region::kI;

@@ -1,5 +1,6 @@
 #include "pipeline/show/yaml_document.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
 
 #include <cerrno>
@@ -15,8 +16,8 @@ namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
 
-// Length of the well-formed UTF-8 character that starts the text; 0 if there is none.  Overlong
-// forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
+// The length of the well-formed UTF-8 character at the start of the text; 0 if there is none.
+// Overlong forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t k) {
     return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
@@ -38,14 +39,12 @@ void check_characters(std::string_view text, Problems& problems) {
   for (std::size_t k = 0; k < text.size();) {
     const auto c = static_cast<unsigned char>(text[k]);
     const std::size_t length = character_length(text.substr(k));
-    char code[8];
-    std::snprintf(code, sizeof code, "0x%02X", c);
     if (length == 0) {
-      problems.add(at, std::string("the byte ") + code + " is not UTF-8; save the show as UTF-8");
+      problems.add(at, fmt::format("the byte 0x{:02X} is not UTF-8; save the show as UTF-8", c));
       return;
     }
     if ((c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7F) {
-      problems.add(at, std::string("the control character ") + code + " has no place in a show");
+      problems.add(at, fmt::format("the control character 0x{:02X} has no place in a show", c));
       return;
     }
     if (c == '\r' && !text.substr(k).starts_with("\r\n")) {
@@ -58,7 +57,8 @@ void check_characters(std::string_view text, Problems& problems) {
   }
 }
 
-// yaml-cpp stumbles over a tab some way behind it.
+// The column of a tab in the indentation of a line.  yaml-cpp reports such a tab only some way
+// behind it.
 std::optional<int> tab_in_indentation(const std::string& text, int line) {
   std::size_t start = 0;
   for (int k = 0; k < line && start != std::string::npos; ++k) {

@@ -1,4 +1,4 @@
-// From a file to a YAML tree whose every oddity has been turned into a message with a place.
+// Reads a file as a YAML tree, and turns each of its syntax errors into a message with a place.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -11,14 +11,14 @@
 namespace domefall {
 
 // The file's bytes without a byte order mark.  Throws InputError if it cannot be read, is a folder
-// or is beyond 1 MiB; TemporaryError if reading breaks off.
+// or exceeds 1 MiB, and TemporaryError if reading breaks off.
 std::string read_show_text(const std::filesystem::path& file);
 
-// A comment that is appended before parsing: yaml-cpp 0.7 lets the end of the file close a quote,
-// and then finds these words inside it.
+// The words of a comment that is appended before parsing.  yaml-cpp 0.7 lets the end of the file
+// close an open quote, whose text then ends with these words.
 inline constexpr std::string_view kEndOfShow = "end of the show file";
 
-// The root of the text's only document, undefined if there is none.  Syntax errors, bytes that are
+// The root of the text's only document; undefined if there is none.  Syntax errors, bytes that are
 // not UTF-8, control characters, nesting too deep and further documents raise `problems`.
 YAML::Node parse_yaml(const std::string& text, Problems& problems);
 

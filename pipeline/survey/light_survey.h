@@ -13,8 +13,8 @@ struct FrameLight {
   double time_s = 0;
   int segment = 0;
   double ev = 0;
-  // Luminance of the pixels inside the image (a dome's circle), in pixel values: its mean, and the value
-  // that 1 % of them exceed.
+  // Luminance of the pixels inside the image (a dome's circle), in pixel values: its mean, and the
+  // value that 1 % of them exceed.
   double mean = 0, percentile99 = 0;
   // Part of the pixels, 0 to 1, of which a channel lies within 1 % of the grade's white.  Without a
   // grade: of which a channel exceeds 1.
@@ -23,14 +23,15 @@ struct FrameLight {
 
 struct LightSurvey {
   FrameLight brightest;  // by its mean
-  // Fades are left out: it is sought among the frames whose exposure is within 3 stops of the highest.
+  // Fades are left out: it is sought among the frames whose exposure is within 3 stops of the
+  // highest.
   FrameLight darkest;
   int frames = 0;  // how many were measured
 };
 
-// Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.  `grader`
-// is null for a show without a grade.  Means agree with those of large frames to a few percent, since
-// stars are as bright at a small size, only larger.
+// Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.
+// `grader` is null for a show without a grade.  Means agree with those of large frames to a few
+// percent, since stars are as bright at a small size, only larger.
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);
 
 }  // namespace domefall

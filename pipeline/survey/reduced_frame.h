@@ -5,8 +5,8 @@
 
 namespace domefall {
 
-// The same projection with `width` columns.  A flat one keeps its field of view and, to rounding, the
-// shape of its pixels, but has 16 rows at least.
+// The same projection with `width` columns.  A flat one keeps its field of view and, to rounding,
+// the shape of its pixels, but has 16 rows at least.
 Projection reduced(const Projection& projection, int width);
 
 // The same frame in that projection, and so is the one that dissolves into it.

@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// Turns gamma v against the outgoing frame into gamma v against rain, for r > 2.  The two frames move
-// at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).
+// Turns gamma v against the outgoing frame into gamma v against rain, for r > 2.  The two frames
+// move at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).
 V3d in_rain(const V3d& c, double s) {
   const double below = (1 - s) * (1 + s), gamma = std::sqrt(1 + c.length2());
   return {((1 + s * s) * c.x + 2 * s * gamma) / below, c.y, c.z};
@@ -22,8 +22,9 @@ V3d in_rain(const V3d& c, double s) {
 struct Plane {
   double gamma, radial, across, s;
 
-  // gamma + c.m cancels behind a fast observer.  With 1/(gamma + |c|) for gamma - |c| it is a sum of
-  // positive terms: gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2), x the angle between c and m.
+  // gamma + c.m cancels behind a fast observer.  With 1/(gamma + |c|) for gamma - |c| it is a sum
+  // of positive terms: gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2), x the angle between
+  // c and m.
   double ratio(double angle) const {
     const double length = std::hypot(radial, across);
     const double half = std::cos((angle - std::atan2(across, radial)) / 2);

@@ -17,9 +17,9 @@ namespace {
 constexpr int kMostPairs = 20'000;
 constexpr double kRadianDeg = 180 / std::numbers::pi;
 
-// Speed of two observers at one place against each other; nothing inside the horizon if their tetrads
-// differ.  With c = gamma v of each along axes of the sky, the Lorentz factor of the one for the other
-// is gamma gamma' - c.c'.
+// Speed of two observers at one place against each other; nothing inside the horizon if their
+// tetrads differ.  With c = gamma v of each along axes of the sky, the Lorentz factor of the one
+// for the other is gamma gamma' - c.c'.
 std::optional<double> relative_speed(const ObserverState& a, const ObserverState& b) {
   V3d c = a.celerity, d = b.celerity;
   if (a.tetrad != b.tetrad) {
@@ -27,8 +27,8 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
     c = static_celerity(a), d = static_celerity(b);
   }
   const V3d difference = apply(a.sky_from_tetrad, c) - apply(b.sky_from_tetrad, d);
-  // Without cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2, and v = sqrt(gamma^2 - 1)
-  // over gamma.
+  // Without cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2, and v = sqrt(gamma^2
+  // - 1) over gamma.
   const double e = std::hypot(1.0, c.length()) - std::hypot(1.0, d.length());
   const double excess = std::max(0.0, (difference.length2() - e * e) / 2);
   return std::sqrt(excess * (excess + 2)) / (1 + excess);
@@ -75,8 +75,8 @@ struct Pairs {
   std::vector<FramePair> pairs;
 };
 
-// The second frames of the pairs to compare.  Between keyframes a camera turns smoothly, and each state
-// takes milliseconds: every tenth frame is enough there, and those next to the keyframes.
+// The second frames of the pairs to compare.  Between keyframes a camera turns smoothly, and each
+// state takes milliseconds: every tenth frame is enough there, and those next to the keyframes.
 std::vector<int> chosen_frames(const Show& show) {
   constexpr int kWithinTurns = 10;
   const int count = frame_count(show), step = (count + kMostPairs - 1) / kMostPairs;
@@ -113,8 +113,8 @@ Pairs compare_frames(const Show& show) {
   return found;
 }
 
-// One warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value) is what
-// the warning says.
+// One warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value) is
+// what the warning says.
 template <class TextOf>
 void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quantity, double limit,
                   const TextOf& text_of, std::vector<ShowWarning>& warnings) {

@@ -1,4 +1,5 @@
-// What an audience would see jump: the joints of segments, and what changes too fast between frames.
+// What an audience would see jump: the joints of segments, and what changes too fast between
+// frames.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,8 @@ struct SegmentJoint {
   double dissolve_s = 0;
   double r_before = 0, r_after = 0;  // M
   Region region_before = Region::kI, region_after = Region::kI;
-  // The observers' speed against each other (1 is light's).  There is none unless they are at one place.
+  // The observers' speed against each other (1 is light's).  There is none unless they are at one
+  // place.
   std::optional<double> speed;
   double rate_before = 0, rate_after = 0;  // M of proper time a second of show
 
@@ -47,9 +49,9 @@ inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where
 // - an exposure that jumps from one frame to the next;
 // - a clock that changes its rate where the motion goes on;
 // - what a keyframe with `ease: hold` changes.
-// Every frame of a show of up to 20,000 frames is compared with the one before, and 20,000 frames of a
-// longer one.  In segments with keyframed targets only every tenth frame is compared, and those within
-// two frames of a keyframe.
+// Every frame of a show of up to 20,000 frames is compared with the one before, and 20,000 frames
+// of a longer one.  In segments with keyframed targets only every tenth frame is compared, and
+// those within two frames of a keyframe.
 std::vector<ShowWarning> show_warnings(const Show& show);
 
 }  // namespace domefall

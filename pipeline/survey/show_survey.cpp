@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// A segment has as many samples as frames, within these bounds: enough that an orbit has one turning
-// point at most between two of them.
+// A segment has as many samples as frames, within these bounds: enough that an orbit has one
+// turning point at most between two of them.
 constexpr int kLeastSamples = 512, kMostSamples = 20'000;
 // About half the bits of a double: r changes by less than rounding closer to a minimum.
 constexpr int kMinimumBits = 26;
@@ -35,7 +35,8 @@ class SampledPath {
     const double span = end_ - begin_, step = std::min(span, period()) / samples;
     for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end_, begin_ + step * k));
     taus_.push_back(end_);
-    // A path between two singularities is highest at 0, and may visit region I for a short time only.
+    // A path between two singularities is highest at 0, and may visit region I for a short time
+    // only.
     if (begin_ < 0 && 0 < end_) taus_.push_back(0);
     std::sort(taus_.begin(), taus_.end());
   }

@@ -36,8 +36,8 @@ struct ShowSurvey {
   std::vector<SegmentSurvey> segments;
   std::vector<Region> regions;     // in the order visited
   std::optional<Extreme> closest;  // r (M); none in flat space
-  // Largest gamma v of a frame's observer against the static one of its place (r > 2, or flat space).
-  // There is none if no frame is outside.
+  // Largest gamma v of a frame's observer against the static one of its place (r > 2, or flat
+  // space).  There is none if no frame is outside.
   std::optional<Extreme> fastest;
   // Least and largest 1 + z of light from a sky that the show lights, over every frame and all
   // directions, inside the image or not.

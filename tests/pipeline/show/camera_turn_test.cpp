@@ -1,4 +1,4 @@
-// A camera that turns from one target to the next.
+// Tests of a camera that turns from one target to the next.
 #include <cmath>
 
 #include "pipeline/optics/aberration.h"
@@ -9,14 +9,14 @@
 namespace domefall {
 namespace {
 
-// A dozen roundings of numbers of size 1.
+// This allows for a dozen roundings of numbers of size 1.
 constexpr double kRounding = 1e-14;
 
 class CameraTurns : public ShowFile {};
 
 double camera_angle(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
 
-// Where the audience looks at the target, in the boosted tetrad.
+// The direction in which the audience sees the target, in the boosted tetrad.
 V3d looked_at(const FrameState& s) {
   const M33d& m = s.observer.tetrad_from_camera;
   return (column(m, 1) + column(m, 2)) / std::sqrt(2.0);
@@ -34,7 +34,7 @@ TEST_F(CameraTurns, ATurnWholeLeadsToItsEndAndPartsAddUp) {
   }
 }
 
-// It turned the other way round about another axis, and jumped in the end.
+// The camera once turned the other way round about another axis, and jumped in the end.
 TEST_F(CameraTurns, OnItsWayFromTheHoleForwardTheCameraComesNearerAllTheTime) {
   const Show s = read(
       "black_hole: {mass_solar: 4e6}\nframes_per_second: 10\n"
@@ -59,7 +59,8 @@ TEST_F(CameraTurns, OnItsWayFromTheHoleForwardTheCameraComesNearerAllTheTime) {
   EXPECT_NEAR(camera_angle(middle, hole), camera_angle(middle, forward), 1e-12);
 }
 
-// It jumped to the long way round where the next segment's observer would turn the other way.
+// The camera once jumped to the long way round where the next segment's observer would turn the
+// other way.
 TEST_F(CameraTurns, APictureThatVanishesGoesOnTurningAsItsOwnObserverSees) {
   for (const char* ra : {"0", "60", "120", "180"}) {
     const Show s = read(

@@ -37,7 +37,7 @@ Curve random_curve(std::mt19937& engine) {
   return c;
 }
 
-// Neither a flash nor a dip that no keyframe asks for.
+// A curve has neither a flash nor a dip that no keyframe asks for.
 TEST(Curves, NeverLeaveTheValuesOfTheKeysAround) {
   std::mt19937 engine(7);
   for (int n = 0; n < 500; ++n) {

@@ -13,7 +13,7 @@ namespace domefall {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// A dozen roundings of numbers of size 1.
+// This allows for a dozen roundings of numbers of size 1.
 constexpr double kRounding = 1e-14;
 
 class FrameStates : public ShowFile {
@@ -27,7 +27,8 @@ void expect_near(const V3d& a, const V3d& b, double tolerance = kRounding) {
   EXPECT_LE((a - b).length(), tolerance) << a << " and " << b;
 }
 
-// In the boosted tetrad, the direction that a dome shows at an elevation above the front of its rim.
+// The direction, in the boosted tetrad, that a dome shows at an elevation above the front of its
+// rim.
 V3d at_front(const FrameState& s, double elevation) {
   const M33d& m = s.observer.tetrad_from_camera;
   return column(m, 1) * std::cos(elevation) + column(m, 2) * std::sin(elevation);
@@ -132,7 +133,7 @@ TEST_F(FrameStates, TheHoleStands45DegreesAboveTheFrontOfADome) {
     const FrameState f =
         frame_state(show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n"), 12);
     expect_near(hole_seen(f.observer), at_front(f, 45 * kDegree));
-    // On the image: on the middle column, half way from the centre to the bottom edge.
+    // On the image it is in the middle column, half way from the centre to the bottom edge.
     const V3d n = apply_transposed(f.observer.tetrad_from_camera, hole_seen(f.observer));
     const auto pixel = pixel_of(f.projection, {n});
     ASSERT_TRUE(pixel);
@@ -186,7 +187,7 @@ TEST_F(FrameStates, RollTurnsThePictureClockwise) {
   expect_near(column(f.observer.tetrad_from_camera, 0), V3d(0, -1, 0));
 }
 
-// [Riazuelo] sec. sec_cam: without rotations (X, Y, Z) are the boosted (Theta, Phi, R).
+// Without rotations (X, Y, Z) are the boosted (Theta, Phi, R): [Riazuelo] sec. sec_cam.
 TEST_F(FrameStates, ZeroEulerAnglesGiveThetaPhiAndR) {
   for (const char* mover : kMovers) {
     const M33d m = frame_state(show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n",
@@ -207,7 +208,7 @@ TEST_F(FrameStates, EulerAnglesTurnAboutCThenBThenC) {
         .observer.tetrad_from_camera;
   };
   const V3d r(1, 0, 0), theta(0, 1, 0), phi(0, 0, 1);
-  // A' = A cos + B sin about C.
+  // The rotation about C gives A' = A cos + B sin.
   expect_near(column(axes("[90, 0, 0]"), 0), phi);
   expect_near(column(axes("[90, 0, 0]"), 1), -theta);
   // Then Z leans from C towards A'.
@@ -275,7 +276,7 @@ TEST_F(FrameStates, AFallMovesInwardSmoothlyThroughTheHorizon) {
   EXPECT_LT(inside, 40);
 }
 
-// A mover with sideways speed has no exact direction to compare with; it must not jump.
+// With a sideways speed there is no exact direction to compare with, but it must not jump.
 TEST_F(FrameStates, ASidewaysMotionTurnsSmoothlyThroughTheHorizon) {
   V3d last;
   for (int k = -50; k <= 50; ++k) {
@@ -294,7 +295,8 @@ TEST_F(FrameStates, MotionIsTheVelocityAgainstTheStaticFrame) {
       ObserverState o;
       o.r = r;
       o.celerity = celerity_against(resting_celerity(r), direction * 0.98);
-      // The static observer sees its own motion's goal at `direction`; the mover sees it dead ahead.
+      // The static observer sees its own motion's goal at `direction`; the mover sees it dead
+      // ahead.
       const V3d goal = to_tetrad(resting_celerity(r), direction).direction;
       expect_near(motion_direction(o).normalized(), to_observer(o.celerity, goal).direction, 1e-13);
     }
@@ -318,7 +320,7 @@ TEST_F(FrameStates, FlyingTowardsAStarKeepsItDeadAhead) {
   }
 }
 
-// 0.1 + 0.1 + 0.1 > 0.3 in doubles: the frame at the cut must not be late.
+// In doubles 0.1 + 0.1 + 0.1 exceeds 0.3, and yet the frame at the cut must not be late.
 TEST(Cuts, FallOnTheirFramesHoweverTheDurationsAddUp) {
   Show show;
   for (int k = 0; k < 10; ++k) {

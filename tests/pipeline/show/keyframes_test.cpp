@@ -1,4 +1,4 @@
-// What changes during a show: cameras, exposure, skies.
+// Tests of what changes during a show: cameras, exposure, skies.
 #include <cmath>
 #include <numbers>
 
@@ -113,8 +113,8 @@ TEST_F(Keyframes, CamerasStandWhereTheirKeysSay) {
   expect_like(59, LookOutward{}, 45);
 }
 
-// The targets move against each other, by whole turns even: no way from one to the other jumps.
-// With twice the frames a second, every step is about half as large.
+// The targets move against each other, even by whole turns, and no way from one to the other jumps.
+// With twice the frames a second every step is about half as large.
 TEST_F(Keyframes, CamerasTurnWithoutAJump) {
   const auto turning = [this](const std::string& keys, int rate) {
     return show("frames_per_second: " + std::to_string(rate) +

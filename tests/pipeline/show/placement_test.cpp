@@ -9,7 +9,7 @@ namespace domefall {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Products of a few rounded sines and cosines.
+// This allows for products of a few rounded sines and cosines.
 constexpr double kRounding = 1e-15;
 
 void expect_near(const V3d& a, const V3d& b, double tolerance = kRounding) {

@@ -1,5 +1,4 @@
-// Keyframes, cameras and dissolves that cannot be.
-// Every message in full, with its line and column.
+// Messages about keyframes, cameras and dissolves that cannot be, in full, with line and column.
 #include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {

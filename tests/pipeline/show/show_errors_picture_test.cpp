@@ -1,5 +1,4 @@
-// Cameras, skies and grades that cannot be had.
-// Every message in full, with its line and column.
+// Messages about cameras, skies and grades that cannot be had, in full, with line and column.
 #include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {

@@ -1,5 +1,4 @@
-// Timelines that cannot be flown.
-// Every message in full, with its line and column.
+// Messages about timelines that cannot be flown, in full, with line and column.
 #include "tests/pipeline/show/show_mistakes.h"
 
 namespace domefall {

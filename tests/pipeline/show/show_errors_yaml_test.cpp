@@ -1,5 +1,4 @@
-// What is wrong before it comes to shows: YAML, keys and numbers.
-// Every message in full, with its line and column.
+// Messages about YAML, keys and numbers in any section, in full, with line and column.
 #include <algorithm>
 
 #include "tests/pipeline/show/show_mistakes.h"

@@ -1,4 +1,4 @@
-// Writes show files into a folder of the test's own, with stand-ins for the shipped assets.
+// A fixture that writes show files into a folder of its own, with stand-ins for the shipped assets.
 #pragma once
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ class ShowFile : public TestFolder {
   std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto file = folder_ / name;
     std::filesystem::create_directories(file.parent_path());
-    // Truncated instead, each of thousands of files would be flushed to the disk (ext4).
+    // If it were truncated instead, ext4 would flush each of thousands of files to the disk.
     std::filesystem::remove(file);
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
@@ -39,7 +39,7 @@ class ShowFile : public TestFolder {
 
   Show read(const std::string& yaml) { return read_show(write("show.yaml", yaml)); }
 
-  // What reading it complains of, without the folder; empty if nothing.
+  // The message of the error that reading it throws, without the folder; empty if it throws none.
   std::string complaint(const std::string& yaml) {
     try {
       read(yaml);

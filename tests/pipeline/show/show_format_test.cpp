@@ -1,4 +1,4 @@
-// The manual of show files: its examples are shows, and no key is missing.
+// Tests of the manual of show files: its examples are shows, and no key is missing from it.
 #include <sstream>
 
 #include "pipeline/show/frame_state.h"
@@ -37,7 +37,7 @@ TEST_F(ShowFormat, EveryExampleIsAShow) {
   }
 }
 
-// What a section refuses to know, it lists: so every key is in the manual that a section knows.
+// A section that does not know a key lists those it knows, and all of them must be in the manual.
 TEST_F(ShowFormat, EveryKeyIsInTheManual) {
   const std::string text = manual();
   int keys = 0;

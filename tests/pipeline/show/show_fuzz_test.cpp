@@ -1,5 +1,6 @@
-// Thousands of damaged shows: each is either refused with places or read into a show whose frames
-// can be had.  The seed is fixed, so a failure comes back; it prints the show.
+// Tests with thousands of damaged shows.  Each is either refused, with places, or read as a show
+// that has all its frames.  The seed is fixed, so that a failure comes back, and a failure prints
+// the show.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -101,7 +102,7 @@ std::string mutated(std::string text, Random& random) {
       text[at] = meaningful_byte(random);
       return text;
     case 4: {
-      // A number's digits, so that many mutants are shows.
+      // The digits of a number are changed, so that many mutants are shows.
       const std::size_t digit = text.find_first_of("0123456789", at);
       if (digit != std::string::npos) text[digit] = static_cast<char>('0' + below(random, 10));
       return text;
@@ -160,7 +161,7 @@ void expect_finite_numbers(const Show& show) {
 
 class ShowFuzz : public ShowFile {
  protected:
-  // Whether it is a show.
+  // Reads a text, and returns whether it is a show.
   bool survives(const std::string& yaml) {
     try {
       const Show show = read(yaml);
@@ -187,7 +188,7 @@ class ShowFuzz : public ShowFile {
       shows += survives(yaml);
       ASSERT_FALSE(HasFailure()) << "mutant " << k << ":\n" << yaml;
     }
-    // Neither kind is so rare that the test is idle.
+    // Both kinds are frequent enough that the test means something.
     EXPECT_GT(shows, mutants / 20);
     EXPECT_GT(mutants - shows, mutants / 20);
     RecordProperty("shows", shows);

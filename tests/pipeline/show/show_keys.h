@@ -12,7 +12,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 class ShowKeys : public ShowFile {
  protected:
-  // A show with one segment and further lines.
+  // Reads a show with one segment and further lines.
   Show with(const std::string& more, const std::string& trajectory = "{type: infall, from_r: 30}",
             const std::string& hole = "{mass_solar: 4e6}") {
     return read("black_hole: " + hole +
@@ -21,7 +21,7 @@ class ShowKeys : public ShowFile {
   Segment segment(const std::string& trajectory, const std::string& hole = "{mass_solar: 4e6}") {
     return with("", trajectory, hole).timeline.at(0);
   }
-  // Of a segment of type `velocity`.
+  // The celerity of a segment of type `velocity`.
   V3d celerity(const std::string& keys, const std::string& hole = "{mass_solar: 4e6}") {
     return std::get<GivenVelocity>(segment("{type: velocity, " + keys + "}", hole).trajectory)
         .celerity;
@@ -29,7 +29,7 @@ class ShowKeys : public ShowFile {
   std::filesystem::path asset(const std::string& name) { return folder_ / "assets" / name; }
 };
 
-// Products and quotients of a few rounded numbers.
+// This allows for products and quotients of a few rounded numbers.
 inline void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-14) {
   EXPECT_LE((a - b).length(), tolerance * std::max(1.0, b.length())) << a << " and " << b;
 }

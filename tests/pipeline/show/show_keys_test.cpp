@@ -1,4 +1,4 @@
-// What each key of a show file means, in inside units, and what is meant where it is left out.
+// Tests of what each key of a show file means, in the units of the program, and of its default.
 #include "tests/pipeline/show/show_keys.h"
 
 #include <cmath>
@@ -162,7 +162,7 @@ TEST_F(ShowKeys, ASegmentsCameraIsLaidOverTheShowsKeyByKey) {
   EXPECT_DOUBLE_EQ(camera(3).dome_tilt, 15 * kDegree);
 }
 
-// ---- sky and picture ----
+// ---- sky, stars, exposure, grade ----
 
 TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   write("art/sky.png", "");
@@ -252,7 +252,7 @@ TEST_F(ShowKeys, EffectsAreThoseOfNatureUnlessTheShowLeavesThemOut) {
             Amplification::kEverything);
 }
 
-// What counts is where frames are: a fall may end at the horizon if the frame before is outside.
+// Only the places of frames count: a fall may end at the horizon if the frame before is outside.
 TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
   const std::string straight = "effects: {lensing: false}\n";
   EXPECT_FALSE(with(straight, "{type: infall, from_r: 6, to_r: 2}").effects.lensing);

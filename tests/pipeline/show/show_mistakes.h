@@ -1,4 +1,4 @@
-// Tables of broken shows and of what their authors are told.
+// A fixture for tables of broken shows and the messages about them.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,12 @@ class ShowMistakes : public ShowFile {
   struct Mistake {
     const char* name;
     std::string yaml;
-    // Without the file's name, which every line begins with: "3:7: size must be ...".
+    // The message without the file's name, with which every line begins: "3:7: size must be ...".
     std::string told;
   };
 
   static inline const std::string kHole = "black_hole: {mass_solar: 1}\n";
-  // Nothing is wrong with these two lines.
+  // These two lines are right.
   static inline const std::string kShow =
       kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n";
 

@@ -1,4 +1,4 @@
-// What the keys of a trajectory mean, in inside units.
+// Tests of what the keys of a trajectory mean, in the units of the program.
 #include "tests/pipeline/show/show_keys.h"
 
 namespace domefall {

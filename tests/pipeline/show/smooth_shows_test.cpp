@@ -1,11 +1,11 @@
-// The productions in shows/ move so that a dome's audience can follow: frame by frame, from the first
-// to the last, across every join that is not a dissolve.
+// Tests that the productions in shows/ move so that a dome's audience can follow, frame by frame
+// and across every joint that is not a dissolve.
 //
-// What is bounded is what the audience sees. 26 places all around the sky and the hole's two poles
-// (the directions to its centre and away from it) are followed to where they appear on the dome, bent,
-// aberrated and through the camera. So a leap of the camera, of the place, of the velocity or of the
-// clock shows, whichever it comes from, and what cancels (an orbit and the camera that follows it)
-// does not. Places nearly behind the hole are left out: their images swing around it as they please.
+// They bound what the audience sees.  26 places all around the sky and the hole's two poles (the
+// directions to its centre and away from it) are followed to where they appear on the dome, bent,
+// aberrated and through the camera.  So they find a leap of the camera, of the place, of the
+// velocity or of the clock, but not what cancels, such as an orbit and the camera that follows it.
+// Places nearly behind the hole are left out, since their images swing fast around it.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -26,12 +26,12 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFramesPerSecond = 30;
 
-// What one may do from a frame to the next, and how much that may change with the frame after it.
+// Bounds of a step from one frame to the next, and of its change from one step to the next.
 struct Bounds {
   double change, change_of_change;
 };
-// A dome's whole picture turning faster makes people ill: 25 degrees per second; and a change of speed
-// is felt as a jerk from about 2 degrees per second on.
+// A dome whose whole image turns by more than 25 degrees per second makes people ill, and a change
+// of speed is felt as a jerk from about 2 degrees per second on.
 constexpr Bounds kOnDome{25 * kDegree / kFramesPerSecond, 2 * kDegree / kFramesPerSecond};
 constexpr Bounds kOnSky = kOnDome;
 // The hole grows or shrinks by less than a third in a second.
@@ -46,7 +46,7 @@ struct Mark {
   bool seen = false;
 };
 
-struct Look {
+struct View {
   std::vector<Mark> marks;
   V3d place;
   double log_r = 0, ev = 0;
@@ -57,13 +57,13 @@ Mark on_dome(const ObserverState& o, const V3d& in_tetrad) {
           true};
 }
 
-Look look_of(const FrameState& s) {
+View view_of(const FrameState& s) {
   const ObserverState& o = s.observer;
-  Look look;
-  look.place = column(o.sky_from_tetrad, 0);
-  look.log_r = std::log(o.r);
-  look.ev = s.settings.ev;
-  look.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
+  View view;
+  view.place = column(o.sky_from_tetrad, 0);
+  view.log_r = std::log(o.r);
+  view.ev = s.settings.ev;
+  view.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
   const bool sky = !(is_outgoing(o.tetrad) && o.r <= 2);
   for (int k = 0; k < 27; ++k) {
     const int row = k / 3 % 3, layer = k / 9;
@@ -71,10 +71,10 @@ Look look_of(const FrameState& s) {
     if (!(corner.length() > 0)) continue;
     const V3d source = apply_transposed(o.sky_from_tetrad, corner.normalized());
     const bool behind = std::acos(std::clamp(-source.x, -1.0, 1.0)) < kBehindHole;
-    look.marks.push_back(sky && !behind ? on_dome(o, primary_image(o.r, o.tetrad, source).v)
+    view.marks.push_back(sky && !behind ? on_dome(o, primary_image(o.r, o.tetrad, source).v)
                                         : Mark{});
   }
-  return look;
+  return view;
 }
 
 double angle(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
@@ -92,8 +92,8 @@ struct Motion {
   Worst dome, sky, log_r, stops;
 };
 
-// Three frames in a row.
-void compare(const Look& a, const Look& b, const Look& c, int n, Motion& motion) {
+// Compares what three frames in a row show.
+void compare(const View& a, const View& b, const View& c, int n, Motion& motion) {
   const auto turn = [](const V3d& x, const V3d& y, const V3d& z) {
     return (x - y * 2 + z).length();
   };
@@ -120,7 +120,8 @@ bool begins_or_ends(const Curve& curve, double t, double near) {
                      [&](const auto& key) { return std::abs(key.at_s - t) < near; });
 }
 
-// Whether something may begin or end: within three frames of a join or a keyframe.
+// Whether something may begin or end at a frame, which is within three frames of a joint or a
+// keyframe.
 bool is_critical(const Show& show, double t) {
   const double near = 3.5 / kFramesPerSecond;
   for (const double join : segment_times(show))
@@ -135,7 +136,7 @@ bool is_critical(const Show& show, double t) {
 // All frames where something may begin or end, and four of each twelve in between.
 Motion motion_of(const Show& show, int first = 0, int end = 1 << 30) {
   Motion motion;
-  std::vector<Look> last;
+  std::vector<View> last;
   int segment = 0;
   for (int n = first; n < std::min(end, frame_count(show)); ++n) {
     if (n % 12 >= 4 && !is_critical(show, n / kFramesPerSecond)) {
@@ -145,7 +146,7 @@ Motion motion_of(const Show& show, int first = 0, int end = 1 << 30) {
     const FrameState s = frame_state(show, n);
     if (dissolves_between(show, segment, s.segment)) last.clear();
     segment = s.segment;
-    last.push_back(look_of(s));
+    last.push_back(view_of(s));
     if (last.size() > 3) last.erase(last.begin());
     if (last.size() == 3) compare(last[0], last[1], last[2], n, motion);
   }
@@ -198,7 +199,7 @@ std::string edited(std::string text, const std::string& from, const std::string&
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// Each near where it was made.
+// A leap of each kind is found near the place where it was made.
 TEST_F(AJumpEditedIn, IsFound) {
   const std::string text = text_of("into_the_dark");
   const auto motion = [&](const char* from, const char* to, int second) {

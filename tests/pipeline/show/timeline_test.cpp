@@ -1,4 +1,4 @@
-// Segments, their clocks, and how they join.
+// Tests of segments, their clocks, and how they join.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,7 @@ class Timelines : public ShowFile {
   Show show(const std::string& segments, const std::string& more = "") {
     return read("black_hole: {mass_solar: 4e6}\n" + more + "timeline:\n" + segments);
   }
-  // Proper time per second of show at an instant.
+  // The proper time per second of show at an instant.
   static double rate_at(const Show& s, double t) {
     const double h = 1e-5;
     const int k = segment_at(s, t);
@@ -29,7 +29,7 @@ class Timelines : public ShowFile {
   }
 };
 
-// "From r = 30 M to r = 6 M in 20 s."
+// This is a show that is asked for as "from r = 30 M to r = 6 M in 20 s".
 TEST_F(Timelines, ASegmentGoesFromOneRadiusToAnother) {
   for (const char* orbit :
        {"type: parabolic, periastron: 5", "type: hyperbolic, v_inf: 0.3, periastron: 4.5",
@@ -106,7 +106,7 @@ TEST_F(Timelines, ClocksRunByTheirPace) {
   }
 }
 
-// Two rates that meet where segments do: the clock has no jerk.
+// Where segments meet with equal rates the clock has no jerk.
 TEST_F(Timelines, RatesRunFromOneToTheOther) {
   const Show s = show(
       "  - {duration_s: 4, trajectory: {type: circular, r: 8, rate_m_per_s: [0, 6]}}\n"
@@ -128,7 +128,7 @@ TEST_F(Timelines, FrozenTimeStandsStill) {
   EXPECT_NEAR(at(s, 3).r, 7, 1e-12);
 }
 
-// log r falls evenly towards the singularity, and rises evenly out of the other.
+// log r falls evenly towards the singularity, and rises evenly out of the past one.
 TEST_F(Timelines, TimeQuickensAndSlowsBesideSingularities) {
   const Show s = show(
       "  - {duration_s: 6, trajectory: {type: kruskal, energy: 1, from_r: 0.001, to_r: 1, pace: "
@@ -163,7 +163,7 @@ TEST_F(Timelines, DissolvesOverlapTheSegmentsTheyJoin) {
   EXPECT_EQ(frame_state(s, 60).observer.r, 4);
 }
 
-// Every kind of orbit, in either universe.
+// Segments of every kind of orbit begin in region I and in region III.
 TEST_F(Timelines, BeginInAnyRegion) {
   const auto first = [this](const std::string& trajectory) {
     return frame_state(show("  - {duration_s: 1, trajectory: {" + trajectory + "}}\n"), 0)
@@ -185,7 +185,8 @@ TEST_F(Timelines, BeginInAnyRegion) {
   EXPECT_EQ(at(journey, 9).region, Region::kII);
 }
 
-// A throw across the orbit turns its plane, one against it goes backwards; the place stays.
+// A throw across the orbit turns its plane, and one against it goes backwards, while the place
+// stays.
 TEST_F(Timelines, ThrowsSetOutFromThePlaceInTheirDirection) {
   const std::string start =
       "  - {duration_s: 2, trajectory: {type: circular, r: 8, orbits: 0.3}}\n";
@@ -212,7 +213,8 @@ TEST_F(Timelines, ThrowsSetOutFromThePlaceInTheirDirection) {
   }
 }
 
-// Of v and u, and across regions: the rings of the singularity drift on without a jump.
+// The null time runs on between v and u and across regions, so that the singularity's rings do not
+// jump.
 TEST_F(Timelines, NullTimeRunsOnAcrossSegmentsAndFrames) {
   const Show s = show(
       "  - {duration_s: 2, trajectory: {type: static, r: 9}}\n"
@@ -248,7 +250,7 @@ TEST_F(Timelines, PathsAreFlownThroughTheirKeys) {
   EXPECT_NEAR(at(s, 3).r, 6, 1e-12);
   EXPECT_NEAR(at(s, 3).azimuth, 40 * kDegree, 1e-12);
   EXPECT_NEAR(at(s, 6).r, 2.5, 1e-12);
-  // At rest, and at 0.3 c, against the static observer there.
+  // The velocities are at rest and at 0.3 c against the static observer there.
   const auto speed = [&](double t) {
     const ObserverState o = at(s, t);
     const V3d v = celerity_against(-resting_celerity(o.r), o.celerity);

@@ -12,8 +12,8 @@
 namespace domefall {
 namespace {
 
-// The range is held against the code that renders frames: no view ray is beyond it, and some come close
-// to its ends.
+// The range is held against the code that renders frames: no view ray is beyond it, and some come
+// close to its ends.
 struct Observed {
   const char* name;
   Region region;

@@ -15,7 +15,7 @@ class Surveys : public ShowFile {
 };
 
 TEST_F(Surveys, APeriastronBetweenFramesIsFound) {
-  // 6 M is passed in the middle of a show of 3.4 s with 2 frames a second: between frames 3 and 4.
+  // 6 M is passed in the middle of a show of 3.4 s with 2 frames a second, between frames 3 and 4.
   const Show show = timeline(
       "  - {duration_s: 3.4, trajectory: {type: parabolic, periastron: 6, from_r: 40, to_r: 40, "
       "to_leg: outward}}\n",
@@ -48,11 +48,12 @@ TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
 }
 
 TEST_F(Surveys, SpeedsAreThoseOfKeplersCircles) {
-  // v^2 = 1/(r - 2) against the static observer: v = 1/2 at the last stable orbit, gamma v = 1/sqrt(3).
+  // Against the static observer v^2 = 1/(r - 2), so that v = 1/2 at the last stable orbit and gamma
+  // v is 1/sqrt(3).
   const ShowSurvey s =
       survey(timeline("  - {duration_s: 1, trajectory: {type: circular, r: 6}}\n"));
   EXPECT_NEAR(s.fastest->value, 1 / std::sqrt(3), 1e-14);
-  // To who is at rest there all light is bluer by one factor; ahead and behind are both sky.
+  // At rest there all light is bluer by one factor, and the sky is both ahead and behind.
   EXPECT_NEAR(s.bluest->value, std::sqrt(2.0 / 3) / std::sqrt(3), 1e-14);
   EXPECT_NEAR(s.reddest->value, std::sqrt(2.0 / 3) * std::sqrt(3), 1e-14);
 }

@@ -1,5 +1,6 @@
-#include "pipeline/cli/render_time.h"
+#include "pipeline/survey/render_time.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,9 +18,10 @@
 namespace domefall {
 namespace {
 
-// Pixels along the upper side of the largest of the three sizes; the others have a half and a quarter.
+// The width in pixels of the largest of the three sizes.  The others have a half and a quarter of
+// it.
 constexpr int kLarge = 1024, kSmallest = 16;
-constexpr int kFrames = 3;  // of each
+constexpr int kFrames = 3;  // measured at each size
 constexpr double kWorth = 0.1;
 
 std::array<int, 3> measured_widths(const Show& show) {
@@ -30,8 +32,7 @@ std::array<int, 3> measured_widths(const Show& show) {
 class TemporaryFolder {
  public:
   TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("domefall_check_" + std::to_string(getpid()))) {
+      : path_(std::filesystem::temp_directory_path() / fmt::format("domefall_check_{}", getpid())) {
     std::filesystem::create_directories(path_);
   }
   ~TemporaryFolder() {
@@ -49,7 +50,8 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Seconds a frame: by the clock, and of all processors together, which other programs hardly change.
+// Seconds a frame takes by the clock, and of all processors together.  Other programs hardly change
+// the latter.
 struct Cost {
   double wall = 0, processor = 0;
 };
@@ -61,14 +63,14 @@ class Run {
   Run(const Show& show, Renderer& renderer, const Grader* grader)
       : show_(show), renderer_(renderer), grader_(grader) {}
 
-  // Of a run in which one frame is written while the next is rendered.
+  // The cost of a frame in a run in which one frame is written while the next is rendered.
   Cost per_frame(int width) const {
     using Clock = std::chrono::steady_clock;
     const int count = frame_count(show_);
     std::future<void> writing;
     Clock::time_point start;
     double processor = 0;
-    // One more, from whose writing on the clocks run.
+    // One frame more is made: the clocks run from the writing of the first one on.
     for (int k = 0; k <= kFrames; ++k) {
       const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<HalfFrame>(
@@ -113,7 +115,8 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   const auto widths = measured_widths(show);
   const Cost quarter = run.per_frame(widths[0]), half = run.per_frame(widths[1]),
              whole = run.per_frame(widths[2]);
-  // Part of the work goes with the pixels, part with the length of edges and with stars.
+  // A part of the work is proportional to the pixels, another to the length of edges, and another
+  // to the stars.
   const double step = std::max(0.0, whole.processor - half.processor);
   const double growth =
       std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
