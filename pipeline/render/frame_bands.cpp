@@ -16,16 +16,16 @@ namespace {
 
 static_assert(kBandRows == RayGrid::kStep);
 
-// How many bands one thread draws one after another where there are splats.  Splats at the ends of such a run
-// are dropped by its neighbour too, so runs are long; and a thread has several turns, so that none waits
-// for another at the end.
+// The number of bands that one thread draws in succession where there are splats.  The splats at
+// both ends of such a run are added by its neighbours too, so a run is long.  But each thread has
+// several runs, so that none waits long for another at the end.
 int bands_in_a_run(int bands) {
-  constexpr int kTurns = 8, kLeast = 8;
+  constexpr int kRuns = 8, kLeast = 8;
   const int threads = tbb::this_task_arena::max_concurrency();
-  return threads == 1 ? bands : std::max(bands / (kTurns * threads), kLeast);
+  return threads == 1 ? bands : std::max(bands / (kRuns * threads), kLeast);
 }
 
-// Only the columns `inside` are lit.
+// Stores a row as half floats.  Columns outside `inside` become 0.
 void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) {
   static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
   auto* out = reinterpret_cast<std::uint16_t*>(frame.row(row));
@@ -48,7 +48,7 @@ void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) 
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
                 BandMemory& memory, HalfFrame& frame) {
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
-  const bool lit = scene.plan.background();
+  const bool lit = scene.plan.has_background();
   const auto draw_band = [&](int band, SplatCanvas& splats) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     std::vector<float>& rgb = memory.rows.local();

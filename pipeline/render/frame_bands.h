@@ -1,5 +1,5 @@
-// The pixels of a frame, in bands of rows: each band is shaded, covered with stars and stored while it is in
-// the cache of one thread.
+// The pixels of a frame, in bands of rows.  Each band is shaded, covered with stars and stored
+// while it is in the cache of one thread.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -12,15 +12,16 @@
 
 namespace domefall {
 
-// Memory of each thread, kept from frame to frame: new memory costs more than what is written into it.
+// The memory of each thread, kept from frame to frame, since new memory costs more time than
+// writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatCanvas> splats{};
   tbb::enumerable_thread_specific<std::vector<float>> rows{};
 };
 
-// Draws skies and stars into a frame that has the size of the scene's image, by all threads of the arena that
-// calls.  A value beyond the largest half (65504) is stored as that.  Throws std::runtime_error, naming the
-// pixel, if a value is not finite.
+// Draws skies and stars into a frame of the projection's size, by all threads of the arena that
+// calls. A value beyond the largest half (65504) is stored as that.  Throws std::runtime_error,
+// naming the pixel, if a value is not finite.
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
                 BandMemory& memory, HalfFrame& frame);
 

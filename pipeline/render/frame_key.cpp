@@ -10,6 +10,9 @@
 namespace domefall {
 namespace {
 
+// It is raised with every change that alters a pixel, so that older frames are made again.
+constexpr int kPixelVersion = 5;
+
 void add_sky(Digest& digest, const RegionSky& sky) {
   digest.add(static_cast<double>(sky.background.index()));
   if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
@@ -17,14 +20,16 @@ void add_sky(Digest& digest, const RegionSky& sky) {
   if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
   digest.add(sky.stars ? "stars" : "no stars");
   if (!sky.stars) return;
-  // A binary catalogue says by its header what the rest of it is; megabytes need not be read.
+  // The header of a binary catalogue has a digest of its content, so that the rest need not be
+  // read.
   if (const auto print = star_file_fingerprint(sky.stars->catalogue))
     digest.add(*print);
   else
     digest.add_file(sky.stars->catalogue);
 }
 
-// Of unit vectors, to 1e-12: what is 0 on one processor is 1e-17 on another.
+// Components of unit vectors are rounded to 1e-12, since one that is 0 on one processor may be
+// 1e-17 on another.
 constexpr double kUnitSteps = 1e12;
 
 void add_matrix(Digest& digest, const M33d& m) {
@@ -37,14 +42,16 @@ void add_projection(Digest& digest, const Projection& p) {
   if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(steady(flat->fov));
 }
 
-// Keys of the law `size` without more are as they were before there were others.
-void add_point_spread(Digest& digest, const PointSpreadLaw& b) {
-  for (const double v : {b.min_sigma, b.growth, b.reference_magnitude, b.max_sigma}) digest.add(v);
-  if (b.halo > 0) digest.add("halo").add(b.halo).add(b.halo_sigma);
-  if (b.white_core != kWhiteCore) digest.add("core").add(b.white_core);
+// What came after the first version is added only where it is in use, so that other shows keep
+// their keys.
+void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
+  for (const double v : {law.min_sigma, law.growth, law.reference_magnitude, law.max_sigma})
+    digest.add(v);
+  if (law.halo > 0) digest.add("halo").add(law.halo).add(law.halo_sigma);
+  if (law.white_core != kWhiteCore) digest.add("core").add(law.white_core);
 }
 
-// Frames of shows that say nothing of effects keep the keys they had before there were any.
+// Shows that leave no effect out keep the keys that they had before effects could be left out.
 void add_effects(Digest& digest, const Effects& e) {
   if (e == Effects{}) return;
   digest.add("effects");
@@ -52,16 +59,6 @@ void add_effects(Digest& digest, const Effects& e) {
     digest.add(on ? "on" : "off");
   digest.add(static_cast<double>(e.amplification));
 }
-
-}  // namespace
-
-double steady(double value) {
-  constexpr double kSplit = 4097;  // 2^12 + 1, Veltkamp's way to round to 41 bits
-  const double scaled = kSplit * value, high = scaled - (scaled - value);
-  return std::isfinite(high) ? high : value;
-}
-
-namespace {
 
 void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
   digest.add(steady(sky.background_gain))
@@ -72,8 +69,13 @@ void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
 
 }  // namespace
 
-// Raised with every change that alters a pixel, so that frames from before it are made again.
-constexpr int kPixelVersion = 5;
+// Veltkamp's splitting: multiplied by 2^12 + 1 and subtracted from itself, a number loses its last
+// 12 bits by rounding.
+double steady(double value) {
+  constexpr double kSplit = 4097;
+  const double scaled = kSplit * value, high = scaled - (scaled - value);
+  return std::isfinite(high) ? high : value;
+}
 
 FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
   Digest common;
@@ -96,7 +98,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
 
 std::string FrameKeys::scene(const FrameState& state) const {
   if (!(show_.exposure.shutter > 0)) return instant(state);
-  // Three instants stand for all while the shutter is open.
+  // Three instants stand for all those for which the shutter is open.
   Digest digest;
   for (FrameState& exposed : exposure_states(show_, state.frame, 3)) {
     take_size(state, exposed);
@@ -120,9 +122,14 @@ std::string FrameKeys::instant(const FrameState& state) const {
   add_projection(digest, state.projection);
   digest.add(steady(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);
-  if (o.region == Region::kII || o.region == Region::kIII)
-    digest.add(sky_three_), add_settings(digest, state.settings.sky[SkyRegion::kIII]);
-  if (!is_flat(o)) digest.add(sky_four_), add_settings(digest, state.settings.sky[SkyRegion::kIV]);
+  if (o.region == Region::kII || o.region == Region::kIII) {
+    digest.add(sky_three_);
+    add_settings(digest, state.settings.sky[SkyRegion::kIII]);
+  }
+  if (!is_flat(o)) {
+    digest.add(sky_four_);
+    add_settings(digest, state.settings.sky[SkyRegion::kIV]);
+  }
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();

@@ -1,5 +1,5 @@
-// The key of a frame: a digest of all that its pixels depend on, and of nothing else, so that a
-// change of one segment leaves the frames of the others good.
+// The key of a frame is a digest of all that its pixels depend on, and of nothing else.  So a
+// change to one segment of a show leaves the frames of the others valid.
 #pragma once
 
 #include <string>
@@ -8,31 +8,32 @@
 
 namespace domefall {
 
-// A number without its last 12 bits (a relative 2e-13): sines and powers differ in the last ones
-// between processors, and a frame that another node made must be known for good on this one.
+// The value rounded to 41 bits, a relative 2e-13.  The last bits of sines and powers differ between
+// processors, and a frame that another node made must be recognized on this one.
 double steady(double value);
 
 class FrameKeys {
  public:
-  // Reads the show's assets once; the show must outlive it.  Throws InputError if one is unreadable.  `grade`: what names the
-  // grading of frames (Grader::transform_id); empty where frames are not graded.
+  // Reads the show's assets once.  The show must outlive the keys.  `grade` names the grading of
+  // frames (Grader::transform_id) and is empty where frames are not graded.  Throws InputError if
+  // an asset cannot be read.
   explicit FrameKeys(const Show& show, std::string grade = {});
 
-  // Of what all frames share: skies, stars, exposure, title; the timeline apart.
+  // The digest of what all frames share, which is everything but the timeline.
   const std::string& show() const { return common_; }
-  // Of the scene-linear frame.
+  // The key of a scene-linear frame.
   std::string scene(const FrameState& state) const;
-  // Of the graded frame made from it.
+  // The key of the graded frame that is made from the one with this key.
   std::string graded(const std::string& scene_key) const;
 
  private:
-  // Of what is seen at one instant.
+  // The key of what is seen at one instant.
   std::string instant(const FrameState& state) const;
 
   const Show& show_;
-  std::string common_;                // digest of the settings that all frames share
-  std::string sky_three_, sky_four_;  // only frames that can see them depend on them
-  bool rings_ = false;                // region IV shows time
+  std::string common_;
+  std::string sky_three_, sky_four_;  // they enter the keys of frames that can see these skies
+  bool rings_ = false;                // whether region IV is lit by rings, which depend on time
   std::string grade_;
 };
 

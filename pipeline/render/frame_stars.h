@@ -1,4 +1,4 @@
-// The stars of a frame: found and laid out, ready to be drawn.
+// The stars of a frame, laid out as blobs that are ready to be drawn.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -10,11 +10,11 @@
 
 namespace domefall {
 
-// Memory for the images that one task finds, one list for each thread.
+// The memory for the images that one task finds, one list for each thread.
 using ImageLists = tbb::enumerable_thread_specific<std::vector<StarImage>>;
 
-// Adds the images of all stars that the frame receives to an empty layer, by all threads of the arena that
-// calls.  The layer is the same for any number of threads.
+// Adds the images of all stars that the frame receives to an empty layer, by all threads of the
+// arena that calls.  The layer is the same for any number of threads.
 void lay_stars(const FrameScene& scene, ImageLists& lists, BlobLayer& layer);
 
 }  // namespace domefall

@@ -17,9 +17,9 @@
 namespace domefall {
 namespace {
 
-// Seconds since the last lap.
 class StopWatch {
  public:
+  // The seconds since the last lap.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
@@ -29,13 +29,13 @@ class StopWatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// More threads than processors gain nothing, and TBB would warn of them on the terminal.
+// More threads than processors would gain nothing, and TBB would warn of them on the terminal.
 int threads_of(int wanted) {
   const int processors = tbb::info::default_concurrency();
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
-// Mixes in `part` of the light of another frame.
+// Replaces `part` of a frame's light by that of another one.
 void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
   for (int row = 0; row < frame.height; ++row) {
@@ -48,7 +48,8 @@ void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
 
 }  // namespace
 
-// Threads, and memory that is kept from frame to frame: new memory costs more than what is written into it.
+// The threads, and memory that is kept from frame to frame, since new memory costs more time than
+// writing into it.
 struct Renderer::Memory {
   tbb::task_arena arena;
   RayGrid grid{};
@@ -83,7 +84,7 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
   return frame;
 }
 
-// An open shutter gives the mean of several instants.
+// A frame with an open shutter is the mean of several instants.
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
   StageTimes sum;
   sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;

@@ -1,4 +1,4 @@
-// Frames of a show, in memory.
+// Renders the frames of a show into memory.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,9 @@ namespace domefall {
 
 class Renderer {
  public:
-  // threads: 0 for one for each processor, and never more than that.  The show must outlive the renderer.
-  // Throws InputError unless 1 <= anti_aliasing.samples <= kMostSamples.
+  // `threads` is the number of threads, at most one for each processor, or 0 for that many.  The
+  // show must outlive the renderer.  Throws InputError unless 1 <= anti_aliasing.samples <=
+  // kMostSamples.
   Renderer(const Show& show, int threads, AntiAliasing anti_aliasing = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -23,18 +24,19 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
   Renderer& operator=(Renderer&&) = delete;
 
-  // The same bytes for any number of threads, alone or in a run.  Throws InputError if an asset
-  // cannot be read, and std::runtime_error, naming the pixel, if a value is not finite.
-  // Values beyond the largest half (65504) are recorded as that: the sensor saturates.
+  // A frame has the same bytes for any number of threads, alone or in a run.  Values beyond the
+  // largest half (65504) are stored as that.  Throws InputError if an asset cannot be read, and
+  // std::runtime_error, naming the pixel, if a value is not finite.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
-  // The same into a frame, whose memory is used again if it has the size: a new frame's memory costs
-  // more than the light in it.
+  // Renders into `frame`, whose memory is used again if it has the right size.  That saves the time
+  // that new memory costs.
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
 
-  // Reads the files that a frame needs now instead of when it is rendered.  Throws InputError.
+  // Reads the files that a frame needs before it is rendered.  Throws InputError if one cannot be
+  // read.
   void load(const FramePlan& plan);
 
-  // Reads a sky's files now instead of at the first frame that shows it.  Throws InputError.
+  // Reads the files of a sky before any frame shows it.  Throws InputError if one cannot be read.
   void load_sky(SkyRegion sky);
 
   int threads() const;

@@ -12,11 +12,22 @@
 namespace domefall {
 namespace {
 
-// Motion is measured at so many places along each side of the image, and by what this part of them exceeds.
+// Motion is measured at so many places along each side of the image, and this part of them may move
+// farther than the result.
 constexpr int kPlaces = 24;
 constexpr double kExceeding = 0.05;
-// The least width of a footprint, in parts of its length: that of an Einstein ring would be 0.
+// The least width of a footprint as a part of its length.  On an Einstein ring the width is 0, and
+// any motion would be infinitely many pixels.
 constexpr double kNarrowest = 0.25;
+
+double motion_between(const Show& show, const FrameState& from, const FrameState& to,
+                      OpticsStore& optics) {
+  // The store keeps the optics of one radius only, so the first are copied.
+  const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
+  const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
+  return motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
+                          ViewTracer(to, second, show.effects));
+}
 
 }  // namespace
 
@@ -34,8 +45,8 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       if (!a.known || !b.known || a.sky != b.sky) continue;
       const double longer = std::max(a.radial_scale, a.tangential_scale);
       const double shorter = std::min(a.radial_scale, a.tangential_scale);
-      const double side = pixel_angle(from.projection, pixel),
-                   other = pixel_solid_angle(from.projection, pixel) / side;
+      const double side = pixel_angle(from.projection, pixel);
+      const double other = pixel_solid_angle(from.projection, pixel) / side;
       motions.push_back((a.sky_direction - b.sky_direction).length() /
                         (std::min(side, other) * std::max(shorter, kNarrowest * longer)));
     }
@@ -52,32 +63,20 @@ int instants_for_motion(double motion_in_pixels) {
       std::clamp(std::ceil(motion_in_pixels / kPixelsPerInstant), 1.0, double{kMostInstants}));
 }
 
-namespace {
-
-double motion_between(const Show& show, const FrameState& from, const FrameState& to,
-                      OpticsStore& optics) {
-  // The store keeps one radius only, so the first optics are copied.
-  const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
-  const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
-  return motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
-                          ViewTracer(to, second, show.effects));
-}
-
-}  // namespace
-
-// The motion is followed through the middles of the quarters of the exposure, which are three quarters of
-// its whole way.
+// The motion is summed over the middles of the four quarters of the exposure, between which lie
+// three quarters of the whole motion.
 int instants_for(const Show& show, const FrameState& state, OpticsStore& optics) {
   constexpr int kParts = 4;
   std::vector<FrameState> states = exposure_states(show, state.frame, kParts);
   for (FrameState& exposed : states) take_size(state, exposed);
-  double way = 0, vanishing_way = 0;
+  double motion = 0, vanishing_motion = 0;
   for (std::size_t k = 1; k < states.size(); ++k) {
-    way += motion_between(show, states[k - 1], states[k], optics);
+    motion += motion_between(show, states[k - 1], states[k], optics);
     if (states[k - 1].vanishing && states[k].vanishing)
-      vanishing_way += motion_between(show, *states[k - 1].vanishing, *states[k].vanishing, optics);
+      vanishing_motion +=
+          motion_between(show, *states[k - 1].vanishing, *states[k].vanishing, optics);
   }
-  return instants_for_motion(std::max(way, vanishing_way) * kParts / (kParts - 1));
+  return instants_for_motion(std::max(motion, vanishing_motion) * kParts / (kParts - 1));
 }
 
 void MeanFrame::add(const HalfFrame& instant) {

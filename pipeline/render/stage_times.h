@@ -1,4 +1,4 @@
-// What the stages of a frame cost, and the plan of the frame in words: what `render --explain` prints.
+// The times that the stages of a frame take, and the report of them that `render --explain` prints.
 #pragma once
 
 #include <cstddef>
@@ -8,21 +8,19 @@
 
 namespace domefall {
 
-// Wall-clock seconds and counts.
 struct StageTimes {
-  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;
-  double traced_fraction = 0;  // of the sky's pixels, those with a view ray of their own; 0 to 1
+  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;  // by the wall clock
+  double traced_fraction = 0;  // the part of the sky's pixels that have view rays of their own
   std::size_t table_nodes = 0, images = 0;
-  int tables_made = 0;  // the others were kept from the frame before
-  // Instants of which a frame with an open shutter is the mean.  The times are those of all of them.
-  int instants = 1;
+  int tables_made = 0;  // those that were not kept from the frame before
+  int instants = 1;     // more than 1 with an open shutter; the times are those of all of them
 
-  // Adds the times and counts of another instant of the frame; the fraction and the nodes are those of the
-  // larger one.
+  // Adds the times and counts of another instant of the frame.  The traced fraction and the nodes
+  // become the larger ones of both.
   void add(const StageTimes& other);
 };
 
-// One line for each thing that is made or left out.
+// The plan and the times as text, with a line for each stage.
 std::string describe(const FramePlan& plan, const StageTimes& times);
 
 }  // namespace domefall

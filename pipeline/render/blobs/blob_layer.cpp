@@ -30,8 +30,8 @@ double most_coloured(const PointSpread& widths) {
 
 float brightest_splat(const PointSpread& widths) {
   const double peak = std::min(kBrightestSplat, most_coloured(widths));
-  return static_cast<float>(
-      std::min(widths.plain(), peak * 2 * std::numbers::pi * widths.least() * widths.least()));
+  return static_cast<float>(std::min(
+      widths.single_blob_light(), peak * 2 * std::numbers::pi * widths.least() * widths.least()));
 }
 
 // Of bands, that a small blob may touch.
@@ -107,7 +107,8 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
     for (std::size_t k = 0; k < n; ++k) {
       const StarImage& image = images[begin + k];
       middle[k] = image, sigma[k] = widths.least();
-      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.plain()) continue;
+      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light())
+        continue;
       const PointSpreadParts parts = widths.parts(image);
       middle[k] = parts.image, sigma[k] = parts.sigma;
       for (const PointSpreadParts::Halo& halo : parts.halo)

@@ -1,5 +1,6 @@
-// What the effects that a show leaves out do to light of frequency ratio g = observed/emitted.
-// [Riazuelo] app. app_img: a blackbody is seen at g T, its bolometric intensity changes by g^4.
+// How light of frequency ratio g = observed/emitted changes where a show leaves some effects out.
+// In nature a blackbody of temperature T is seen as one of g T, whose bolometric intensity is g^4
+// times the emitted one ([Riazuelo] app. app_img).
 #pragma once
 
 #include <algorithm>
@@ -8,17 +9,17 @@
 
 namespace domefall {
 
-// Far beyond what a picture holds and well within a float: light is saturated there.
+// No light is brighter than this, which is far beyond what a frame holds and well within a float.
 inline constexpr double kSaturated = 1e25;
 
-// By what temperatures are multiplied.
+// The factor from the emitted to the observed temperature.
 inline double colour_ratio(const Effects& effects, double g) {
   return effects.doppler_colour ? g : 1;
 }
 
-// By what a blackbody surface at that temperature is multiplied besides, since it brings an intensity
-// that goes with colour_ratio^4 already; at most kSaturated.  (Where that bounds a large 1/g^4, the
-// light is too red to be seen at all.)
+// The factor to the light of a blackbody surface at the observed temperature, whose intensity goes
+// with colour_ratio^4 already.  It is at most kSaturated: where this cuts off a large 1/g^4, the
+// light is too red to be seen at all.
 inline double surface_brightness_ratio(const Effects& effects, double g) {
   if (effects.doppler_colour == effects.intensity) return 1;
   const double g4 = g * g * g * g;

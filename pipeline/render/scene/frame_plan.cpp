@@ -5,7 +5,7 @@
 namespace domefall {
 namespace {
 
-bool shows_anything(const RegionSky& sky, const FrameSettings::Sky& now) {
+bool has_background(const RegionSky& sky, const FrameSettings::Sky& now) {
   return !std::holds_alternative<BlackSky>(sky.background) && now.background_gain > 0;
 }
 
@@ -14,13 +14,13 @@ bool has_stars(const RegionSky& sky, const FrameSettings::Sky& now) {
 }
 
 FramePlan::Sky plan_sky(const RegionSky& sky, const FrameSettings::Sky& now) {
-  return {shows_anything(sky, now), has_stars(sky, now),
+  return {has_background(sky, now), has_stars(sky, now),
           std::holds_alternative<RingsSky>(sky.background)};
 }
 
 }  // namespace
 
-bool FramePlan::background() const {
+bool FramePlan::has_background() const {
   return std::any_of(sky.begin(), sky.end(), [](const Sky& s) { return s.background; });
 }
 
@@ -29,12 +29,12 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
-  const auto set = [&](SkyRegion which) {
+  const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], state.settings.sky[which]);
   };
-  if (o.region != Region::kIV) set(home_sky(o.tetrad));
-  if (inside) set(far_sky(o.tetrad));
-  if (plan.gravity) set(SkyRegion::kIV);
+  if (o.region != Region::kIV) add(home_sky(o.tetrad));
+  if (inside) add(far_sky(o.tetrad));
+  if (plan.gravity) add(SkyRegion::kIV);
   return plan;
 }
 

@@ -1,4 +1,4 @@
-// What one frame of a show needs: nothing else is loaded, tabulated or drawn.
+// What one frame of a show needs.  Nothing else is loaded, tabulated or drawn for it.
 #pragma once
 
 #include "pipeline/show/frame_state.h"
@@ -6,22 +6,23 @@
 
 namespace domefall {
 
-// What one frame needs, decided before anything is made.
 struct FramePlan {
-  bool gravity = false;  // else no table
+  bool gravity = false;  // whether light is bent, which takes tables
   struct Sky {
-    bool background = false;  // anything to see but stars
+    bool background = false;  // whether it shows anything but stars
     bool stars = false;
-    bool rings = false;  // lit by the time at which its light started
+    bool rings = false;  // whether its light depends on when it started
 
     bool lit() const { return background || stars; }
   };
-  PerSky<Sky> sky;  // what can be seen from the observer's region
+  PerSky<Sky> sky;  // all false for a sky that the observer's region does not see
 
   const Sky& operator[](SkyRegion which) const { return sky[which]; }
-  bool background() const;
+  bool has_background() const;
 };
 
+// Follows from the observer's region, the show's skies and the gains at this instant, without
+// loading anything.
 FramePlan plan_frame(const Show& show, const FrameState& state);
 
 }  // namespace domefall

@@ -7,15 +7,17 @@
 
 namespace domefall {
 
-// Luminance (cd/m^2) of pixel value 1 at 0 EV: ten times the brightest of the Milky Way.
+// The luminance (cd/m^2) of pixel value 1 at 0 EV, ten times that of the Milky Way's brightest
+// part.
 inline constexpr double kReferenceLuminance = 1e-3;
 
-// Pixel value per cd/m^2.
-inline double exposure_scale(const FrameSettings& picture) {
-  return std::exp2(picture.ev) / kReferenceLuminance;
+// The pixel value of 1 cd/m^2.
+inline double exposure_scale(const FrameSettings& settings) {
+  return std::exp2(settings.ev) / kReferenceLuminance;
 }
 
-// Illuminance (lux) of a star of magnitude 0, for the brightness that a blob's size goes by.
+// The illuminance (lux) of a star of magnitude 0.  It enters only the size at which stars are
+// drawn.
 inline constexpr double kMagnitudeZeroLux = 2.63e-6;
 
 }  // namespace domefall

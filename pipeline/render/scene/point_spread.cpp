@@ -13,19 +13,21 @@ namespace {
 
 using std::numbers::pi;
 
-// A halo part whose peak value is below this is left to the star's middle.
+// A Gaussian of a halo is drawn if the pixel value of its peak is above this.
 constexpr double kFaintestHalo = 0.02;
-// A halo is two Gaussians.  The wide one makes it fall off like a wing and not like a Gaussian.
+// The second Gaussian of a halo is so many times as wide as the first, and has this share of the
+// halo's light.  It makes the halo fall off more slowly than a Gaussian.
 constexpr double kWingSigma = 3, kWingShare = 0.3;
 
-// A law gives widths for a dome, which shows 180 degrees across the image.  A flat view of another
-// opening angle keeps the blob's share of the image's width.
+// A law gives widths for a dome, whose frame is 180 degrees wide.  In a flat frame of another field
+// of view a blob takes the same part of the frame's width.
 double width_factor(const Projection& p) {
   const auto* flat = std::get_if<Stereographic>(&p);
   return flat ? flat->fov / pi : 1;
 }
 
-// The light of a star's brightest channel from which this share of it is seen as a halo.
+// The light of an image's brightest channel for which the peak of a Gaussian with this share of it
+// is kFaintestHalo.  The peak of a Gaussian of light 1 is 1/(2 pi sigma^2).
 double least_halo_light(double share, double sigma) {
   return kFaintestHalo * 2 * pi * sigma * sigma / share;
 }
@@ -40,11 +42,11 @@ PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection
       reference_(kMagnitudeZeroLux * exposure *
                  exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
       halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
-      plain_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
+      single_blob_light_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
       paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
 double PointSpread::reach() const {
-  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in widths
+  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in units of sigma
   return farthest * std::max(most_, law_.halo > 0 ? kWingSigma * halo_sigma_ : 0.0);
 }
 
@@ -63,7 +65,7 @@ PointSpreadParts PointSpread::parts(const StarImage& image) const {
   for (std::size_t k = 0; k < 2; ++k) {
     const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
     const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
-    // A halo grows from nothing as the star brightens, so that none appears at once.
+    // A halo grows from nothing as the star brightens, so that it does not appear at once.
     const double seen = 1 - least_halo_light(share, sigma) / light;
     if (!(seen > 0)) continue;
     parts.halo[k] = {sigma, share * seen};

@@ -11,7 +11,8 @@
 namespace domefall {
 namespace {
 
-// ln bolometric_flux_at_v_zero against ln T.  Measured: within 4e-5 from 1000 K on.
+// bolometric_flux_at_v_zero(T), from a table that is linear in the logarithms of both.  Measured:
+// the relative error is below 4e-5 from 1000 K on.
 class FluxOfVZero {
  public:
   double operator()(double temperature) const {
@@ -41,7 +42,7 @@ const FluxOfVZero& flux_of_v_zero() {
   return table;
 }
 
-// flux = surface radiance * pi rho^2
+// A disc of angular radius rho and radiance B brings the flux B pi rho^2.
 double angular_radius(double flux, double temperature) {
   return std::sqrt(flux / (blackbody_radiance(temperature) * std::numbers::pi));
 }
@@ -101,14 +102,15 @@ void SceneStars::find_most_flux() {
 }
 
 SceneStar SceneStars::operator[](std::size_t k) const {
-  return {{straightened(V3d(x_[k], y_[k], z_[k]))},
+  return {{renormalized(V3d(x_[k], y_[k], z_[k]))},
           magnitude_[k],
           flux_[k],
           temperature_[k],
           angular_radius_[k]};
 }
 
-std::size_t SceneStars::brighter_than(double limit) const {
+// Magnitudes are floats, so the limit is rounded as they were, lest a star on the limit be lost.
+std::size_t SceneStars::count_to_magnitude(double limit) const {
   const auto end = std::partition_point(magnitude_.begin(), magnitude_.end(), [limit](float v) {
     return v <= static_cast<float>(limit);
   });

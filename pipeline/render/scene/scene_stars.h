@@ -1,4 +1,4 @@
-// The stars of one sky, ready to be shifted.
+// The stars of one sky as columns of numbers, in the units in which their images are computed.
 #pragma once
 
 #include <cstddef>
@@ -8,30 +8,30 @@
 
 namespace domefall {
 
-// Bolometric flux (W/m^2) and temperature at no redshift.
+// One star as it is without any redshift.
 struct SceneStar {
   SkyDirection direction;
-  double magnitude;  // V
-  double flux;
-  double temperature;
-  double angular_radius;  // radians, of a blackbody of this flux and temperature
+  double magnitude;       // V
+  double flux;            // bolometric, W/m^2
+  double temperature;     // K
+  double angular_radius;  // radians; that of a blackbody of this flux and temperature
 };
 
-// In columns, brightest first (smallest V).  Directions are rounded to floats: by 6e-8 rad, less than
-// catalogues know them, the same in every frame.
+// The stars are sorted by magnitude, brightest first.  Directions are rounded to floats, by up to
+// 6e-8 radians, which is less than the error of catalogues and the same in every frame.
 class SceneStars {
  public:
   SceneStars() = default;
-  // Of a catalogue's stars, in whatever order they come.
+  // Takes stars in any order.
   explicit SceneStars(const std::vector<Star>& stars);
   explicit SceneStars(std::vector<SceneStar> stars);
 
   std::size_t size() const { return magnitude_.size(); }
   bool empty() const { return magnitude_.empty(); }
   SceneStar operator[](std::size_t k) const;
-  // How many have V <= limit: the first ones.
-  std::size_t brighter_than(double limit) const;
-  // No star from `first` on, rounded down to a multiple of kBlock, has more flux than this.
+  // The number of stars with V <= limit, which are the first ones.
+  std::size_t count_to_magnitude(double limit) const;
+  // An upper bound of the flux of the star `first` and all that follow.
   double most_flux_from(std::size_t first) const { return most_flux_[first / kBlock]; }
 
   static constexpr std::size_t kBlock = 256;
@@ -49,10 +49,12 @@ class SceneStars {
   void find_most_flux();
 
   std::vector<float> x_, y_, z_, magnitude_, flux_, temperature_, angular_radius_;
-  std::vector<double> most_flux_;  // by block
+  std::vector<double> most_flux_;  // of each block of kBlock stars and all that follow
 };
 
-// Lengthens or shortens a vector that was rounded to floats to 1, within 2e-14.
-inline V3d straightened(const V3d& v) { return v * (1.5 - 0.5 * v.length2()); }
+// Gives a unit vector whose components were rounded to floats the length 1 again, within 2e-14.  It
+// is one step of Newton's iteration for 1/sqrt(length2), whose error is 3/8 of the square of that
+// of length2.
+inline V3d renormalized(const V3d& v) { return v * (1.5 - 0.5 * v.length2()); }
 
 }  // namespace domefall

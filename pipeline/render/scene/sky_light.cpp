@@ -18,18 +18,19 @@ WorkingRgb operator*(const WorkingRgb& c, double k) {
   return {c.r * f, c.g * f, c.b * f};
 }
 
-// [Riazuelo] sec. ssec_rgb: a panorama without spectra keeps its hue; its intensity falls by an
-// exponential of the redshift and grows by a power of the blueshift.
+// The factors to the intensity of a panorama without spectra, on both sides of g = 1: it falls by
+// an exponential of the redshift and grows by a power of the blueshift ([Riazuelo] sec. ssec_rgb).
+// Both are 1 at g = 1.
 double redshifted(double g) { return exponential(1 - 1 / g); }
 double blueshifted(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
 }
 
-// A gain beyond this is white in any frame.  The bound keeps its product with a texel and a colour
-// finite.
+// A gain beyond this is white in any frame.  As a bound it keeps the product with a texel and a
+// colour finite.
 constexpr double kMostGain = 1e28;
 
-// gain_of(redshifted(g)) for many frequency ratios.
+// Computes gain_of(redshifted(g)) for many frequency ratios.
 [[gnu::always_inline]] inline void red_gains_loop(const double* g, int count, double unit,
                                                   double scale, float* gain) {
   for (int k = 0; k < count; ++k) {
@@ -39,7 +40,7 @@ constexpr double kMostGain = 1e28;
 }
 Dispatched<red_gains_loop> red_gains;
 
-// gain_of(blueshifted(g)) for the power 2.
+// Computes gain_of(blueshifted(g)) for many frequency ratios and the power 2.
 [[gnu::always_inline]] inline void square_gains_loop(const double* g, int count, double unit,
                                                      double scale, float* gain) {
   for (int k = 0; k < count; ++k) {
@@ -55,8 +56,9 @@ Dispatched<square_gains_loop> square_gains;
 }
 Dispatched<choose_side_loop> choose_side;
 
-// The blackbodies of a thermal map are seen at g T, as stars are.  The product stays in double until
-// the end, since g^4 may be far beyond a float where the colour per unit of light is as far below it.
+// The blackbodies of a thermal map are seen at g T, as stars are.  The product stays a double until
+// the end, since g^4 may be far too large for a float where the colour per unit of light is far too
+// small.
 WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
   const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
   const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
@@ -87,8 +89,8 @@ double SkyLight::intensity(double g) const {
   return g < 1 ? redshifted(g) : blueshifted(panorama_shift_, g);
 }
 
-float SkyLight::gain_of(double shift) const {
-  return static_cast<float>(std::min(map_->unit() * shift * scale_, kMostGain));
+float SkyLight::gain_of(double intensity) const {
+  return static_cast<float>(std::min(map_->unit() * intensity * scale_, kMostGain));
 }
 
 WorkingRgb SkyLight::at(const V3d& sky_direction, double footprint, double g) const {

@@ -1,24 +1,25 @@
-// The background of one sky as a frame shows it: its light in a direction, and what a frequency ratio
-// does to it.
+// The background of one sky as a frame shows it: its light in a direction, and how a frequency
+// ratio changes it.
 //
 // A background with spectra (the grid, thermal maps) is seen at the shifted temperature.  A colour
-// panorama has no spectrum to shift: [Riazuelo] sec. ssec_rgb keeps its hue and scales it by a law
-// of intensity.
+// panorama has no spectrum to shift, so it keeps its hue and a law of intensity scales it
+// ([Riazuelo] sec. ssec_rgb).
 #pragma once
 
 #include "pipeline/render/scene/sky_store.h"
 
 namespace domefall {
 
-// What SkySampler applies to the values of a map.
+// How a frequency ratio changes the values that SkySampler reads from a map.
 struct MapShift {
-  float gain;  // pixel value per unit of the map
-  float tone;  // octaves by which the temperatures of a thermal map are raised; 0 for colours
+  float gain;  // the pixel value per unit of the map
+  float tone;  // log2 of the factor to the temperatures of a thermal map; 0 for colours
 };
 
 class SkyLight {
  public:
-  // scale: pixel value of 1 cd/m^2, with the gain of this sky's background.  The sky must outlive this.
+  // `scale` is the pixel value of 1 cd/m^2, with the gain of this sky's background.  The sky must
+  // outlive this object.
   SkyLight(const Sky& sky, const Effects& effects, const PanoramaShift& panorama_shift,
            double scale);
 
@@ -26,27 +27,28 @@ class SkyLight {
   // Null unless the background is a map.
   const SkyMap* map() const { return map_; }
 
-  // Pixel value of the grid or a map in a direction of the sky, averaged over `footprint` radians there,
-  // at frequency ratio g = 1/(1+z).  The effects that the show leaves out are left out, but for
-  // amplification, which the caller applies.  0 for a black sky.
+  // The pixel value of the grid or a map in a direction of the sky, averaged over `footprint`
+  // radians there, at frequency ratio g = 1/(1+z), with the effects that the show keeps.  The
+  // caller applies the amplification.  A black sky gives 0.
   WorkingRgb at(const V3d& sky_direction, double footprint, double g) const;
-  // Pixel value of rings at `phase` (periods of the emission time), averaged over `width` periods.
-  // Needs a background of rings.
+  // The pixel value of rings at `phase` (emission time in periods), averaged over `width` periods.
+  // The background must be rings.
   WorkingRgb rings_at(double phase, double width) const;
 
-  // These need a background that is a map.  Many ratios at once give the same bits as one at a time;
-  // count <= kMostShifts.
+  // The background must be a map for what follows.  Many ratios at once, count <= kMostShifts, give
+  // the same bits as one at a time.
   static constexpr int kMostShifts = 128;
   MapShift shift(double g) const;
   void shifts(const double* g, int count, float* gain, float* tone) const;
-  // The law of intensity of a panorama has a knee at g = 1.  These are the gains of its two sides, each
-  // of which is smooth for any g and can be interpolated.  Blue holds where red exceeds knee().
+  // The gain of a colour panorama has a knee at g = 1, where one law takes over from another.
+  // These are the gains by the laws of both sides for any g.  Each is smooth and can be
+  // interpolated.  The blue one holds where the red one exceeds knee(), the gain at g = 1.
   void shift_sides(const double* g, int count, float* red, float* blue) const;
   float knee() const;
 
  private:
   double intensity(double g) const;
-  float gain_of(double shift) const;
+  float gain_of(double intensity) const;
 
   const Sky* sky_;
   const SkyMap* map_;

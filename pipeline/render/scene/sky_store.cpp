@@ -18,26 +18,18 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
   return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
 }
 
-// The faintest stars of a sky that any frame takes.
-double deepest_magnitude(const Show& show, SkyRegion which, double constant) {
-  double deepest = constant;
-  for (const Segment& segment : show.timeline)
-    if (const auto& curve = segment.curves[max_magnitude_channel(which)])
-      deepest = std::max(deepest, largest(*curve));
-  return deepest;
-}
-
 }  // namespace
 
-const RegionSky& SkyStore::region(SkyRegion which) const { return show_.sky[which]; }
-
-double SkyStore::limit_of(SkyRegion which) const {
-  return deepest_magnitude(show_, which, region(which).stars.value_or(StarField{}).max_magnitude);
+double SkyStore::faintest_magnitude(SkyRegion which) const {
+  double faintest = show_.sky[which].stars.value_or(StarField{}).max_magnitude;
+  for (const Segment& segment : show_.timeline)
+    if (const auto& curve = segment.curves[max_magnitude_channel(which)]) faintest = std::max(faintest, largest(*curve));
+  return faintest;
 }
 
-// What another sky has loaded already is shared with it.
+// A map that another sky has loaded already is shared with it, and so are stars.
 void SkyStore::load_background(SkyRegion which) {
-  const RegionSky& own = region(which);
+  const RegionSky& own = show_.sky[which];
   auto& background = skies_[which].sky.background;
   if (std::holds_alternative<GridSky>(own.background)) background = Grid{};
   if (const auto* rings = std::get_if<RingsSky>(&own.background)) background = *rings;
@@ -45,7 +37,7 @@ void SkyStore::load_background(SkyRegion which) {
   if (!panorama) return;
   for (const SkyRegion other : kEverySky) {
     const Loaded& loaded = skies_[other];
-    if (!loaded.background || !same_background(own, region(other))) continue;
+    if (!loaded.background || !same_background(own, show_.sky[other])) continue;
     background = loaded.sky.background;
     return;
   }
@@ -53,25 +45,33 @@ void SkyStore::load_background(SkyRegion which) {
 }
 
 void SkyStore::load_stars(SkyRegion which) {
-  const RegionSky& own = region(which);
+  const RegionSky& own = show_.sky[which];
   if (!own.stars) return;
+  const double faintest = faintest_magnitude(which);
   auto& stars = skies_[which].sky.stars;
   for (const SkyRegion other : kEverySky) {
     const Loaded& loaded = skies_[other];
-    if (!loaded.stars || !same_stars(own, region(other)) || limit_of(which) != limit_of(other))
+    if (!loaded.stars || !same_stars(own, show_.sky[other]) ||
+        faintest != faintest_magnitude(other))
       continue;
     stars = loaded.sky.stars;
     return;
   }
   stars = std::make_shared<const SceneStars>(
-      read_star_catalogue(own.stars->catalogue, limit_of(which), show_.star_epoch).stars);
+      read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch).stars);
 }
 
 const Sky& SkyStore::sky(SkyRegion which, bool background, bool stars) {
   const std::scoped_lock lock(loading_);
   Loaded& kept = skies_[which];
-  if (background && !kept.background) load_background(which), kept.background = true;
-  if (stars && !kept.stars) load_stars(which), kept.stars = true;
+  if (background && !kept.background) {
+    load_background(which);
+    kept.background = true;
+  }
+  if (stars && !kept.stars) {
+    load_stars(which);
+    kept.stars = true;
+  }
   return kept.sky;
 }
 

@@ -1,4 +1,4 @@
-// What a show needs loaded, and nothing else: skies and stars by region, made at their first use.
+// The backgrounds and stars of a show's skies, each loaded when a frame first needs it.
 #pragma once
 
 #include <array>
@@ -18,31 +18,32 @@ struct Grid {};
 struct Black {};
 using Rings = RingsSky;
 
-// The sky of one region.
+// The sky of one region as it is loaded.
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
-  std::shared_ptr<const SceneStars> stars;  // never null; empty if there are none
+  std::shared_ptr<const SceneStars> stars;  // never null, but empty if there are none
 };
 
 class SkyStore {
  public:
+  // The show must outlive the store.
   explicit SkyStore(const Show& show) : show_(show) {}
 
-  // With those of its parts that any call has asked for, loaded at the first one; files that several
-  // regions name are loaded once.  Throws InputError.
+  // A sky with the parts that this call or an earlier one asked for.  A file that several regions
+  // name is loaded once.  Throws InputError if a file cannot be read.
   const Sky& sky(SkyRegion which, bool background = true, bool stars = true);
-  // The skies that a plan asks for; null for the others.
+  // The skies that a plan asks for, and null for the others.
   PerSky<const Sky*> skies_of(const FramePlan& plan);
 
  private:
   struct Loaded {
     Sky sky{Black{}, std::make_shared<const SceneStars>()};
-    bool background = false, stars = false;
+    bool background = false, stars = false;  // whether they are loaded
   };
   void load_background(SkyRegion which);
   void load_stars(SkyRegion which);
-  const RegionSky& region(SkyRegion which) const;
-  double limit_of(SkyRegion which) const;  // magnitude of its faintest stars
+  // The magnitude of the faintest stars that any frame of the show draws.
+  double faintest_magnitude(SkyRegion which) const;
 
   const Show& show_;
   std::mutex loading_;

@@ -1,17 +1,17 @@
-// One image of one star as a frame receives it, before anything is drawn.
+// One image of one star as a frame receives it, before it is drawn.
 #pragma once
 
 namespace domefall {
 
 struct StarImage {
-  // Where its middle is: pixels counted from 0 at the middle of the top left one, to the right and
-  // down.  May lie outside the picture by as much as a blob reaches.
+  // The position of its middle in pixels, to the right and down from the middle of the top left
+  // pixel.  It may lie outside the frame by as much as a blob reaches.
   float x, y;
-  // Illuminance (lux) times the pixel value of 1 cd/m^2: what the image's pixels sum up to, each
-  // times its solid angle.  Working space.
+  // The light in the working space: illuminance (lux) times the pixel value of 1 cd/m^2.  It is the
+  // sum over the image's pixels of their values times their solid angles.
   float rgb[3];
 };
 
-static_assert(sizeof(StarImage) == 20);  // millions of them in a frame
+static_assert(sizeof(StarImage) == 20);  // a frame may hold millions of them
 
 }  // namespace domefall

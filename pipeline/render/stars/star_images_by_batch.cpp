@@ -66,7 +66,7 @@ void StarImages::prepare_batches() {
 }
 
 std::size_t StarImages::count(const SceneStars& stars) const {
-  std::size_t number = stars.brighter_than(sky_.max_magnitude);
+  std::size_t number = stars.count_to_magnitude(sky_.max_magnitude);
   if (!plain_) return number;
   // As near to the axis as it gets; there is none in flat space.
   const double least = table_ == nullptr ? 1 : disc_ / 2;

@@ -24,7 +24,7 @@ struct Input {
   const double gain = frame.gain, limit = frame.limit, inverse_fade = frame.inverse_fade;
   const Input in = input;
   for (int k = 0; k < count; ++k) {
-    const V3d v = straightened(
+    const V3d v = renormalized(
         apply_transposed(matrix, V3d(double{in.x[k]}, double{in.y[k]}, double{in.z[k]})));
     const double part = (limit - in.magnitude[k]) * inverse_fade;
     const double whole = part < 1 ? part : 1;

@@ -217,8 +217,8 @@ TEST(StarImages, HaveTheColoursOfBlackbodies) {
 TEST(SceneStars, AreTakenUpToTheLimitItself) {
   for (const double v : {8.3, 6.5, 0.1, -1.44, 12.123}) {
     const SceneStars stars({SceneStar{{V3d(0, 0, 1)}, v, 1e-12, 6000, 1e-9}});
-    EXPECT_EQ(stars.brighter_than(v), 1u) << v;
-    EXPECT_EQ(stars.brighter_than(v - 1e-3), 0u) << v;
+    EXPECT_EQ(stars.count_to_magnitude(v), 1u) << v;
+    EXPECT_EQ(stars.count_to_magnitude(v - 1e-3), 0u) << v;
   }
 }
 
