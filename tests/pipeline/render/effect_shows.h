@@ -1,4 +1,4 @@
-// Shows without some of their effects, and what traces them.
+// Shows that leave some effects out, for the tests of effects, and tracers of their view rays.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace domefall {
 
-inline constexpr double kV = 0.5;
+inline constexpr double kV = 0.5;  // in units of c, as in the paper's figures of single effects
 inline const double kGamma = 1 / std::sqrt(1 - kV * kV);
 
 inline HalfFrame render(const Show& show) { return Renderer(show, 1).render(frame_state(show, 0)); }
@@ -51,7 +51,8 @@ inline std::vector<Trajectory> observers() {
           GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}};
 }
 
-inline std::vector<Effects> settings(bool outside) {
+// Combinations of effects.  Only outside the horizon can lensing be left out.
+inline std::vector<Effects> combinations(bool outside) {
   std::vector<Effects> all{kNoAberration, kOnlyAberration, kOnlyColour, kOnlyIntensity};
   all.push_back({true, true, true, true, Amplification::kEverything});
   all.push_back({false, false, true, true, Amplification::kEverything});

@@ -1,4 +1,4 @@
-// Shows without some of the effects of motion, after the appendix of [Riazuelo], app. app_img.
+// Shows that leave out some of the effects of motion, as figures of [Riazuelo] app. app_img do.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -11,19 +11,20 @@ namespace {
 
 const V3d kAhead(0, 0, 1);  // along Phi
 
-// Half the speed of light in flat space, looking ahead or back, as in figs. fig_aberr2 to fig_int.
-Show ship(const Effects& effects, double speed = kV, double look = 1) {
+// A camera that moves through flat space, as in the paper's figs. fig_aberr2 to fig_int.  It faces
+// ahead (1) or back (-1).
+Show ship(const Effects& effects, double speed = kV, double facing = 1) {
   const double c = speed / std::sqrt(1 - speed * speed);
   Show show = show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, kAhead * c},
                       Stereographic{96, 72, 90 * kDegree});
   show.effects = effects;
   // Phi, Theta and back: Z along +-Phi.
-  show.timeline[0].camera.attitude = EulerAngles{90 * kDegree, look * 90 * kDegree, 0};
+  show.timeline[0].camera.attitude = EulerAngles{90 * kDegree, facing * 90 * kDegree, 0};
   show.sky[SkyRegion::kI] = {GridSky{}, 1, std::nullopt, 1};
   return show;
 }
 
-// [Riazuelo] eq. eq_inv_aberr as tan(alpha/2) = sqrt((1 + v)/(1 - v)) tan(alpha'/2).
+// [Riazuelo] eq. eq_inv_aberr is the same as tan(alpha/2) = sqrt((1 + v)/(1 - v)) tan(alpha'/2).
 TEST(Effects, AberrationMovesTheSkyByTheHalfAngleAndItsLackByNothing) {
   std::mt19937 random(1);
   const Traced with(ship(kOnlyAberration)), without(ship(kNoAberration));
@@ -40,14 +41,16 @@ TEST(Effects, AberrationMovesTheSkyByTheHalfAngleAndItsLackByNothing) {
                 1e-13);
     EXPECT_LT((unmoved.sky_direction - apply(with.state.observer.sky_from_tetrad, m)).length(),
               1e-15);
-    // eq. omprime_aber, by the direction at rest; eq. zkin, by the one that is seen.
+    // The frequency follows from the direction at rest by [Riazuelo] eq. omprime_aber, and from the
+    // one that is seen by [Riazuelo] eq. zkin.
     EXPECT_NEAR(unmoved.frequency_ratio, kGamma * (1 + kV * m.dot(kAhead)), 1e-14);
     EXPECT_NEAR(moved.frequency_ratio, 1 / (kGamma * (1 - kV * m.dot(kAhead))), 1e-14);
     EXPECT_NEAR(unmoved.radial_scale, 1, 1e-15);
   }
 }
 
-// Aberration and nothing else is a picture of blackbodies at rest: no light but that of the grid.
+// With aberration alone the frame shows blackbodies at rest, so its brightest values are those of
+// the grid itself.
 TEST(Effects, AberrationAloneKeepsColourAndIntensity) {
   const HalfFrame rest = render(ship({}, 0)), moving = render(ship(kOnlyAberration));
   const auto largest = [](const HalfFrame& f, int c) {
@@ -59,31 +62,32 @@ TEST(Effects, AberrationAloneKeepsColourAndIntensity) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(largest(rest, c), largest(moving, c)) << c;
 }
 
-// Pixel by pixel, against the same picture at rest.
-void expect_ratios(const Show& moving, double look,
+// Expects in each pixel this ratio to the same pixel at rest.
+void expect_ratios(const Show& moving, double facing,
                    const std::function<double(double g, int channel)>& expected) {
-  const HalfFrame rest = render(ship({}, 0, look)), frame = render(moving);
+  const HalfFrame rest = render(ship({}, 0, facing)), frame = render(moving);
   const Projection& p = moving.projection;
   const ObserverState o = frame_state(moving, 0).observer;
   const M33d &axes = o.tetrad_from_camera, &sky_from_tetrad = o.sky_from_tetrad;
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) {
       const V3d m = apply(axes, direction_at(p, {x + 1.0, y + 1.0}).v);
-      if (std::abs(apply(sky_from_tetrad, m).z) > 0.99) continue;  // the polar discs' other colour
+      if (std::abs(apply(sky_from_tetrad, m).z) > 0.99)
+        continue;  // a polar disc has another colour
       const double cosine = m.dot(kAhead);
       for (int c = 0; c < 3; ++c) {
         const double ratio = frame.row(y)[3 * x + c] / double(rest.row(y)[3 * x + c]);
         const double g = kGamma * (1 + kV * cosine);
-        // Two roundings to half a float; the shift varies within a pixel of many looks.
+        // Both are rounded to half floats, and the shift varies among the samples of a pixel.
         ASSERT_NEAR(ratio / expected(g, c), 1, 2e-3) << x << ' ' << y;
       }
     }
 }
 
-// [Riazuelo] fig. fig_int: from 9 in the front direction to 1/9 in the rear one.
+// [Riazuelo] fig. fig_int has 9 in the front direction and 1/9 in the rear one.
 TEST(Effects, IntensityAloneIsNineInFrontAndANinthInTheRear) {
-  for (const double look : {1.0, -1.0})
-    expect_ratios(ship(kOnlyIntensity, kV, look), look,
+  for (const double facing : {1.0, -1.0})
+    expect_ratios(ship(kOnlyIntensity, kV, facing), facing,
                   [](double g, int) { return g * g * g * g; });
   const auto middle = [](const Show& show) {
     const HalfFrame f = render(show);
@@ -93,10 +97,11 @@ TEST(Effects, IntensityAloneIsNineInFrontAndANinthInTheRear) {
   EXPECT_NEAR(middle(ship(kOnlyIntensity, kV, -1)) / middle(ship({}, 0, -1)), 1 / 9.0, 3e-4);
 }
 
-// [Riazuelo] fig. fig_dop.  Of a blackbody at g T with the bolometric intensity of one at T.
+// In [Riazuelo] fig. fig_dop a place has the colour of a blackbody at g T with the bolometric
+// intensity of one at T.
 TEST(Effects, ColourAloneKeepsTheBolometricIntensity) {
-  for (const double look : {1.0, -1.0})
-    expect_ratios(ship(kOnlyColour, kV, look), look, [](double g, int c) {
+  for (const double facing : {1.0, -1.0})
+    expect_ratios(ship(kOnlyColour, kV, facing), facing, [](double g, int c) {
       const double t = 8000;
       const auto channels = [](const Xyz& xyz) {
         const WorkingRgb rgb = to_working(xyz);
@@ -109,11 +114,11 @@ TEST(Effects, ColourAloneKeepsTheBolometricIntensity) {
 }
 
 TEST(Effects, AllThreeTogetherAreTheirProductAndNature) {
-  // What nature shows of a place on the sky is what colour and intensity do to it one by one.
+  // In nature a place on the sky changes by the product of what colour and intensity do to it.
   const Effects both{false, true, true, true, Amplification::kStars};
   const double t = 8000;
-  for (const double look : {1.0, -1.0})
-    expect_ratios(ship(both, kV, look), look, [t](double g, int c) {
+  for (const double facing : {1.0, -1.0})
+    expect_ratios(ship(both, kV, facing), facing, [t](double g, int c) {
       const WorkingRgb shifted = blackbody_colours().surface(g * t),
                        still = blackbody_colours().surface(t);
       return c == 0   ? double(shifted.r) / still.r
@@ -147,7 +152,8 @@ TEST(Effects, WithoutAberrationEveryPlaceKeepsItsFrequencyAndOnlyStandsElsewhere
       const CameraDirection moved{
           apply_transposed(r.tetrad_from_camera, to_observer(rest, tetrad).direction)};
       const ViewRay here = resting.tracer.trace(moved);
-      // A boost by a Lorentz factor of 1e3 or 1e4 and back loses digits by it, at the edge all.
+      // A boost by a Lorentz factor of 1e3 or 1e4 and back loses as many digits, and at an edge
+      // all.
       if (there.to_edge < 1e-6 || here.to_edge < 1e-6) continue;
       ASSERT_EQ(here.sky, there.sky);
       const double scale = 1 + there.radial_scale + there.tangential_scale + here.radial_scale +
@@ -158,10 +164,10 @@ TEST(Effects, WithoutAberrationEveryPlaceKeepsItsFrequencyAndOnlyStandsElsewhere
   }
 }
 
-TEST(Effects, TheBatchSeesWhatTheSingleLookSees) {
+TEST(Effects, TheBatchTracesWhatTheSingleRayTraces) {
   std::mt19937 random(3);
   for (const Trajectory& t : observers())
-    for (const Effects& effects : settings(is_outside(t))) {
+    for (const Effects& effects : combinations(is_outside(t))) {
       Show show = show_of(t, Domemaster{64});
       show.effects = effects;
       const Traced traced(show);
@@ -170,18 +176,18 @@ TEST(Effects, TheBatchSeesWhatTheSingleLookSees) {
       for (auto& direction : n) direction.v = random_direction(random);
       traced.tracer.trace(n.data(), ViewRayBatch::kSize, batch);
       for (int k = 0; k < ViewRayBatch::kSize; ++k) {
-        const ViewRay look = traced.tracer.trace(n[static_cast<std::size_t>(k)]);
-        ASSERT_EQ(batch.sky[k], look.sky);
-        const double scale = 1 + look.radial_scale + look.tangential_scale;
-        ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 4e-15 * scale);
-        ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-12);
+        const ViewRay ray = traced.tracer.trace(n[static_cast<std::size_t>(k)]);
+        ASSERT_EQ(batch.sky[k], ray.sky);
+        const double scale = 1 + ray.radial_scale + ray.tangential_scale;
+        ASSERT_LT((batch.sky_direction(k) - ray.sky_direction).length(), 4e-15 * scale);
+        ASSERT_NEAR(batch.frequency_ratio[k] / ray.frequency_ratio, 1, 1e-12);
       }
     }
 }
 
 TEST(Effects, LeaveNoPixelThatIsNotFinite) {
   for (const Trajectory& t : observers())
-    for (const Effects& effects : settings(is_outside(t)))
+    for (const Effects& effects : combinations(is_outside(t)))
       for (const bool grid : {true, false}) {
         Show show = starry(show_of(t, Domemaster{48}));
         if (grid)

@@ -1,5 +1,6 @@
-// Shows without lensing or amplification, or with more of it, after the appendix of [Riazuelo], app. app_img:
-// what they show, where cameras look, and their frames' keys.
+// Shows without lensing or amplification, or with amplified backgrounds, as figures of [Riazuelo]
+// app. app_img have them.  The tests ask what they show, where cameras point and which keys frames
+// have.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +17,7 @@ namespace {
 
 // ---- lensing ----
 
-// [Riazuelo] fig. fig_dev2: z = -0.0339 at r = 30.
+// The caption of [Riazuelo] fig. fig_dev2 has z = -0.0339 at r = 30.
 TEST(Effects, WithoutLensingTheSkyIsThatOfFlatSpaceABitBrighter) {
   const Effects straight{true, false, true, false, Amplification::kStars};
   const HalfFrame flat = render(at_rest_at(kFlatSpace, {})),
@@ -31,7 +32,8 @@ TEST(Effects, WithoutLensingTheSkyIsThatOfFlatSpaceABitBrighter) {
   EXPECT_EQ(times.table_nodes, 0u);
 }
 
-// An orbit at half the speed of light, r = 6: aberration and Doppler shift are those of flat space.
+// The circular orbit at r = 6 has half the speed of light, and aberration and Doppler shift are
+// those of flat space.
 TEST(Effects, WithoutLensingMotionIsThatAgainstTheObserverAtRest) {
   Show show = show_of(CircularOrbit{6}, Domemaster{64});
   show.effects = kNoLensing;
@@ -42,28 +44,28 @@ TEST(Effects, WithoutLensingMotionIsThatAgainstTheObserverAtRest) {
   for (const double angle : {0.0, 0.4, 1.5, 3.0}) {
     const V3d m =
         ahead * std::cos(angle) + ahead.cross(V3d(1, 0, 0)).normalized() * std::sin(angle);
-    const ViewRay look = traced.tracer.trace({apply_transposed(o.tetrad_from_camera, m)});
+    const ViewRay ray = traced.tracer.trace({apply_transposed(o.tetrad_from_camera, m)});
     const V3d motion = apply(o.sky_from_tetrad, V3d(0, 0, 1));  // along Phi
-    EXPECT_NEAR(look.sky_direction.dot(motion), (std::cos(angle) - kV) / (1 - kV * std::cos(angle)),
+    EXPECT_NEAR(ray.sky_direction.dot(motion), (std::cos(angle) - kV) / (1 - kV * std::cos(angle)),
                 1e-14);
-    EXPECT_NEAR(look.frequency_ratio, std::sqrt(6 / 4.0) / (kGamma * (1 - kV * std::cos(angle))),
+    EXPECT_NEAR(ray.frequency_ratio, std::sqrt(6 / 4.0) / (kGamma * (1 - kV * std::cos(angle))),
                 1e-14);
-    EXPECT_EQ(look.sky, SkyRegion::kI);
+    EXPECT_EQ(ray.sky, SkyRegion::kI);
   }
 }
 
-// What is looked at stands in the middle, wherever the effects that are left put it.
+// A camera's target is seen in the middle, wherever the effects that are left put it.
 TEST(Effects, CamerasFindTheirTargetWhereItIsDrawn) {
   const SkyDirection target{V3d(0.6, -0.64, 0.48)};
   for (const Trajectory& t : observers())
-    for (const Effects& effects : settings(is_outside(t))) {
-      if (point_at(t, 0).region == Region::kIV) continue;  // sees no sky
+    for (const Effects& effects : combinations(is_outside(t))) {
+      if (point_at(t, 0).region == Region::kIV) continue;  // no sky is seen there
       Show show = show_of(t, Stereographic{64, 48, 1});
       show.effects = effects;
       show.timeline[0].camera.attitude = LookAtSky{target};
-      const ViewRay look = Traced(show).tracer.trace({V3d(0, 0, 1)});
-      const double scale = 1 + look.radial_scale + look.tangential_scale;
-      EXPECT_LT((look.sky_direction - target.v).length(), 1e-8 * scale);
+      const ViewRay ray = Traced(show).tracer.trace({V3d(0, 0, 1)});
+      const double scale = 1 + ray.radial_scale + ray.tangential_scale;
+      EXPECT_LT((ray.sky_direction - target.v).length(), 1e-8 * scale);
     }
 }
 
@@ -72,10 +74,10 @@ TEST(Effects, WithoutAberrationMotionIsStillAhead) {
   show.effects = {false, true, true, false, Amplification::kStars};
   show.timeline[0].camera.attitude = LookAlongMotion{};
   const Traced traced(show);
-  const ViewRay look = traced.tracer.trace({V3d(0, 0, 1)});
+  const ViewRay ray = traced.tracer.trace({V3d(0, 0, 1)});
   const V3d along_phi = apply(traced.state.observer.sky_from_tetrad, V3d(0, 0, 1));
-  EXPECT_LT((look.sky_direction - along_phi).length(), 1e-14);
-  EXPECT_NEAR(look.frequency_ratio, std::sqrt(6 / 4.0) * std::sqrt(3), 1e-14);
+  EXPECT_LT((ray.sky_direction - along_phi).length(), 1e-14);
+  EXPECT_NEAR(ray.frequency_ratio, std::sqrt(6 / 4.0) * std::sqrt(3), 1e-14);
 }
 
 // ---- stars ----
@@ -93,30 +95,30 @@ V3d centre_of(const StarImage& image, const Projection& projection) {
   return direction_at(projection, {image.x + 1.0, image.y + 1.0}).v;
 }
 
-// A star stands where the background has its place, and shines as the background's law says.
+// A star is seen where the background shows its place, and its flux follows the background's law.
 TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
   std::mt19937 random(5);
   const Trajectory orbit = CircularOrbit{6};
   for (const Trajectory& t :
        {orbit, Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})})
-    for (const Effects& effects : settings(true)) {
+    for (const Effects& effects : combinations(true)) {
       Show show = show_of(t, Stereographic{2000, 2000, 300 * kDegree});
       show.effects = effects;
       const Traced traced(show);
       int seen = 0;
       for (int k = 0; k < 40; ++k) {
         const CameraDirection n{random_direction(random)};
-        const ViewRay look = traced.tracer.trace(n);
-        if (n.v.z < -0.5 || look.sky != SkyRegion::kI || look.bundle.azimuth > 2.5) continue;
-        const auto images = images_of(show, look.sky_direction);
+        const ViewRay ray = traced.tracer.trace(n);
+        if (n.v.z < -0.5 || ray.sky != SkyRegion::kI || ray.bundle.azimuth > 2.5) continue;
+        const auto images = images_of(show, ray.sky_direction);
         ASSERT_FALSE(images.empty());
         const StarImage& image = images[0];
         EXPECT_LT((centre_of(image, show.projection) - n.v).length(), 1e-6);
-        const double g = look.frequency_ratio;
+        const double g = ray.frequency_ratio;
         double flux = 1e-6 * exposure_scale(frame_state(show, 0).settings);
         if (effects.intensity) flux *= g * g * g * g;
         if (effects.amplification != Amplification::kNone)
-          flux /= look.radial_scale * look.tangential_scale;
+          flux /= ray.radial_scale * ray.tangential_scale;
         const WorkingRgb c = blackbody_colours().per_flux(effects.doppler_colour ? 6500 * g : 6500);
         EXPECT_NEAR(image.rgb[1] / (flux * c.g), 1, 1e-5);
         ++seen;
@@ -153,22 +155,22 @@ TEST(Effects, AnAmplifiedBackgroundHasASmoothRingAndNoSpecks) {
   show.projection = Stereographic{480, 360, 90 * kDegree};
   show.timeline[0].camera.attitude = LookAtHole{};
   show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
-  const HalfFrame plain = render(show);
+  const HalfFrame natural = render(show);
   show.effects.amplification = Amplification::kEverything;
   const HalfFrame amplified = render(show);
   const Traced traced(show);
   const double pixel = central_pixel_angle(show.projection);
-  std::vector<double> peaks(360, 0);  // by the angle about the hole
+  std::vector<double> peaks(360, 0);  // by the angle about the hole in degrees
   for (int y = 0; y < 360; ++y)
     for (int x = 0; x < 480; ++x) {
-      const ViewRay look = traced.tracer.trace(direction_at(show.projection, {x + 1.0, y + 1.0}));
-      if (look.sky != SkyRegion::kI || look.to_edge < 15 * pixel) continue;
-      const double ratio = amplified.row(y)[3 * x + 1] / double(plain.row(y)[3 * x + 1]);
-      const double off = std::abs(look.bundle.azimuth - std::numbers::pi) /
-                         (look.bundle.slope * look.bundle.doppler * pixel);
+      const ViewRay ray = traced.tracer.trace(direction_at(show.projection, {x + 1.0, y + 1.0}));
+      if (ray.sky != SkyRegion::kI || ray.to_edge < 15 * pixel) continue;
+      const double ratio = amplified.row(y)[3 * x + 1] / double(natural.row(y)[3 * x + 1]);
+      const double off = std::abs(ray.bundle.azimuth - std::numbers::pi) /
+                         (ray.bundle.slope * ray.bundle.doppler * pixel);
       if (off > 5) {
-        const double expected = 1 / (look.radial_scale * look.tangential_scale);
-        // The two are blurred alike, but by different numbers of looks.
+        const double expected = 1 / (ray.radial_scale * ray.tangential_scale);
+        // Both are blurred alike, but by different numbers of samples.
         ASSERT_NEAR(ratio / expected, 1, 0.04) << x << ' ' << y;
       } else {
         const double degrees = std::atan2(y - 179.5, x - 239.5) / kDegree;

@@ -1,4 +1,4 @@
-// Panoramas made for a test.
+// Panoramas that a test writes for itself.
 #pragma once
 
 #include <OpenEXR/ImfChannelList.h>
@@ -13,11 +13,11 @@
 
 namespace domefall {
 
-// An OpenEXR file of floats, which is removed at the end.  OpenEXR writes it, since OpenImageIO takes
-// longer to load than most tests run.
+// An OpenEXR file of floats, which is removed at the end of its life.  OpenEXR writes it, since
+// OpenImageIO takes longer to load than most tests run.
 class PanoramaFile {
  public:
-  // value(k): of rgb[width / 2][width][3] at k.
+  // value(k) is the number at k in an array [width / 2][width][3].
   template <class Value>
   PanoramaFile(const std::string& name, int width, Value value)
       : path_(std::filesystem::temp_directory_path() /

@@ -1,5 +1,5 @@
-// The shows of shows/paper/ as tests see them: what stands where in which frame, by the optics and the
-// cameras that render them.
+// The paper's figures as the shows of shows/paper/ have them.  A test asks what is seen where in
+// which frame, and the optics and cameras that render the show answer.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ inline Show figure(const std::string& label) {
   return read_show(DOMEFALL_SOURCE_DIR "/shows/paper/" + label + ".yaml");
 }
 
-// One panel.  Positions in the picture are fractions of its width and height from the top left.
+// One panel of a figure, which is one frame of its show.  Positions in it are fractions of its
+// width and height from the top left.
 class Panel {
  public:
   Panel(const Show& show, int frame)
@@ -34,7 +35,7 @@ class Panel {
         optics(make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, false})),
         tracer(state, optics, show.effects) {}
 
-  // The tracer looks at the optics beside it.
+  // The tracer refers to the optics beside it.
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
   Panel(Panel&&) = delete;
@@ -49,11 +50,12 @@ class Panel {
   }
   double z(double x, double y) const { return 1 / trace(x, y).frequency_ratio - 1; }
 
-  // Where a direction in the observer's frame stands in the camera's; X to the right, Y down.
+  // A direction in the observer's frame along the camera's axes: X to the right, Y down, Z ahead.
   V3d in_camera(const V3d& seen) const {
     return apply_transposed(state.observer.tetrad_from_camera, seen);
   }
-  // The k-th image of a place on the home sky, in the camera's axes: 0 is the primary one.
+  // The image of this order of a place on the home sky, along the camera's axes.  Order 0 is the
+  // primary image.
   V3d image(const V3d& sky, int order) const {
     const V3d source = apply_transposed(state.observer.sky_from_tetrad, sky);
     const SkyTable* table = optics.home_sky ? &*optics.home_sky : nullptr;
@@ -63,13 +65,13 @@ class Panel {
   V3d hole() const {
     return in_camera(to_observer(state.observer.celerity, V3d(-1, 0, 0)).direction);
   }
-  // Whether that direction (camera axes) is in the picture.
+  // Whether a direction along the camera's axes lies within the panel.
   bool shows(const V3d& n) const {
     const auto p = pixel_of(state.projection, {n});
     return n.z > -0.9 && p && p->i > 0.5 && p->i < columns(state.projection) + 0.5 && p->j > 0.5 &&
            p->j < rows(state.projection) + 0.5;
   }
-  // Speed against the observer at rest at the same r > 2, who moves outwards in the rain frame.
+  // The speed against the observer at rest at the same r > 2, who moves outwards in the rain frame.
   double local_speed() const {
     const ObserverState& o = state.observer;
     const double s = std::sqrt(2 / o.r), rest_gamma = 1 / std::sqrt(1 - s * s);

@@ -1,4 +1,4 @@
-// What the captions of [Riazuelo] say of their pictures without an orbit in them, against the shows of
+// The captions of those figures of [Riazuelo] that have no orbit in them, held against the shows of
 // shows/paper/.  Tolerances are half of a caption's last digit where no other reason is given.
 #include "pipeline/optics/silhouette.h"
 #include "pipeline/sky/grid_sky.h"
@@ -13,7 +13,7 @@ TEST(PaperFigAberr1, TheEdgesAreAsManyDegreesOfSkyApartAsTheCaptionSays) {
   const double captioned[] = {90, 117.8, 158.6, 244.1};
   for (int k = 0; k < 4; ++k) {
     const Panel panel(show, k);
-    // By way of the middle, since the last is more than half a circle.
+    // The angle is summed on both sides of the middle, since the last is more than half a circle.
     const V3d left = panel.trace(0, 0.5).sky_direction,
               middle = panel.trace(0.5, 0.5).sky_direction,
               right = panel.trace(1, 0.5).sky_direction;
@@ -28,11 +28,11 @@ TEST(PaperFigAberr1, ThePolesEndUp517DegreesApartInThePicture) {
   EXPECT_NEAR(angle_between(north, south) / kOneDegree, 51.7, 0.05);
   EXPECT_TRUE(panel.shows(north) && panel.shows(south));
   EXPECT_LT(north.y, 0);
-  // And the picture is drawn so.
+  // A view ray through the image comes from the pole.
   EXPECT_LT((panel.tracer.trace({north}).sky_direction - V3d(0, 0, 1)).length(), 1e-12);
 }
 
-// Square by square of the grid, each in the middle of one: a quarter turn or a half is 18 or 36 of them.
+// Positions lie in the middles of the grid's squares.  A quarter turn is 18 of them, a half 36.
 TEST(PaperFigAberr2, WithoutTheMotionTheThreeViewsWouldBeTheStaticOne) {
   Show show = figure("fig_aberr2");
   ASSERT_EQ(frame_count(show), 4);
@@ -74,7 +74,7 @@ TEST(PaperFigDev2, TheSquareInFrontIsDarkAndTheShiftIsMinus339TenThousandths) {
   const Show show = figure("fig_dev2");
   ASSERT_EQ(frame_count(show), 2);
   const Panel without(show, 0), with(show, 1);
-  // Beside the hole itself, which is a point.
+  // The ray passes beside the hole, which is a point where light goes straight.
   const V3d centre = without.trace(0.501, 0.5).sky_direction;
   EXPECT_NEAR(std::asin(centre.z) / kOneDegree, -32.4, 1e-3);
   const auto light = [&](double x) {
@@ -87,7 +87,8 @@ TEST(PaperFigDev2, TheSquareInFrontIsDarkAndTheShiftIsMinus339TenThousandths) {
   EXPECT_EQ(with.trace(0.5, 0.5).sky, SkyRegion::kIV);
 }
 
-// Radians from the hole to where a star behind it, just beside the axis, is seen.
+// The radius of the Einstein ring in radians: the angle between the hole and the image of a star
+// that stands behind it just beside the axis.
 double einstein_ring(const Panel& panel, const Show& show) {
   const V3d behind = (show.hole_at.v + V3d(1e-7, 0, 0)).normalized();
   return angle_between(panel.image(behind, 0), panel.hole());
@@ -106,7 +107,7 @@ TEST(PaperFigDev2, TheSouthPolesGhostIsAboveAndTheNorthPolesBelow) {
   }
 }
 
-// The height at which the silhouette begins, as a part of the picture's.
+// The position down from the panel's top at which the silhouette begins in this column.
 double horizon_line(const Panel& panel, double x) {
   double above = 0, below = 1;
   for (int k = 0; k < 50; ++k) {
@@ -124,7 +125,7 @@ TEST(PaperFigBlue, TheShiftsAreThoseOfTheCaptionAndTheSilhouetteTurnsFromConvexT
     const Panel panel(show, k);
     EXPECT_EQ(panel.state.observer.r, radius[k]);
     EXPECT_NEAR(panel.z(0.5, 0.05), z[k], 5e-4);
-    // Lower at the sides where convex; straight across the middle at r = 3.
+    // A convex silhouette begins lower at the sides.  At r = 3 its edge is straight.
     const double sag = horizon_line(panel, 0.1) - horizon_line(panel, 0.5);
     if (k == 0) {
       EXPECT_GT(sag, 0.02);
@@ -150,15 +151,16 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
   EXPECT_EQ(show.effects.amplification, Amplification::kEverything);
   const Panel far(show, 0), near(show, 1);
   const V3d hole = near.hole();
-  // The direction up left of the hole, so far from the silhouette's edge.
+  // at(beyond) is the direction up left of the hole, `beyond` radians outside the silhouette's
+  // edge.
   const double edge = std::asin(3 * std::sqrt(3) / 30 * std::sqrt(1 - 2 / 30.));
   const V3d aside = (V3d(0, 0, 1) - hole * hole.z).normalized();
   const auto at = [&](double beyond) {
     return hole * std::cos(edge + beyond) + aside * std::sin(edge + beyond);
   };
   const auto magnified = [&](double beyond) {
-    const ViewRay look = near.tracer.trace({at(beyond)});
-    return 1 / (look.radial_scale * look.tangential_scale);
+    const ViewRay ray = near.tracer.trace({at(beyond)});
+    return 1 / (ray.radial_scale * ray.tangential_scale);
   };
   double largest = 0, ring = 0;
   for (double beyond = 1e-4; beyond < 0.02; beyond += 1e-5)
@@ -166,14 +168,16 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
   EXPECT_GT(largest, 1);
   EXPECT_LT(ring, 0.5 * kOneDegree);
   EXPECT_TRUE(near.shows(at(ring)));
-  EXPECT_GT(hole.x, 0);  // up left of it
+  // The panel shows what is up left of the hole, and is upright.
+  EXPECT_GT(hole.x, 0);
   EXPECT_GT(hole.y, 0);
-  EXPECT_LT(near.in_camera({0, -1, 0}).y, -0.9);  // and upright
+  EXPECT_LT(near.in_camera({0, -1, 0}).y, -0.9);
   EXPECT_LT(magnified(3 * kOneDegree), 0.2);
   const double einstein = einstein_ring(far, show) - edge;
   EXPECT_GT(magnified(einstein - kOneDegree), 2);
   EXPECT_GT(magnified(einstein + kOneDegree), 2);
-  const ViewRay corner = far.trace(0, 0);  // farther away slightly de-amplified
+  // Farther from the hole the light is slightly fainter than without it.
+  const ViewRay corner = far.trace(0, 0);
   EXPECT_LT(1 / (corner.radial_scale * corner.tangential_scale), 1);
   EXPECT_GT(1 / (corner.radial_scale * corner.tangential_scale), 0.9);
 }

@@ -1,4 +1,5 @@
-// What the captions of [Riazuelo] say of moving and falling observers, against the shows of shows/paper/.
+// The captions of [Riazuelo] on moving and falling observers, held against the shows of
+// shows/paper/.
 #include "tests/pipeline/render/paper_figures.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/parabolic_orbit.h"
@@ -37,7 +38,8 @@ TEST(PaperFigPar, ItSweepsTheCaptions831DegreesBeforeItsPeriastron) {
   EXPECT_LT(degrees_between(show, 0, 1), 595);
 }
 
-// Why the show has a third frame: r = 4.02 M and 831 degrees do not go together on the way in.
+// The show has a third frame because no orbit has swept 831 degrees when it is at r = 4.02 M on the
+// way in.
 TEST(PaperFigPar, NoParabolicOrbitSweeps600DegreesBeforeItIsAt402) {
   double most = 0;
   for (const double periastron : {4.02, 4.0199, 4.019, 4.01, 4.001, 4.00001}) {
@@ -103,7 +105,7 @@ TEST(PaperFigHor, JustBeforeJustBehindAndAtATenth) {
   EXPECT_GT(behind.state.observer.r, 1.98);
   EXPECT_NEAR(last.state.observer.r, 0.1, 1e-12);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(frame_state(show, k).observer.celerity, V3d(0, 0, 0));
-  // No visual hint: the silhouette, next to its edge, is as large to a percent.
+  // Nothing shows that the horizon is crossed: the silhouette has the same size to a percent.
   const auto edge = [](const Panel& panel) {
     double in = 0.5, out = 1;
     for (int k = 0; k < 50; ++k)
@@ -111,7 +113,7 @@ TEST(PaperFigHor, JustBeforeJustBehindAndAtATenth) {
     return in - 0.5;
   };
   EXPECT_NEAR(edge(before) / edge(behind), 1, 0.01);
-  // z = -cos(delta) sqrt(2/r), and no redshift to the side.
+  // The redshift is z = -cos(delta) sqrt(2/r), which is 0 to the side.
   EXPECT_NEAR(last.z(0.5, 0.5), 0, 1e-12);
   EXPECT_TRUE(std::holds_alternative<GridSky>(show.sky[SkyRegion::kIII].background));
   EXPECT_EQ(last.trace(0.9, 0.5).sky, SkyRegion::kIII);
@@ -126,7 +128,7 @@ TEST(PaperFigHor2, TheLastViewHasTheSkyOfFigHorToTheRightAndAnotherToTheLeft) {
   EXPECT_NEAR(frame_state(show, 1).observer.r, 0.8, 1e-12);
   EXPECT_NEAR(frame_state(show, 2).observer.r, 0.1, 1e-12);
   const Panel point(show, 0), disc(show, 1), both(show, 2), same(single, 2);
-  // Region III ahead, 1 + z = sqrt(2/r) - 1.
+  // Region III is seen ahead at 1 + z = sqrt(2/r) - 1.
   EXPECT_EQ(point.trace(0.5, 0.5).sky, SkyRegion::kIII);
   EXPECT_EQ(point.trace(0.51, 0.5).sky, SkyRegion::kIV);  // almost pointlike
   EXPECT_NEAR(1 + point.z(0.5, 0.5), std::sqrt(2 / 1.994) - 1, 1e-12);
@@ -172,10 +174,12 @@ TEST(PaperFigIv, TheOutgoingObserverPassesTheOneOfFigIvImgAtSqrtOfHalfR) {
     EXPECT_NEAR(rest.r, r[k], 1e-12);
     EXPECT_NEAR(leave.r, r[2 + k / 2], 1e-12);
     EXPECT_EQ(leave.celerity, V3d(0, 0, 0));
-    // Against the outgoing frame, in which the other is at rest.
+    // The speed against the outgoing frame is that against the other observer, who is at rest
+    // there.
     const double speed = rest.celerity.length() / std::sqrt(1 + rest.celerity.dot(rest.celerity));
     EXPECT_NEAR(speed, std::sqrt(r[k] / 2), 1e-12);
-    // Left column rear, right column front: that of the flight out.
+    // Frames of the left column face backwards on the flight out, those of the right column
+    // forwards.
     const V3d middle = column(leave.tetrad_from_camera, 2);
     EXPECT_NEAR(middle.x, k % 2 == 0 ? -1 : 1, 1e-12);
   }

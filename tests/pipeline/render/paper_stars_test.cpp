@@ -1,4 +1,4 @@
-// What the captions of [Riazuelo] say of stars and their ghosts, against the shows of shows/paper/.
+// The captions of [Riazuelo] on stars and their ghosts, held against the shows of shows/paper/.
 #include "pipeline/optics/silhouette.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "tests/pipeline/render/paper_figures.h"
@@ -10,7 +10,7 @@ constexpr double kMilliarcsecond = kOneDegree / 3.6e6;
 
 double edge_from_rest(double r) { return std::asin(3 * std::sqrt(3) / r * std::sqrt(1 - 2 / r)); }
 
-// Where each is: +1 right and below, -1 left and above.
+// The side of the middle on which a star is: +1 right or below, -1 left or above, 0 for any.
 struct Place {
   const char* star;
   int x, y;
@@ -44,7 +44,7 @@ TEST(PaperMult, TheCaptionsStarsAreWhereItSaysAndDouble) {
     EXPECT_TRUE(panel.shows(inside)) << name;
   }
   EXPECT_FALSE(panel.shows(panel.image(star("Sirius"), 0)));
-  EXPECT_GT(panel.image(star("Sirius"), 0).x, 0);  // off to the right
+  EXPECT_GT(panel.image(star("Sirius"), 0).x, 0);  // beyond the right edge
   const V3d small_cloud(std::cos(-72.8 * kOneDegree) * std::cos(13.2 * kOneDegree),
                         std::cos(-72.8 * kOneDegree) * std::sin(13.2 * kOneDegree),
                         std::sin(-72.8 * kOneDegree));
@@ -61,7 +61,7 @@ TEST(PaperMult, TheStarBehindTheHoleIsTwoOnTheRingAtEqualDistances) {
     const double one = angle_between(first, hole), other = angle_between(second, hole);
     EXPECT_NEAR(one, other, 0.01 * kOneDegree) << label;  // it stands 0.007 degrees off the axis
     EXPECT_GT(one - other, 0) << label;
-    // On opposite sides: a hundred times less than those distances out of line.
+    // They lie on opposite sides of the hole, in line with it.
     EXPECT_NEAR(angle_between(first, second), one + other, 1e-9) << label;
     // The catalogue that the show draws has the star.
     ASSERT_TRUE(show.sky[SkyRegion::kI].stars);
@@ -87,9 +87,9 @@ TEST(PaperHD49359, TwoGhostsStandOnTheSegmentOneInEachPicture) {
       EXPECT_LT(angle_between(ghost, hole), edge_from_rest(30) + 0.02 * kOneDegree);
       in_picture[k] += panel.shows(ghost);
     }
-    // Frame 0 is the left side.
+    // Frame 0 shows the left side.
     EXPECT_GT(hole.x * (k == 0 ? 1 : -1), 0);
-    // The picture is drawn so: the star is seen where the ghost stands.
+    // A view ray through the ghost comes from the star.
     const V3d ghost = panel.image(star("HD 49359"), 2);
     EXPECT_LT(angle_between(panel.tracer.trace({ghost}).sky_direction, star("HD 49359")), 1e-4);
   }
@@ -114,7 +114,8 @@ TEST(PaperFigZ, EachZoomEndsAtTheEdgeAndTheLastIs160MilliarcsecondsWide) {
       EXPECT_NEAR(fov / kMilliarcsecond, 160, 1e-3);
     }
     before = fov;
-    // Sky to the left, the silhouette from 70 % of the width on; in the first it is in the middle.
+    // The sky is to the left, the silhouette to the right of 70 % of the width.  In the first frame
+    // it is in the middle.
     EXPECT_EQ(panel.trace(0, 0.5).sky, SkyRegion::kI) << k;
     if (k > 0) {
       EXPECT_EQ(panel.trace(0.69, 0.5).sky, SkyRegion::kI) << k;
@@ -123,14 +124,15 @@ TEST(PaperFigZ, EachZoomEndsAtTheEdgeAndTheLastIs160MilliarcsecondsWide) {
   }
 }
 
-// "Each subsequent view": by how much light from the left edge of the picture to 1/200 of its width
-// before the silhouette has gone around the hole, in half turns.
+// Each subsequent view shows one more ghost.  The ghosts that are seen outside a view ray are
+// counted by the half turns that its light makes around the hole.
 TEST(PaperFigZ, TheSeventhGhostIsInTheLastView) {
   const Show show = figure("fig_z");
   const Panel first(show, 0), last(show, 7);
+  // `beyond` is the angle in radians between the ray and the silhouette.
   const auto ghosts = [](const Panel& panel, double beyond) {
     const SkyTable table(Radius(30.0), Critical::kFirst);
-    // Of the observer at rest: the angle from the hole, in the frame of free fall.
+    // The angle from the hole is that of the observer at rest, the table's that of free fall.
     const double alpha = edge_from_rest(30) + beyond;
     const V3d n(-std::cos(alpha), 0, std::sin(alpha));
     const V3d m = to_tetrad(panel.state.observer.celerity, n).direction;
@@ -162,7 +164,7 @@ TEST(PaperFigCirc, SpeedsShiftsAndConstellations) {
                          {"Alnilam", -1, 1},
                          {"Saiph", -1, 1}});
   expect_quadrants(near, {{"Dubhe", 1, -1}, {"Merak", 1, -1}, {"Alkaid", 1, -1}});
-  // Taurus at the bottom, in the middle third.
+  // Taurus is at the bottom, in the middle third of the width.
   const V3d bull = far.image(star("Aldebaran"), 0);
   EXPECT_TRUE(far.shows(bull));
   EXPECT_GT(bull.y, 3 * std::abs(bull.x));

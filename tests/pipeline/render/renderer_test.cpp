@@ -57,7 +57,7 @@ TEST(Renderer, MakesOneTableForACameraThatStandsStill) {
   renderer.render(frame_state(show, 20), &times);
   EXPECT_EQ(times.tables_made, 0);
   EXPECT_GT(times.table_nodes, 0u);
-  // Inside both skies are seen; what is dark there has none.
+  // Inside both skies are seen.  Region IV is dark and has no table.
   const Show inside = starry(show_of(RadialInfall{1}, Domemaster{64}));
   Renderer(inside, 1).render(frame_state(inside, 0), &times);
   EXPECT_EQ(times.tables_made, 2);
@@ -79,8 +79,8 @@ TEST(Renderer, ReadsNoFileThatAFrameDoesNotShow) {
   EXPECT_EQ(times.tables_made, 0);
 }
 
-TEST(Renderer, LooksAtNothingWhereAllIsDark) {
-  // In region IV without a light every direction is the past singularity.
+TEST(Renderer, TracesNoRayWhereAllIsDark) {
+  // An observer in region IV sees the past singularity in every direction, which is black here.
   Show show = starry(
       show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.0, V3d(0, 0, 0)}, Domemaster{128}));
   show.sky[SkyRegion::kI].stars = show.sky[SkyRegion::kIII].stars =
@@ -90,7 +90,7 @@ TEST(Renderer, LooksAtNothingWhereAllIsDark) {
   EXPECT_EQ(times.tables_made, 0);
   EXPECT_EQ(times.images, 0u);
   for (const Imath::half value : frame.pixels) ASSERT_EQ(value, 0);
-  // And a silhouette is no work: of the pixels with light few are looked at one by one.
+  // Outside, a silhouette costs little: few of the sky's pixels need a view ray of their own.
   const Show outside = starry(show_of(StaticObserver{4}, Domemaster{2048}));
   Renderer(outside, 2).render(frame_state(outside, 0), &times);
   EXPECT_LT(times.traced_fraction, 0.25);
@@ -107,14 +107,15 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
     for (int x = 0; x < 256; ++x) {
       const PixelPosition pixel{x + 1.0, y + 1.0};
       const float light = frame.row(y)[3 * x] + frame.row(y)[3 * x + 1] + frame.row(y)[3 * x + 2];
-      const ViewRay look = tracer.trace(direction_at(show.projection, pixel));
+      const ViewRay ray = tracer.trace(direction_at(show.projection, pixel));
       if (!is_inside(show.projection, pixel)) {
         ++outside;
         EXPECT_EQ(light, 0);
-      } else if (look.sky == SkyRegion::kIV && look.to_edge > 0.1) {
+      } else if (ray.sky == SkyRegion::kIV && ray.to_edge > 0.1) {
         ++dark;
-        EXPECT_EQ(light, 0) << x << " " << y;  // beyond the reach of stars beside the edge
-      } else if (look.sky == SkyRegion::kI) {
+        // Blobs of stars beside the edge do not reach so far.
+        EXPECT_EQ(light, 0) << x << " " << y;
+      } else if (ray.sky == SkyRegion::kI) {
         EXPECT_GT(light, 0) << "a black speck at " << x << " " << y;
       }
     }
@@ -122,7 +123,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
   EXPECT_GT(outside, 10000);
 }
 
-// Extremes: every pixel finite, or render throws.
+// render() throws if a pixel is not finite.  The observers are extreme ones.
 TEST(Renderer, HasNoPixelThatIsNotFinite) {
   for (const Trajectory& trajectory :
        {Trajectory(StaticObserver{2.0000001}), Trajectory(StaticObserver{1e8}),
@@ -148,9 +149,9 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
   }
 }
 
-// Every look at the panorama and the grid filters by its footprint: a picture of half the size is
-// the mean of four pixels of the larger one.
-TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
+// Every sample of the panorama or the grid is averaged over its footprint, so that a pixel of a
+// frame of half the size is the mean of four pixels of the larger one.
+TEST(Renderer, AFrameOfHalfTheSizeIsTheLargeOneMadeSmaller) {
   Show show = show_of(StaticObserver{20}, Domemaster{512});
   show.sky[SkyRegion::kI].background = GridSky{};
   const HalfFrame large = Renderer(show, 2).render(frame_state(show, 0));
@@ -162,33 +163,35 @@ TEST(Renderer, APictureOfHalfTheSizeIsTheLargeOneMadeSmaller) {
       const float mean = (large.row(2 * y)[6 * x] + large.row(2 * y)[6 * x + 3] +
                           large.row(2 * y + 1)[6 * x] + large.row(2 * y + 1)[6 * x + 3]) /
                          4;
-      difference += std::abs(mean - small.row(y)[3 * x]), sum += mean;
+      difference += std::abs(mean - small.row(y)[3 * x]);
+      sum += mean;
     }
   EXPECT_LT(difference / sum, 0.05);
 }
 
-// From rest at 20 M: every ring is a circle about the hole's centre, brightness falls and rises, and the
-// rings of a period less than what the pixels show leave their mean.
+// To an observer at rest at 20 M every ring is a circle about the hole's centre, across which the
+// light falls and rises.  Of rings too narrow for the pixels the mean is left.
 TEST(Renderer, DrawsTheSingularitysTimeAsRingsAboutTheAxis) {
   Show show = show_of(StaticObserver{20}, Stereographic{257, 257, 40 * kDegree});
   show.sky[SkyRegion::kIV].background = RingsSky{4};
-  const auto green = [&show](int frame) {
-    const HalfFrame picture = Renderer(show, 2).render(frame_state(show, frame));
-    return [picture](int x, int y) { return static_cast<float>(picture.row(y)[3 * x + 1]); };
+  const auto green = [&show](int number) {
+    const HalfFrame frame = Renderer(show, 2).render(frame_state(show, number));
+    return [frame](int x, int y) { return static_cast<float>(frame.row(y)[3 * x + 1]); };
   };
   const auto still = green(0);
-  // 40 degrees on 257 pixels: the silhouette's radius is 14 degrees, 87 pixels.
+  // With 40 degrees on 257 pixels the silhouette's radius of 14 degrees is 87 pixels.
   float least = HUGE_VALF, most = 0;
   for (int k = 0; k < 80; ++k) {
     const float right = still(128 + k, 128);
     EXPECT_NEAR(still(128 - k, 128), right, 2e-3 * right) << k;
     EXPECT_NEAR(still(128, 128 + k), right, 2e-3 * right) << k;
     EXPECT_NEAR(still(128, 128 - k), right, 2e-3 * right) << k;
-    least = std::min(least, right), most = std::max(most, right);
+    least = std::min(least, right);
+    most = std::max(most, right);
   }
   EXPECT_GT(most, 3.5f * least);
   EXPECT_LT(most, 4.05f * least);
-  // A diagonal point at the distance of one on the axis: (48, 36) is at 60.
+  // The point (48, 36) is as far from the centre as (60, 0).
   EXPECT_NEAR(still(128 + 48, 128 + 36), still(128 + 60, 128), 2e-2f * most);
 
   // Half a period later, bright and dark have changed places at the centre.
@@ -235,7 +238,7 @@ TEST(FrameKeys, KnowHowStarsAreDrawn) {
   other.point_spread.white_core = 0;
   EXPECT_NE(key(other), key(show));
   other = show;
-  other.point_spread.halo_sigma = 0.01;  // of no halo
+  other.point_spread.halo_sigma = 0.01;  // without a halo it has no effect
   EXPECT_EQ(key(other), key(show));
   other.point_spread.halo = 0.1;
   EXPECT_NE(key(other), key(show));

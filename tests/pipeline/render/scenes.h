@@ -16,7 +16,7 @@ namespace domefall {
 inline constexpr double kDegree = std::numbers::pi / 180;
 inline const std::string kTestAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
 
-// A panorama of a few clouds, small, so that a test spends its time on what it tests; gone with the
+// A small panorama of a few clouds, which costs little time to read.  Its file is removed with the
 // process.
 inline std::filesystem::path small_panorama() {
   static const PanoramaFile panorama("clouds", 128, [](int k) {
@@ -47,7 +47,7 @@ inline Show starry(Show show) {
   return show;
 }
 
-// The plan of a frame with these skies, whatever the show says of them.
+// The plan of a frame that shows these skies, whatever the show has instead of them.
 inline FramePlan plan_with(const Show& show, const FrameState& state,
                            const PerSky<const Sky*>& skies) {
   FramePlan plan = plan_frame(show, state);

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-// The dome turns about its zenith, `degrees` a frame; 30 frames.
+// For 30 frames the dome turns about its zenith by `degrees` a frame.
 Show turning(double degrees, const Projection& projection) {
   Show show = show_of(StaticObserver{kFlatSpace}, projection);
   show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
@@ -41,15 +41,15 @@ TEST(Shutter, StreaksWithoutLosingLight) {
   show.exposure.shutter = 0.5;
   StageTimes times;
   const HalfFrame streaked = frame_of(show, 10, &times);
-  // 4 degrees at the rim, 256 pixels from the zenith: 17.9 pixels.
+  // The rim is 256 pixels from the zenith, and a turn by 4 degrees moves it by 17.9 pixels.
   EXPECT_NEAR(times.instants, 17.9 / kPixelsPerInstant, 2);
-  // Blobs on the rim end at its staircase of pixels, another one at each instant.
+  // A blob on the rim is cut off by its staircase of pixels, elsewhere at each instant.
   EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 6e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
 }
 
-// The mean of many more pictures than it takes.
-TEST(Shutter, TakesAsManyPicturesAsTheMotionNeeds) {
+// The mean of many more instants than the frame takes is the same.
+TEST(Shutter, TakesAsManyInstantsAsTheMotionNeeds) {
   const Projection p = Domemaster{256};
   Show show = turning(6, p);
   show.exposure.shutter = 1;
@@ -67,7 +67,7 @@ TEST(Shutter, TakesAsManyPicturesAsTheMotionNeeds) {
         << k / 3 % 256 << " " << k / 768;
 }
 
-TEST(Shutter, OfAStillPictureTakesOne) {
+TEST(Shutter, OfAStillViewTakesOneInstant) {
   Show show = turning(0, Domemaster{256});
   const HalfFrame closed = frame_of(show, 3);
   show.exposure.shutter = 1;
@@ -77,7 +77,8 @@ TEST(Shutter, OfAStillPictureTakesOne) {
   EXPECT_TRUE(std::equal(open.pixels.begin(), open.pixels.end(), closed.pixels.begin()));
 }
 
-// Of two segments that are seen at once the one that moves faster counts, also if it is the one that goes.
+// Of two segments that are seen at once the one that moves faster counts, even if it is the one
+// that vanishes.
 TEST(Shutter, OfADissolveTakesWhatTheFasterPartNeeds) {
   Show show = turning(8, Domemaster{256});
   Segment still = show.timeline[0];
@@ -86,9 +87,9 @@ TEST(Shutter, OfADissolveTakesWhatTheFasterPartNeeds) {
   show.timeline.push_back(still);
   show.exposure.shutter = 0.5;
   StageTimes times;
-  frame_of(show, 20, &times);  // in the middle of it
+  frame_of(show, 20, &times);  // in the middle of the dissolve
   EXPECT_GT(times.instants, 5);
-  frame_of(show, 40, &times);  // after it
+  frame_of(show, 40, &times);  // after the dissolve
   EXPECT_EQ(times.instants, 1);
 }
 
@@ -112,7 +113,7 @@ TEST(Shutter, IsOpenAboutTheInstantAndNotAcrossACut) {
 TEST(Shutter, EntersTheKeysOfFrames) {
   Show show = turning(1, Domemaster{64}), faster = turning(2, Domemaster{64});
   const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
-  // At its first instant the camera stands the same.
+  // At the first instant both cameras stand the same.
   EXPECT_EQ(key(show), key(faster));
   show.exposure.shutter = faster.exposure.shutter = 0.5;
   EXPECT_NE(key(show), key(faster));

@@ -33,15 +33,16 @@ WorkingRgb seen(const Show& show, double g) {
   return SkyLight(sky, show.effects, show.panorama_shift, 1).at({0.2, -0.4, 0.9}, 0.1, g);
 }
 
-// Planck's law at temperature T and frequency ratio g is Planck's law at g T, surface and all: the
-// integral against the eye's curves, which the renderer's tables are not asked for, says how bright.
+// A blackbody of temperature T at frequency ratio g is seen as one of g T, in colour and in
+// brightness.  The expected light is integrated over the spectrum without the renderer's tables.
 TEST(ThermalSky, IsSeenAtGTimesItsTemperature) {
   const Show show;
   for (const double g : {0.3, 0.7, 1.0, 1.6, 5.0, 40.0}) {
     const WorkingRgb light = seen(show, g);
     const Xyz surface = blackbody_xyz(g * kTemperature);
     const WorkingRgb expected = to_working(surface);
-    // The temperature comes back to 0.3 % from its halves, and the Wien tail is steep in it.
+    // The map stores the temperature as half floats, to 0.3 %.  In Wien's tail a relative error of
+    // T enters the light multiplied by about 25000 K/(g T).
     const double steep = 0.003 * (4 + 25000 / (g * kTemperature));
     EXPECT_NEAR(luminance(light), kPart * surface.y, steep * kPart * surface.y) << g;
     EXPECT_NEAR(light.b / light.r, expected.b / expected.r, 2 * steep * expected.b / expected.r)

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/scene/photometry.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 
 namespace domefall {
@@ -17,21 +16,25 @@ SceneStar bright_star(const SkyDirection& direction) {
   return {direction, 0, bolometric_flux_at_v_zero(kTemperature), kTemperature, 1e-9};
 }
 
-// The light of an even disc, summed over the directions in which it is seen: at each angle of view the
-// map says how far from the axis the light started, and geometry how much of that circle lies in
-// the disc.  Frame of the tetrad.
+// The light of an even disc, summed over the directions in which it is seen in the frame of the
+// tetrad.  For each angle from the hole the lens gives the angle from the axis at which the light
+// started, and the part of that circle that lies in the disc follows from geometry.
 double light_of_disc(const SkyTable& table, const SceneStar& star, double from_axis, double radius,
                      double scale) {
   constexpr int kAngles = 3'000;
   double sum = 0;
-  for (int axis = 1; axis < 8; axis += 2) {  // all images of what stands behind the hole
-    const double first = table.distance(axis * pi + from_axis + radius),
-                 last = table.distance(std::max(0.0, axis * pi - from_axis - radius));
-    const double from = 4 * std::atan(first / 2), step = (4 * std::atan(last / 2) - from) / kAngles;
+  for (int axis = 1; axis < 8;
+       axis += 2) {  // light from behind the hole sweeps odd multiples of pi
+    const double first = table.distance(axis * pi + from_axis + radius);
+    const double last = table.distance(std::max(0.0, axis * pi - from_axis - radius));
+    const double from = 4 * std::atan(first / 2);
+    const double step = (4 * std::atan(last / 2) - from) / kAngles;
     for (int k = 0; k < kAngles; ++k) {
       const double x = 2 * std::tan((from + (k + 0.5) * step) / 4);
       const double q = std::abs(table.azimuth(x) - axis * pi);
-      // cos radius = cos q cos b + sin q sin b cos(azimuth), all angles small: by their versines.
+      // The circle at q from the axis meets the disc's rim where cos(radius) = cos q cos b + sin q
+      // sin b cos(azimuth), b = from_axis.  For small angles this is the law of cosines of the
+      // plane.
       const double cosine =
           (q * q + from_axis * from_axis - radius * radius) / (2 * q * std::max(from_axis, 1e-30));
       const double width = 2 * std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -51,7 +54,7 @@ struct Sweep {
   bool far;
 };
 
-// A star that passes behind the hole.
+// A star passes behind the hole.
 TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
   for (const Sweep& s :
        {Sweep{Region::kI, 1e8, false}, Sweep{Region::kI, 1e6, false}, Sweep{Region::kI, 1e3, false},
@@ -59,22 +62,22 @@ TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
         Sweep{Region::kII, 1, true}}) {
     const StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
     const StarImages maker = scene.images(s.far);
-    const double scale = exposure_scale(scene.state.settings),
-                 disc = PointSpread(scene.show.point_spread, scene.state.projection, scale).least();
+    const double disc = scene.point_spread().least();
     double before = 0;
     for (int k = -60; k <= 10; ++k) {
       const double from_axis = 0.2 * disc * std::abs(k);
-      // The whole sphere of view is asked for, be it in the picture or not.
+      // append(star) finds images beside the frame too, so the light is that of the whole sphere.
       const SceneStar star = bright_star(
           scene.sky(V3d(-std::cos(from_axis), std::sin(from_axis) * (k < 0 ? -1 : 1), 0)));
       std::vector<StarImage> images;
       maker.append(star, images);
       const double total = total_light(images);
       ASSERT_TRUE(std::isfinite(total));
-      const double wanted = light_of_disc(*scene.table(s.far), star, from_axis, disc, scale);
+      const double wanted =
+          light_of_disc(*scene.table(s.far), star, from_axis, disc, scene.exposure());
       EXPECT_NEAR(total / wanted, 1, 0.01)
           << "r " << s.r << (s.far ? " far" : "") << ", " << 0.2 * k << " radii from the axis";
-      // Brightest in line, and no step between two places 0.2 radii apart.
+      // The light is largest in line, and has no step between two places 0.2 radii apart.
       if (k > -60) {
         EXPECT_NEAR(total / before, 1, 0.4) << "r " << s.r << ", " << k;
         if (s.r < 1e8) {
@@ -86,7 +89,8 @@ TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
   }
 }
 
-// In line it is Einstein's ring: even, closed, at one angle from the hole.
+// In line the image is Einstein's ring, which is even, closed and everywhere at one angle from the
+// hole.
 TEST(StarArcs, InLineAreARing) {
   const StarScene scene({Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)}, Domemaster{1024});
   std::vector<StarImage> images;
@@ -104,7 +108,7 @@ TEST(StarArcs, InLineAreARing) {
       outer.push_back(image);
     }
   }
-  // Orders 0 and 1, each in pieces 1.5 sigma of 0.9 pixel apart.
+  // Orders 0 and 1 are the same ring, each in pieces 1.5 sigma apart, with sigma = 0.9 pixel.
   EXPECT_NEAR(static_cast<double>(outer.size()), 2 * 2 * pi * std::sin(ring) / (1.5 * 0.9 * pixel),
               6);
   const std::size_t half = outer.size() / 2;
@@ -115,16 +119,15 @@ TEST(StarArcs, InLineAreARing) {
   }
 }
 
-// An arc shrinks to the point that is drawn farther off.
+// As the star leaves the axis, its arc shrinks to a point.
 TEST(StarArcs, BecomePoints) {
   const StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
-  const double disc =
-      PointSpread(scene.show.point_spread, scene.state.projection, exposure_scale({})).least();
+  const double disc = scene.point_spread().least();
   const auto longest = [&](double radii) {
     std::vector<StarImage> images;
     const V3d source(-1, radii * disc * 0.6, radii * disc * 0.8);
     scene.images().append(bright_star(scene.sky(source)), images);
-    // The first order's pieces come first, without a gap.
+    // The pieces of order 0 come first, without a gap between them.
     double length = 0;
     for (std::size_t k = 1; k < images.size(); ++k) {
       const double step = std::hypot(images[k].x - images[k - 1].x, images[k].y - images[k - 1].y);
@@ -144,9 +147,10 @@ TEST(StarArcs, BecomePoints) {
   EXPECT_LT(before, 6);
 }
 
-// Region III appears at the horizon as a point, with all its stars, at 1+z = 0.  What is seen of them
-// rises to infinity over all wavelengths together, but the visible light of so hot a sky grows as its
-// temperature only, which the shrinking point more than makes up for: it dies away as 1+z.
+// Region III with all its stars appears at the horizon as a point at 1+z = 0.  Towards that moment
+// the bolometric flux of its stars rises to infinity.  But the visible light of so hot a source
+// grows like its temperature only, and the solid angle shrinks faster, so that the visible flux
+// falls like 1+z.
 TEST(StarArcs, OfTheFirstLightOfRegionThreeAreFiniteAndOrdered) {
   std::mt19937 random(2);
   std::vector<SceneStar> list;

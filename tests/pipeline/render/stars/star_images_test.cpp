@@ -4,7 +4,6 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/blobs/cap_blob.h"
-#include "pipeline/render/scene/photometry.h"
 #include "pipeline/render/stars/star_arcs.h"
 #include "pipeline/render/stars/star_colours.h"
 #include "tests/pipeline/render/stars/star_scene.h"
@@ -37,7 +36,7 @@ std::vector<Case> cases() {
   for (const double r : {2.001, 8.0}) {
     all.push_back({Region::kI, Tetrad::kOutgoing, r, kBrisk});
     all.push_back({Region::kIII, Tetrad::kRainOfThree, r, kBrisk});
-    // At rest: as much outward as rain falls inward.
+    // At rest the observer moves outward against rain as fast as rain falls inward.
     const double s = std::sqrt(2 / r);
     all.push_back({Region::kI, Tetrad::kRain, r, V3d(s / std::sqrt(1 - s * s), 0, 0)});
   }
@@ -45,8 +44,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-bool is_in_picture(const Projection& projection, const PointSpread& widths,
-                   const StarImage& image) {
+bool is_in_frame(const Projection& projection, const PointSpread& widths, const StarImage& image) {
   CapBlob blob{};
   blob.x = image.x, blob.y = image.y;
   blob.sigma = static_cast<float>(widths.sigma_of(image));
@@ -54,17 +52,18 @@ bool is_in_picture(const Projection& projection, const PointSpread& widths,
   return place_cap(projection, blob);
 }
 
-// Every image of up to 24 orders, whatever its flux, by the paper's formulas and nothing else.
+// An image, computed by the paper's formulas alone.
 struct Expected {
   StarImage image;
   double peak;
 };
+// All images of 24 orders that are bright enough and reach into the frame.
 std::vector<Expected> expected(const StarScene& scene, const SkyTable* table,
                                const SceneStar& star) {
   const ObserverState& o = scene.state.observer;
   const Projection& projection = scene.state.projection;
-  const double scale = exposure_scale(scene.state.settings);
-  const PointSpread widths(scene.show.point_spread, projection, scale);
+  const double scale = scene.exposure();
+  const PointSpread widths = scene.point_spread();
   const V3d source = apply_transposed(o.sky_from_tetrad, star.direction.v);
   std::vector<Expected> all;
   for (int order = 0; order < (table ? 24 : 1); ++order) {
@@ -82,7 +81,7 @@ std::vector<Expected> expected(const StarScene& scene, const SkyTable* table,
                {static_cast<float>(c.r * flux * scale), static_cast<float>(c.g * flux * scale),
                 static_cast<float>(c.b * flux * scale)}};
     e.peak = luminance(c) * flux * scale / (2 * std::numbers::pi * widths.least() * widths.least());
-    if (e.peak > kFaintestPeak && is_in_picture(projection, widths, e.image)) all.push_back(e);
+    if (e.peak > kFaintestPeak && is_in_frame(projection, widths, e.image)) all.push_back(e);
   }
   return all;
 }
@@ -91,8 +90,8 @@ double apart(const StarImage& a, const StarImage& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y);
 }
 
-// Each image that is there is found, where it is and as bright, and nothing else but what is too
-// faint or beside the picture.
+// Expects that each image is found at its place and with its light, and that any others are too
+// faint or beside the frame.
 void compare(const StarScene& scene, bool far, const SceneStar& star) {
   std::vector<StarImage> found = all_images(scene.images(far), SceneStars({star}));
   const Projection& projection = scene.state.projection;
@@ -112,11 +111,10 @@ void compare(const StarScene& scene, bool far, const SceneStar& star) {
     EXPECT_NEAR(light(*nearest) / light(e.image), 1, 1e-3);
     found.erase(nearest);
   }
-  const double scale = exposure_scale(scene.state.settings);
-  const PointSpread widths(scene.show.point_spread, projection, scale);
+  const PointSpread widths = scene.point_spread();
   for (const StarImage& extra : found) {
     const double peak = light(extra) / (2 * std::numbers::pi * widths.least() * widths.least());
-    EXPECT_TRUE(peak < 1.002 * kFaintestPeak || !is_in_picture(projection, widths, extra)) << peak;
+    EXPECT_TRUE(peak < 1.002 * kFaintestPeak || !is_in_frame(projection, widths, extra)) << peak;
   }
 }
 
@@ -128,9 +126,7 @@ TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
   for (const Case& c : cases())
     for (const Projection& projection : projections) {
       const StarScene scene({c.region, c.tetrad, c.r, c.celerity}, projection, 2);
-      const double disc =
-          PointSpread(scene.show.point_spread, projection, exposure_scale(scene.state.settings))
-              .least();
+      const double disc = scene.point_spread().least();
       for (const bool far : {false, true}) {
         if (far && !scene.has(true)) continue;
         SCOPED_TRACE("r " + std::to_string(c.r) + " celerity " +
@@ -151,8 +147,7 @@ TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
     }
 }
 
-// A list of stars gives what its stars give, in an order that depends on nothing else; the faint ones
-// left out, the magnitude limit kept.
+// A list of stars has the images of its stars, down to the limit of magnitude.
 TEST(StarImages, OfManyStarsAreThoseOfEach) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> magnitude(-1, 12), temperature(2500, 30000);
@@ -170,14 +165,15 @@ TEST(StarImages, OfManyStarsAreThoseOfEach) {
     const auto before = [](const StarImage& a, const StarImage& b) {
       return std::tie(a.x, a.y, a.rgb[0]) < std::tie(b.x, b.y, b.rgb[0]);
     };
-    std::sort(each.begin(), each.end(), before), std::sort(all.begin(), all.end(), before);
+    std::sort(each.begin(), each.end(), before);
+    std::sort(all.begin(), all.end(), before);
     ASSERT_GT(all.size(), 1000u);
     ASSERT_EQ(all.size(), each.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
       ASSERT_EQ(all[k].x, each[k].x);
       ASSERT_EQ(all[k].rgb[1], each[k].rgb[1]);
     }
-    // By the one-star way, which asks each star for its part of the light.
+    // One star at a time gives these images and some beside the frame.
     std::vector<StarImage> exact;
     for (const SceneStar& star : stars) maker.append(star, exact);
     EXPECT_GE(exact.size(), all.size());
@@ -195,8 +191,8 @@ TEST(StarImages, AtNoRedshiftHaveTheirMagnitude) {
       const auto images = all_images(scene.images(), stars);
       ASSERT_EQ(images.size(), 1u);
       const Xyz per_radiance = blackbody_xyz(t);
-      const double flux = light(images[0]) / exposure_scale(scene.state.settings) *
-                          blackbody_radiance(t) / per_radiance.y;
+      const double flux =
+          light(images[0]) / scene.exposure() * blackbody_radiance(t) / per_radiance.y;
       EXPECT_NEAR(-2.5 * std::log10(flux / bolometric_flux_at_v_zero(t)), v, 0.005) << t;
     }
 }
@@ -213,7 +209,8 @@ TEST(StarImages, HaveTheColoursOfBlackbodies) {
   EXPECT_EQ(star_colours()(0).r, 0);
 }
 
-// A limit that a star has to the last digit takes it, though one is a float and the other is not.
+// A star is drawn if its magnitude is exactly the limit, though one is a float and the other a
+// double.
 TEST(SceneStars, AreTakenUpToTheLimitItself) {
   for (const double v : {8.3, 6.5, 0.1, -1.44, 12.123}) {
     const SceneStars stars({SceneStar{{V3d(0, 0, 1)}, v, 1e-12, 6000, 1e-9}});

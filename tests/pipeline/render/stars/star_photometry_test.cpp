@@ -1,11 +1,10 @@
-// A million stars are as bright as the even sky that they make up.
+// A million stars bring the light of the even sky that they make up.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/render/scene/photometry.h"
 #include "pipeline/sky/catalogue/star_colour.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 
@@ -28,24 +27,27 @@ constexpr double kTolerance = 0.04, kNoise = 0.02;
 constexpr int kStars = 1'000'000, kSize = 1024;
 constexpr double kTolerance = 0.01, kNoise = 0.005;
 #endif
-constexpr int kDrawn = kStars / 3;  // in a picture
+constexpr int kDrawn = kStars / 3;  // the stars of a whole frame
 constexpr double kMagnitude = 8, kColour = 0.6;
-// Stops: so that what is left out as too faint, millions of ghosts, is no part of the light to speak of.
-// (At 0 stops it is 4 per cent of that within 50 degrees of the hole at 6 M.)
+// Stops of exposure.  With so many the ghosts that are left out as too faint, millions of them,
+// carry a negligible part of the light.  At 0 stops they carry 4 per cent of what is seen within 50
+// degrees of the hole at 6 M.
 constexpr double kExposure = kSize < 1024 ? 8 : 4;
 
-// Light by the angle from the hole, or from the axis of the boost: lux times the pixel value of 1 cd/m^2.
+// Sums of light by the angle from the hole, or in flat space from the axis of the boost.  The unit
+// is that of StarImage::rgb.
 struct Bins {
   explicit Bins(const std::vector<double>& degrees)
       : limits(degrees), sum(degrees.size() + 1), square(degrees.size() + 1) {}
   void add(double angle, double light) {
     const auto after = std::upper_bound(limits.begin(), limits.end(), angle / kDegree);
     const auto k = static_cast<std::size_t>(after - limits.begin());
-    sum[k] += light, square[k] += light * light;
-    total += light, total_square += light * light;
+    sum[k] += light;
+    square[k] += light * light;
+    total += light;
   }
   std::vector<double> limits, sum, square;
-  double total = 0, total_square = 0;
+  double total = 0;
 };
 
 double angle_between(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
@@ -55,13 +57,13 @@ V3d hole_of(const FrameState& state) {
                           to_observer(state.observer.celerity, V3d(-1, 0, 0)).direction);
 }
 
-// What a sky of that even bolometric radiance brings, look by look.
+// The light of a sky of this bolometric radiance and temperature everywhere, ray by ray.
 Bins even_sky(const StarScene& scene, double radiance, double temperature,
               const std::vector<double>& limits) {
-  constexpr int kFine = 3;  // looks to a pixel's side
+  constexpr int kFine = 3;  // rays along each side of a pixel
   const Projection fine = refined(scene.state.projection, kFine);
   const ViewTracer tracer(scene.state, scene.optics);
-  const double scale = exposure_scale(scene.state.settings);
+  const double scale = scene.exposure();
   const V3d hole = hole_of(scene.state);
   Bins bins(limits);
   std::vector<CameraDirection> n(static_cast<std::size_t>(kSize) * kFine);
@@ -96,7 +98,7 @@ void compare(const Bins& stars, const Bins& sky) {
   }
 }
 
-// Of stars of this flux each, all over the sky.
+// The mean radiance of a sky with so many stars of this flux each.
 double radiance_of(double flux, int stars) { return stars * flux / (4 * pi); }
 
 struct Place {
@@ -136,7 +138,7 @@ TEST(StarPhotometry, StarsAreAsBrightAsTheSkyTheyMakeUp) {
   }
 }
 
-// The same in a picture, from a catalogue in a file to half floats.
+// The whole way from a catalogue's file to the half floats of a frame keeps the light too.
 TEST(StarPhotometry, SoAreTheirBlobs) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("domefall_stars_" + std::to_string(getpid()) + ".csv");

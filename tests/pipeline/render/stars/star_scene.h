@@ -1,18 +1,19 @@
-// An observer with its tables, for the tests of stars.
+// An observer with the tables of light, for the tests of stars.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "pipeline/render/scene/photometry.h"
 #include "pipeline/render/stars/star_images.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
 
-// At r with that celerity against rain (or the outgoing tetrad); looks at the hole, which stands 45
-// degrees high on a dome.  Exposed by `ev`.
+// The observer's camera faces the hole, which stands 45 degrees high on a dome.
 class StarScene {
  public:
+  // `ev` is the exposure in stops.
   StarScene(const GivenVelocity& at, const Projection& projection, double ev = 0)
       : show(show_of(at, projection)), state(frame_state(show, 0)) {
     state.settings.ev = ev;
@@ -26,11 +27,13 @@ class StarScene {
     return far ? far_sky(optics.tetrad) : home_sky(optics.tetrad);
   }
   const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
+  double exposure() const { return exposure_scale(state.settings); }
+  PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }
   StarImages images(bool far = false) const {
     scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics)));
     return {*scenes_.back(), region(far)};
   }
-  // A place of the sky by its components along R, Theta, Phi.
+  // The direction on the sky that has these components along R, Theta, Phi.
   SkyDirection sky(const V3d& source) const {
     return {apply(state.observer.sky_from_tetrad, source.normalized())};
   }
@@ -40,10 +43,10 @@ class StarScene {
   HoleOptics optics;
 
  private:
-  mutable std::vector<std::unique_ptr<FrameScene>> scenes_;  // of the images that were asked for
+  mutable std::vector<std::unique_ptr<FrameScene>> scenes_;  // images() refers to them
 };
 
-// As the frame does it.
+// The images of all stars, found in batches as lay_stars() does.
 inline std::vector<StarImage> all_images(const StarImages& maker, const SceneStars& stars) {
   std::vector<StarImage> images;
   const std::size_t count = maker.count(stars);
@@ -51,6 +54,7 @@ inline std::vector<StarImage> all_images(const StarImages& maker, const SceneSta
   return images;
 }
 
+// The luminance of an image's light, in the units of StarImage::rgb.
 inline double light(const StarImage& image) {
   return luminance({image.rgb[0], image.rgb[1], image.rgb[2]});
 }
