@@ -1,24 +1,25 @@
-// How finely a renderer looks at a pixel that one look does not do justice.
+// How finely the renderer samples a pixel for which one view ray is not enough.
 #pragma once
 
 namespace domefall {
 
-// The looks of a pixel stand in a square of `samples` by `samples`, evenly spaced; the pixel is their
-// mean.  A pixel is looked at so if it is difficult (near the edge of a sky, or with a long and narrow
-// footprint on a grid), all others have one look, filtered by its footprint.
+// A difficult pixel is the mean of `samples` by `samples` view rays, which stand in an evenly
+// spaced square.  Difficult are pixels near the edge of a sky, and those with a long and narrow
+// footprint on a grid.  All others have one view ray, whose light is filtered by its footprint.
 //
-// The default makes the frames that Domefall renders, and frame keys say nothing of it: a setting
-// that a user may choose has to enter them first.
+// Frames are rendered with the defaults, and frame keys do not contain these settings.  A setting
+// that a user may choose has to enter the keys first.
 struct AntiAliasing {
-  int samples = 4;          // along each axis, 1 to kMostSamples; 1: one look for every pixel
-  bool everywhere = false;  // every pixel is difficult
-  // Looks at every pixel; else where the view is smooth most are interpolated (RayGrid).
+  int samples = 4;          // along each axis, 1 to kMostSamples; 1 makes no pixel difficult
+  bool everywhere = false;  // makes every pixel difficult
+  // Traces a view ray through every pixel.  Else most pixels are interpolated where the view is
+  // smooth (RayGrid).
   bool every_pixel = false;
 };
 
 inline constexpr int kMostSamples = 64;
 
-// 256 looks for every pixel: what the error of a frame is measured against.
+// 256 view rays for every pixel: what the error of a frame is measured against.
 inline constexpr AntiAliasing kReferenceAntiAliasing{16, true};
 
 }  // namespace domefall

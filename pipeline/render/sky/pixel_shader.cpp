@@ -11,17 +11,19 @@
 namespace domefall {
 namespace {
 
-static_assert(kMostSamples <= FootprintBatch::kSize);  // a batch holds at least one line of samples
+static_assert(kMostSamples <= SampleBatch::kSize);  // a batch holds at least one line of samples
 static_assert(ViewRayBatch::kSize <= SkyLight::kMostShifts);
-// A pixel nearer than this, in pixels, to the edge of a sky is supersampled.
+// A pixel nearer than this to the edge of a sky, in pixels, is supersampled.
 constexpr double kEdgePixels = 4;
-// On a grid, so is a pixel whose footprint is longer than this (radians on the sky) and that elongated.
-// A blur of the footprint's length would lose the sharp lines that it still resolves across.
+// On a grid, so is a pixel whose footprint is longer than this (radians on the sky) and that
+// elongated.  A blur of the footprint's length would lose the sharp lines that it still resolves
+// across.
 constexpr double kLongOnGrid = 0.0005, kElongation = 3;
-// Taps along the footprint of one of many samples in a pixel.  The samples do most of the blurring.
+// The most taps along the footprint of one of many samples in a pixel, which do most of the
+// blurring.
 constexpr int kTapsOfSample = 4;
-// A footprint on a map that is longer than this (radians) is no straight line any more, and is blurred
-// to its length.
+// A footprint on a map that is longer than this (radians) is no straight line any more, and is
+// blurred to its length.
 constexpr float kLongestLine = 0.7f;
 
 }  // namespace
@@ -35,7 +37,7 @@ PixelShader::PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing,
   }
 }
 
-// sample_angle: the angle of view that this ray stands for.  fine: it is one of many in its pixel.
+// The ray stands for `sample_angle` radians of the view.  A fine one is one of many in its pixel.
 WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_angle,
                               bool fine) const {
   const auto& background = scene_.background[rays.sky[k]];
@@ -46,15 +48,15 @@ WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_ang
         (scene_.state.observer.null_time + rays.emission_time[k]) / rings->period,
         rays.time_scale[k] * sample_angle / rings->period);
   const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
-  // Many samples do the blurring themselves.  A box as long as each of them would also smear the lines
-  // of a grid across it, which an Einstein ring stretches without bound.
+  // Many samples do the blurring themselves.  A box as long as each of them would also smear the
+  // lines of a grid across it, which an Einstein ring stretches without bound.
   const bool short_box = fine && std::holds_alternative<Grid>(background->sky().background);
   return background->at(rays.sky_direction(k), sample_angle * (short_box ? shorter : longer),
                         rays.frequency_ratio[k]);
 }
 
-// The amplification of the image of a whole pixel: however finely it is sampled, its caustics are as
-// bright.
+// The amplification is that of a whole pixel, so that caustics are as bright however finely the
+// pixel is sampled.
 double PixelShader::amplification(const CameraDirection& n, double pixel_angle) const {
   const ViewRay ray = scene_.tracer.trace(n);
   const bool sky = ray.known && ray.sky != SkyRegion::kIV;
@@ -71,7 +73,7 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
   if (anti_aliasing_.samples == 1) return false;
   if (anti_aliasing_.everywhere || rays.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const auto& background = scene_.background[rays.sky[k]];
-  // Rings are blurred exactly.
+  // The light of rings is averaged over footprints exactly.
   if (!background || std::holds_alternative<Rings>(background->sky().background)) return false;
   const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
   const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
@@ -81,11 +83,11 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
           longer * pixel_angle > kLongOnGrid);
 }
 
-// A batch of samples: the places of the image that are looked through, and what is found there.
+// Positions in the image that are sampled, and the light found there.
 struct PixelShader::Samples {
-  static constexpr int kSize = FootprintBatch::kSize;
+  static constexpr int kSize = SampleBatch::kSize;
   int count = 0;
-  alignas(64) std::array<double, kSize> i, j;   // positions in the image, counted from 1
+  alignas(64) std::array<double, kSize> i, j;   // pixels, counted from 1
   alignas(64) std::array<double, kSize> angle;  // of the view, radians, that a sample stands for
   std::array<CameraDirection, kSize> n;
   std::array<bool, kSize> difficult;  // see needs_more_samples
@@ -98,19 +100,19 @@ struct PixelShader::Samples {
   }
 };
 
-// Those samples among them that fall on maps.
+// The same samples as those of maps.  A sample that is not of a sky's map has no taps on it.
 struct PixelShader::MapSamples {
-  FootprintBatch footprints;
-  PerSky<std::array<SampleKind, FootprintBatch::kSize>> kinds{};  // no taps: not on that sky
+  SampleBatch batch;
+  PerSky<std::array<SampleFilter, SampleBatch::kSize>> filters{};
   PerSky<bool> any{};
 };
 
 void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int first, int count,
                            bool fine, MapSamples& maps) const {
-  FootprintBatch& p = maps.footprints;
+  SampleBatch& batch = maps.batch;
   set_footprints(rays, &samples.angle[first], count,
-                 {&p.x[first], &p.y[first], &p.z[first], &p.wide[first], &p.narrow[first],
-                  &p.ax[first], &p.ay[first], &p.az[first]});
+                 {&batch.x[first], &batch.y[first], &batch.z[first], &batch.wide[first],
+                  &batch.narrow[first], &batch.ax[first], &batch.ay[first], &batch.az[first]});
   const bool few = fine && !anti_aliasing_.everywhere;
   const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
   for (const SkyRegion sky : kEverySky) {
@@ -118,18 +120,19 @@ void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int
     const auto end = rays.sky.begin() + count;
     if (sampler == nullptr || std::find(rays.sky.begin(), end, sky) == end) continue;
     maps.any[sky] = true;
-    SampleKind* kinds = &maps.kinds[sky][first];
-    sampler->choose_kinds(&p.wide[first], &p.narrow[first], count, most, kLongestLine, kinds);
+    SampleFilter* filters = &maps.filters[sky][first];
+    sampler->choose_filters(&batch.wide[first], &batch.narrow[first], count, most, kLongestLine,
+                            filters);
     ViewRayBatch::Column<float> gain, tone;
     scene_.background[sky]->shifts(rays.frequency_ratio.data(), count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {
       const int at = first + k;
       if (rays.sky[k] == sky) {
-        p.gain[at] = gain[k];
-        p.tone[at] = tone[k];
+        batch.gain[at] = gain[k];
+        batch.tone[at] = tone[k];
       }
       if (rays.sky[k] != sky || samples.difficult[at] || is_darkened(sky, samples.n[at]))
-        kinds[k] = SampleKind();
+        filters[k] = SampleFilter();
     }
   }
 }
@@ -148,7 +151,9 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
     WorkingRgb c{0, 0, 0};
     if (!map && !samples.difficult[at] && !is_darkened(rays.sky[k], samples.n[at]))
       c = light(rays, k, samples.angle[at], fine);
-    rgb[0] = c.r, rgb[1] = c.g, rgb[2] = c.b;
+    rgb[0] = c.r;
+    rgb[1] = c.g;
+    rgb[2] = c.b;
   }
   if (maps_seen) put_maps(rays, samples, first, count, fine, maps);
 }
@@ -164,8 +169,7 @@ void PixelShader::shade(Samples& samples, bool fine) const {
     shade_batch(samples, first, std::min(ViewRayBatch::kSize, samples.count - first), fine, maps);
   for (const SkyRegion sky : kEverySky)
     if (maps.any[sky])
-      sampler(sky)->sample(maps.footprints, samples.count, maps.kinds[sky].data(),
-                           samples.rgb.data());
+      sampler(sky)->sample(maps.batch, samples.count, maps.filters[sky].data(), samples.rgb.data());
   if (!scene_.amplifies_backgrounds()) return;
   for (int k = 0; k < samples.count; ++k) {
     const auto by = static_cast<float>(amplification(samples.n[k], samples.angle[k] * per_side));
@@ -173,8 +177,8 @@ void PixelShader::shade(Samples& samples, bool fine) const {
   }
 }
 
-// Each of these pixels becomes the mean of a square of samples.  The squares' lines follow one another, as many
-// at once as there is room for, so that a square may be larger than that.
+// Makes each of these pixels the mean of a square of samples.  The lines of all squares follow one
+// another, as many at a time as there is room for, since a square may exceed the room.
 void PixelShader::supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
   const int per_side = anti_aliasing_.samples, at_once = Samples::kSize / per_side;
   const int lines = static_cast<int>(pixels.size()) * per_side;

@@ -1,4 +1,4 @@
-// The light of the skies in pixels whose view rays are all traced: the exact way, and not the quickest.
+// The light of the skies in pixels all of whose view rays are traced, which is exact but slow.
 #pragma once
 
 #include <optional>
@@ -28,9 +28,9 @@ class PixelShader {
   explicit PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing = {},
                        std::vector<DarkenedCap> darkened = {});
 
-  // Writes scene-linear working-space values of `pixels`, all of which lie in the image, into rows of
-  // 3 columns() floats, the first of which, at `rgb`, is row `first_row`.  Neighbours that follow one
-  // another share cache lines of the sky.
+  // Writes scene-linear working-space values of `pixels`, all of which lie in the image, into rows
+  // of 3 columns() floats, of which the first, `first_row`, begins at `rgb`.  It is faster if
+  // neighbours follow one another, since they share cache lines of the sky.
   void fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
 
   const FrameScene& scene() const { return scene_; }

@@ -12,60 +12,68 @@
 namespace domefall {
 namespace {
 
-// At a distance of x pixels from an edge, -ln x interpolated every 8 pixels errs by 570/x^3 pixels.
+// At x pixels from an edge, where the azimuth goes like -ln x, the cubic through nodes 8 pixels
+// apart errs by 570/x^3 pixels: 0.009 at 5 cells.
 constexpr float kEdgeCells = 5;
-// Farther from any edge than across a cell, what is dark at its corners is dark in it.
+// A cell whose corners are dark is dark throughout if no edge is nearer than the diagonal of a
+// cell.
 constexpr float kDarkCells = 1.5f;
-// So many cells about the direction of motion and the axis every pixel is looked at: ahead of a fast
-// observer, x pixels from it, the sky lies like 1/x, and the cubic errs by 2300/x^3 pixels.
+// Within this many cells of a special direction all pixels are traced.  At x pixels from the motion
+// of a fast observer the sky lies like 1/x, and the cubic errs by 2300/x^3 pixels: 0.006 at 9
+// cells.
 constexpr double kSpecialCells = 9;
-// Of interpolated shifts: relative, of gains, and in octaves of temperature.
+// The errors of interpolated shifts: relative for gains, in octaves of temperature for tones.
 constexpr float kGainTolerance = 1e-3f, kToneTolerance = 2e-3f;
-// Pixel value per unit of a map that shows nothing: its texels are below 2^15.
+// The pixel value per unit of a map below which nothing shows: texels are below 2^15 units, which
+// makes a pixel value of 3e-8.
 constexpr float kFaintGain = 1e-12f;
-// The cubic through second next neighbours is 16 times worse: a part of that, since the worst is not at
-// the nodes.
+// How many tolerances the coarser cubic may err by.  It errs 16 times as much as the finer one, but
+// the largest error need not be at a node, so that less than 16 is allowed.
 constexpr float kCoarser = 6;
 
+// What stands in RayGrid::sky_ besides the skies.
 constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 
-// What the cubic through the second next neighbours errs by.
-inline float missed(const float* p, std::ptrdiff_t stride) {
+// The error, at p, of the cubic through p's neighbours 1 and 3 strides away on both sides: in the
+// middle its weights are -1/16, 9/16, 9/16 and -1/16.
+inline float coarse_error(const float* p, std::ptrdiff_t stride) {
   const float between =
       (9 * (p[-stride] + p[stride]) - (p[-3 * stride] + p[3 * stride])) * (1.0f / 16);
   return between - p[0];
 }
 
-struct Checked {
+struct NodeColumns {
   const float *x, *y, *z, *gain, *tone, *tolerance;
   float tone_floor;
 };
 
-// Along a line of nodes, or across it with a stride.  A comparison with NaN is false: not good.
-// A place may be of any length: only what is off at right angles to it counts.
-[[gnu::always_inline]] inline void check_loop(const Checked& nodes, std::ptrdiff_t stride,
-                                              int count, std::uint8_t* good) {
-  const Checked n = nodes;
+// Clears the marks of nodes at which a cubic errs too much, along a row of nodes (stride 1) or
+// across it.  Directions may be of any length, so only errors at right angles to them count: those
+// have the length of the cross product.  Comparisons with NaN are false, which clears the mark.
+[[gnu::always_inline]] inline void check_loop(const NodeColumns& nodes, std::ptrdiff_t stride,
+                                              int count, std::uint8_t* marks) {
+  const NodeColumns n = nodes;
   for (int k = 0; k < count; ++k) {
-    const float x = missed(n.x + k, stride), y = missed(n.y + k, stride),
-                z = missed(n.z + k, stride);
+    const float x = coarse_error(n.x + k, stride), y = coarse_error(n.y + k, stride),
+                z = coarse_error(n.z + k, stride);
     const float most = kCoarser * n.tolerance[k];
     const float px = n.x[k], py = n.y[k], pz = n.z[k];
     const float u = y * pz - z * py, v = z * px - x * pz, w = x * py - y * px;
-    const bool place = u * u + v * v + w * w <= most * most;
-    const bool gain =
-        std::abs(missed(n.gain + k, stride)) <= kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
-    const bool tone = std::abs(missed(n.tone + k, stride)) <=
+    const bool direction = u * u + v * v + w * w <= most * most;
+    const bool gain = std::abs(coarse_error(n.gain + k, stride)) <=
+                      kCoarser * kGainTolerance * n.gain[k] + kFaintGain;
+    const bool tone = std::abs(coarse_error(n.tone + k, stride)) <=
                       kCoarser * (kGainTolerance * std::abs(n.tone[k]) + n.tone_floor);
-    good[k] = static_cast<std::uint8_t>(good[k] & ((place & gain & tone) ? 1 : 0));
+    marks[k] = static_cast<std::uint8_t>(marks[k] & ((direction & gain & tone) ? 1 : 0));
   }
 }
 Dispatched<check_loop> check;
 
-// Radians on the sky.
+// Converts kTolerance to radians on the sky by the shorter side of each footprint.  On an Einstein
+// ring that side is 0, so at least a tenth of the longer side counts.
 [[gnu::always_inline]] inline void set_tolerances_loop(const float* wide, const float* narrow,
                                                        int count, float* tolerance) {
-  constexpr float kNarrowest = 0.1f;  // of the longer side: an Einstein ring's is 0
+  constexpr float kNarrowest = 0.1f;
   for (int k = 0; k < count; ++k) {
     const float least = kNarrowest * wide[k];
     tolerance[k] =
@@ -76,23 +84,30 @@ Dispatched<set_tolerances_loop> set_tolerances;
 
 }  // namespace
 
-void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>& special) {
-  shader_ = &shader;
-  projection_ = shader.scene().projection();
-  cell_columns_ = (columns(projection_) + kStep - 1) / kStep;
-  cell_rows_ = (rows(projection_) + kStep - 1) / kStep;
+void RayGrid::resize(const Projection& projection) {
+  projection_ = projection;
+  cell_columns_ = (columns(projection) + kStep - 1) / kStep;
+  cell_rows_ = (rows(projection) + kStep - 1) / kStep;
   node_columns_ = cell_columns_ + 1 + 2 * kMargin;
   node_rows_ = cell_rows_ + 1 + 2 * kMargin;
   const std::size_t nodes = at(node_rows_, 0);
   for (auto& quantity : nodes_) quantity.resize(nodes + kPadding);
-  tolerance_.resize(nodes), edge_.resize(nodes), sky_.resize(nodes), run_.resize(nodes);
-  kinds_.resize(nodes);
-  good_.assign(nodes, 1);
+  tolerance_.resize(nodes);
+  edge_.resize(nodes);
+  sky_.resize(nodes);
+  run_.resize(nodes);
+  filters_.resize(nodes);
+  cubic_.assign(nodes, 1);
   cells_.resize(static_cast<std::size_t>(cell_rows_) * static_cast<std::size_t>(cell_columns_));
+}
+
+void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>& special) {
+  shader_ = &shader;
+  resize(shader.scene().projection());
   tone_floor_ = kToneTolerance;
   for (const SkyRegion sky : kEverySky)
     if (shader.sampler(sky) && shader.sampler(sky)->map().kind() == SkyMapKind::kColour)
-      tone_floor_ = kFaintGain;
+      tone_floor_ = kFaintGain;  // kTone holds gains then
   special_.clear();
   for (const CameraDirection& n : special)
     if (const auto pixel = pixel_of(projection_, n))
@@ -102,7 +117,8 @@ void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>
   tbb::parallel_for(0, cell_rows_, [this](int row) { classify_row(row); });
 }
 
-// The nodes of a row that cells with pixels in the picture ask for; of a dome, those about its disc.
+// The nodes of a row that cells with pixels in the image depend on.  A dome needs only those about
+// its disc.
 std::pair<int, int> RayGrid::needed_nodes(int row) const {
   if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
   const double middle = (columns(projection_) - 1) / 2.0;
@@ -114,7 +130,7 @@ std::pair<int, int> RayGrid::needed_nodes(int row) const {
 }
 
 void RayGrid::trace_row(int row) {
-  ViewRayBatch batch;
+  ViewRayBatch rays;
   std::array<CameraDirection, ViewRayBatch::kSize> n;
   ViewRayBatch::Column<double> i, j, angle;
   j.fill((row - kMargin) * kStep + 1.0);
@@ -123,10 +139,9 @@ void RayGrid::trace_row(int row) {
     const int count = std::min(ViewRayBatch::kSize, to - first);
     for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
     view_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
-    shader_->scene().tracer.trace(n.data(), count, batch);
-    store(at(row, first), batch, angle.data(), count);
+    shader_->scene().tracer.trace(n.data(), count, rays);
+    store_nodes(at(row, first), rays, angle.data(), count);
   }
-  // Where eight nodes in a row see one sky.
   const std::uint8_t* sky = sky_.data() + at(row, 0);
   std::uint8_t* run = run_.data() + at(row, 0);
   for (int k = 0; k < cell_columns_; ++k) {
@@ -136,58 +151,65 @@ void RayGrid::trace_row(int row) {
   }
 }
 
-void RayGrid::store(std::size_t node, const ViewRayBatch& batch, const double* angle, int count) {
-  const auto of = [&](Quantity q) { return &nodes_[q][node]; };
-  PerSky<std::uint8_t> skies{};
-  bool any = false;
+void RayGrid::store_nodes(std::size_t first, const ViewRayBatch& rays, const double* angle,
+                          int count) {
+  const auto column = [&](Quantity q) { return &nodes_[q][first]; };
+  PerSky<std::uint8_t> marks{};
   for (const SkyRegion sky : kEverySky) {
     const bool map = shader_->sampler(sky) != nullptr;
-    skies[sky] = !shader_->scene().background[sky] ? kDark
+    marks[sky] = !shader_->scene().background[sky] ? kDark
                  : map                             ? static_cast<std::uint8_t>(sky)
                                                    : kMixed;
   }
+  bool any_map = false;
   for (int k = 0; k < count; ++k) {
-    const std::uint8_t sky = skies[batch.sky[k]];
-    sky_[node + k] = sky;
-    edge_[node + k] = static_cast<float>(batch.to_edge[k] / (angle[k] * kStep));
-    any |= sky < kDark;
+    const std::uint8_t mark = marks[rays.sky[k]];
+    sky_[first + k] = mark;
+    edge_[first + k] = static_cast<float>(rays.to_edge[k] / (angle[k] * kStep));
+    any_map |= mark < kDark;
   }
-  if (!any) return;
-  set_footprints(
-      batch, angle, count,
-      {of(kX), of(kY), of(kZ), of(kWide), of(kNarrow), of(kAlongX), of(kAlongY), of(kAlongZ)});
-  set_tolerances(of(kWide), of(kNarrow), count, &tolerance_[node]);
-  ViewRayBatch::Column<float> first, second;
-  ViewRayBatch::Column<SampleKind> kinds;
+  if (!any_map) return;
+  set_footprints(rays, angle, count,
+                 {column(kX), column(kY), column(kZ), column(kWide), column(kNarrow),
+                  column(kAxisX), column(kAxisY), column(kAxisZ)});
+  set_tolerances(column(kWide), column(kNarrow), count, &tolerance_[first]);
+  store_shifts(first, rays, count);
+}
+
+// Stores shifts and filters.  A colour panorama's shift is stored as the gains of both of its
+// sides.
+void RayGrid::store_shifts(std::size_t first, const ViewRayBatch& rays, int count) {
+  ViewRayBatch::Column<float> gain, tone;
+  ViewRayBatch::Column<SampleFilter> filters;
   for (const SkyRegion sky : kEverySky) {
     const SkySampler* sampler = shader_->sampler(sky);
-    const auto end = batch.sky.begin() + count;
-    if (sampler == nullptr || std::find(batch.sky.begin(), end, sky) == end) continue;
-    sampler->choose_kinds(of(kWide), of(kNarrow), count, SkySampler::kMostTaps, HUGE_VALF,
-                          kinds.data());
+    const auto end = rays.sky.begin() + count;
+    if (sampler == nullptr || std::find(rays.sky.begin(), end, sky) == end) continue;
+    sampler->choose_filters(&nodes_[kWide][first], &nodes_[kNarrow][first], count,
+                            SkySampler::kMostTaps, HUGE_VALF, filters.data());
     const SkyLight& light = *shader_->scene().background[sky];
-    const bool thermal = sampler->map().kind() == SkyMapKind::kThermal;
-    const double* g = batch.frequency_ratio.data();
-    if (thermal)
-      light.shifts(g, count, first.data(), second.data());
+    const double* g = rays.frequency_ratio.data();
+    if (sampler->map().kind() == SkyMapKind::kThermal)
+      light.shifts(g, count, gain.data(), tone.data());
     else
-      light.shift_sides(g, count, first.data(), second.data());
+      light.shift_sides(g, count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {
-      if (batch.sky[k] != sky) continue;
-      of(kGain)[k] = first[k], of(kTone)[k] = second[k];
-      kinds_[node + k] = kinds[k];
+      if (rays.sky[k] != sky) continue;
+      nodes_[kGain][first + k] = gain[k];
+      nodes_[kTone][first + k] = tone[k];
+      filters_[first + k] = filters[k];
     }
   }
 }
 
 void RayGrid::check_row(int row) {
   const std::size_t first = at(row, kMargin);
-  const Checked nodes{
+  const NodeColumns nodes{
       &nodes_[kX][first],    &nodes_[kY][first], &nodes_[kZ][first], &nodes_[kGain][first],
       &nodes_[kTone][first], &tolerance_[first], tone_floor_};
   const int count = cell_columns_ + 1;
-  check(nodes, 1, count, &good_[first]);
-  check(nodes, node_columns_, count, &good_[first]);
+  check(nodes, 1, count, &cubic_[first]);
+  check(nodes, node_columns_, count, &cubic_[first]);
 }
 
 bool RayGrid::is_smooth(int row, int column) const {
@@ -195,14 +217,13 @@ bool RayGrid::is_smooth(int row, int column) const {
     if (run_[at(row + k, column)] != sky_[at(row, column)]) return false;
   for (int j = row + kMargin; j <= row + kMargin + 1; ++j)
     for (int i = column + kMargin; i <= column + kMargin + 1; ++i)
-      if (!good_[at(j, i)] || !(edge_[at(j, i)] > kEdgeCells)) return false;
+      if (!cubic_[at(j, i)] || !(edge_[at(j, i)] > kEdgeCells)) return false;
   return std::none_of(special_.begin(), special_.end(), [&](const PixelPosition& p) {
     return std::hypot(p.i / kStep - column, p.j / kStep - row) < kSpecialCells;
   });
 }
 
-// Whether any of a cell's pixels is in the picture.
-bool RayGrid::in_picture(int row, int column) const {
+bool RayGrid::is_in_image(int row, int column) const {
   if (!std::holds_alternative<Domemaster>(projection_)) return true;
   const double middle = (columns(projection_) - 1) / 2.0, radius = columns(projection_) / 2.0;
   const auto away = [middle](int cell) {
@@ -214,7 +235,7 @@ bool RayGrid::in_picture(int row, int column) const {
 
 RayGrid::Cell RayGrid::classified(int row, int column) const {
   Cell cell;
-  if (!in_picture(row, column)) return cell;
+  if (!is_in_image(row, column)) return cell;
   const std::array<std::size_t, 4> corners{
       at(row + kMargin, column + kMargin), at(row + kMargin, column + kMargin + 1),
       at(row + kMargin + 1, column + kMargin), at(row + kMargin + 1, column + kMargin + 1)};
@@ -226,7 +247,7 @@ RayGrid::Cell RayGrid::classified(int row, int column) const {
   cell.kind = Kind::kSmooth;
   cell.sky = static_cast<SkyRegion>(sky_[corners[0]]);
   cell.plain = std::all_of(corners.begin(), corners.end(),
-                           [&](std::size_t n) { return kinds_[n].is_plain(); });
+                           [&](std::size_t n) { return filters_[n].is_plain(); });
   return cell;
 }
 
@@ -237,8 +258,10 @@ void RayGrid::classify_row(int row) {
 
 double RayGrid::traced_fraction() const {
   std::size_t exact = 0, all = 0;
-  for (const Cell& cell : cells_)
-    exact += cell.kind == Kind::kExact, all += cell.kind != Kind::kNothing;
+  for (const Cell& cell : cells_) {
+    exact += cell.kind == Kind::kExact;
+    all += cell.kind != Kind::kNothing;
+  }
   return all > 0 ? static_cast<double>(exact) / static_cast<double>(all) : 0;
 }
 

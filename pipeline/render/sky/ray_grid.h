@@ -1,11 +1,15 @@
-// What a frame sees, on a coarse grid of exact looks between which most pixels are interpolated.
+// A coarse grid of view rays that are traced exactly, from which most pixels of a frame are
+// interpolated.
 //
-// Nodes stand every kStep pixels.  Between them sky directions and shifts follow the cubic through four
-// nodes a side, at an error of at most kTolerance pixels, bounded in two ways: an edge of a sky, towards
-// which the azimuth is -ln x, is kEdgeCells cells away at least; and at the nodes around, the cubic
-// through their second next neighbours, 16 times worse, is right to 6 times the tolerance.  A cell that
-// fails has every pixel looked at.  (And floats hold a place on the sky to 3e-7 radians, a thousandth of
-// a texel of a map 16k wide.)
+// Nodes stand every kStep pixels.  Between them, directions on the sky and shifts follow the cubic
+// through four nodes along each axis, with an error of at most kTolerance pixels.  Two conditions
+// bound the error of a cell:
+// - The nearest edge of a sky, towards which the azimuth goes like -ln x, is at least kEdgeCells
+//   away.
+// - At the nodes around it, the cubic through the nodes 1 and 3 steps away on both sides errs by
+//   less than kCoarser tolerances.  Its nodes are twice as far apart, so that it errs 2^4 times as
+//   much.  All pixels of a cell that fails are traced.  (Directions are kept as floats, which are
+//   right to 3e-7 radians: a thousandth of a texel of a map 16k wide.)
 #pragma once
 
 #include <array>
@@ -23,20 +27,20 @@ class RayGrid {
   static constexpr int kStep = 8;
   static constexpr double kTolerance = 0.01;
 
-  // Looks at all nodes, on all threads of the arena.  Memory is kept from frame to frame.
-  // special: directions about which a grid may miss what there is.
-  // The cells of skies that are no maps are exact.
+  // Traces all nodes, on all threads of the arena, and classifies the cells.  Memory is kept from
+  // frame to frame.  Cells of skies that are no maps are exact. special: directions about which a
+  // grid may miss detail.
   void make(const PixelShader& shader, const std::vector<CameraDirection>& special);
 
   enum class Kind : std::uint8_t {
-    kNothing,  // dark, or out of the picture
-    kSmooth,
-    kExact
+    kNothing,  // dark, or outside the image
+    kSmooth,   // pixels are interpolated
+    kExact     // pixels are traced
   };
   struct Cell {
     Kind kind = Kind::kNothing;
     SkyRegion sky = SkyRegion::kIV;
-    bool plain = false;  // one look a pixel, at the finest level of a map, is enough
+    bool plain = false;  // one sample per pixel, at the finest level of a map, is enough
 
     bool operator==(const Cell&) const = default;
   };
@@ -46,45 +50,39 @@ class RayGrid {
     return cells_[static_cast<std::size_t>(row * cell_columns_ + column)];
   }
 
-  // Of the pixels of all cells but those out of the picture or dark, 0 to 1.
+  // The part (0 to 1) of the pixels that are traced, of those that are neither dark nor outside the
+  // image.
   double traced_fraction() const;
 
-  // Pixels of smooth cells [first, end) of one sky, kStep each, in row `row` of their row of cells; x, y, z,
-  // gain and tone only.  (end - first) kStep <= FootprintBatch::kSize.
-  void interpolate_row(int cell_row, int row, int first, int end, FootprintBatch& out) const;
-  // All pixels of such cells: cell by cell, and kStep rows in each.
-  static constexpr int kBlock = FootprintBatch::kSize / (kStep * kStep);  // the most of them
-  void interpolate_block(int cell_row, int first, int end, FootprintBatch& out) const;
+  // Interpolates one row of pixels (0 to kStep - 1) of the smooth cells [first, end) of a row of
+  // cells.  The cells see one sky, and (end - first) kStep <= SampleBatch::kSize.  Writes
+  // directions and shifts only.
+  void interpolate_row(int cell_row, int row, int first, int end, SampleBatch& out) const;
+  // Interpolates all pixels of such cells: cell by cell, kStep rows each.  end - first <= kBlock.
+  static constexpr int kBlock = SampleBatch::kSize / (kStep * kStep);
+  void interpolate_block(int cell_row, int first, int end, SampleBatch& out) const;
 
  private:
-  enum Quantity {
-    kX,
-    kY,
-    kZ,
-    kGain,
-    kTone,
-    kWide,
-    kNarrow,
-    kAlongX,
-    kAlongY,
-    kAlongZ,
-    kQuantities
-  };
-  static constexpr int kCubics = 5;  // so many of them vary as cubics, the others linearly
-  // Beyond the last node: loops over nodes run on to whole registers.
+  // The columns of SampleBatch, as they stand at the nodes.  kGain and kTone hold both sides of a
+  // panorama's shift (SkyLight::shift_sides) until a side is chosen.
+  enum Quantity { kX, kY, kZ, kGain, kTone, kWide, kNarrow, kAxisX, kAxisY, kAxisZ, kQuantities };
+  // Loops over nodes run on to whole registers, beyond the last node.
   static constexpr std::size_t kPadding = 96;
-  static constexpr int kMargin = 3;  // nodes beyond the first and the last cell
+  static constexpr int kMargin = 3;  // nodes before the first cell, and behind the last
 
+  void resize(const Projection& projection);
   std::pair<int, int> needed_nodes(int row) const;  // first, end
   void trace_row(int row);
+  void store_nodes(std::size_t first, const ViewRayBatch& rays, const double* angle, int count);
+  void store_shifts(std::size_t first, const ViewRayBatch& rays, int count);
   void check_row(int row);
   void classify_row(int row);
-  bool in_picture(int row, int column) const;
+  bool is_in_image(int row, int column) const;  // whether any pixel of a cell is
   bool is_smooth(int row, int column) const;
   Cell classified(int row, int column) const;
-  void store(std::size_t node, const ViewRayBatch& batch, const double* angle, int count);
-  void choose_side(int cell_row, int cell, int count, FootprintBatch& out) const;
-  const float* corner(Quantity q, int cell_row, int cell) const {
+  void choose_side(int cell_row, int cell, int count, SampleBatch& out) const;
+  // The node above and to the left of a cell's first corner.
+  const float* first_node(Quantity q, int cell_row, int cell) const {
     return &nodes_[q][at(cell_row + kMargin - 1, cell + kMargin - 1)];
   }
   std::size_t at(int row, int column) const {
@@ -96,15 +94,15 @@ class RayGrid {
   const PixelShader* shader_ = nullptr;
   int node_columns_ = 0, node_rows_ = 0, cell_columns_ = 0, cell_rows_ = 0;
   std::array<std::vector<float>, kQuantities> nodes_;
-  std::vector<float> tolerance_;    // radians on the sky
-  std::vector<float> edge_;         // cells to the nearest edge of a sky
-  std::vector<std::uint8_t> sky_;   // SkyRegion, or dark, or none to interpolate
-  std::vector<std::uint8_t> run_;   // of eight nodes from here on, if it is one
-  std::vector<std::uint8_t> good_;  // whether the cubics hold at a node
-  std::vector<SampleKind> kinds_;   // of a pixel there
+  std::vector<float> tolerance_;       // radians on the sky
+  std::vector<float> edge_;            // cells to the nearest edge of a sky
+  std::vector<std::uint8_t> sky_;      // SkyRegion, kDark, or kMixed where nothing is interpolated
+  std::vector<std::uint8_t> run_;      // the sky of a node and the seven behind it, or kMixed
+  std::vector<std::uint8_t> cubic_;    // whether the cubics are right at a node
+  std::vector<SampleFilter> filters_;  // of a pixel at a node
   std::vector<Cell> cells_;
-  float tone_floor_ = 0;                // smaller changes of kTone do not matter
-  std::vector<PixelPosition> special_;  // pixels from 0
+  float tone_floor_ = 0;                // an error of kTone below this does not matter
+  std::vector<PixelPosition> special_;  // in pixels counted from 0
 };
 
 }  // namespace domefall

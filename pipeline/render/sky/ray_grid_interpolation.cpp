@@ -1,4 +1,4 @@
-// Between the nodes of a RayGrid.
+// Interpolates pixels between the nodes of a RayGrid.
 #include <array>
 #include <cstring>
 
@@ -10,15 +10,17 @@ namespace domefall {
 namespace {
 
 constexpr int kStep = RayGrid::kStep;
-constexpr int kMostCells = FootprintBatch::kSize / kStep;
-// Nodes are mixed in whole registers: the three about the cells besides their own, and what fills up.
+constexpr int kMostCells = SampleBatch::kSize / kStep;
+// The nodes that cells depend on, of which there are three more than cells, rounded up to whole
+// registers.
 constexpr int kMostNodes = kMostCells + 16, kBlockNodes = 16;
 
 struct Weights {
   float w[4];
 };
 
-// Lagrange's cubic through -1, 0, 1 and 2 at t in [0, 1].
+// Lagrange's cubic through nodes at -1, 0, 1 and 2, evaluated at t in [0, 1].  Each node's weight
+// is the product of (t - m)/(n - m) over the other nodes m.
 constexpr Weights cubic_weights(double t) {
   return {{static_cast<float>(-t * (t - 1) * (t - 2) / 6),
            static_cast<float>((t + 1) * (t - 1) * (t - 2) / 2),
@@ -26,83 +28,89 @@ constexpr Weights cubic_weights(double t) {
            static_cast<float>((t + 1) * t * (t - 1) / 6)}};
 }
 
-constexpr std::array<Weights, kStep> kCubic = [] {
+// The weights of the four nodes for each pixel of a cell.
+constexpr std::array<Weights, kStep> kPixelWeights = [] {
   std::array<Weights, kStep> table{};
   for (int k = 0; k < kStep; ++k) table[k] = cubic_weights(static_cast<double>(k) / kStep);
   return table;
 }();
 
-// kCubic, the other way round: of the pixels of a cell, in one register.
+// The same by node: its weights for the eight pixels of a cell, which fill one register.
 static_assert(kStep == kLanes);
-constexpr std::array<std::array<float, kStep>, 4> kSpreading = [] {
-  std::array<std::array<float, kStep>, 4> s{};
+constexpr std::array<std::array<float, kStep>, 4> kNodeWeights = [] {
+  std::array<std::array<float, kStep>, 4> table{};
   for (int n = 0; n < 4; ++n)
-    for (int k = 0; k < kStep; ++k) s[n][k] = kCubic[k].w[n];
-  return s;
+    for (int k = 0; k < kStep; ++k) table[n][k] = kPixelWeights[k].w[n];
+  return table;
 }();
-constexpr std::array<float, kStep> kEven{0, 1, 2, 3, 4, 5, 6, 7};
+constexpr std::array<float, kStep> kPixelNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 
 [[gnu::always_inline]] inline void load(const std::array<float, kStep>& from, Lanes& to) {
   std::memcpy(&to, from.data(), sizeof to);
 }
 
-// `nodes` begins one row above the cells and one column before the first of them; pixels of a cell are in
-// out[0..kStep), those of the next one `apart` farther on.
-struct Nodes {
-  const float* nodes;
+// One quantity at the nodes about a row of cells: `first` is one row above the first cell and one
+// column before it.
+struct NodeWindow {
+  const float* first;
   std::ptrdiff_t stride;
   int cells;
 };
 
+// Interpolates one row of pixels: first between four rows of nodes, then along the row.  The eight
+// pixels of a cell are written side by side, those of the next cell `cell_stride` floats on.
 template <int kMost>
-[[gnu::always_inline]] inline void cubic_row(const Nodes& in, int row, std::ptrdiff_t apart,
-                                             float* out) {
-  const float *a = in.nodes, *b = a + in.stride, *c = b + in.stride, *d = c + in.stride;
-  const Weights by = kCubic[row];
+[[gnu::always_inline]] inline void interpolate_cubic(const NodeWindow& in, int row,
+                                                     std::ptrdiff_t cell_stride, float* out) {
+  const float *a = in.first, *b = a + in.stride, *c = b + in.stride, *d = c + in.stride;
+  const Weights by = kPixelWeights[row];
   float line[kMost];
-  const int mixed = (in.cells + 3 + 15) / 16 * 16;
-  for (int k = 0; k < mixed; ++k)
+  const int nodes = (in.cells + 3 + 15) / 16 * 16;
+  for (int k = 0; k < nodes; ++k)
     line[k] = by.w[0] * a[k] + by.w[1] * b[k] + by.w[2] * c[k] + by.w[3] * d[k];
-  Lanes s0, s1, s2, s3;
-  load(kSpreading[0], s0), load(kSpreading[1], s1), load(kSpreading[2], s2),
-      load(kSpreading[3], s3);
-  for (int cell = 0; cell < in.cells; ++cell, out += apart) {
+  Lanes w0, w1, w2, w3;
+  load(kNodeWeights[0], w0);
+  load(kNodeWeights[1], w1);
+  load(kNodeWeights[2], w2);
+  load(kNodeWeights[3], w3);
+  for (int cell = 0; cell < in.cells; ++cell, out += cell_stride) {
     const Lanes pixels =
-        s0 * line[cell] + s1 * line[cell + 1] + s2 * line[cell + 2] + s3 * line[cell + 3];
+        w0 * line[cell] + w1 * line[cell + 1] + w2 * line[cell + 2] + w3 * line[cell + 3];
     std::memcpy(out, &pixels, sizeof pixels);
   }
 }
 
-[[gnu::always_inline]] inline void spread_row_loop(const Nodes& nodes, int row, float* out) {
-  cubic_row<kMostNodes>(nodes, row, kStep, out);
+[[gnu::always_inline]] inline void row_cubic_loop(const NodeWindow& in, int row, float* out) {
+  interpolate_cubic<kMostNodes>(in, row, kStep, out);
 }
-Dispatched<spread_row_loop> spread_row;
+Dispatched<row_cubic_loop> row_cubic;
 
-[[gnu::always_inline]] inline void spread_block_loop(const Nodes& nodes, float* out) {
+[[gnu::always_inline]] inline void block_cubic_loop(const NodeWindow& in, float* out) {
   for (int row = 0; row < kStep; ++row)
-    cubic_row<kBlockNodes>(nodes, row, kStep * kStep, out + row * kStep);
+    interpolate_cubic<kBlockNodes>(in, row, kStep * kStep, out + row * kStep);
 }
-Dispatched<spread_block_loop> spread_block;
+Dispatched<block_cubic_loop> block_cubic;
 
-[[gnu::always_inline]] inline void spread_block_evenly_loop(const Nodes& in, float* out) {
-  const float *above = in.nodes + in.stride, *below = above + in.stride;
-  Lanes even;
-  load(kEven, even);
+// Interpolates linearly between the four corners of each cell, which is enough for footprints.
+[[gnu::always_inline]] inline void block_linear_loop(const NodeWindow& in, float* out) {
+  const float *above = in.first + in.stride, *below = above + in.stride;
+  Lanes numbers;
+  load(kPixelNumbers, numbers);
   for (int row = 0; row < kStep; ++row) {
     const float t = static_cast<float>(row) / kStep;
     float* to = out + row * kStep;
     for (int cell = 1; cell <= in.cells; ++cell, to += kStep * kStep) {
       const float left = above[cell] + t * (below[cell] - above[cell]);
       const float right = above[cell + 1] + t * (below[cell + 1] - above[cell + 1]);
-      const float by = (right - left) * (1.0f / kStep);
-      const Lanes pixels = left + even * by;
+      const float slope = (right - left) * (1.0f / kStep);
+      const Lanes pixels = left + numbers * slope;
       std::memcpy(to, &pixels, sizeof pixels);
     }
   }
 }
-Dispatched<spread_block_evenly_loop> spread_block_evenly;
+Dispatched<block_linear_loop> block_linear;
 
-// Of a panorama: ShiftSides become the shift.
+// Chooses between the two sides of a panorama's shift (SkyLight::shift_sides).
 [[gnu::always_inline]] inline void choose_loop(const float* red, const float* blue, float knee,
                                                int count, float* gain) {
   for (int k = 0; k < count; ++k) gain[k] = red[k] > knee ? blue[k] : red[k];
@@ -111,38 +119,42 @@ Dispatched<choose_loop> choose;
 
 }  // namespace
 
-void RayGrid::choose_side(int cell_row, int cell, int count, FootprintBatch& out) const {
+void RayGrid::choose_side(int cell_row, int cell, int count, SampleBatch& out) const {
   const SkyRegion sky = this->cell(cell_row, cell).sky;
   if (shader_->sampler(sky)->map().kind() == SkyMapKind::kColour)
     choose(out.gain.data(), out.tone.data(), shader_->scene().background[sky]->knee(), count,
            out.gain.data());
 }
 
-void RayGrid::interpolate_row(int cell_row, int row, int first, int end,
-                              FootprintBatch& out) const {
+void RayGrid::interpolate_row(int cell_row, int row, int first, int end, SampleBatch& out) const {
   const int cells = end - first;
-  const auto spread = [&](Quantity q, FootprintBatch::Column& to) {
-    spread_row({corner(q, cell_row, first), node_columns_, cells}, row, to.data());
+  const auto cubic = [&](Quantity q, SampleBatch::Column& to) {
+    row_cubic({first_node(q, cell_row, first), node_columns_, cells}, row, to.data());
   };
-  spread(kX, out.x), spread(kY, out.y), spread(kZ, out.z);
-  spread(kGain, out.gain), spread(kTone, out.tone);
+  cubic(kX, out.x);
+  cubic(kY, out.y);
+  cubic(kZ, out.z);
+  cubic(kGain, out.gain);
+  cubic(kTone, out.tone);
   choose_side(cell_row, first, cells * kStep, out);
 }
 
-void RayGrid::interpolate_block(int cell_row, int first, int end, FootprintBatch& out) const {
+void RayGrid::interpolate_block(int cell_row, int first, int end, SampleBatch& out) const {
   const int cells = end - first;
   const auto nodes = [&](Quantity q) {
-    return Nodes{corner(q, cell_row, first), node_columns_, cells};
+    return NodeWindow{first_node(q, cell_row, first), node_columns_, cells};
   };
-  spread_block(nodes(kX), out.x.data()), spread_block(nodes(kY), out.y.data());
-  spread_block(nodes(kZ), out.z.data());
-  spread_block(nodes(kGain), out.gain.data()), spread_block(nodes(kTone), out.tone.data());
+  block_cubic(nodes(kX), out.x.data());
+  block_cubic(nodes(kY), out.y.data());
+  block_cubic(nodes(kZ), out.z.data());
+  block_cubic(nodes(kGain), out.gain.data());
+  block_cubic(nodes(kTone), out.tone.data());
   choose_side(cell_row, first, cells * kStep * kStep, out);
-  spread_block_evenly(nodes(kWide), out.wide.data());
-  spread_block_evenly(nodes(kNarrow), out.narrow.data());
-  spread_block_evenly(nodes(kAlongX), out.ax.data());
-  spread_block_evenly(nodes(kAlongY), out.ay.data());
-  spread_block_evenly(nodes(kAlongZ), out.az.data());
+  block_linear(nodes(kWide), out.wide.data());
+  block_linear(nodes(kNarrow), out.narrow.data());
+  block_linear(nodes(kAxisX), out.ax.data());
+  block_linear(nodes(kAxisY), out.ay.data());
+  block_linear(nodes(kAxisZ), out.az.data());
 }
 
 }  // namespace domefall

@@ -10,7 +10,7 @@ namespace domefall {
 namespace {
 
 constexpr int kStep = RayGrid::kStep;
-// A smaller picture is not worth a grid.
+// The shorter side of the smallest image that is worth a grid.
 constexpr int kSmallest = 64;
 
 bool has_maps(const FrameScene& scene) {
@@ -21,7 +21,7 @@ bool has_maps(const FrameScene& scene) {
 }  // namespace
 
 std::vector<CameraDirection> special_directions(const FrameScene& scene) {
-  constexpr double kFast = 3;
+  constexpr double kFast = 3;  // of a celerity; slower ones crowd light little
   const V3d& celerity = scene.tracer.vantage().celerity;
   std::vector<CameraDirection> special;
   const auto add = [&](const V3d& in_tetrad) {
@@ -48,8 +48,8 @@ SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
   if (interpolates_) grid_.make(shader_, special_directions(scene));
 }
 
-SkyPass::Band SkyPass::band_at(int number) const {
-  Band band{number, std::min(kStep, rows(scene_.projection()) - number * kStep), {}, nullptr};
+SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
+  Band band{number, std::min(kStep, rows(scene_.projection()) - number * kStep), {}, rgb};
   for (int row = 0; row < band.rows; ++row)
     band.inside[row] = inside_columns(scene_.projection(), number * kStep + row);
   return band;
@@ -65,86 +65,85 @@ void SkyPass::blacken_outside(const Band& band) const {
   }
 }
 
-// Of cells what is in the picture.
+// Blackens the pixels of dark cells that lie in the image.
 void SkyPass::blacken(const Band& band, int first, int end) const {
   for (int row = 0; row < band.rows; ++row) {
-    const int left = std::max(first * kStep, band.inside[row].first),
-              right = std::min(end * kStep - 1, band.inside[row].last);
+    const auto [left, right] = band.columns_of(row, first, end);
     if (left <= right)
       std::fill(row_of(band, row) + 3 * left, row_of(band, row) + 3 * (right + 1), 0.0f);
   }
 }
 
-// Smooth cells of one sky where a look a pixel is enough, row by row.
+// Fills smooth cells of one sky for which one plain sample per pixel is enough, row by row.
 void SkyPass::fill_plain(const Band& band, int first, int end) const {
-  constexpr int kAtOnce = FootprintBatch::kSize / kStep;
+  constexpr int kMostCells = SampleBatch::kSize / kStep;
   const int width = columns(scene_.projection());
-  FootprintBatch places;
-  std::array<float, 3 * FootprintBatch::kSize + 1> light;
+  SampleBatch batch;
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
-  for (int from = first; from < end; from += kAtOnce) {
-    const int to = std::min(end, from + kAtOnce), pixel = from * kStep;
+  for (int from = first; from < end; from += kMostCells) {
+    const int to = std::min(end, from + kMostCells), pixel = from * kStep;
     for (int row = 0; row < band.rows; ++row) {
-      const int left = std::max(pixel, band.inside[row].first),
-                right = std::min(to * kStep - 1, band.inside[row].last);
+      const auto [left, right] = band.columns_of(row, from, to);
       if (left > right) continue;
-      grid_.interpolate_row(band.number, row, from, to, places);
-      // Straight into the row where nothing beside it is touched but what comes next.
-      const bool whole = left == pixel && right == to * kStep - 1 && right < width - 1;
+      grid_.interpolate_row(band.number, row, from, to, batch);
+      // Whole cells are sampled straight into the row.  The sampler overwrites one float behind
+      // them, which the next pixels of the row mend; at the end of a row it would be the next
+      // row's.
+      const bool straight = left == pixel && right == to * kStep - 1 && right < width - 1;
       float* out = row_of(band, row);
-      sampler.sample_plain(places, (to - from) * kStep, whole ? out + 3 * pixel : light.data());
-      if (whole) continue;
-      std::copy(&light[3 * (left - pixel)], &light[3 * (right + 1 - pixel)], out + 3 * left);
+      sampler.sample_plain(batch, (to - from) * kStep, straight ? out + 3 * pixel : rgb.data());
+      if (straight) continue;
+      std::copy(&rgb[3 * (left - pixel)], &rgb[3 * (right + 1 - pixel)], out + 3 * left);
     }
   }
 }
 
-// Other smooth cells of one sky, cell by cell: what is beside a line of looks is looked at next.
+// Fills other smooth cells of one sky, block by block, so that footprints that lie side by side are
+// sampled soon after one another and meet in the cache.
 void SkyPass::fill_block(const Band& band, int first, int end) const {
-  FootprintBatch places;
-  std::array<SampleKind, FootprintBatch::kSize> kinds;
-  std::array<float, 3 * FootprintBatch::kSize + 1> light;
+  SampleBatch batch;
+  std::array<SampleFilter, SampleBatch::kSize> filters;
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
   for (int from = first; from < end; from += RayGrid::kBlock) {
     const int to = std::min(end, from + RayGrid::kBlock), count = (to - from) * kStep * kStep;
-    grid_.interpolate_block(band.number, from, to, places);
-    sampler.choose_kinds(places.wide.data(), places.narrow.data(), count, SkySampler::kMostTaps,
-                         HUGE_VALF, kinds.data());
-    sampler.sample(places, count, kinds.data(), light.data());
+    grid_.interpolate_block(band.number, from, to, batch);
+    sampler.choose_filters(batch.wide.data(), batch.narrow.data(), count, SkySampler::kMostTaps,
+                           HUGE_VALF, filters.data());
+    sampler.sample(batch, count, filters.data(), rgb.data());
     for (int row = 0; row < band.rows; ++row)
       for (int cell = from; cell < to; ++cell) {
-        const float* of_row = &light[3 * kStep * ((cell - from) * kStep + row)];
-        const int left = std::max(cell * kStep, band.inside[row].first),
-                  right = std::min(cell * kStep + kStep - 1, band.inside[row].last);
+        const float* cell_row = &rgb[3 * kStep * ((cell - from) * kStep + row)];
+        const auto [left, right] = band.columns_of(row, cell, cell + 1);
         if (left > right) continue;
-        std::copy(of_row + 3 * (left - cell * kStep), of_row + 3 * (right + 1 - cell * kStep),
+        std::copy(cell_row + 3 * (left - cell * kStep), cell_row + 3 * (right + 1 - cell * kStep),
                   row_of(band, row) + 3 * left);
       }
   }
 }
 
-// The pixels of cells, cell by cell.
-void SkyPass::add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const {
+// Appends the pixels of cells that lie in the image, cell by cell.
+void SkyPass::append_pixels(const Band& band, int first, int end,
+                            std::vector<Pixel>& pixels) const {
   for (int cell = first; cell < end; ++cell)
     for (int row = 0; row < band.rows; ++row) {
-      const int left = std::max(cell * kStep, band.inside[row].first),
-                right = std::min(cell * kStep + kStep - 1, band.inside[row].last);
+      const auto [left, right] = band.columns_of(row, cell, cell + 1);
       for (int column = left; column <= right; ++column)
         pixels.push_back({column, band.number * kStep + row});
     }
 }
 
 void SkyPass::fill_band(int number, float* rgb) const {
-  Band band = band_at(number);
-  band.rgb = rgb;
+  const Band band = band_at(number, rgb);
   blacken_outside(band);
-  std::vector<Pixel> pixels;
+  std::vector<Pixel> traced;
   const int cells = (columns(scene_.projection()) + kStep - 1) / kStep;
-  if (!interpolates_) add_pixels(band, 0, cells, pixels);
+  if (!interpolates_) append_pixels(band, 0, cells, traced);
   for (int first = 0, end = 0; interpolates_ && first < cells; first = end) {
     const RayGrid::Cell cell = grid_.cell(number, first);
     while (end < cells && grid_.cell(number, end) == cell) ++end;
-    if (cell.kind == RayGrid::Kind::kExact) add_pixels(band, first, end, pixels);
+    if (cell.kind == RayGrid::Kind::kExact) append_pixels(band, first, end, traced);
     if (cell.kind == RayGrid::Kind::kNothing) blacken(band, first, end);
     if (cell.kind != RayGrid::Kind::kSmooth) continue;
     if (cell.plain)
@@ -152,7 +151,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
     else
       fill_block(band, first, end);
   }
-  shader_.fill(pixels, number * kStep, rgb);
+  shader_.fill(traced, number * kStep, rgb);
 }
 
 double SkyPass::traced_fraction() const { return interpolates_ ? grid_.traced_fraction() : 1; }

@@ -1,37 +1,50 @@
-// The skies of a frame, band by band: interpolated from a coarse grid of looks where the view is smooth,
-// looked at pixel by pixel where it is not.
+// The skies of a frame, in bands of pixel rows.  Where the view is smooth they are interpolated
+// from a coarse grid of view rays, elsewhere every pixel is traced.
 #pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 #include "pipeline/render/sky/pixel_shader.h"
 #include "pipeline/render/sky/ray_grid.h"
 
 namespace domefall {
 
-// About which a coarse grid of looks may miss what there is: where all light crowds ahead of a fast
-// observer and is spread behind it, and the axis, where the singularity's azimuth is a cube root.
+// Directions about which a coarse grid of view rays may miss detail.  One is the motion of a fast
+// observer, where all light is crowded, and another its opposite, where it is spread out.  The last
+// two are the axis, if the singularity is seen, whose azimuth starts there like a cube root.
 std::vector<CameraDirection> special_directions(const FrameScene& scene);
 
 class SkyPass {
  public:
-  // Fills the grid, unless the image or the settings call for a ray through every pixel.  `grid` is memory
-  // that is kept from frame to frame.  Scene and grid must outlive this.
+  // Fills the grid, unless the image or the settings call for a ray through every pixel.  `grid` is
+  // memory that is kept from frame to frame.  Scene and grid must outlive this.
   SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing, std::vector<DarkenedCap> darkened,
           RayGrid& grid);
 
-  // Pixel values of rows [number kStep, ...) into rgb[rows][3 columns], plus one float; 0 out of the picture.
+  // Writes the pixel values of the rows from number * kStep on into rgb[rows][3 columns], of which
+  // there are kStep or what is left of the image.  One more float behind them may be overwritten.
+  // Pixels outside the image become 0.
   void fill_band(int number, float* rgb) const;
 
-  // Pixels that were looked at one by one, of those in the picture: 0 to 1.
+  // The part (0 to 1) of the image's pixels that were traced one by one.
   double traced_fraction() const;
 
  private:
-  // The columns of the picture in each row of a band.
+  // One row of cells, and the pixels that become of it.
   struct Band {
-    int number, rows;  // cell row; rows of pixels that there are
-    std::array<ColumnRange, RayGrid::kStep> inside;
+    int number, rows;                                // of the cells; of pixels in the image
+    std::array<ColumnRange, RayGrid::kStep> inside;  // the image's columns in each row of pixels
     float* rgb;
+
+    // The columns of the cells [first, end) that lie in the image.
+    ColumnRange columns_of(int row, int first, int end) const {
+      return {std::max(first * RayGrid::kStep, inside[row].first),
+              std::min(end * RayGrid::kStep - 1, inside[row].last)};
+    }
   };
-  Band band_at(int number) const;
+  Band band_at(int number, float* rgb) const;
   float* row_of(const Band& band, int row) const {
     return band.rgb + static_cast<std::size_t>(row) * 3 *
                           static_cast<std::size_t>(columns(scene_.projection()));
@@ -40,7 +53,7 @@ class SkyPass {
   void blacken(const Band& band, int first, int end) const;
   void fill_plain(const Band& band, int first, int end) const;
   void fill_block(const Band& band, int first, int end) const;
-  void add_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const;
+  void append_pixels(const Band& band, int first, int end, std::vector<Pixel>& pixels) const;
 
   const FrameScene& scene_;
   PixelShader shader_;

@@ -5,199 +5,213 @@
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/sky/texel_queue.h"
+#include "pipeline/render/sky/tap_queue.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
 namespace {
 
-constexpr int kChunk = FootprintBatch::kSize;
-// An oblong that is nearly round, or nearly a texel, is blurred to its length.
+constexpr int kSize = SampleBatch::kSize;
+// A footprint up to this many times as long as wide, or as a texel, has one tap as wide as it is
+// long.
 constexpr float kRound = 1.25f;
-// How far apart the looks of a line are at most, in their widths.
+// The taps of a line stand at most this many of their widths apart.
 constexpr float kSpacing = 1.5f;
 constexpr std::array<int, 9> kTaps{1, 2, 4, 6, 8, 12, 16, 24, SkySampler::kMostTaps};
-// Texels are asked for so many looks ahead.
-constexpr int kAhead = 40;
+// Texels are prefetched this many plain samples before they are read.
+constexpr int kPrefetchedSamples = 40;
 
-// Between which texels of the finest level looks fall.
-struct TexelIndices {
-  alignas(64) std::array<std::int32_t, kChunk> at;
-  alignas(64) std::array<float, kChunk> fx, fy;
+// Where plain samples fall on the finest level.
+struct FinestTaps {
+  alignas(64) std::array<std::int32_t, kSize> texel;
+  alignas(64) std::array<float, kSize> fx, fy;
 };
 
-[[gnu::always_inline]] inline void locate_loop(const FootprintBatch& places, int count, int size,
-                                               TexelIndices& spots) {
+[[gnu::always_inline]] inline void locate_plain_loop(const SampleBatch& batch, int count, int size,
+                                                     FinestTaps& taps) {
   const float half_size = static_cast<float>(size) / 2;
   for (int k = 0; k < count; ++k) {
-    const OnFace on = on_face(places.x[k], places.y[k], places.z[k]);
-    place_on(on, half_size, size + 2, spots.at[k], spots.fx[k], spots.fy[k]);
+    const FloatFacePoint point = float_face_of(batch.x[k], batch.y[k], batch.z[k]);
+    locate_texels(point, half_size, size + 2, taps.texel[k], taps.fx[k], taps.fy[k]);
   }
 }
-Dispatched<locate_loop> locate;
+Dispatched<locate_plain_loop> locate_plain;
 
-// One look a pixel at the finest level: the bulk of most frames, in one loop.  `count` is even.
+// Takes plain samples, which are most samples of most frames, in a loop of their own.  `count` is
+// even.  Of four channels the last is 0; the next sample's first overwrites it.
 template <bool kWide>
-[[gnu::always_inline]] inline void fine_colours_loop(const SkyLevel& level, const TexelIndices& s,
-                                                     const float* gain, int count, float* rgb) {
+[[gnu::always_inline]] inline void take_plain_loop(const SkyLevel& level, const FinestTaps& taps,
+                                                   const float* gain, int count, float* rgb) {
   const SkyTexel* texels = level.texels;
-  const int side = level.size + 2;
+  const int stride = level.size + 2;
   for (int k = 0; k < count; k += 2, rgb += 6) {
-    const int later = std::min(k + kAhead, count - 2);
-    prefetch(texels + s.at[later], side), prefetch(texels + s.at[later + 1], side);
-    Pair light;
-    sample_pair<kWide>({texels + s.at[k], side, s.fx[k], s.fy[k], kTexelScale},
-                       {texels + s.at[k + 1], side, s.fx[k + 1], s.fy[k + 1], kTexelScale}, light);
-    Four both[2];
-    std::memcpy(both, &light, sizeof both);
-    both[0] *= gain[k], both[1] *= gain[k + 1];
-    std::memcpy(rgb, &both[0],
-                sizeof both[0]);  // the fourth is 0, and the next pixel's to overwrite
-    std::memcpy(rgb + 3, &both[1], sizeof both[1]);
+    const int later = std::min(k + kPrefetchedSamples, count - 2);
+    prefetch_texels(texels + taps.texel[later], stride);
+    prefetch_texels(texels + taps.texel[later + 1], stride);
+    ChannelPair light;
+    take_pair<kWide>(
+        {texels + taps.texel[k], stride, taps.fx[k], taps.fy[k], kTapScale},
+        {texels + taps.texel[k + 1], stride, taps.fx[k + 1], taps.fy[k + 1], kTapScale}, light);
+    Channels samples[2];
+    std::memcpy(samples, &light, sizeof samples);
+    samples[0] *= gain[k];
+    samples[1] *= gain[k + 1];
+    std::memcpy(rgb, &samples[0], sizeof samples[0]);
+    std::memcpy(rgb + 3, &samples[1], sizeof samples[1]);
   }
 }
-Dispatched<fine_colours_loop<true>> fine_colours;
-Dispatched<fine_colours_loop<false>> fine_colours_narrowly;
+Dispatched<take_plain_loop<true>> take_plain;
+Dispatched<take_plain_loop<false>> take_plain_one_by_one;
 
-// All light of a pixel.
-[[gnu::always_inline]] inline void whole(const Pair& sum, Four& light) {
+// Adds the two halves of a sample's sum.
+[[gnu::always_inline]] inline void total(const ChannelPair& sum, Channels& light) {
   light = (__builtin_shufflevector(sum, sum, 0, 1, 2, 3) +
            __builtin_shufflevector(sum, sum, 4, 5, 6, 7)) *
-          kTexelScale;
+          kTapScale;
 }
 
-[[gnu::always_inline]] inline void to_colours_loop(const Pair* sum, const float* gain,
-                                                   const SampleKind* kinds, int count, float* rgb) {
+[[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums, const float* gain,
+                                                   const SampleFilter* filters, int count,
+                                                   float* rgb) {
   for (int k = 0; k < count; ++k, rgb += 3) {
-    if (kinds[k].taps() == 0) continue;
-    Four c;
-    whole(sum[k], c);
-    c *= gain[k] / static_cast<float>(kinds[k].taps());
-    rgb[0] = c[0], rgb[1] = c[1], rgb[2] = c[2];
+    if (filters[k].taps() == 0) continue;
+    Channels light;
+    total(sums[k], light);
+    light *= gain[k] / static_cast<float>(filters[k].taps());
+    rgb[0] = light[0];
+    rgb[1] = light[1];
+    rgb[2] = light[2];
   }
 }
 Dispatched<to_colours_loop> to_colours;
 
-// I and I theta of blackbody light, shifted by `tone` octaves of temperature.
-void thermal_to_colours(const Pair* sum, const float* gain, const float* tone,
-                        const SampleKind* kinds, int count, float* rgb) {
+// The first two channels of a thermal map are the radiance I and I theta (SkyMapKind::kThermal), so
+// that their ratio is the mean of theta.  The temperature is raised by `tone` octaves.
+void thermal_to_colours(const ChannelPair* sums, const float* gain, const float* tone,
+                        const SampleFilter* filters, int count, float* rgb) {
   static const auto base = static_cast<float>(std::log2(kThermalBase));
   const BlackbodyColours& colours = blackbody_colours();
   for (int k = 0; k < count; ++k, rgb += 3) {
-    if (kinds[k].taps() == 0) continue;
-    Four of;
-    whole(sum[k], of);
-    const float light = of[0];
-    WorkingRgb c{0, 0, 0};
-    if (light > 0) c = colours.per_flux_log2(base + of[1] / light + tone[k]);
-    const float f = light * gain[k] / static_cast<float>(kinds[k].taps());
-    rgb[0] = c.r * f, rgb[1] = c.g * f, rgb[2] = c.b * f;
+    if (filters[k].taps() == 0) continue;
+    Channels sum;
+    total(sums[k], sum);
+    const float radiance = sum[0];
+    WorkingRgb colour{0, 0, 0};
+    if (radiance > 0) colour = colours.per_flux_log2(base + sum[1] / radiance + tone[k]);
+    const float scale = radiance * gain[k] / static_cast<float>(filters[k].taps());
+    rgb[0] = colour.r * scale;
+    rgb[1] = colour.g * scale;
+    rgb[2] = colour.b * scale;
   }
 }
 
-// With how many taps footprints are looked at up to which length, in units of their widths.
+// The longest footprint, in units of its width, that each number of taps is enough for.
 struct TapLimits {
   std::array<int, kTaps.size()> taps;
   std::array<float, kTaps.size()> longest;
 };
 
 [[gnu::always_inline]] inline void choose_loop(const float* wide, const float* narrow, int count,
-                                               float texel, const TapLimits& limits, float longest,
-                                               std::uint8_t* codes) {
+                                               float texel, const TapLimits& limits,
+                                               float longest_line, std::uint8_t* codes) {
   const TapLimits l = limits;
   for (int k = 0; k < count; ++k) {
-    const float wanted = wide[k] / (narrow[k] > texel ? narrow[k] : texel);
-    int several = 1;
+    const float elongation = wide[k] / (narrow[k] > texel ? narrow[k] : texel);
+    int wanted = 1;
     for (std::size_t j = 1; j < l.taps.size(); ++j)
-      several = wanted > l.longest[j - 1] ? l.taps[j] : several;
-    const int taps = wide[k] < longest ? several : 1;
-    const float each = wide[k] / (static_cast<float>(taps) * kSpacing);
-    const float blur = taps == 1 ? wide[k] : narrow[k] > each ? narrow[k] : each;
-    codes[k] = static_cast<std::uint8_t>(2 * taps + (blur > texel ? 1 : 0));
+      wanted = elongation > l.longest[j - 1] ? l.taps[j] : wanted;
+    const int taps = wide[k] < longest_line ? wanted : 1;
+    const float spaced = wide[k] / (static_cast<float>(taps) * kSpacing);
+    const float tap_width = taps == 1 ? wide[k] : narrow[k] > spaced ? narrow[k] : spaced;
+    codes[k] = static_cast<std::uint8_t>(2 * taps + (tap_width > texel ? 1 : 0));
   }
 }
 Dispatched<choose_loop> choose;
 
-constexpr std::array<std::uint16_t, kChunk + 1> kNumbers = [] {
-  std::array<std::uint16_t, kChunk + 1> numbers{};
-  for (int k = 0; k <= kChunk; ++k) numbers[k] = static_cast<std::uint16_t>(k);
+constexpr std::array<std::uint16_t, kSize + 1> kNumbers = [] {
+  std::array<std::uint16_t, kSize + 1> numbers{};
+  for (int k = 0; k <= kSize; ++k) numbers[k] = static_cast<std::uint16_t>(k);
   return numbers;
 }();
 
-// The numbers of the looks by their kind.
-class Order {
+// The indices of samples, sorted by their filters.
+class SortedByFilter {
  public:
-  Order(const SampleKind* kinds, int count) {
+  SortedByFilter(const SampleFilter* filters, int count) {
     ends_.fill(0);
-    each_run(kinds, count, [](int& members, int first, int end) { members += end - first; });
+    each_run(filters, count, [](int& members, int first, int end) { members += end - first; });
+    // Each count becomes the start of its filter's indices, which moves on to their end as they are
+    // copied.
     for (int before = 0; int& end : ends_) {
       const int members = end;
-      end = before;  // the start, until they are in
+      end = before;
       before += members;
     }
-    each_run(kinds, count, [this](int& to, int first, int end) {
-      std::copy(&kNumbers[first], &kNumbers[end], &who_[to]);
+    each_run(filters, count, [this](int& to, int first, int end) {
+      std::copy(&kNumbers[first], &kNumbers[end], &indices_[to]);
       to += end - first;
     });
   }
 
-  struct Group {
-    const std::uint16_t* who;
-    int members;
-  };
-  Group group(SampleKind kind) const {
-    const int first = ends_[kind.code() - 1];
-    return {&who_[first], ends_[kind.code()] - first};
+  const std::uint16_t* indices(SampleFilter filter) const {
+    return &indices_[ends_[filter.code() - 1]];
   }
+  int count(SampleFilter filter) const { return ends_[filter.code()] - ends_[filter.code() - 1]; }
 
  private:
-  // Neighbours are mostly of one kind: eight at a time.
+  // Calls f(ends_[code], first, end) for each run of samples with one filter.  Runs are mostly
+  // long, since neighbours are alike, and so eight filters are compared at a time.
   template <class F>
-  void each_run(const SampleKind* kinds, int count, F&& f) {
+  void each_run(const SampleFilter* filters, int count, F&& f) {
     for (int first = 0, end = 0; first < count; first = end) {
-      std::array<SampleKind, 8> like, next;
-      like.fill(kinds[first]);
+      std::array<SampleFilter, 8> same, next;
+      same.fill(filters[first]);
       for (; end + 8 <= count; end += 8) {
-        std::copy_n(kinds + end, 8, next.begin());
-        if (next != like) break;
+        std::copy_n(filters + end, 8, next.begin());
+        if (next != same) break;
       }
-      while (end < count && kinds[end] == kinds[first]) ++end;
-      f(ends_[kinds[first].code()], first, end);
+      while (end < count && filters[end] == filters[first]) ++end;
+      f(ends_[filters[first].code()], first, end);
     }
   }
 
-  std::array<std::uint16_t, kChunk> who_;
-  std::array<int, 2 * SkySampler::kMostTaps + 2> ends_;  // by code: where they end in who_
+  std::array<std::uint16_t, kSize> indices_;
+  std::array<int, 2 * SkySampler::kMostTaps + 2> ends_;  // in indices_, by the filter's code
 };
 
-[[gnu::always_inline]] inline void gather_points_loop(const FootprintBatch& __restrict from,
-                                                      const std::uint16_t* who, int count,
-                                                      FootprintBatch& __restrict to) {
+[[gnu::always_inline]] inline void gather_points_loop(const SampleBatch& __restrict from,
+                                                      const std::uint16_t* indices, int count,
+                                                      SampleBatch& __restrict to) {
   for (int m = 0; m < count; ++m) {
-    const int k = who[m];
-    to.x[m] = from.x[k], to.y[m] = from.y[k], to.z[m] = from.z[k], to.wide[m] = from.wide[k];
+    const int k = indices[m];
+    to.x[m] = from.x[k];
+    to.y[m] = from.y[k];
+    to.z[m] = from.z[k];
+    to.wide[m] = from.wide[k];
   }
 }
 Dispatched<gather_points_loop> gather_points;
 
-[[gnu::always_inline]] inline void gather_lines_loop(const FootprintBatch& __restrict from,
-                                                     const std::uint16_t* who, int count,
-                                                     FootprintBatch& __restrict to) {
+[[gnu::always_inline]] inline void gather_lines_loop(const SampleBatch& __restrict from,
+                                                     const std::uint16_t* indices, int count,
+                                                     SampleBatch& __restrict to) {
   for (int m = 0; m < count; ++m) {
-    const int k = who[m];
+    const int k = indices[m];
     to.narrow[m] = from.narrow[k];
-    to.ax[m] = from.ax[k], to.ay[m] = from.ay[k], to.az[m] = from.az[k];
+    to.ax[m] = from.ax[k];
+    to.ay[m] = from.ay[k];
+    to.az[m] = from.az[k];
   }
 }
 Dispatched<gather_lines_loop> gather_lines;
 
-// Looks at `members` places of one kind.
-void add_group(const FootprintBatch& p, SampleKind kind, const std::uint16_t* who, int members,
-               TexelQueue& looks, Pair* sums) {
-  const int at_once = TexelQueue::most_members(kind.taps(), kind.minified());
-  for (int k = 0; k < members; k += at_once)
-    looks.add({kind.taps(), std::min(at_once, members - k), kind.minified(), &p.x[k], &p.y[k],
-               &p.z[k], &p.wide[k], &p.narrow[k], &p.ax[k], &p.ay[k], &p.az[k], who + k},
+// Queues the taps of the first `count` samples of a batch, all of one filter.
+void queue_taps(const SampleBatch& b, SampleFilter filter, const std::uint16_t* indices, int count,
+                TapQueue& queue, ChannelPair* sums) {
+  const int most = TapQueue::most_samples(filter);
+  for (int k = 0; k < count; k += most)
+    queue.add({filter, std::min(most, count - k), &b.x[k], &b.y[k], &b.z[k], &b.wide[k],
+               &b.narrow[k], &b.ax[k], &b.ay[k], &b.az[k], indices + k},
               sums);
 }
 
@@ -206,56 +220,58 @@ void add_group(const FootprintBatch& p, SampleKind kind, const std::uint16_t* wh
 SkySampler::SkySampler(const SkyMap& map)
     : map_(map), texel_(static_cast<float>(std::numbers::pi / 2 / map.levels().front().size)) {}
 
-void SkySampler::choose_kinds(const float* wide, const float* narrow, int count, int most,
-                              float longest, SampleKind* kinds) const {
+void SkySampler::choose_filters(const float* wide, const float* narrow, int count, int most_taps,
+                                float longest_line, SampleFilter* filters) const {
   TapLimits limits{};
   for (std::size_t j = 0; j < kTaps.size(); ++j) {
     limits.taps[j] = kTaps[j];
     limits.longest[j] = j == 0 ? kRound : static_cast<float>(kTaps[j]) * kSpacing;
-    if (kTaps[j] >= most) limits.longest[j] = HUGE_VALF;
+    if (kTaps[j] >= most_taps) limits.longest[j] = HUGE_VALF;
   }
-  static_assert(sizeof(SampleKind) == 1);
-  choose(wide, narrow, count, texel_, limits, longest, reinterpret_cast<std::uint8_t*>(kinds));
+  static_assert(sizeof(SampleFilter) == 1);
+  choose(wide, narrow, count, texel_, limits, longest_line,
+         reinterpret_cast<std::uint8_t*>(filters));
 }
 
-void SkySampler::sample_plain(const FootprintBatch& places, int count, float* rgb) const {
+void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) const {
   if (map_.kind() == SkyMapKind::kThermal || count % 2 != 0) {
-    std::array<SampleKind, kChunk> kinds;
-    kinds.fill(SampleKind(1, false));
-    return sample(places, count, kinds.data(), rgb);
+    std::array<SampleFilter, kSize> filters;
+    filters.fill(SampleFilter(1, false));
+    return sample(batch, count, filters.data(), rgb);
   }
-  TexelIndices spots;
-  locate(places, count, map_.levels().front().size, spots);
+  FinestTaps taps;
   const SkyLevel& finest = map_.levels().front();
+  locate_plain(batch, count, finest.size, taps);
   if (simd_in_use() == Simd::kPortable)
-    fine_colours_narrowly(finest, spots, places.gain.data(), count, rgb);
+    take_plain_one_by_one(finest, taps, batch.gain.data(), count, rgb);
   else
-    fine_colours(finest, spots, places.gain.data(), count, rgb);
+    take_plain(finest, taps, batch.gain.data(), count, rgb);
 }
 
-void SkySampler::sample(const FootprintBatch& places, int count, const SampleKind* kinds,
+void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter* filters,
                         float* rgb) const {
-  const Order order(kinds, count);
-  alignas(64) std::array<Pair, kChunk> sums;
-  std::fill_n(sums.begin(), count, Pair{});
-  TexelQueue looks(map_, kSpacing);
-  FootprintBatch group;
+  const SortedByFilter sorted(filters, count);
+  alignas(64) std::array<ChannelPair, kSize> sums;
+  std::fill_n(sums.begin(), count, ChannelPair{});
+  TapQueue queue(map_, kSpacing);
+  SampleBatch gathered;
   for (const int taps : kTaps)
     for (const bool minified : {false, true}) {
-      const SampleKind kind(taps, minified);
-      const auto [who, members] = order.group(kind);
+      const SampleFilter filter(taps, minified);
+      const std::uint16_t* indices = sorted.indices(filter);
+      const int members = sorted.count(filter);
       if (members == 0) continue;
       if (members != count) {
-        gather_points(places, who, members, group);
-        if (taps > 1) gather_lines(places, who, members, group);
+        gather_points(batch, indices, members, gathered);
+        if (taps > 1) gather_lines(batch, indices, members, gathered);
       }
-      add_group(members == count ? places : group, kind, who, members, looks, sums.data());
+      queue_taps(members == count ? batch : gathered, filter, indices, members, queue, sums.data());
     }
-  looks.take(sums.data());
+  queue.flush(sums.data());
   if (map_.kind() == SkyMapKind::kThermal)
-    thermal_to_colours(sums.data(), places.gain.data(), places.tone.data(), kinds, count, rgb);
+    thermal_to_colours(sums.data(), batch.gain.data(), batch.tone.data(), filters, count, rgb);
   else
-    to_colours(sums.data(), places.gain.data(), kinds, count, rgb);
+    to_colours(sums.data(), batch.gain.data(), filters, count, rgb);
 }
 
 }  // namespace domefall

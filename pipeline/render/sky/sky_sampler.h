@@ -1,67 +1,36 @@
-// Looks at a sky map, many at a time: the inner loop of the sky.  SkyMap::sample is its oracle.
+// Samples of one sky map, many at a time: the inner loop of the sky.  SkyMap::sample is its oracle.
 #pragma once
 
-#include <array>
-#include <cstdint>
-
+#include "pipeline/render/sky/sample_batch.h"
 #include "pipeline/sky/maps/sky_map.h"
 
 namespace domefall {
 
-// Where pixels that stand side by side look, and what becomes of the light.
-struct FootprintBatch {
-  static constexpr int kSize = 512;
-  using Column = std::array<float, kSize>;
-  alignas(64) Column x, y, z;     // on the sky; of any length near 1
-  alignas(64) Column gain;        // pixel value per unit of the map
-  alignas(64) Column tone;        // log2 of the frequency ratio; thermal maps only
-  alignas(64) Column wide;        // the longer side of the footprint, radians on the sky
-  alignas(64) Column narrow;      // the shorter one; looked at with several taps only
-  alignas(64) Column ax, ay, az;  // along the longer side, as long as it; likewise
-};
-
-// How a footprint is looked at: by how many looks in a line, and whether they need coarser levels of the map
-// than the finest.  0 taps: not at all.
-class SampleKind {
- public:
-  SampleKind() = default;
-  constexpr SampleKind(int taps, bool minified)
-      : code_(static_cast<std::uint8_t>(2 * taps + (minified ? 1 : 0))) {}
-  constexpr int taps() const { return code_ / 2; }
-  constexpr bool minified() const { return code_ % 2 != 0; }
-  // One look at the finest level.
-  constexpr bool is_plain() const { return *this == SampleKind(1, false); }
-  constexpr std::uint8_t code() const { return code_; }
-  constexpr bool operator==(const SampleKind&) const = default;
-
- private:
-  std::uint8_t code_ = 0;
-};
-
 class SkySampler {
  public:
-  // The map must outlive it.
+  // The map must outlive the sampler.
   explicit SkySampler(const SkyMap& map);
 
   static constexpr int kMostTaps = 32;
-  // How footprints are to be looked at, by their longer and shorter sides (radians on the sky).  An oblong one
-  // takes so many looks in a line that they stand no farther apart than 1.5 times its width or the finest
-  // texel's (what a look between texels gathers is 2 wide): one of a few numbers up to `most`.  Those longer
-  // than `longest` are looked at once.
-  void choose_kinds(const float* wide, const float* narrow, int count, int most, float longest,
-                    SampleKind* kinds) const;
+  // Chooses filters by the longer and the shorter side of footprints (radians on the sky).  An
+  // oblong footprint takes one of a few numbers of taps up to `most_taps`: so many that they stand
+  // no farther apart than 1.5 times its width, or 1.5 of the finest texels, since a tap gathers
+  // light from 2 of its widths.  A footprint longer than `longest_line` has one tap as wide as it
+  // is long.
+  void choose_filters(const float* wide, const float* narrow, int count, int most_taps,
+                      float longest_line, SampleFilter* filters) const;
 
-  // rgb[3 * count + 1]: the last is overwritten too, with 0 or what it was.  Where there are no taps, the
-  // colour stays what it was.
-  void sample(const FootprintBatch& places, int count, const SampleKind* kinds, float* rgb) const;
-  // The same of looks that are all plain.
-  void sample_plain(const FootprintBatch& places, int count, float* rgb) const;
+  // Writes scene-linear working-space values into rgb[3 * count + 1].  Those of samples without
+  // taps stay as they were.  The element behind the last value may be overwritten with 0.
+  void sample(const SampleBatch& batch, int count, const SampleFilter* filters, float* rgb) const;
+  // The same for samples whose filters are all plain.
+  void sample_plain(const SampleBatch& batch, int count, float* rgb) const;
 
   const SkyMap& map() const { return map_; }
 
  private:
   const SkyMap& map_;
-  float texel_;  // radians, of the finest level
+  float texel_;  // the width of a texel of the finest level, radians
 };
 
 }  // namespace domefall

@@ -12,18 +12,18 @@ namespace {
 
 using std::numbers::pi;
 
-// A pixel is crowded if the larger side of its footprint on the sky exceeds this (radians).  The cap that
-// is integrated instead reaches so many pixels from it.
+// A pixel is crowded if the larger side of its footprint on the sky exceeds this (radians).  The
+// cap that is integrated instead reaches so many pixels from it.
 constexpr double kCrowded = 0.5, kCapPixels = 1.5;
-// From a pixel's middle to its corner, and a little more.
+// More than from a pixel's middle to its corner, 0.71 pixels.
 constexpr double kHalfDiagonal = 0.75;
-// Samples from the edge of a sky to its far end, and around the axis.
+// The numbers of samples from the edge of a sky to its far end, and around the axis.
 constexpr int kAlong = 192, kAround = 384;
 
-// The light of a cap, so far.
+// The light that has been gathered in a cap.
 struct CapLight {
   double rgb[3] = {0, 0, 0};
-  V3d middle{0, 0, 0};  // of the luminance; not normalised
+  V3d middle{0, 0, 0};  // sum of directions, weighted by luminance
 
   void add(const WorkingRgb& c, double solid_angle, const V3d& n) {
     rgb[0] += c.r * solid_angle;
@@ -91,8 +91,8 @@ class UnresolvedSkyFinder {
     found.blobs.push_back(blob);
   }
 
-  // Whether light from there belongs to a pixel whose ray lies within the cap: what is gathered is exactly
-  // what those pixels leave out.
+  // Whether light from there belongs to a pixel whose ray lies within the cap: what is gathered is
+  // exactly what those pixels leave out.
   bool is_darkened(const DarkenedCap& cap, const V3d& n) const {
     const auto at = pixel_of(scene_.projection(), {n});
     const V3d ray =
@@ -100,7 +100,9 @@ class UnresolvedSkyFinder {
     return (ray - cap.centre.v).length2() <= cap.chord2;
   }
 
-  // Adds the light of all samples of the sky that arrive within the cap.
+  // Adds the light of all samples of the sky that arrive within the cap.  They are even in the
+  // ray's angle from the edge, which is 4 atan(x/2) by the table's coordinate x, and in the angle
+  // about the axis.  The observer sees each steradian of the tetrad's view as 1/d^2 steradians.
   void gather_lensed(const SkyLight& sky, const SkyTable& table, const DarkenedCap& cap,
                      CapLight& light) const {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
@@ -132,9 +134,10 @@ class UnresolvedSkyFinder {
     }
   }
 
-  // Adds the light of rings about the direction of motion, out to those that arrive at the cap's last pixels:
-  // by [Riazuelo]
-  // eq. eq_inv_aberr, tan(alpha/2) = (gamma + |celerity|) tan(alpha'/2).
+  // Adds the light of rings about the direction of motion.  The last one, at the angle alpha,
+  // arrives at alpha' in the cap's last pixels, where tan(alpha/2) = (gamma + |celerity|)
+  // tan(alpha'/2) by [Riazuelo] eq. eq_inv_aberr.  The observer sees each steradian as 1/d^2
+  // steradians.
   void gather_straight(const SkyLight& sky, const DarkenedCap& cap, CapLight& light) const {
     const double speed = vantage_.celerity.length(), widening = std::hypot(1, speed) + speed;
     const double edge = std::min((kCapPixels + kHalfDiagonal) * pixel_, pi);
@@ -147,7 +150,8 @@ class UnresolvedSkyFinder {
     const V3d third = ahead.cross(aside);
     for (int i = 0; i < kAlong; ++i) {
       const double alpha = (i + 0.5) * d_alpha, sine = std::sin(alpha), cosine = std::cos(alpha);
-      // cos(alpha - d/2) - cos(alpha + d/2), exactly.
+      // A ring from alpha - d/2 to alpha + d/2 has cos(alpha - d/2) - cos(alpha + d/2) steradians
+      // per radian of psi, which is 2 sin(alpha) sin(d/2).
       const double area = 2 * sine * std::sin(d_alpha / 2) * d_psi;
       const double footprint = std::max(d_alpha, sine * d_psi);
       for (int j = 0; j < kAround; ++j) {
@@ -182,7 +186,7 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
     if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
     return found;
   }
-  // The far ends of both skies lie on the axis: that of the home sky outward, the other inward.
+  // Both skies' far ends lie on the axis, that of the home sky outward and the other one inward.
   const auto integrate = [&](SkyRegion sky, double outward) {
     const SkyTable* table = scene.optics.table_of(sky);
     if (!scene.background[sky] || table == nullptr) return;

@@ -1,7 +1,8 @@
-// A sky whose light is crowded into less than a pixel: that of region III a moment after the crossing, that
-// of a static observer just above the horizon, or whatever lies ahead of a very fast one.  Rays through
-// pixels would miss it or hit it by chance.  It is integrated from the side of the sky, where it is smooth,
-// and drawn like a star, so that its light arrives whole wherever between pixels it falls.
+// A sky whose light is crowded into less than a pixel: that of region III a moment after the
+// crossing, that of a static observer just above the horizon, or whatever lies ahead of a very fast
+// one.  Rays through pixels would miss it or hit it by chance.  It is integrated from the side of
+// the sky, where it is smooth, and drawn like a star, so that all of its light arrives wherever it
+// lies between pixels.
 #pragma once
 
 #include <vector>
@@ -16,8 +17,9 @@ struct UnresolvedSkies {
   std::vector<CapBlob> blobs;
 };
 
-// At most two for each sky.  An ordinary frame has none, which a few rays tell; else each costs some
-// 10 ms.  The flux is within 1 % of the integral over the sky (74,000 samples).
+// Finds at most two caps for each sky.  An ordinary frame has none, which takes a few rays to find
+// out.  Each cap costs some 10 ms.  Its flux, from 74,000 samples, is within 1 % of the integral
+// over the sky.
 UnresolvedSkies find_unresolved_skies(const FrameScene& scene);
 
 }  // namespace domefall

@@ -50,25 +50,25 @@ TEST_P(SimdLoops, MakesTheSameHalves) {
     }
 }
 
-FootprintBatch random_places(std::mt19937& random, double gain) {
+SampleBatch random_samples(std::mt19937& random, double gain) {
   std::uniform_real_distribution<double> octave(-14, 1);
-  FootprintBatch places{};
-  for (std::size_t k = 0; k < FootprintBatch::kSize; ++k) {
+  SampleBatch batch{};
+  for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
     const V3d d = random_direction(random) * (1 + 1e-3 * octave(random));
-    places.x[k] = static_cast<float>(d.x), places.y[k] = static_cast<float>(d.y);
-    places.z[k] = static_cast<float>(d.z);
-    places.gain[k] = static_cast<float>(gain * std::exp2(octave(random)));
-    places.tone[k] = static_cast<float>(octave(random) + 7);
-    places.wide[k] = static_cast<float>(std::exp2(octave(random)));
-    places.narrow[k] = places.wide[k] * 0.1f;
-    const V3d along = d.cross(random_direction(random)).normalized() * places.wide[k];
-    places.ax[k] = static_cast<float>(along.x), places.ay[k] = static_cast<float>(along.y);
-    places.az[k] = static_cast<float>(along.z);
+    batch.x[k] = static_cast<float>(d.x), batch.y[k] = static_cast<float>(d.y);
+    batch.z[k] = static_cast<float>(d.z);
+    batch.gain[k] = static_cast<float>(gain * std::exp2(octave(random)));
+    batch.tone[k] = static_cast<float>(octave(random) + 7);
+    batch.wide[k] = static_cast<float>(std::exp2(octave(random)));
+    batch.narrow[k] = batch.wide[k] * 0.1f;
+    const V3d along = d.cross(random_direction(random)).normalized() * batch.wide[k];
+    batch.ax[k] = static_cast<float>(along.x), batch.ay[k] = static_cast<float>(along.y);
+    batch.az[k] = static_cast<float>(along.z);
   }
   // Edges and corners of the cube.
-  places.x[0] = places.y[0] = places.x[1] = places.z[2] = 1, places.y[1] = places.x[2] = -1;
-  places.z[0] = places.z[1] = places.y[2] = 0;
-  return places;
+  batch.x[0] = batch.y[0] = batch.x[1] = batch.z[2] = 1, batch.y[1] = batch.x[2] = -1;
+  batch.z[0] = batch.z[1] = batch.y[2] = 0;
+  return batch;
 }
 
 TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
@@ -79,11 +79,11 @@ TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
     const SkyMap map = pyramid.map();
     const SkySampler sampler(map);
     std::mt19937 random(1);
-    const FootprintBatch places = random_places(random, 1e-9);
-    std::array<SampleKind, FootprintBatch::kSize> kinds;
-    for (const int count : {FootprintBatch::kSize, FootprintBatch::kSize - 3, 17, 1}) {
+    const SampleBatch batch = random_samples(random, 1e-9);
+    std::array<SampleFilter, SampleBatch::kSize> filters;
+    for (const int count : {SampleBatch::kSize, SampleBatch::kSize - 3, 17, 1}) {
       const auto colours = [&](const auto& sample) {
-        std::vector<float> rgb(3 * FootprintBatch::kSize + 1);
+        std::vector<float> rgb(3 * SampleBatch::kSize + 1);
         sample(rgb.data());
         Bytes bytes;
         bytes.add(rgb);
@@ -91,18 +91,18 @@ TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
       };
       for (const int taps : {1, 2, 4, 8, SkySampler::kMostTaps})
         for (const bool minified : {false, true}) {
-          kinds.fill(SampleKind(taps, minified));
+          filters.fill(SampleFilter(taps, minified));
           compare(std::to_string(taps) + " taps of " + std::to_string(count), [&] {
-            return colours([&](float* rgb) { sampler.sample(places, count, kinds.data(), rgb); });
+            return colours([&](float* rgb) { sampler.sample(batch, count, filters.data(), rgb); });
           });
         }
       compare("plain", [&] {
-        return colours([&](float* rgb) { sampler.sample_plain(places, count, rgb); });
+        return colours([&](float* rgb) { sampler.sample_plain(batch, count, rgb); });
       });
-      compare("of all kinds", [&] {
-        sampler.choose_kinds(places.wide.data(), places.narrow.data(), count, SkySampler::kMostTaps,
-                             0.7f, kinds.data());
-        return colours([&](float* rgb) { sampler.sample(places, count, kinds.data(), rgb); });
+      compare("every filter", [&] {
+        sampler.choose_filters(batch.wide.data(), batch.narrow.data(), count, SkySampler::kMostTaps,
+                               0.7f, filters.data());
+        return colours([&](float* rgb) { sampler.sample(batch, count, filters.data(), rgb); });
       });
     }
   }

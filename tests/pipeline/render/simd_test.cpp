@@ -151,22 +151,22 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
   const Sky sky{std::make_shared<const SkyMap>(map), nullptr};
   const FrameScene scene = scene_with(show, state, optics, {&sky, &sky, nullptr});
-  const PixelShader light(scene);
+  const PixelShader shader(scene);
   RayGrid grid;
-  grid.make(light, special_directions(scene));
+  grid.make(shader, special_directions(scene));
   Bytes bytes;
   for (int j = 0; j < grid.cell_rows(); ++j)
     for (int i = 0; i < grid.cell_columns(); ++i) {
       const RayGrid::Cell& cell = grid.cell(j, i);
       bytes.add(&cell, 1);
       if (cell.kind != RayGrid::Kind::kSmooth) continue;
-      FootprintBatch places{};
-      grid.interpolate_row(j, j % RayGrid::kStep, i, i + 1, places);
-      for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone})
+      SampleBatch batch{};
+      grid.interpolate_row(j, j % RayGrid::kStep, i, i + 1, batch);
+      for (const auto* column : {&batch.x, &batch.y, &batch.z, &batch.gain, &batch.tone})
         bytes.add(column->data(), RayGrid::kStep);
-      grid.interpolate_block(j, i, i + 1, places);
-      for (const auto* column : {&places.x, &places.y, &places.z, &places.gain, &places.tone,
-                                 &places.wide, &places.narrow, &places.ax, &places.ay, &places.az})
+      grid.interpolate_block(j, i, i + 1, batch);
+      for (const auto* column : {&batch.x, &batch.y, &batch.z, &batch.gain, &batch.tone,
+                                 &batch.wide, &batch.narrow, &batch.ax, &batch.ay, &batch.az})
         bytes.add(column->data(), std::size_t{RayGrid::kStep} * RayGrid::kStep);
     }
   return bytes;

@@ -38,11 +38,11 @@ double largest(const HalfFrame& frame) {
   return most;
 }
 
-// A display's answer to a pixel: the brightest are alike to it.
+// What a display would show of a pixel value: the brightest are alike.
 double shown(Imath::half value) { return value / (1 + double{value}); }
 
 // Root of the mean square of the differences of all values, as they are shown: inside the horizon a
-// few pixels, blueshifted without bound, would outweigh the picture.
+// few pixels, blueshifted without bound, would outweigh all others.
 double distance(const HalfFrame& a, const HalfFrame& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.pixels.size(); ++k)
@@ -50,9 +50,10 @@ double distance(const HalfFrame& a, const HalfFrame& b) {
   return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-// The oracle: a picture with so many more pixels, each with one look, made smaller.  A panorama's
-// looks are filtered alike in both.  3 and 5 leave a rest in a batch of 128 looks, 16 x 16 are two.
-TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerPicture) {
+// The oracle is an image with as many more pixels, of one view ray each, whose pixels are
+// averaged.  The samples of a panorama are filtered alike in both.  A batch of 128 view rays is not
+// a multiple of 3 or 5; 16 by 16 of them fill two batches.
+TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerImage) {
   constexpr int kSize = 48;
   for (const int samples : {2, 3, 5, 16}) {
     const HalfFrame frame = rendered(two_skies(kSize), {samples, true}),
@@ -65,7 +66,7 @@ TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerPicture) {
         for (int b = 0; b < samples; ++b)
           for (int a = 0; a < samples; ++a)
             sum += large.row(samples * y + b)[3 * (samples * (x / 3) + a) + x % 3];
-        // Halves: 2^-11 of the value in each picture.
+        // Both frames hold half floats, which are right to 2^-11 of the value.
         ASSERT_NEAR(frame.row(y)[x], sum / (samples * samples),
                     1e-3 * frame.row(y)[x] + 1e-6 * scale)
             << samples << " samples at " << x / 3 << " " << y;
@@ -74,7 +75,7 @@ TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerPicture) {
   }
 }
 
-TEST(AntiAliasing, HasFourSamplesAlongEachAxisUnlessToldOtherwise) {
+TEST(AntiAliasing, HasFourSamplesAlongEachAxisByDefault) {
   const Show show = grid(StaticObserver{6}, Domemaster{96});
   const HalfFrame usual = Renderer(show, 2).render(frame_state(show, 0));
   EXPECT_TRUE(same_bytes(usual, rendered(show, {4, false})));
@@ -82,7 +83,7 @@ TEST(AntiAliasing, HasFourSamplesAlongEachAxisUnlessToldOtherwise) {
   EXPECT_FALSE(same_bytes(usual, rendered(show, {4, true})));
 }
 
-TEST(AntiAliasing, WithOneSampleIsOneLookEverywhere) {
+TEST(AntiAliasing, WithOneSampleIsOneViewRayEverywhere) {
   const Show show = grid(StaticObserver{6}, Domemaster{96});
   EXPECT_TRUE(same_bytes(rendered(show, {1, false}), rendered(show, {1, true})));
 }
@@ -108,7 +109,7 @@ TEST(AntiAliasing, MoreSamplesComeNearerToTheReference) {
   }
 }
 
-// How much of each pixel is further than `edge` from the middle of the picture, row by row.
+// The part of each pixel that is further than `edge` from the middle of the image, row by row.
 std::vector<double> covered(int size, double fov, double edge) {
   constexpr int kPoints = 128;
   const Stereographic projection{size, size, fov};
@@ -129,8 +130,9 @@ std::vector<double> covered(int size, double fov, double edge) {
   return parts;
 }
 
-// To an observer at rest an even sky is even, and what is left of a pixel's light is the part of it
-// that the silhouette does not cover: a circle of sin(delta) = 3 sqrt 3 sqrt(1 - 2/r)/r in the middle.
+// An observer at rest sees an even sky as even.  What is left of a pixel's light is therefore the
+// part of the pixel that the silhouette does not cover, a circle of sin(delta) = 3 sqrt 3 sqrt(1 -
+// 2/r)/r.
 TEST(AntiAliasing, TheSilhouettesEdgeComesNearerToTheCircleWithEachDoubling) {
   constexpr int kSize = 64;
   const double r = 10, edge = std::asin(3 * std::sqrt(3.0) / r * std::sqrt(1 - 2 / r));
@@ -147,21 +149,23 @@ TEST(AntiAliasing, TheSilhouettesEdgeComesNearerToTheCircleWithEachDoubling) {
     for (std::size_t k = 0; k < exact.size(); ++k) {
       const double error = frame.pixels[3 * k] / sky - exact[k];
       worst = std::max(worst, std::abs(error));
-      if (exact[k] > 0 && exact[k] < 1) squares += error * error, ++pixels;
+      if (exact[k] <= 0 || exact[k] >= 1) continue;
+      squares += error * error;
+      ++pixels;
     }
     ASSERT_GT(pixels, 100);
     const double rms = std::sqrt(squares / pixels);
     EXPECT_LT(rms, before / 1.5) << samples;
-    // Looks stand 1/samples apart, so that a line is misplaced by up to half of that; the circle
-    // bends by 0.006 of a pixel within one, and a half float adds 0.0005.
+    // Samples stand 1/samples apart, so that a straight edge is misplaced by up to half of that.
+    // The circle bends by 0.006 of a pixel within one, and a half float adds 0.0005.
     EXPECT_LT(worst, 0.5 / samples + 0.0065) << samples;
     before = rms;
   }
 }
 
-// Beside the singularity, where the hole fills half the sky; just above the horizon, where
-// the whole sky is a spot of 0.07 degrees; and far away: each pixel is finite with any setting, or
-// render throws.
+// The renderer throws if a pixel is not finite.  The observers are beside the singularity, where
+// the hole fills half the sky, just above the horizon, where the whole sky is a disc of 0.07
+// degrees, far away, and next to the circular orbit of light.
 TEST(AntiAliasing, LeavesNoPixelThatIsNotFinite) {
   std::vector<Show> shows;
   for (const Trajectory& trajectory :
@@ -174,7 +178,7 @@ TEST(AntiAliasing, LeavesNoPixelThatIsNotFinite) {
     for (const AntiAliasing setting : {AntiAliasing{1, false}, AntiAliasing{2, false},
                                        AntiAliasing{8, false}, AntiAliasing{5, true}}) {
       const double r = frame_state(show, 0).observer.r;
-      // The spot is behind the audience of the dome.
+      // The disc is behind the audience of the dome.
       const bool dark = r < 2.1 && r > 2 && std::holds_alternative<Domemaster>(show.projection);
       show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
       EXPECT_NO_THROW(EXPECT_EQ(largest(rendered(show, setting)) == 0, dark)) << r;

@@ -17,39 +17,40 @@ FloatImage clouds() {
   return image;
 }
 
-struct Gridded {
+struct GridScene {
   Show show;
   FrameState state;
   HoleOptics optics;
   Sky sky;
   FrameScene scene;
-  PixelShader light;
+  PixelShader shader;
   RayGrid grid;
 
-  explicit Gridded(const Show& of)
-      : show(of),
+  explicit GridScene(const Show& shown)
+      : show(shown),
         state(frame_state(show, 0)),
         optics(make_hole_optics(is_flat(state.observer) ? kFlatSpace : state.observer.r,
                                 state.observer.tetrad, {})),
         sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr},
         scene(scene_with(show, state, optics, {&sky, &sky, nullptr})),
-        light(scene) {
-    grid.make(light, special_directions(scene));
+        shader(scene) {
+    grid.make(shader, special_directions(scene));
   }
 };
 
-// Floats hold a place on the sky so well: a thousandth of a texel of a map 16k wide.
+// The error, in radians, of a direction whose components are floats: a thousandth of a texel of a
+// map 16k wide.
 constexpr double kRounding = 3e-7;
 
 struct Worst {
-  double place = 0, gain = 0;  // pixels, relative
+  double direction = 0, gain = 0;  // pixels, relative
   std::size_t pixels = 0;
 };
 
-// Against a look at every pixel of the cells that are interpolated.
-Worst worst_of(const Gridded& g) {
+// Traces every pixel of the cells that are interpolated, three rows of pixels in eight.
+Worst worst_of(const GridScene& g) {
   Worst worst;
-  FootprintBatch places;
+  SampleBatch batch;
   for (int j = 0; j < g.grid.cell_rows(); ++j)
     for (int row = 0; row < RayGrid::kStep; row += 3) {
       const int y = j * RayGrid::kStep + row;
@@ -57,25 +58,25 @@ Worst worst_of(const Gridded& g) {
       const ColumnRange inside = inside_columns(g.state.projection, y);
       for (int i = 0; i < g.grid.cell_columns(); ++i) {
         if (g.grid.cell(j, i).kind != RayGrid::Kind::kSmooth) continue;
-        g.grid.interpolate_row(j, row, i, i + 1, places);
+        g.grid.interpolate_row(j, row, i, i + 1, batch);
         for (std::size_t k = 0; k < RayGrid::kStep; ++k) {
           const int x = i * RayGrid::kStep + static_cast<int>(k);
           if (x < inside.first || x > inside.last) continue;
           const PixelPosition pixel{x + 1.0, y + 1.0};
-          const ViewRay look = g.scene.tracer.trace(direction_at(g.state.projection, pixel));
+          const ViewRay ray = g.scene.tracer.trace(direction_at(g.state.projection, pixel));
           const double width = pixel_angle(g.state.projection, pixel) *
-                               std::max(std::min(look.radial_scale, look.tangential_scale),
-                                        0.1 * std::max(look.radial_scale, look.tangential_scale));
-          V3d at(places.x[k], places.y[k], places.z[k]);
-          EXPECT_NEAR(at.length(), 1, 0.01);
-          at.normalize();
-          EXPECT_EQ(look.sky, g.grid.cell(j, i).sky);
-          const double off = (at - look.sky_direction).length() - kRounding;
-          worst.place = std::max(worst.place, off / width);
-          const MapShift shift = g.scene.background[look.sky]->shift(look.frequency_ratio);
+                               std::max(std::min(ray.radial_scale, ray.tangential_scale),
+                                        0.1 * std::max(ray.radial_scale, ray.tangential_scale));
+          V3d interpolated(batch.x[k], batch.y[k], batch.z[k]);
+          EXPECT_NEAR(interpolated.length(), 1, 0.01);
+          interpolated.normalize();
+          EXPECT_EQ(ray.sky, g.grid.cell(j, i).sky);
+          const double error = (interpolated - ray.sky_direction).length() - kRounding;
+          worst.direction = std::max(worst.direction, error / width);
+          const MapShift shift = g.scene.background[ray.sky]->shift(ray.frequency_ratio);
           if (shift.gain > 1e-9f)
             worst.gain =
-                std::max(worst.gain, std::abs(double{places.gain[k]} / double{shift.gain} - 1));
+                std::max(worst.gain, std::abs(double{batch.gain[k]} / double{shift.gain} - 1));
           ++worst.pixels;
         }
       }
@@ -84,9 +85,9 @@ Worst worst_of(const Gridded& g) {
 }
 
 void expect_close(const Show& show, const std::string& what, double least_part = 0) {
-  const Gridded g(show);
+  const GridScene g(show);
   const Worst worst = worst_of(g);
-  EXPECT_LT(worst.place, RayGrid::kTolerance) << what;
+  EXPECT_LT(worst.direction, RayGrid::kTolerance) << what;
   EXPECT_LT(worst.gain, 2e-3) << what;
   EXPECT_GE(1 - g.grid.traced_fraction(), least_part) << what;
   EXPECT_GT(worst.pixels + (least_part > 0 ? 0u : 1u), 0u) << what;
@@ -122,10 +123,10 @@ TEST(RayGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
       }
 }
 
-// A block of cells holds what their rows do.
+// A block of cells holds the same pixels as their rows.
 TEST(RayGrid, BlocksAreMadeOfRows) {
-  const Gridded g(show_of(StaticObserver{10}, Domemaster{512}));
-  FootprintBatch block, line;
+  const GridScene g(show_of(StaticObserver{10}, Domemaster{512}));
+  SampleBatch block, line;
   int blocks = 0;
   for (int j = 0; j < g.grid.cell_rows(); ++j)
     for (int i = 0; i + RayGrid::kBlock <= g.grid.cell_columns(); i += RayGrid::kBlock) {
@@ -143,7 +144,7 @@ TEST(RayGrid, BlocksAreMadeOfRows) {
           const auto in_line = static_cast<std::size_t>(k);
           ASSERT_EQ(block.x[at], line.x[in_line]);
           ASSERT_EQ(block.gain[at], line.gain[in_line]);
-          // The footprint stands where the place is, as wide as its longer side.
+          // The axis is as long as the footprint, up to the error of its linear interpolation.
           const V3d along(block.ax[at], block.ay[at], block.az[at]);
           ASSERT_NEAR(along.length(), block.wide[at], 0.02 * block.wide[at]);
         }
@@ -152,13 +153,10 @@ TEST(RayGrid, BlocksAreMadeOfRows) {
   EXPECT_GT(blocks, 100);
 }
 
-// What it is for.
-TEST(RayGrid, SparesNearlyAllLooksOfALargePicture) {
+TEST(RayGrid, SparesNearlyAllViewRaysOfALargeImage) {
   expect_close(show_of(StaticObserver{10}, Domemaster{4096}), "a dome", 0.95);
   expect_close(show_of(RadialInfall{1}, Domemaster{4096}), "inside", 0.85);
 }
-
-// ---- what is made of it ----
 
 Show without_stars(const Trajectory& t, const Projection& p) {
   Show show = starry(show_of(t, p));
@@ -166,7 +164,7 @@ Show without_stars(const Trajectory& t, const Projection& p) {
   return show;
 }
 
-TEST(SkyPass, MakesThePictureThatLooksAtEveryPixelMake) {
+TEST(SkyPass, MakesTheFrameThatTracingEveryPixelMakes) {
   for (const Projection& p : projections())
     for (const Trajectory& t :
          {Trajectory(StaticObserver{10}), Trajectory(RadialInfall{1}),

@@ -20,70 +20,72 @@ FloatImage noise(int width) {
   return image;
 }
 
-FootprintBatch random_places(std::mt19937& random, double unit) {
+SampleBatch random_samples(std::mt19937& random, double unit) {
   std::uniform_real_distribution<double> octave(-14, 1);
-  FootprintBatch places{};
-  for (std::size_t k = 0; k < FootprintBatch::kSize; ++k) {
+  SampleBatch batch{};
+  for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
     const V3d d = random_direction(random);
-    places.x[k] = static_cast<float>(d.x), places.y[k] = static_cast<float>(d.y);
-    places.z[k] = static_cast<float>(d.z);
-    places.gain[k] = static_cast<float>(unit);
-    places.wide[k] = places.narrow[k] = static_cast<float>(std::exp2(octave(random)));
-    const V3d along = d.cross(random_direction(random)).normalized() * places.wide[k];
-    places.ax[k] = static_cast<float>(along.x), places.ay[k] = static_cast<float>(along.y);
-    places.az[k] = static_cast<float>(along.z);
+    batch.x[k] = static_cast<float>(d.x), batch.y[k] = static_cast<float>(d.y);
+    batch.z[k] = static_cast<float>(d.z);
+    batch.gain[k] = static_cast<float>(unit);
+    batch.wide[k] = batch.narrow[k] = static_cast<float>(std::exp2(octave(random)));
+    const V3d along = d.cross(random_direction(random)).normalized() * batch.wide[k];
+    batch.ax[k] = static_cast<float>(along.x), batch.ay[k] = static_cast<float>(along.y);
+    batch.az[k] = static_cast<float>(along.z);
   }
-  return places;
+  return batch;
 }
 
-void sample_all(const SkySampler& sampler, const FootprintBatch& places, SampleKind kind,
+void sample_all(const SkySampler& sampler, const SampleBatch& batch, SampleFilter filter,
                 float* rgb) {
-  std::array<SampleKind, FootprintBatch::kSize> kinds;
-  kinds.fill(kind);
-  sampler.sample(places, FootprintBatch::kSize, kinds.data(), rgb);
+  std::array<SampleFilter, SampleBatch::kSize> filters;
+  filters.fill(filter);
+  sampler.sample(batch, SampleBatch::kSize, filters.data(), rgb);
 }
 
-TEST(SkySampler, SeesWhatOneLookAtTheMapSees) {
+TEST(SkySampler, TakesTheSampleThatTheMapTakes) {
   const SkyMap map = map_of_panorama(noise(512));
   const SkySampler sampler(map);
   std::mt19937 random(1);
-  std::array<float, 3 * FootprintBatch::kSize + 1> rgb;
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (int round = 0; round < 20; ++round) {
-    const FootprintBatch places = random_places(random, map.unit());
+    const SampleBatch batch = random_samples(random, map.unit());
     for (const bool minified : {true, false}) {
       if (minified)
-        sample_all(sampler, places, SampleKind(1, true), rgb.data());
+        sample_all(sampler, batch, SampleFilter(1, true), rgb.data());
       else
-        sampler.sample_plain(places, FootprintBatch::kSize, rgb.data());
-      for (std::size_t k = 0; k < FootprintBatch::kSize; ++k) {
-        const V3d d(places.x[k], places.y[k], places.z[k]);
-        const WorkingRgb c = map.sample(d, minified ? places.wide[k] : 0);
-        // A place in floats is off by 1e-4 of a texel; noise changes by all of itself from one to the next.
-        ASSERT_NEAR(rgb[3 * k + 1], c.g, 1e-3 * c.g) << d << " " << places.wide[k];
+        sampler.sample_plain(batch, SampleBatch::kSize, rgb.data());
+      for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
+        const V3d d(batch.x[k], batch.y[k], batch.z[k]);
+        const WorkingRgb c = map.sample(d, minified ? batch.wide[k] : 0);
+        // A direction in floats errs by 1e-4 of a texel, and noise changes entirely from one to the
+        // next.
+        ASSERT_NEAR(rgb[3 * k + 1], c.g, 1e-3 * c.g) << d << " " << batch.wide[k];
         ASSERT_NEAR(rgb[3 * k + 2], c.b, 1e-3 * c.b);
       }
     }
   }
 }
 
-// A line of looks is the mean of as many looks; between the levels, on the average over many.
-TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
+// From four taps on, each is taken on one level instead of on two, so that their mean is only right
+// on average.
+TEST(SkySampler, ALineOfTapsIsTheMeanOfItsTaps) {
   const SkyMap map = map_of_panorama(noise(512));
   const SkySampler sampler(map);
   std::mt19937 random(2);
-  std::array<float, 3 * FootprintBatch::kSize + 1> rgb;
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (const int taps : {2, 4, 8, 32}) {
-    FootprintBatch places = random_places(random, map.unit());
-    for (float& narrow : places.narrow) narrow *= 0.01f;
-    sample_all(sampler, places, SampleKind(taps, true), rgb.data());
+    SampleBatch batch = random_samples(random, map.unit());
+    for (float& narrow : batch.narrow) narrow *= 0.01f;
+    sample_all(sampler, batch, SampleFilter(taps, true), rgb.data());
     double worst = 0;
-    for (std::size_t k = 0; k < FootprintBatch::kSize; ++k) {
+    for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
       double sum = 0;
       for (int tap = 0; tap < taps; ++tap) {
         const double t = (tap + 0.5) / taps - 0.5;
-        const V3d d(places.x[k] + t * places.ax[k], places.y[k] + t * places.ay[k],
-                    places.z[k] + t * places.az[k]);
-        sum += map.sample(d, places.wide[k] / (1.5f * static_cast<float>(taps))).g /
+        const V3d d(batch.x[k] + t * batch.ax[k], batch.y[k] + t * batch.ay[k],
+                    batch.z[k] + t * batch.az[k]);
+        sum += map.sample(d, batch.wide[k] / (1.5f * static_cast<float>(taps))).g /
                static_cast<float>(taps);
       }
       worst = std::max(worst, std::abs(rgb[3 * k + 1] / sum - 1));
@@ -92,59 +94,60 @@ TEST(SkySampler, ALineOfLooksIsTheMeanOfItsLooks) {
   }
 }
 
-SampleKind kind_of(const SkySampler& sampler, double wide, double narrow,
-                   int most = SkySampler::kMostTaps, float longest = 10) {
+SampleFilter filter_of(const SkySampler& sampler, double wide, double narrow,
+                       int most_taps = SkySampler::kMostTaps, float longest_line = 10) {
   const auto w = static_cast<float>(wide), n = static_cast<float>(narrow);
-  SampleKind kind;
-  sampler.choose_kinds(&w, &n, 1, most, longest, &kind);
-  return kind;
+  SampleFilter filter;
+  sampler.choose_filters(&w, &n, 1, most_taps, longest_line, &filter);
+  return filter;
 }
 
-TEST(SkySampler, TakesSoManyLooksThatTheyStandNoFartherApartThanTheyReach) {
+TEST(SkySampler, TakesSoManyTapsThatTheyStandNoFartherApartThanTheyReach) {
   const SkyMap map = map_of_panorama(noise(512));  // texels of pi/2/256
   const SkySampler sampler(map);
   const double texel = 1.5708 / 256;
-  EXPECT_EQ(kind_of(sampler, 0.9 * texel, texel / 100), SampleKind(1, false));
-  EXPECT_EQ(kind_of(sampler, 1.1 * texel, texel / 100), SampleKind(1, true));
-  EXPECT_EQ(kind_of(sampler, 2.9 * texel, texel / 100), SampleKind(2, false));
-  EXPECT_EQ(kind_of(sampler, 5.9 * texel, texel / 100), SampleKind(4, false));
-  EXPECT_EQ(kind_of(sampler, 44 * texel, 10 * texel), SampleKind(4, true));
-  EXPECT_EQ(kind_of(sampler, 300 * texel, 300 * texel), SampleKind(1, true));
-  EXPECT_EQ(kind_of(sampler, 1, 1e-9), SampleKind(SkySampler::kMostTaps, true));
-  EXPECT_EQ(kind_of(sampler, 1, 1e-9, 4), SampleKind(4, true));
-  EXPECT_EQ(kind_of(sampler, 1, 1e-9, 32, 0.7f), SampleKind(1, true));
+  EXPECT_EQ(filter_of(sampler, 0.9 * texel, texel / 100), SampleFilter(1, false));
+  EXPECT_EQ(filter_of(sampler, 1.1 * texel, texel / 100), SampleFilter(1, true));
+  EXPECT_EQ(filter_of(sampler, 2.9 * texel, texel / 100), SampleFilter(2, false));
+  EXPECT_EQ(filter_of(sampler, 5.9 * texel, texel / 100), SampleFilter(4, false));
+  EXPECT_EQ(filter_of(sampler, 44 * texel, 10 * texel), SampleFilter(4, true));
+  EXPECT_EQ(filter_of(sampler, 300 * texel, 300 * texel), SampleFilter(1, true));
+  EXPECT_EQ(filter_of(sampler, 1, 1e-9), SampleFilter(SkySampler::kMostTaps, true));
+  EXPECT_EQ(filter_of(sampler, 1, 1e-9, 4), SampleFilter(4, true));
+  EXPECT_EQ(filter_of(sampler, 1, 1e-9, 32, 0.7f), SampleFilter(1, true));
 }
 
-// Places looked at as they need, and some that are nobody's: as all of them looked at in each way.
-TEST(SkySampler, LooksOfManyKindsAreThoseOfEachKind) {
+// Samples with the filters that they need, and some without taps, against all samples with each
+// filter.
+TEST(SkySampler, SamplesOfManyFiltersAreThoseOfEachFilter) {
   const SkyMap map = map_of_panorama(noise(512));
   const SkySampler sampler(map);
   std::mt19937 random(6);
-  FootprintBatch places = random_places(random, map.unit());
+  SampleBatch batch = random_samples(random, map.unit());
   std::uniform_real_distribution<float> octaves(-6, 0);
-  for (float& narrow : places.narrow) narrow *= std::exp2(octaves(random));
-  std::array<SampleKind, FootprintBatch::kSize> kinds;
-  sampler.choose_kinds(places.wide.data(), places.narrow.data(), FootprintBatch::kSize,
-                       SkySampler::kMostTaps, 0.7f, kinds.data());
-  for (std::size_t k = 0; k < FootprintBatch::kSize; k += 7) kinds[k] = SampleKind();
-  std::array<float, 3 * FootprintBatch::kSize + 1> rgb, one;
+  for (float& narrow : batch.narrow) narrow *= std::exp2(octaves(random));
+  std::array<SampleFilter, SampleBatch::kSize> filters;
+  sampler.choose_filters(batch.wide.data(), batch.narrow.data(), SampleBatch::kSize,
+                         SkySampler::kMostTaps, 0.7f, filters.data());
+  for (std::size_t k = 0; k < SampleBatch::kSize; k += 7) filters[k] = SampleFilter();
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb, one;
   rgb.fill(-1);
-  sampler.sample(places, FootprintBatch::kSize, kinds.data(), rgb.data());
-  std::size_t looked = 0;
+  sampler.sample(batch, SampleBatch::kSize, filters.data(), rgb.data());
+  std::size_t compared = 0;
   for (int code = 2; code < 2 * SkySampler::kMostTaps + 2; ++code) {
-    const SampleKind kind(code / 2, code % 2 != 0);
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) continue;
-    sample_all(sampler, places, kind, one.data());
-    for (std::size_t k = 0; k < FootprintBatch::kSize; ++k)
-      for (std::size_t c = 3 * k; kinds[k] == kind && c < 3 * k + 3; ++c, ++looked)
+    const SampleFilter filter(code / 2, code % 2 != 0);
+    if (std::find(filters.begin(), filters.end(), filter) == filters.end()) continue;
+    sample_all(sampler, batch, filter, one.data());
+    for (std::size_t k = 0; k < SampleBatch::kSize; ++k)
+      for (std::size_t c = 3 * k; filters[k] == filter && c < 3 * k + 3; ++c, ++compared)
         ASSERT_EQ(rgb[c], one[c]) << code;
   }
-  for (std::size_t k = 0; k < FootprintBatch::kSize; k += 7, looked += 3)
+  for (std::size_t k = 0; k < SampleBatch::kSize; k += 7, compared += 3)
     ASSERT_EQ(rgb[3 * k + 1], -1);
-  EXPECT_EQ(looked, 3 * FootprintBatch::kSize);
+  EXPECT_EQ(compared, 3 * SampleBatch::kSize);
 }
 
-// Blackbody light, shifted: what a look at the map and the exact colours give.
+// The oracle is one sample of the map and the exact colour of its temperature.
 TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
   SkyTexel texel{};
   texel.channel[0] = 0x5000;  // 32
@@ -159,11 +162,11 @@ TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
   const SkyMap map(SkyMapKind::kThermal, unit, levels, nullptr);
   const SkySampler sampler(map);
   std::mt19937 random(4);
-  std::array<float, 3 * FootprintBatch::kSize + 1> rgb;
+  std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (const double g : {0.005, 0.02, 0.3, 1.0, 5.0, 1e3, 1e6}) {
-    FootprintBatch places = random_places(random, unit * g * g * g * g);
-    places.tone.fill(static_cast<float>(std::log2(g)));
-    sample_all(sampler, places, SampleKind(1, true), rgb.data());
+    SampleBatch batch = random_samples(random, unit * g * g * g * g);
+    batch.tone.fill(static_cast<float>(std::log2(g)));
+    sample_all(sampler, batch, SampleFilter(1, true), rgb.data());
     const WorkingRgb c = blackbody_colours().per_flux(t * g);
     const double light = 32 * unit * g * g * g * g;
     ASSERT_NEAR(rgb[300], c.r * light, 2e-3 * c.r * light) << g;

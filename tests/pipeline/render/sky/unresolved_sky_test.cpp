@@ -8,7 +8,8 @@
 namespace domefall {
 namespace {
 
-// Region III alone, seen in the middle of the picture or a part of a pixel beside it.
+// The pixel values of a frame that shows region III alone, `aside_pixels` beside its middle: summed
+// over the channels, averaged over the pixels.
 double light_of_region_three(double depth, double aside_pixels, int size) {
   Show show = show_of(RadialInfall{2 - depth}, Domemaster{size});
   show.sky[SkyRegion::kIII].background = PanoramaSky{small_panorama()};
@@ -21,12 +22,12 @@ double light_of_region_three(double depth, double aside_pixels, int size) {
 }
 
 TEST(UnresolvedSkies, RegionThreeBringsTheSameLightHoweverSmallItIs) {
-  // Its panorama's intensity grows like the frequency squared, its size falls as much.
+  // Its panorama's intensity grows like the frequency squared, and its size falls as much.
   const double last = light_of_region_three(1e-9, 0, 128);
   EXPECT_GT(last, 0);
   for (const double depth : {1e-3, 1e-4, 1e-6})
     EXPECT_NEAR(light_of_region_three(depth, 0, 128) / last, 1, 0.01) << depth;
-  // And in a picture of another size: pixels of a quarter of the area.
+  // The same holds for an image of another size, whose pixels have a quarter of the area.
   EXPECT_NEAR(light_of_region_three(1e-6, 0, 256) / last, 1, 0.01);
 }
 
@@ -47,13 +48,13 @@ TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
   EXPECT_TRUE(found.darkened.empty());
 }
 
-// Of red, over all of the dome; a panorama of one value ahead of and around an observer of this Lorentz
-// factor in flat space, or without lensing at r.
+// The red light of a whole dome under a panorama of one value.  The observer moves at this Lorentz
+// factor in flat space, or at r in a show without lensing.
 double light_of_an_even_sky(double gamma, double aside_pixels, int size, double r = kFlatSpace) {
   Show show =
       show_of(GivenVelocity{Region::kI, Tetrad::kRain, r, V3d(0, 0, std::sqrt(gamma * gamma - 1))},
               Domemaster{size});
-  // The zenith along the motion, or beside it.
+  // The zenith lies along the motion, or `aside_pixels` beside it.
   show.timeline[0].camera.attitude =
       EulerAngles{90 * kDegree, 90 * kDegree - aside_pixels * std::numbers::pi / size, 0};
   const PanoramaFile panorama("even", 64, [](int) { return 0.5f; });
@@ -69,15 +70,17 @@ double light_of_an_even_sky(double gamma, double aside_pixels, int size, double 
   return sum;
 }
 
-// With a panorama's law ([Riazuelo] sec. ssec_rgb: g^2, and exp(1 - 1/g) below 1) each steradian of the
-// sky ahead brings 1/g^2 of itself times that.  The dome, the half space ahead, takes in the sky out to
-// tan(alpha/2) = gamma + |celerity|, where g = 1/gamma.
+// The light of the dome, the half space ahead, in units of that at rest.  A panorama's light
+// changes by g^2 for g >= 1 and by exp(1 - 1/g) below ([Riazuelo] sec. ssec_rgb), and each
+// steradian of the sky becomes 1/g^2 steradians.  The dome shows the sky out to tan(alpha/2) =
+// gamma + |celerity|, where g = gamma (1 + beta cos(alpha)) = 1/gamma.  The integral is taken in
+// the logarithm of g.
 double aberrated(double gamma) {
   const double beta = std::sqrt(1 - 1 / (gamma * gamma));
   double sum = 0;
   constexpr int kSteps = 2'000'000;
   const double end = (1 + beta) * gamma, step = std::log(end * gamma) / kSteps;
-  for (int k = 0; k < kSteps; ++k) {  // by g = gamma (1 + beta cos alpha), from 1/gamma on
+  for (int k = 0; k < kSteps; ++k) {
     const double g = std::exp((k + 0.5) * step) / gamma;
     sum += 2 * std::numbers::pi * step / (beta * gamma) * (g < 1 ? std::exp(1 - 1 / g) / g : g);
   }
@@ -92,15 +95,15 @@ TEST(UnresolvedSkies, InFlatSpaceTheLightAheadFollowsTheAberration) {
   };
   for (const double gamma : {1e1, 1e3, 1e4, 1e5, 1e9})
     EXPECT_NEAR(ratio(gamma, 0, 128), 1, 0.01) << gamma;
-  // Around a spot that is hardly smaller than its pixels they are looked at in their middles, where there
-  // is less light than the mean.
+  // A sky that is hardly smaller than a cap also lights the pixels around it.  These are sampled in
+  // their middles, where there is less light than in their mean.
   EXPECT_NEAR(ratio(1e2, 0, 128), 1, 0.025);
   EXPECT_NEAR(ratio(1e3, 0, 1024), 1, 0.025);
   EXPECT_NEAR(ratio(1e4, 0, 1024), 1, 0.01);
   for (const double aside : {0.25, 0.5, 3.3}) EXPECT_NEAR(ratio(1e4, aside, 128), 1, 0.01) << aside;
 }
 
-// Light goes straight there too; a hole so far away makes no other difference.
+// Light goes straight there too, and a hole so far away makes no other difference.
 TEST(UnresolvedSkies, WithoutLensingAreThoseOfFlatSpace) {
   EXPECT_NEAR(light_of_an_even_sky(1e4, 0, 128, 1e8) / light_of_an_even_sky(1e4, 0, 128), 1, 0.01);
 }
