@@ -1,6 +1,6 @@
-// The inner loops for several instruction sets, one of which is used: the widest that the processor
-// has, or a narrower one that DOMEFALL_SIMD names in the environment.  All give the same bytes; a test
-// can ask for each.
+// Inner loops are compiled for several instruction sets, and one of these is used at run time: the
+// widest that the processor has, or the one that DOMEFALL_SIMD names in the environment.  All of
+// them give the same bytes, which the tests show by running each.
 #pragma once
 
 #include <atomic>
@@ -14,23 +14,23 @@
 
 namespace domefall {
 
-// kPortable: what the compiler makes without being told of the processor; SSE2 on x86-64.
+// kPortable is what the compiler emits by default: SSE2 on x86-64.
 enum class Simd : signed char { kPortable, kAvx2, kAvx512 };
 
-// Narrowest first.
+// The levels stand in order of width, narrowest first.
 inline constexpr Simd kEverySimd[] = {Simd::kPortable, Simd::kAvx2, Simd::kAvx512};
 
-// As DOMEFALL_SIMD has it: portable, avx2, avx512.
+// Returns the word by which DOMEFALL_SIMD names a level: portable, avx2 or avx512.
 const char* name_of(Simd level);
 
-// kPortable everywhere; false for the others where the program is not for x86-64.
+// Every processor has kPortable; only x86-64 has the others.
 bool processor_has(Simd level);
 
-// The level that a word asks for; the widest that there is for an empty one.  Throws InputError for
-// an unknown word and for a level that the processor lacks.
+// Returns the level that `word` names, or the widest that the processor has if `word` is empty.  It
+// throws InputError for an unknown word and for a level that the processor lacks.
 Simd simd_named(const std::string& word);
 
-// From now on, in all threads.  Throws InputError if the processor lacks it.
+// Sets the level for all threads from now on.  It throws InputError if the processor lacks it.
 void use_simd(Simd level);
 
 namespace simd_detail {
@@ -39,20 +39,20 @@ extern std::atomic<signed char> level;
 Simd decide();
 }  // namespace simd_detail
 
-// The level in use.  The first call looks into the environment, and throws InputError as simd_named.
+// Returns the level in use.  The first call reads the environment and throws as simd_named does.
 inline Simd simd_in_use() {
   const signed char level = simd_detail::level.load(std::memory_order_relaxed);
   return level != simd_detail::kUndecided ? static_cast<Simd>(level) : simd_detail::decide();
 }
 
-// A function that is compiled once for each level:
+// A loop that is compiled once for each level and called through the one in use:
 //
 //     [[gnu::always_inline]] inline void add_loop(const float* a, int count, float* out) { ... }
 //     Dispatched<add_loop> add;
 //
-// The loop takes on the instructions of the function that it is inlined into, together with the
-// inline functions that it calls; a lambda would not.  It must be a plain loop of IEEE operations and
-// selections, none of which may be fused.
+// Being inlined into a function for one instruction set, the loop and the inline functions that it
+// calls are compiled for that set; the body of a lambda would not be.  A loop must consist of plain
+// IEEE operations and selections, none of them fused, so that every level gives the same bits.
 template <auto kLoop>
 class Dispatched;
 

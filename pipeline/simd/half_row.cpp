@@ -9,10 +9,11 @@ namespace domefall {
 
 namespace {
 
-// The largest absolute value, as bits.
+// Converts the floats and returns the bits of the largest absolute value among them.
 [[gnu::always_inline]] inline std::int32_t convert_loop(const float* values, int count,
                                                         std::uint16_t* out) {
-  constexpr std::int32_t kExponent = 0x7f800000, kOctave = 1 << 23;
+  constexpr std::int32_t kExponent = 0x7f800000;
+  constexpr std::int32_t kOctave = 1 << 23;                       // a step of the exponent by one
   constexpr std::int32_t kSmallestNormal = (127 - 14) * kOctave;  // 2^-14
   constexpr std::int32_t kLargest = 0x477fe000;                   // 65504
   std::int32_t largest = 0;
@@ -20,15 +21,16 @@ namespace {
     const auto value = std::bit_cast<std::int32_t>(values[k]);
     const std::int32_t size = value & 0x7fffffff;
     largest = std::max(largest, size);
-    // Bits of positive floats are in order; those of negative ones are negative.
+    // The bits of positive floats are ordered as their values are, and as integers those of
+    // negative floats are below 0, so that the clamp can be done on integers.
     const std::int32_t bounded = std::min(std::max(value, 0), kLargest);
     const auto x = std::bit_cast<float>(bounded);
-    const std::int32_t own = bounded & kExponent;
-    const std::int32_t octave = std::max(own, kSmallestNormal);
-    // Beside 2^13 times its octave a float keeps as many bits as a half has: the addition rounds.
-    const std::int32_t beside = octave + 13 * kOctave;
-    const std::int32_t bits =
-        std::bit_cast<std::int32_t>(x + std::bit_cast<float>(beside)) - beside;
+    const std::int32_t exponent = bounded & kExponent;
+    const std::int32_t octave = std::max(exponent, kSmallestNormal);
+    // A float has 13 bits more in its mantissa than a half.  Once 2^13 times its octave is added,
+    // those 13 bits no longer fit, so the addition itself rounds to the precision of a half.
+    const std::int32_t large = octave + 13 * kOctave;
+    const std::int32_t bits = std::bit_cast<std::int32_t>(x + std::bit_cast<float>(large)) - large;
     out[k] = static_cast<std::uint16_t>(bits + ((octave - kSmallestNormal) >> 13));
   }
   return largest;

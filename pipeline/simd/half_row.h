@@ -1,12 +1,14 @@
-// Rows of floats as half floats.
+// Conversion of rows of floats to half floats.
 #pragma once
 
 #include <cstdint>
 
 namespace domefall {
 
-// Rounded to nearest, ties to even; more than 65504 becomes that.  Values are >= 0 (or tiny below).
-// Whether all were finite; if not, what stands in `out` is of no use.
+// Converts `count` floats to the bits of half floats, rounded to nearest with ties to even; values
+// above 65504, the largest half, become 65504, and negative ones 0.  Returns whether all values
+// were finite; if it is false, `out` holds no meaningful values.  A test holds it exact against
+// Imath's conversion for every half and for the values half way between them.
 bool to_half(const float* values, int count, std::uint16_t* out);
 
 }  // namespace domefall

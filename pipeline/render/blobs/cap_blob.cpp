@@ -169,8 +169,8 @@ template <bool kDome, int kCount>
     return;
   }
   Lanes v[6], g[6];
-  in_threes<6>(weight.data(), v);
-  in_threes<6>(pale.data(), g);
+  repeat_for_channels<6>(weight.data(), v);
+  repeat_for_channels<6>(pale.data(), g);
   for (int m = 0; m < 6; ++m) {
     Lanes sum, colour, white;
     std::memcpy(&sum, out + m * kLanes, sizeof sum);

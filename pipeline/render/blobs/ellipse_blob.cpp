@@ -145,7 +145,7 @@ struct Batch {
 template <int kCount>
 [[gnu::always_inline]] inline void in_blocks(const float* pixels, Block* blocks) {
   Lanes floats[6];
-  in_threes<2 * kCount>(pixels, floats);
+  repeat_for_channels<2 * kCount>(pixels, floats);
   for (int m = 0; m < kCount; ++m)
     blocks[m] = __builtin_shufflevector(floats[2 * m], floats[2 * m + 1], 0, 1, 2, 3, 4, 5, 6, 7, 8,
                                         9, 10, 11, 12, 13, 14, 15);
