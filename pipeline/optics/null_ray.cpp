@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/optics/half_angle.h"
 #include "pipeline/optics/silhouette.h"
 
 namespace domefall {
@@ -11,13 +12,13 @@ namespace {
 
 const double kSqrt27 = std::sqrt(27.0);
 
-// The half-angle edge + offset/2 around an edge given by its half-angle tangent.
-struct HalfAngle {
+// Half of an angle near an edge, whose half-angle tangent is given.
+struct HalfAngleOffEdge {
   double sine, cosine;
   double gap;  // sine - tangent * cosine, from the offset alone
 };
 
-HalfAngle turned_from(double tangent, double half_offset) {
+HalfAngleOffEdge turned_from(double tangent, double half_offset) {
   const double c = 1 / std::sqrt(1 + tangent * tangent), s = tangent * c;
   const double so = std::sin(half_offset), co = std::cos(half_offset);
   return {s * co + c * so, c * co - s * so, so / c};
@@ -116,13 +117,13 @@ LookAngle look_angle(long double angle) {
 }
 
 NullRay ray_off_edge(const Radius& at, Critical edge, double offset, const RadialFrame& frame) {
-  const HalfAngle half = turned_from(tan_half_critical(at, edge) / kappa(at, frame), offset / 2);
+  const HalfAngleOffEdge half =
+      turned_from(tan_half_critical(at, edge) / kappa(at, frame), offset / 2);
   return ray_from_frame(at, frame, half.sine, half.cosine, half.gap, edge);
 }
 
 NullRay ray_of_tangent(const Radius& at, double tangent, bool outgoing) {
-  const double cosine = 1 / std::hypot(1, tangent);
-  const double sine = std::isinf(tangent) ? 1 : tangent * cosine;
+  const auto [sine, cosine] = half_angle_of_tangent(tangent);
   const double one = sine - tan_half_critical(at, Critical::kFirst) * cosine;
   const double two = sine - tan_half_critical(at, Critical::kSecond) * cosine;
   const bool first = std::abs(one) <= std::abs(two);
@@ -131,10 +132,9 @@ NullRay ray_of_tangent(const Radius& at, double tangent, bool outgoing) {
 }
 
 NullRay ray_of_ratio(const Radius& at, Critical edge, double excess, bool outgoing) {
-  const double edge_tangent = tan_half_critical(at, edge), tangent = edge_tangent * (1 + excess);
-  const double cosine = 1 / std::hypot(1, tangent);
-  return ray_from_frame(at, {outgoing, false}, tangent * cosine, cosine,
-                        edge_tangent * excess * cosine, edge);
+  const double edge_tangent = tan_half_critical(at, edge);
+  const auto [sine, cosine] = half_angle_of_tangent(edge_tangent * (1 + excess));
+  return ray_from_frame(at, {outgoing, false}, sine, cosine, edge_tangent * excess * cosine, edge);
 }
 
 NullRay turned(const NullRay& ray, double angle) {

@@ -1,7 +1,7 @@
-// A smooth function of a positive number that spans many octaves, as a table: the intervals divide
+// A table of a smooth function of a positive number that spans many octaves.  Its intervals divide
 // each octave evenly and are found from the bits of x; in each a polynomial of degree 7 matches the
-// value and three derivatives at both ends.  Those come from Chebyshev interpolation of the
-// function in ln x.
+// value and three derivatives at both ends, which come from Chebyshev interpolation of the function
+// in ln x.
 #pragma once
 
 #include <algorithm>
@@ -17,45 +17,45 @@ class OctaveCurve {
  public:
   static constexpr int kPerOctaveBits = 3;
 
-  // `f` over [about x_min, x_max], 0 < x_min < x_max; it is asked up to one interval beyond x_max.
-  // 2^bits intervals an octave.  The error falls with the eighth power of their width: that of a
-  // logarithm is 1e-11 with 3 bits.
-  // About 8 calls of f for each octave.
+  // Tabulates `f` over [x_min rounded down to an interval, x_max], 0 < x_min < x_max, with 2^bits
+  // intervals an octave.  `f` is called about 8 times an octave, up to one interval beyond x_max.
+  // The error falls with the eighth power of the intervals' width: that of a logarithm is 1e-11
+  // with 3 bits.
   OctaveCurve(double x_min, double x_max, const std::function<double(double)>& f,
               int bits = kPerOctaveBits);
 
   double x_min() const { return x_min_; }
-  double x_max() const { return start(intervals_.back()); }  // of the last interval, its start
+  double x_max() const { return start(intervals_.back()); }  // where the last interval begins
   std::size_t node_count() const { return intervals_.size() + 1; }
 
   struct Jet {
     double value, first, second;  // f, df/dx, d2f/dx2
   };
-  // x in [x_min, x_max].
+  // The value and two derivatives at x in [x_min, x_max].
   Jet at(double x) const;
   double value(double x) const {
     const Interval& q = interval(x);
     return polynomial(q.c, (x - start(q)) * inverse_width(q));
   }
-  // The x in [x_min, x_end] with value(x) = wanted, of the same polynomials.  The function must be
+  // The x in [x_min, x_end] with value(x) = wanted, by the same polynomials.  The function must be
   // monotone there and take the value.
   double inverse(double wanted, double x_end) const;
 
-  // Whether every interval that ends before x_end is monotone, all the same way: proven, by the
-  // signs of the slope's Bernstein coefficients.
+  // Whether the curve rises, or falls, in every interval that ends before x_end.  A result of true
+  // is proven, by the signs of the Bernstein coefficients of the slope.
   bool is_monotone(double x_end) const;
 
   static constexpr int kTerms = 8;
 
-  // Where the polynomials of any number of x stand, without a branch, for loops that are to become
-  // SIMD code: a copy of what a look-up needs, which no store of the loop can be taken to alter.
-  // Good while the curve lives.  x below x_min is looked up there, x beyond the last interval at
-  // its end.
+  // Finds the polynomial of any x without a branch, for loops that are to become SIMD code.  It is
+  // a copy of what finding needs, so that the compiler knows that no store of the loop alters it,
+  // and is valid while the curve lives.  An x below x_min counts as x_min, one beyond the last
+  // interval as the end of that.
   class Lookup;
   Lookup lookup() const;
 
  private:
-  // The coefficients in 0 <= u <= 1 across it: a line of the cache.
+  // The coefficients of powers of u, which runs from 0 to 1 across it.  They fill one cache line.
   struct alignas(kTerms * sizeof(double)) Interval {
     std::array<double, kTerms> c;
   };
@@ -101,22 +101,21 @@ class OctaveCurve::Lookup {
  public:
   Lookup() = default;
   double x_min() const { return x_min_; }
-  // kTerms of each interval, of powers of u.
-  const double* coefficients() const { return coefficients_; }
-  struct Spot {
-    std::int64_t interval;
-    double u, inverse_width;  // the place in it, 0 to 1, and du/dx
+  // Where x lies in the table.
+  struct Index {
+    const double* coefficients;  // of its interval: kTerms, of ascending powers of u
+    double u, inverse_width;     // the position in the interval, 0 to 1, and du/dx
   };
-  // From the bits of x: the interval's number ends where u begins, and its width is that of an
-  // octave's part.
-  Spot operator()(double x) const {
+  // The bits of x hold all three: the interval's number ends where u begins, and the interval's
+  // width is 2^-bits of the octave that the exponent names.
+  Index operator()(double x) const {
     constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1,
                             kOne = std::uint64_t{1023} << 52;
     const double above = x > x_min_ ? x : x_min_;
     const auto bits = std::bit_cast<std::uint64_t>(above < x_last_ ? above : x_last_);
     const auto parts = static_cast<std::uint64_t>(52 - shift_);
     const std::uint64_t beyond = (bits << parts) & kMantissa;
-    return {static_cast<std::int64_t>(bits >> shift_) - first_key_,
+    return {coefficients_ + kTerms * (static_cast<std::int64_t>(bits >> shift_) - first_key_),
             std::bit_cast<double>(beyond | kOne) - 1,
             std::bit_cast<double>((2 * 1023 + parts - (bits >> 52)) << 52)};
   }

@@ -43,11 +43,9 @@ double EdgeLaw::distance(double phi) const {
   return z * x_min;
 }
 
-SkyEdge::SkyEdge(const Radius& at, Critical edge) : sign(edge == Critical::kFirst ? 1 : -1) {
-  const double tangent = tan_half_critical(at, edge);
-  cosine = 1 / std::hypot(1, tangent);
-  sine = tangent * cosine;
-}
+SkyEdge::SkyEdge(const Radius& at, Critical edge)
+    : half(half_angle_of_tangent(tan_half_critical(at, edge))),
+      sign(edge == Critical::kFirst ? 1 : -1) {}
 
 SkyTable::SkyTable(const Radius& at, Critical edge, bool outgoing, int bits)
     : SkyTable(at, edge, outgoing, tan_half_critical(at, edge), bits) {}
@@ -96,8 +94,8 @@ double SkyTable::distance(double phi) const {
 
 double SkyTable::distance_of(const NullRay& ray) const {
   const double gap = critical_ == Critical::kFirst ? ray.gap_first : ray.gap_second;
-  const double cosine = ray.cos_half * edge_.cosine + ray.sin_half * edge_.sine;
-  return 2 * edge_.sign * gap * edge_.cosine / (1 + cosine);
+  const double cosine = ray.cos_half * edge_.half.cosine + ray.sin_half * edge_.half.sine;
+  return 2 * edge_.sign * gap * edge_.half.cosine / (1 + cosine);
 }
 
 }  // namespace domefall

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "pipeline/optics/half_angle.h"
 #include "pipeline/optics/null_ray.h"
 #include "pipeline/optics/octave_curve.h"
 
@@ -31,18 +32,18 @@ struct EdgeLaw {
 };
 EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi);
 
-// The edge of a sky: how far a direction is from it, from sin and cos of alpha/2, as the renderer
-// has them.
+// The edge of a sky, from which the renderer measures how far a direction is.
 struct SkyEdge {
-  double sine = 0, cosine = 1;  // of half the edge
-  double sign = 1;              // +1: the sky lies at larger alpha than its edge; -1: at smaller
+  HalfAngle half{0, 1};  // of the edge's alpha
+  double sign = 1;       // +1: the sky lies at larger alpha than its edge; -1: at smaller
 
   SkyEdge() = default;
   SkyEdge(const Radius& at, Critical edge);
-  // 2 tan(|alpha - edge|/4), negative on the other side of the edge.
+  // 2 tan(|alpha - edge|/4), negative on the other side of the edge, from half of alpha: with h =
+  // (alpha - edge)/2 it is 2 tan(h/2) = 2 sin h/(1 + cos h), and the addition theorems give both.
   double distance(double sin_half, double cos_half) const {
-    const double s = sign * (sin_half * cosine - cos_half * sine);
-    return 2 * s / (1 + cos_half * cosine + sin_half * sine);
+    const double s = sign * (sin_half * half.cosine - cos_half * half.sine);
+    return 2 * s / (1 + cos_half * half.cosine + sin_half * half.sine);
   }
 };
 

@@ -9,22 +9,23 @@ namespace {
 
 using std::numbers::pi;
 
-// 1 - cos x without cancellation.
+// 1 - cos x = 2 sin^2(x/2), which does not cancel.
 double versine(double x) {
   const double s = std::sin(x / 2);
   return 2 * s * s;
 }
 
-// Mean of |sin| over [x - h, x + h].
+// The mean of |sin| over [x - h, x + h].  Its integral over a whole arch, from one zero to the
+// next, is 2, and 1 - cos t over the part of an arch from a zero to t.
 double mean_abs_sine(double x, double h) {
-  if (h >= pi / 2) {  // the integral from 0: 2 for each whole arch
-    const auto integral = [](double t) {
+  if (h >= pi / 2) {
+    const auto integral = [](double t) {  // from 0 to t
       const double arches = std::floor(t / pi);
       return 2 * arches + versine(t - arches * pi);
     };
     return (integral(x + h) - integral(x - h)) / (2 * h);
   }
-  const double off = std::abs(std::remainder(x, pi));  // from the nearest zero
+  const double off = std::abs(std::remainder(x, pi));  // the distance of x from the nearest zero
   if (off >= h) return std::sin(off) * std::sin(h) / h;
   return (versine(h + off) + versine(h - off)) / (2 * h);
 }

@@ -1,23 +1,25 @@
-// How much larger a small patch of a sky appears than it is.
+// The amplification of a small patch of a sky: how much larger it appears than it is.
 #pragma once
 
 namespace domefall {
 
-// A ray and its neighbours, where it matters to the size of an image: in the frame of the reference
-// tetrad the angle from the axis, the azimuth that the ray sweeps and d azimuth/d angle, and the
-// frequency seen in the picture's frame over the tetrad's.  Straight light: any equal angles, slope 1.
+// What the size of an image depends on, about one ray.  Angle, azimuth and slope belong to the
+// frame of the reference tetrad.  Straight light has an angle equal to its azimuth, whatever both
+// are, and a slope of 1.
 struct RayBundle {
-  double angle = 1, azimuth = 1;
-  double slope = 1;    // > 0
-  double doppler = 1;  // > 0
+  double angle = 1;    // from the axis, radians
+  double azimuth = 1;  // that the ray sweeps, radians
+  double slope = 1;    // |d azimuth/d angle|, > 0
+  double doppler = 1;  // frequency for the observer who is drawn over that in the tetrad, > 0
 };
 
-// f of [Riazuelo] eq. eq_ampl, solid angle of the image over that of its source, for an image that is
-// `width` (radians of view, > 0) across:
-//     f = |sin angle| / (|sin azimuth| slope doppler^2),
-// the sines averaged over the width and over the azimuths that it sweeps.  Averaged so, 1/f is the
-// mean of its values across the image: what the image covers of the sky, counted as often as it is
-// covered.  On a caustic, where sin azimuth = 0, f stays finite, of the order of 1/width.
+// f of [Riazuelo] eq. eq_ampl, the solid angle of an image over that of its source, for an image of
+// `width` (radians in the view, > 0):
+//     f = |sin angle| / (|sin azimuth| slope doppler^2).
+// Both sines are averaged, the first over the width and the second over the azimuths that the width
+// sweeps, so that 1/f is the mean of its values across the image: the part of the sky that the
+// image covers, counted as often as it is covered.  On a caustic, where sin azimuth = 0, f stays
+// finite, of the order of 1/width.
 double amplification(const RayBundle& bundle, double width);
 
 }  // namespace domefall

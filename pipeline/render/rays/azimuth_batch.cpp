@@ -7,47 +7,37 @@ namespace domefall {
 namespace {
 
 constexpr int kTerms = OctaveCurve::kTerms;
+using Curves = std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves>;
 
-struct TexelIndices {
-  alignas(64) AzimuthBatch::Column<std::int64_t> interval;
+// The polynomials of a batch of rays: where they stand in memory, and their coefficients by power.
+struct Polynomials {
+  alignas(64) AzimuthBatch::Column<const double*> row;
   alignas(64) AzimuthBatch::Column<double> u, inverse_width;
   alignas(64) std::array<AzimuthBatch::Column<double>, kTerms> coefficient;
 };
 
-[[gnu::always_inline]] inline void locate_loop(
-    const std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves>& curves, int count,
-    const AzimuthBatch& __restrict in, TexelIndices& __restrict out) {
+[[gnu::always_inline]] inline void locate_loop(const Curves& curves, int count,
+                                               const AzimuthBatch& __restrict in,
+                                               Polynomials& __restrict out) {
   const OctaveCurve::Lookup a = curves[0], b = curves[1], c = curves[2];
   for (int k = 0; k < count; ++k) {
-    const OctaveCurve::Lookup of = in.curve[k] == 0 ? a : in.curve[k] == 1 ? b : c;
-    const OctaveCurve::Lookup::Spot spot = of(in.x[k]);
-    out.interval[k] = spot.interval;
-    out.u[k] = spot.u;
-    out.inverse_width[k] = spot.inverse_width;
+    const OctaveCurve::Lookup curve = in.curve[k] == 0 ? a : in.curve[k] == 1 ? b : c;
+    const OctaveCurve::Lookup::Index index = curve(in.x[k]);
+    out.row[k] = index.coefficients;
+    out.u[k] = index.u;
+    out.inverse_width[k] = index.inverse_width;
   }
 }
 Dispatched<locate_loop> locate;
 
-// Whole lines of the cache for each ray, instead of gathering numbers from them.
-[[gnu::always_inline]] inline void fetch_loop(
-    const std::array<const double*, AzimuthBatch::kCurves>& coefficients, int count,
-    const AzimuthBatch& in, TexelIndices& spots) {
-  for (int k = 0; k < count; k += 4) {
-    const double* at[4];
-    for (int m = 0; m < 4; ++m)
-      at[m] = coefficients[in.curve[k + m]] + kTerms * spots.interval[k + m];
-    for (int first = 0; first < kTerms; first += 4) {
-      const double* from[4];
-      double* out[4];
-      for (int m = 0; m < 4; ++m)
-        from[m] = at[m] + first, out[m] = &spots.coefficient[first + m][k];
-      turn_quads(from, out);
-    }
-  }
+// Copies a whole cache line of coefficients for each ray.
+[[gnu::always_inline]] inline void fetch_loop(int count, Polynomials& polynomials) {
+  transpose_rows(polynomials.row, count, polynomials.coefficient);
 }
 Dispatched<fetch_loop> fetch;
 
-[[gnu::always_inline]] inline void evaluate_loop(const TexelIndices& __restrict in, int count,
+// Horner's scheme for the polynomial and its derivative.
+[[gnu::always_inline]] inline void evaluate_loop(const Polynomials& __restrict in, int count,
                                                  AzimuthBatch& __restrict out) {
   for (int k = 0; k < count; ++k) {
     const double u = in.u[k];
@@ -56,7 +46,7 @@ Dispatched<fetch_loop> fetch;
       slope = slope * u + value;
       value = value * u + in.coefficient[j][k];
     }
-    out.value[k] = value;
+    out.azimuth[k] = value;
     out.slope[k] = slope * in.inverse_width[k];
   }
 }
@@ -64,16 +54,16 @@ Dispatched<evaluate_loop> evaluate;
 
 }  // namespace
 
-void look_up(const std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves>& curves, int count,
-             AzimuthBatch& sweeps) {
-  // Four at a time.
-  const int whole = (count + 3) / 4 * 4;
-  for (int k = count; k < whole; ++k) sweeps.curve[k] = 0, sweeps.x[k] = 0;
-  TexelIndices spots;
-  locate(curves, whole, sweeps, spots);
-  fetch({curves[0].coefficients(), curves[1].coefficients(), curves[2].coefficients()}, whole,
-        sweeps, spots);
-  evaluate(spots, whole, sweeps);
+void find_azimuths(const Curves& curves, int count, AzimuthBatch& batch) {
+  const int whole = (count + 3) / 4 * 4;  // rows are transposed by fours
+  for (int k = count; k < whole; ++k) {
+    batch.curve[k] = 0;
+    batch.x[k] = 0;
+  }
+  Polynomials polynomials;
+  locate(curves, whole, batch, polynomials);
+  fetch(whole, polynomials);
+  evaluate(polynomials, whole, batch);
 }
 
 }  // namespace domefall

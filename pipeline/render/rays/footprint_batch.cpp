@@ -6,9 +6,9 @@ namespace domefall {
 namespace {
 
 [[gnu::always_inline]] inline void set_loop(const ViewRayBatch& batch, const double* angle,
-                                            int count, const FootprintColumns& places) {
+                                            int count, const FootprintColumns& footprints) {
   const ViewRayBatch& b = batch;
-  const FootprintColumns out = places;
+  const FootprintColumns out = footprints;
   for (int k = 0; k < count; ++k) {
     const double sx = b.sky_x[k], sy = b.sky_y[k], sz = b.sky_z[k];
     const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
@@ -31,8 +31,8 @@ Dispatched<set_loop> set;
 }  // namespace
 
 void set_footprints(const ViewRayBatch& batch, const double* angle, int count,
-                    const FootprintColumns& places) {
-  set(batch, angle, count, places);
+                    const FootprintColumns& footprints) {
+  set(batch, angle, count, footprints);
 }
 
 }  // namespace domefall

@@ -1,10 +1,10 @@
-// Many looks at a time at what a hole bends.
+// Batches of view rays that a hole lenses, or that cross flat space, by SIMD code.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "pipeline/render/rays/azimuth_batch.h"
-#include "pipeline/render/rays/lensed_ray_parts.h"
+#include "pipeline/render/rays/singularity_light.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/vector_math.h"
@@ -12,184 +12,195 @@
 namespace domefall {
 namespace {
 
-// What a loop over directions needs of the frame, by value: nothing it stores can change it.
-struct Frame {
+// What the loops need of the observer.  Each loop copies it, so that the compiler knows that no
+// store of the loop alters it.
+struct Observer {
   M33d tetrad_from_camera, sky_from_tetrad;
   Aberration aberration;
-  double s, one_minus_s;
-  double inward;  // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
+  double s, one_minus_s;  // s = sqrt(2/r)
+  double inward;          // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
 };
 
-// Directions in the rain frame and what leads to the tables.
-struct Rain {
+// Rays as the reference tetrad sees them: the direction, the sine of alpha, alpha/2, and the
+// frequency in the tetrad over the observer's with its inverse.
+struct TetradRays {
   ViewRayBatch::Column<double> x, y, z, sine, sin_half, cos_half, doppler, inverse_doppler;
 };
 
-// Rays' azimuths, and how fast they change with the angle from the axis.
-struct Bent {
-  AzimuthBatch sweeps;
-  ViewRayBatch::Column<double> rate;  // of the white hole's coordinate by that angle
-  ViewRayBatch::Column<double> slope;
+// The rays' azimuths, and how fast these change with alpha.
+struct LensedRays {
+  AzimuthBatch azimuths;
+  ViewRayBatch::Column<double> rate;   // d s/d alpha of the white hole's coordinate s
+  ViewRayBatch::Column<double> slope;  // |d phi/d alpha|
 };
 static_assert(AzimuthBatch::kSize == ViewRayBatch::kSize);
-// In the order in which a ray is asked for.
+// The curves of an AzimuthBatch, in the order in which a ray is assigned to them: the two skies,
+// and the past singularity of the white hole for all other rays.
 constexpr int kHome = 0, kFar = 1, kHole = 2;
 
-[[gnu::always_inline]] inline void to_rain_loop(const Frame& frame, const CameraDirection* n,
-                                                int count, Rain& rain, ViewRayBatch& batch) {
-  const Frame f = frame;
+// ---- from the camera to the tetrad ----
+
+// The energy is |E| = 1 + z of the free-fall observer, with
+// E = 1 - s cos(alpha) = (1 + s) sin^2(alpha/2) + (1 - s) cos^2(alpha/2),
+// where 1 - s comes from the altitude above the horizon and so keeps its digits near r = 2.
+[[gnu::always_inline]] inline void into_tetrad_loop(const Observer& observer,
+                                                    const CameraDirection* n, int count,
+                                                    TetradRays& rays, ViewRayBatch& batch) {
+  const Observer o = observer;
   for (int k = 0; k < count; ++k) {
-    const AberratedLight in = f.aberration.to_rest(apply(f.tetrad_from_camera, n[k].v));
+    const AberratedLight in = o.aberration.to_rest(apply(o.tetrad_from_camera, n[k].v));
     const V3d d = in.direction;
     const double sine = std::sqrt(d.y * d.y + d.z * d.z);
-    const HalfAngle half = half_angle(-f.inward * d.x, sine);
+    const HalfAngle half = half_angle(-o.inward * d.x, sine);
     const double energy =
-        std::abs((1 + f.s) * half.sine * half.sine + f.one_minus_s * half.cosine * half.cosine);
-    rain.x[k] = d.x, rain.y[k] = d.y, rain.z[k] = d.z;
-    rain.sine[k] = sine, rain.sin_half[k] = half.sine, rain.cos_half[k] = half.cosine;
+        std::abs((1 + o.s) * half.sine * half.sine + o.one_minus_s * half.cosine * half.cosine);
+    rays.x[k] = d.x;
+    rays.y[k] = d.y;
+    rays.z[k] = d.z;
+    rays.sine[k] = sine;
+    rays.sin_half[k] = half.sine;
+    rays.cos_half[k] = half.cosine;
     const double inverse = 1 / in.frequency_ratio;
-    rain.doppler[k] = in.frequency_ratio, rain.inverse_doppler[k] = inverse;
+    rays.doppler[k] = in.frequency_ratio;
+    rays.inverse_doppler[k] = inverse;
     batch.frequency_ratio[k] = inverse / energy;
   }
 }
-Dispatched<to_rain_loop> to_rain;
+Dispatched<into_tetrad_loop> into_tetrad;
 
-[[gnu::always_inline]] inline void flat_sky_loop(const Frame& frame, const Rain& rain, int count,
-                                                 ViewRayBatch& batch) {
-  const Frame f = frame;
+// In flat space the tetrad's directions are those of the sky.
+[[gnu::always_inline]] inline void cross_flat_space_loop(const Observer& observer,
+                                                         const TetradRays& rays, int count,
+                                                         ViewRayBatch& batch) {
+  const Observer o = observer;
   for (int k = 0; k < count; ++k) {
-    const V3d sky = apply(f.sky_from_tetrad, V3d(rain.x[k], rain.y[k], rain.z[k]));
-    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
-    batch.frequency_ratio[k] = rain.inverse_doppler[k];
-    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] =
-        0;  // as good as any: a round footprint
-    batch.radial_scale[k] = batch.tangential_scale[k] = rain.inverse_doppler[k];
+    const V3d sky = apply(o.sky_from_tetrad, V3d(rays.x[k], rays.y[k], rays.z[k]));
+    batch.sky_x[k] = sky.x;
+    batch.sky_y[k] = sky.y;
+    batch.sky_z[k] = sky.z;
+    batch.frequency_ratio[k] = rays.inverse_doppler[k];
+    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] = 0;  // the footprint is round
+    batch.radial_scale[k] = batch.tangential_scale[k] = rays.inverse_doppler[k];
     batch.to_edge[k] = HUGE_VAL;
   }
 }
-Dispatched<flat_sky_loop> flat_sky;
+Dispatched<cross_flat_space_loop> cross_flat_space;
 
-// Of an edge: whether it counts as one, since between the dark and the dark there is none.
+// ---- which sky a ray comes from ----
+
+// The edge of a sky.  It counts as one in the image unless both sides of it are dark.
 struct Edge {
   SkyEdge edge;
   bool counts;
 };
 
-// Rays on the home sky, with their coordinate in its table; all others are the hole's for now.
-[[gnu::always_inline]] inline void take_home_loop(const Edge& of, const Rain& __restrict rain,
-                                                  int count, Bent& __restrict bent,
-                                                  double* __restrict to_edge) {
-  const Edge e = of;
+// Assigns rays on the home sky's side of its edge to that sky and all others to the hole.
+[[gnu::always_inline]] inline void assign_home_loop(const Edge& home,
+                                                    const TetradRays& __restrict rays, int count,
+                                                    LensedRays& __restrict lensed,
+                                                    double* __restrict to_edge) {
+  const Edge e = home;
   for (int k = 0; k < count; ++k) {
-    const double x = e.edge.distance(rain.sin_half[k], rain.cos_half[k]);
-    bent.sweeps.x[k] = x;
-    bent.sweeps.curve[k] = x > 0 ? kHome : kHole;
-    const double away = 2 * std::abs(x) * rain.doppler[k];
+    const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
+    lensed.azimuths.x[k] = x;
+    lensed.azimuths.curve[k] = x > 0 ? kHome : kHole;
+    const double away = 2 * std::abs(x) * rays.doppler[k];
     to_edge[k] = e.counts ? away : HUGE_VAL;
   }
 }
-Dispatched<take_home_loop> take_home;
+Dispatched<assign_home_loop> assign_home;
 
-[[gnu::always_inline]] inline void take_far_loop(const Edge& of, const Rain& __restrict rain,
-                                                 int count, Bent& __restrict bent,
-                                                 double* __restrict to_edge) {
-  const Edge e = of;
+// Assigns rays on the far sky's side of its edge to that sky, unless the home sky has them.
+[[gnu::always_inline]] inline void assign_far_loop(const Edge& far,
+                                                   const TetradRays& __restrict rays, int count,
+                                                   LensedRays& __restrict lensed,
+                                                   double* __restrict to_edge) {
+  const Edge e = far;
   for (int k = 0; k < count; ++k) {
-    const double x = e.edge.distance(rain.sin_half[k], rain.cos_half[k]);
-    const bool on = (bent.sweeps.curve[k] == kHole) & (x > 0);
-    bent.sweeps.x[k] = on ? x : bent.sweeps.x[k];
-    bent.sweeps.curve[k] = on ? kFar : bent.sweeps.curve[k];
-    const double away = e.counts ? 2 * std::abs(x) * rain.doppler[k] : HUGE_VAL;
+    const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
+    const bool on = (lensed.azimuths.curve[k] == kHole) & (x > 0);
+    lensed.azimuths.x[k] = on ? x : lensed.azimuths.x[k];
+    lensed.azimuths.curve[k] = on ? kFar : lensed.azimuths.curve[k];
+    const double away = e.counts ? 2 * std::abs(x) * rays.doppler[k] : HUGE_VAL;
     to_edge[k] = away < to_edge[k] ? away : to_edge[k];
   }
 }
-Dispatched<take_far_loop> take_far;
+Dispatched<assign_far_loop> assign_far;
 
-[[gnu::always_inline]] inline void take_hole_loop(const WhiteHolePlace& of,
-                                                  const Rain& __restrict rain, int count,
-                                                  Bent& __restrict bent) {
-  const WhiteHolePlace place = of;
+// Sets the coordinate of the hole's rays, and its rate for all rays.
+[[gnu::always_inline]] inline void locate_in_hole_loop(const WhiteHolePlace& white_hole,
+                                                       const TetradRays& __restrict rays, int count,
+                                                       LensedRays& __restrict lensed) {
+  const WhiteHolePlace place = white_hole;
   for (int k = 0; k < count; ++k) {
     double rate = 0;
-    const double s = place(rain.sin_half[k], rain.cos_half[k], rate);
-    bent.sweeps.x[k] = bent.sweeps.curve[k] == kHole ? s : bent.sweeps.x[k];
-    bent.rate[k] = rate;
+    const double s = place(rays.sin_half[k], rays.cos_half[k], rate);
+    lensed.azimuths.x[k] = lensed.azimuths.curve[k] == kHole ? s : lensed.azimuths.x[k];
+    lensed.rate[k] = rate;
   }
 }
-Dispatched<take_hole_loop> take_hole;
+Dispatched<locate_in_hole_loop> locate_in_hole;
 
-// d phi/d alpha in absolute value, from the slopes of the curves.
-[[gnu::always_inline]] inline void set_slopes_loop(int count, Bent& __restrict bent) {
+// ---- azimuths from the tables ----
+
+// Turns d phi/d x of the skies' curves into |d phi/d alpha|: x = 2 tan(|alpha - edge|/4), therefore
+// |d x/d alpha| = (1 + x^2/4)/2.
+[[gnu::always_inline]] inline void set_slopes_loop(int count, LensedRays& __restrict lensed) {
   for (int k = 0; k < count; ++k) {
-    const double x = bent.sweeps.x[k], slope = std::abs(bent.sweeps.slope[k]);
-    bent.slope[k] = slope * ((1 + x * x / 4) / 2);
+    const double x = lensed.azimuths.x[k], slope = std::abs(lensed.azimuths.slope[k]);
+    lensed.slope[k] = slope * ((1 + x * x / 4) / 2);
   }
 }
 Dispatched<set_slopes_loop> set_slopes;
 
-// The same for those of the hole, whose light has no redshift.
-[[gnu::always_inline]] inline void set_hole_slopes_loop(int count, Bent& __restrict bent,
+// Does the same for the hole's rays, and gives their light, which has no redshift, a ratio of 1.
+[[gnu::always_inline]] inline void set_hole_slopes_loop(int count, LensedRays& __restrict lensed,
                                                         double* __restrict frequency_ratio) {
   for (int k = 0; k < count; ++k) {
-    const bool hole = bent.sweeps.curve[k] == kHole;
-    const double steep = std::abs(bent.sweeps.slope[k] * bent.rate[k]);
-    const double slope = steep < kSteepest ? steep : kSteepest;
-    bent.slope[k] = hole ? slope : bent.slope[k];
+    const bool hole = lensed.azimuths.curve[k] == kHole;
+    const double steep = std::abs(lensed.azimuths.slope[k] * lensed.rate[k]);
+    const double slope = steep < kSteepestSlope ? steep : kSteepestSlope;
+    lensed.slope[k] = hole ? slope : lensed.slope[k];
     frequency_ratio[k] = hole ? 1 : frequency_ratio[k];
   }
 }
 Dispatched<set_hole_slopes_loop> set_hole_slopes;
 
-// Whether any ray is beyond where its curve reaches.
-struct Reach {
+// The coordinates between which each curve is tabulated.
+struct CurveRanges {
   std::array<double, AzimuthBatch::kCurves> low, high;
 };
-[[gnu::always_inline]] inline bool any_beyond_loop(const Reach& of, const AzimuthBatch& sweeps,
-                                                   int count) {
-  const Reach r = of;
-  std::int64_t beyond = 0;
+
+CurveRanges ranges_of(const HoleOptics& optics) {
+  CurveRanges ranges;
+  ranges.low.fill(-HUGE_VAL);
+  ranges.high.fill(HUGE_VAL);
+  if (optics.home_sky) ranges.low[kHome] = optics.home_sky->curve().x_min();
+  if (optics.far_sky) ranges.low[kFar] = optics.far_sky->curve().x_min();
+  if (!optics.white_hole) return ranges;
+  ranges.low[kHole] = optics.white_hole->lookup().low;
+  ranges.high[kHole] = optics.white_hole->lookup().high;
+  return ranges;
+}
+
+// Returns whether any ray lies outside the range of its curve.
+[[gnu::always_inline]] inline bool any_outside_loop(const CurveRanges& ranges,
+                                                    const AzimuthBatch& azimuths, int count) {
+  const CurveRanges r = ranges;
+  std::int64_t outside = 0;
   for (int k = 0; k < count; ++k) {
-    const double x = sweeps.x[k];
-    const std::int64_t c = sweeps.curve[k];
+    const double x = azimuths.x[k];
+    const std::int64_t c = azimuths.curve[k];
     const double low = c == kHome ? r.low[kHome] : c == kFar ? r.low[kFar] : r.low[kHole];
     const double high = c == kHole ? r.high[kHole] : HUGE_VAL;
-    beyond |= ((x >= low) & (x <= high)) ? 0 : 1;
+    outside |= ((x >= low) & (x <= high)) ? 0 : 1;
   }
-  return beyond != 0;
+  return outside != 0;
 }
-Dispatched<any_beyond_loop> any_beyond;
+Dispatched<any_outside_loop> any_outside;
 
-[[gnu::always_inline]] inline void onto_sky_loop(const Frame& frame, const Rain& rain,
-                                                 const Bent& bent, int count, ViewRayBatch& batch) {
-  const Frame f = frame;
-  for (int k = 0; k < count; ++k) {
-    const SineCosine phi = sin_cos(bent.sweeps.value[k]);
-    const double sine = rain.sine[k];
-    const double inverse = sine > 0 ? 1 / (sine > 0 ? sine : 1) : 0;
-    const double across = phi.sine * inverse, back = phi.cosine * inverse;
-    const V3d sky =
-        apply(f.sky_from_tetrad, V3d(phi.cosine, rain.y[k] * across, rain.z[k] * across));
-    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
-    const V3d along = apply(f.sky_from_tetrad, V3d(-phi.sine, rain.y[k] * back, rain.z[k] * back));
-    batch.along_x[k] = along.x, batch.along_y[k] = along.y, batch.along_z[k] = along.z;
-    batch.radial_scale[k] = bent.slope[k] * rain.inverse_doppler[k];
-    batch.tangential_scale[k] = std::abs(across) * rain.inverse_doppler[k];
-  }
-}
-Dispatched<onto_sky_loop> onto_sky;
-
-void add_emission_times(const HoleOptics& optics, const Rain& rain, const Bent& bent, int count,
-                        ViewRayBatch& batch) {
-  for (int k = 0; k < count; ++k) {
-    if (bent.sweeps.curve[k] != kHole) continue;
-    const auto value = emission_of(optics, rain.sin_half[k], rain.cos_half[k], bent.sweeps.value[k],
-                                   bent.slope[k]);
-    batch.emission_time[k] = value.time;
-    batch.time_scale[k] = value.slope * rain.inverse_doppler[k];
-  }
-}
-
-// Every curve is one, if any is.
+// Where a table is missing another one takes its place, since find_azimuths needs all three;
+// nothing reads what it finds there.
 std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptics& optics) {
   const auto& any = optics.home_sky ? optics.home_sky : optics.far_sky;
   std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves;
@@ -199,84 +210,115 @@ std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptic
   return curves;
 }
 
-// Beyond the curves the tables have laws.
-void follow_laws(const HoleOptics& optics, const Reach& reach, const Rain& rain, int count,
-                 Bent& bent) {
+// Outside the curves, next to an edge or the axis, the tables go on with fitted laws.  Such rays
+// are few and are taken one by one.
+void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const TetradRays& rays,
+                int count, LensedRays& lensed) {
   for (int k = 0; k < count; ++k) {
-    const auto curve = static_cast<std::size_t>(bent.sweeps.curve[k]);
-    const double x = bent.sweeps.x[k];
-    if (x >= reach.low[curve] && x <= reach.high[curve]) continue;
+    const auto curve = static_cast<std::size_t>(lensed.azimuths.curve[k]);
+    const double x = lensed.azimuths.x[k];
+    if (x >= ranges.low[curve] && x <= ranges.high[curve]) continue;
     if (curve == kHole && optics.white_hole) {
-      const auto at = optics.white_hole->place_of(rain.sin_half[k], rain.cos_half[k]);
-      bent.sweeps.value[k] = optics.white_hole->azimuth(at);
-      bent.slope[k] = std::min(std::abs(optics.white_hole->slope(at)), kSteepest);
+      const auto at = optics.white_hole->place_of(rays.sin_half[k], rays.cos_half[k]);
+      lensed.azimuths.azimuth[k] = optics.white_hole->azimuth(at);
+      lensed.slope[k] = bounded_slope(*optics.white_hole, at);
     }
     const auto& table = curve == kHome ? optics.home_sky : optics.far_sky;
     if (curve == kHole || !table) continue;
-    bent.sweeps.value[k] = table->azimuth(x);
-    bent.slope[k] = table->slope(x);
+    lensed.azimuths.azimuth[k] = table->azimuth(x);
+    lensed.slope[k] = table->slope(x);
   }
 }
 
-Reach reach_of(const HoleOptics& optics) {
-  Reach reach;
-  reach.low.fill(-HUGE_VAL), reach.high.fill(HUGE_VAL);
-  if (optics.home_sky) reach.low[kHome] = optics.home_sky->curve().x_min();
-  if (optics.far_sky) reach.low[kFar] = optics.far_sky->curve().x_min();
-  if (!optics.white_hole) return reach;
-  reach.low[kHole] = optics.white_hole->lookup().low;
-  reach.high[kHole] = optics.white_hole->lookup().high;
-  return reach;
-}
-
-void sweep(const HoleOptics& optics, const Rain& rain, int count, Bent& bent, ViewRayBatch& batch) {
+void set_azimuths(const HoleOptics& optics, const TetradRays& rays, int count, LensedRays& lensed,
+                  ViewRayBatch& batch) {
   if (!optics.home_sky && !optics.far_sky && !optics.white_hole) {
-    std::fill_n(bent.sweeps.value.begin(), count, 0.0);
-    std::fill_n(bent.slope.begin(), count, 0.0);
+    std::fill_n(lensed.azimuths.azimuth.begin(), count, 0.0);
+    std::fill_n(lensed.slope.begin(), count, 0.0);
     return;
   }
-  if (optics.white_hole) take_hole(optics.white_hole->lookup().place, rain, count, bent);
-  look_up(curves_of(optics), count, bent.sweeps);
-  set_slopes(count, bent);
-  if (optics.white_hole) set_hole_slopes(count, bent, batch.frequency_ratio.data());
-  const Reach reach = reach_of(optics);
-  if (any_beyond(reach, bent.sweeps, count)) follow_laws(optics, reach, rain, count, bent);
+  if (optics.white_hole) locate_in_hole(optics.white_hole->lookup().place, rays, count, lensed);
+  find_azimuths(curves_of(optics), count, lensed.azimuths);
+  set_slopes(count, lensed);
+  if (optics.white_hole) set_hole_slopes(count, lensed, batch.frequency_ratio.data());
+  const CurveRanges ranges = ranges_of(optics);
+  if (any_outside(ranges, lensed.azimuths, count)) apply_laws(optics, ranges, rays, count, lensed);
 }
+
+void add_emission_times(const HoleOptics& optics, const TetradRays& rays, const LensedRays& lensed,
+                        int count, ViewRayBatch& batch) {
+  for (int k = 0; k < count; ++k) {
+    if (lensed.azimuths.curve[k] != kHole) continue;
+    const auto value = emission_of(optics, {rays.sin_half[k], rays.cos_half[k]},
+                                   lensed.azimuths.azimuth[k], lensed.slope[k]);
+    batch.emission_time[k] = value.time;
+    batch.time_scale[k] = value.slope * rays.inverse_doppler[k];
+  }
+}
+
+// ---- onto the sky ----
+
+// Light that sweeps the azimuth phi in the plane of R and the ray starts at
+// cos(phi) R + sin(phi) (unit vector across R).
+[[gnu::always_inline]] inline void onto_sky_loop(const Observer& observer, const TetradRays& rays,
+                                                 const LensedRays& lensed, int count,
+                                                 ViewRayBatch& batch) {
+  const Observer o = observer;
+  for (int k = 0; k < count; ++k) {
+    const SineCosine phi = sin_cos(lensed.azimuths.azimuth[k]);
+    const double sine = rays.sine[k];
+    const double inverse = sine > 0 ? 1 / (sine > 0 ? sine : 1) : 0;
+    const double across = phi.sine * inverse;
+    const double back = phi.cosine * inverse;
+    const V3d sky =
+        apply(o.sky_from_tetrad, V3d(phi.cosine, rays.y[k] * across, rays.z[k] * across));
+    batch.sky_x[k] = sky.x;
+    batch.sky_y[k] = sky.y;
+    batch.sky_z[k] = sky.z;
+    const V3d along = apply(o.sky_from_tetrad, V3d(-phi.sine, rays.y[k] * back, rays.z[k] * back));
+    batch.along_x[k] = along.x;
+    batch.along_y[k] = along.y;
+    batch.along_z[k] = along.z;
+    batch.radial_scale[k] = lensed.slope[k] * rays.inverse_doppler[k];
+    batch.tangential_scale[k] = std::abs(across) * rays.inverse_doppler[k];
+  }
+}
+Dispatched<onto_sky_loop> onto_sky;
 
 }  // namespace
 
 void ViewTracer::lensed_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const {
-  const Frame frame{tetrad_from_camera_, sky_from_tetrad_,      Aberration(vantage_.celerity), s_,
-                    one_minus_s_,        outgoing_ ? -1.0 : 1.0};
-  Rain rain;
-  to_rain(frame, n, count, rain, batch);
+  const Observer observer{
+      tetrad_from_camera_, sky_from_tetrad_,      Aberration(vantage_.celerity), s_,
+      one_minus_s_,        outgoing_ ? -1.0 : 1.0};
+  TetradRays rays;
+  into_tetrad(observer, n, count, rays, batch);
   if (flat_) {
     std::fill_n(batch.sky.begin(), count, SkyRegion::kI);
-    flat_sky(frame, rain, count, batch);
+    cross_flat_space(observer, rays, count, batch);
     return;
   }
-  Bent bent;
+  LensedRays lensed;
   double* to_edge = batch.to_edge.data();
-  // Between the dark and the dark there is no edge.
   const auto edge = [&](const SkyEdge& of, const std::optional<SkyTable>& table) {
     return Edge{of, table || optics_.white_hole};
   };
   if (optics_.home_edge) {
-    take_home(edge(*optics_.home_edge, optics_.home_sky), rain, count, bent, to_edge);
+    assign_home(edge(*optics_.home_edge, optics_.home_sky), rays, count, lensed, to_edge);
   } else {
-    std::fill_n(bent.sweeps.curve.begin(), count, std::int64_t{kHole});
-    std::fill_n(bent.sweeps.x.begin(), count, -1.0);
+    std::fill_n(lensed.azimuths.curve.begin(), count, std::int64_t{kHole});
+    std::fill_n(lensed.azimuths.x.begin(), count, -1.0);
     std::fill_n(to_edge, count, HUGE_VAL);
   }
   if (optics_.far_edge)
-    take_far(edge(*optics_.far_edge, optics_.far_sky), rain, count, bent, to_edge);
+    assign_far(edge(*optics_.far_edge, optics_.far_sky), rays, count, lensed, to_edge);
   for (int k = 0; k < count; ++k)
-    batch.sky[k] = bent.sweeps.curve[k] == kHome  ? home_
-                   : bent.sweeps.curve[k] == kFar ? far_
-                                                  : SkyRegion::kIV;
-  sweep(optics_, rain, count, bent, batch);
-  if (optics_.emission_times) add_emission_times(optics_, rain, bent, count, batch);
-  onto_sky(frame, rain, bent, count, batch);
+    batch.sky[k] = lensed.azimuths.curve[k] == kHome  ? home_
+                   : lensed.azimuths.curve[k] == kFar ? far_
+                                                      : SkyRegion::kIV;
+  set_azimuths(optics_, rays, count, lensed, batch);
+  if (optics_.emission_times) add_emission_times(optics_, rays, lensed, count, batch);
+  onto_sky(observer, rays, lensed, count, batch);
 }
 
 }  // namespace domefall

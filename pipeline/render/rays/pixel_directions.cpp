@@ -6,15 +6,16 @@
 namespace domefall {
 namespace {
 
+// The middle of the image, in pixels.
 struct Middle {
   double i, j;
 };
 
 template <class View>
-[[gnu::always_inline]] inline void view(const View& of, Middle middle, const double* i,
+[[gnu::always_inline]] inline void find(const View& view, Middle middle, const double* i,
                                         const double* j, int count, CameraDirection* n,
                                         double* angle) {
-  const View v = of;
+  const View v = view;
   for (int k = 0; k < count; ++k) {
     const double x = i[k] - middle.i, y = j[k] - middle.j;
     n[k] = v.direction(x, y);
@@ -22,30 +23,30 @@ template <class View>
   }
 }
 
-[[gnu::always_inline]] inline void view_dome_loop(const DomemasterView& of, Middle middle,
-                                                  const double* i, const double* j, int count,
-                                                  CameraDirection* n, double* angle) {
-  view(of, middle, i, j, count, n, angle);
+[[gnu::always_inline]] inline void find_on_dome_loop(const DomemasterView& view, Middle middle,
+                                                     const double* i, const double* j, int count,
+                                                     CameraDirection* n, double* angle) {
+  find(view, middle, i, j, count, n, angle);
 }
-Dispatched<view_dome_loop> view_dome;
+Dispatched<find_on_dome_loop> find_on_dome;
 
-[[gnu::always_inline]] inline void view_flat_loop(const StereographicView& of, Middle middle,
-                                                  const double* i, const double* j, int count,
-                                                  CameraDirection* n, double* angle) {
-  view(of, middle, i, j, count, n, angle);
+[[gnu::always_inline]] inline void find_on_flat_loop(const StereographicView& view, Middle middle,
+                                                     const double* i, const double* j, int count,
+                                                     CameraDirection* n, double* angle) {
+  find(view, middle, i, j, count, n, angle);
 }
-Dispatched<view_flat_loop> view_flat;
+Dispatched<find_on_flat_loop> find_on_flat;
 
 }  // namespace
 
-void view_directions(const Projection& projection, const double* i, const double* j, int count,
+void find_directions(const Projection& projection, const double* i, const double* j, int count,
                      CameraDirection* n, double* angle) {
   const Middle middle{(columns(projection) + 1) / 2.0, (rows(projection) + 1) / 2.0};
   if (const auto* dome = std::get_if<Domemaster>(&projection))
-    view_dome(DomemasterView(*dome), middle, i, j, count, n, angle);
+    find_on_dome(DomemasterView(*dome), middle, i, j, count, n, angle);
   else
-    view_flat(StereographicView(std::get<Stereographic>(projection)), middle, i, j, count, n,
-              angle);
+    find_on_flat(StereographicView(std::get<Stereographic>(projection)), middle, i, j, count, n,
+                 angle);
 }
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// What becomes of looks when a show leaves effects out.
+// View rays of shows that leave effects out: without lensing, or with frequencies that another
+// observer measures.
 #include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
@@ -8,37 +9,37 @@ double ViewTracer::measured_ratio(const CameraDirection& n) const {
 }
 
 ViewRay ViewTracer::trace(const CameraDirection& n) const {
-  ViewRay look = to_rest_ ? straight_ray(n) : lensed_ray(n);
-  if (to_measured_ && look.known && look.sky != SkyRegion::kIV)
-    look.frequency_ratio *= measured_ratio(n);
-  return look;
+  ViewRay ray = to_rest_ ? straight_ray(n) : lensed_ray(n);
+  if (to_measured_ && ray.known && ray.sky != SkyRegion::kIV)
+    ray.frequency_ratio *= measured_ratio(n);
+  return ray;
 }
 
-// Light near a hole that keeps to the straight lines of the observer at rest.
+// Without lensing, light near a hole keeps to straight lines in the frame of the observer at rest.
 ViewRay ViewTracer::straight_ray(const CameraDirection& n) const {
   const AberratedLight in = Aberration(vantage_.celerity).to_rest(apply(tetrad_from_camera_, n.v));
   const AberratedLight rest = to_rest_->to_rest(in.direction);
   const double doppler = 1 / (in.frequency_ratio * rest.frequency_ratio);
-  ViewRay look;
-  look.sky = home_;
-  look.known = true;
-  look.sky_direction = apply(sky_from_tetrad_, rest.direction);
-  look.frequency_ratio = gravitational_ratio_ * doppler;
-  look.radial_scale = look.tangential_scale = look.bundle.doppler = doppler;
-  return look;
+  ViewRay ray;
+  ray.sky = home_;
+  ray.known = true;
+  ray.sky_direction = apply(sky_from_tetrad_, rest.direction);
+  ray.frequency_ratio = gravitational_ratio_ * doppler;
+  ray.radial_scale = ray.tangential_scale = ray.bundle.doppler = doppler;
+  return ray;
 }
 
 void ViewTracer::straight_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const {
   for (int k = 0; k < count; ++k) {
-    const ViewRay look = straight_ray(n[k]);
-    const V3d& sky = look.sky_direction;
-    batch.sky[k] = look.sky;
-    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
-    batch.frequency_ratio[k] = look.frequency_ratio;
-    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] =
-        0;  // as good as any: a round footprint
-    batch.radial_scale[k] = batch.tangential_scale[k] = look.radial_scale;
-    batch.to_edge[k] = look.to_edge;
+    const ViewRay ray = straight_ray(n[k]);
+    batch.sky[k] = ray.sky;
+    batch.sky_x[k] = ray.sky_direction.x;
+    batch.sky_y[k] = ray.sky_direction.y;
+    batch.sky_z[k] = ray.sky_direction.z;
+    batch.frequency_ratio[k] = ray.frequency_ratio;
+    batch.along_x[k] = batch.along_y[k] = batch.along_z[k] = 0;  // the footprint is round
+    batch.radial_scale[k] = batch.tangential_scale[k] = ray.radial_scale;
+    batch.to_edge[k] = ray.to_edge;
   }
 }
 

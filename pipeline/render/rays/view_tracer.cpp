@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/render/rays/lensed_ray_parts.h"
+#include "pipeline/render/rays/singularity_light.h"
 
 namespace domefall {
 
@@ -27,14 +27,14 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const 
 
 ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
   const AberratedLight in = Aberration(vantage_.celerity).to_rest(apply(tetrad_from_camera_, n.v));
-  ViewRay look;
+  ViewRay ray;
   if (flat_) {
-    look.sky = SkyRegion::kI;
-    look.known = true;
-    look.sky_direction = apply(sky_from_tetrad_, in.direction);
-    look.frequency_ratio = look.radial_scale = look.tangential_scale = 1 / in.frequency_ratio;
-    look.bundle.doppler = look.frequency_ratio;
-    return look;
+    ray.sky = SkyRegion::kI;
+    ray.known = true;
+    ray.sky_direction = apply(sky_from_tetrad_, in.direction);
+    ray.frequency_ratio = ray.radial_scale = ray.tangential_scale = 1 / in.frequency_ratio;
+    ray.bundle.doppler = ray.frequency_ratio;
+    return ray;
   }
   const V3d& d = in.direction;
   const double sin_alpha = std::hypot(d.y, d.z);
@@ -46,40 +46,40 @@ ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
     if (!edge) return;
     const double away = edge->distance(half.sine, half.cosine);
     if (its || optics_.white_hole)
-      look.to_edge = std::min(look.to_edge, 2 * std::abs(away) * in.frequency_ratio);
-    if (!(away > 0) || look.sky != SkyRegion::kIV) return;
-    look.sky = name;
+      ray.to_edge = std::min(ray.to_edge, 2 * std::abs(away) * in.frequency_ratio);
+    if (!(away > 0) || ray.sky != SkyRegion::kIV) return;
+    ray.sky = name;
     x = away;
     table = its ? &*its : nullptr;
   };
   try_sky(optics_.home_edge, optics_.home_sky, home_);
   try_sky(optics_.far_edge, optics_.far_sky, far_);
   double phi = 0, slope = 0;
-  if (look.sky == SkyRegion::kIV) {
-    if (!optics_.white_hole) return look;
+  if (ray.sky == SkyRegion::kIV) {
+    if (!optics_.white_hole) return ray;
     const WhiteHoleTable::Place place = optics_.white_hole->place_of(half.sine, half.cosine);
     phi = optics_.white_hole->azimuth(place);
-    slope = std::min(std::abs(optics_.white_hole->slope(place)), kSteepest);
+    slope = bounded_slope(*optics_.white_hole, place);
     if (optics_.emission_times) {
-      const auto value = emission_of(optics_, half.sine, half.cosine, phi, slope);
-      look.emission_time = value.time;
-      look.time_scale = value.slope / in.frequency_ratio;
+      const auto value = emission_of(optics_, half, phi, slope);
+      ray.emission_time = value.time;
+      ray.time_scale = value.slope / in.frequency_ratio;
     }
   } else {
-    if (!table) return look;
+    if (!table) return ray;
     phi = table->azimuth(x);
     slope = table->slope(x);
-    look.bundle = {2 * std::atan2(half.sine, half.cosine), phi, slope, 1 / in.frequency_ratio};
+    ray.bundle = {2 * std::atan2(half.sine, half.cosine), phi, slope, 1 / in.frequency_ratio};
     const double energy =
         std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
-    look.frequency_ratio = 1 / (energy * in.frequency_ratio);
+    ray.frequency_ratio = 1 / (energy * in.frequency_ratio);
   }
-  look.known = true;
+  ray.known = true;
   const double across = sin_alpha > 0 ? std::sin(phi) / sin_alpha : 0;
-  look.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), d.y * across, d.z * across));
-  look.radial_scale = slope / in.frequency_ratio;
-  look.tangential_scale = std::abs(across) / in.frequency_ratio;
-  return look;
+  ray.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), d.y * across, d.z * across));
+  ray.radial_scale = slope / in.frequency_ratio;
+  ray.tangential_scale = std::abs(across) / in.frequency_ratio;
+  return ray;
 }
 
 }  // namespace domefall

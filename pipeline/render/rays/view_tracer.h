@@ -1,5 +1,5 @@
-// From a direction of view to the place on the sky whose light comes from there: camera,
-// aberration, lensing, redshift.  The inner loop of Domefall.
+// Follows view rays from the camera back to the sky: through the axes of the camera, aberration,
+// the lensing by the hole and the redshift.  This is the inner loop of Domefall.
 #pragma once
 
 #include <optional>
@@ -14,29 +14,32 @@
 
 namespace domefall {
 
-// Everything known of one direction of view.
+// The light that reaches the observer from one direction.
 struct ViewRay {
-  SkyRegion sky = SkyRegion::kIV;
-  bool known = false;          // whether there is a table of that sky: if not, nothing below is set
+  SkyRegion sky = SkyRegion::kIV;  // where it started
+  // Whether that sky has a table.  If not, of what follows only to_edge is set.
+  bool known = false;
   V3d sky_direction;           // equatorial J2000
   double frequency_ratio = 1;  // observed / emitted; 1 for the singularity, which has no redshift
-  // Angles on the sky per angle of view, along and across the direction of the hole.
+  // Angles on the sky per angle in the view, along and across the direction of the hole.
   double radial_scale = 0, tangential_scale = 0;
-  // Of the singularity's light, if its times are tabulated: t at emission from the observer's v or u
-  // (EmissionTimeTable), M, and how fast it changes with the angle of view.
+  // For the singularity's light, if its emission times are tabulated: the time t of emission (M)
+  // from the observer's v or u, as EmissionTimeTable has it, and its derivative by the angle in the
+  // view.
   double emission_time = 0, time_scale = 0;
-  RayBundle bundle;  // of skies I and III
-  // Angle of view to the nearest edge of a sky, radians; infinite without one.
+  RayBundle bundle;  // for skies I and III
+  // The angle in the view to the nearest edge of a sky, radians; infinite without one.
   double to_edge = HUGE_VAL;
 };
 
-// The same of many directions, by quantity.
+// The same quantities of many rays, column by column.
 struct ViewRayBatch {
   static constexpr int kSize = 128;
   template <class T>
   using Column = std::array<T, kSize>;
   alignas(64) Column<double> sky_x, sky_y, sky_z;
-  // On the sky, at right angles to its direction: where the azimuth grows.  0 for straight light.
+  // The unit vector on the sky, at right angles to the direction there, along which the azimuth
+  // grows; 0 for straight light, whose footprints are round.
   alignas(64) Column<double> along_x, along_y, along_z;
   alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
   alignas(64) Column<double> emission_time, time_scale;  // only where those times are tabulated
@@ -48,18 +51,21 @@ struct ViewRayBatch {
 
 class ViewTracer {
  public:
-  // The optics must outlive it.  Without lensing they are not looked at: light goes straight in the
-  // frame of the observer at rest, r > 2.
+  // The optics must outlive the tracer.  Without lensing they are not used: light then goes
+  // straight in the frame of the observer at rest, which exists for r > 2.
   ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects = {});
 
-  // One direction, step by step; also where no table is.  The oracle of the batch.
+  // Traces one direction step by step, by the C library's functions.  It is the oracle of the
+  // batch.
   ViewRay trace(const CameraDirection& n) const;
 
-  // count <= ViewRayBatch::kSize directions as SIMD code; columns are set where the sky has a table.  Measured: within 1e-15 radians on the sky
-  // and a relative 1e-14 of trace() (the functions of vector_math.h against the C library's).
+  // Traces count <= ViewRayBatch::kSize directions by SIMD code.  Columns `sky` and `to_edge` are
+  // always set, the others where the sky has a table.  Measured against the tracing of one
+  // direction: within 1e-15 radians on the sky and a relative 1e-14, because vector_math.h rounds
+  // differently.
   void trace(const CameraDirection* n, int count, ViewRayBatch& batch) const;
 
-  // Which observers the frame is drawn for.
+  // The observers for whom the frame is drawn.
   const Vantage& vantage() const { return vantage_; }
 
  private:
@@ -67,7 +73,8 @@ class ViewTracer {
   ViewRay lensed_ray(const CameraDirection& n) const;
   void lensed_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const;
   void straight_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const;
-  // Frequency of light from n as it is to be seen, over that in the picture's frame.
+  // The frequency of light from n for the observer who measures it, over that for the one whose
+  // directions are drawn.
   double measured_ratio(const CameraDirection& n) const;
 
   M33d tetrad_from_camera_, sky_from_tetrad_;
@@ -75,8 +82,8 @@ class ViewTracer {
   const HoleOptics& optics_;
   bool flat_, outgoing_;
   SkyRegion home_, far_;
-  double s_, one_minus_s_;                 // sqrt(2/r), and 1 minus it from the altitude
-  std::optional<Aberration> to_measured_;  // see Vantage
+  double s_, one_minus_s_;                 // s = sqrt(2/r); 1 - s = (r - 2)/(r (1 + s))
+  std::optional<Aberration> to_measured_;  // to Vantage::measured, if there is one
   std::optional<Aberration> to_rest_;      // from the tetrad, if light goes straight near a hole
   double gravitational_ratio_ = 1;
 };

@@ -159,7 +159,7 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
 }
 
 void PixelShader::shade(Samples& samples, bool fine) const {
-  view_directions(scene_.projection(), samples.i.data(), samples.j.data(), samples.count,
+  find_directions(scene_.projection(), samples.i.data(), samples.j.data(), samples.count,
                   samples.n.data(), samples.angle.data());
   const int per_side = fine ? anti_aliasing_.samples : 1;
   if (fine)

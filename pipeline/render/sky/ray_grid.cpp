@@ -138,7 +138,7 @@ void RayGrid::trace_row(int row) {
   for (int first = from; first < to; first += ViewRayBatch::kSize) {
     const int count = std::min(ViewRayBatch::kSize, to - first);
     for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
-    view_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
+    find_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
     shader_->scene().tracer.trace(n.data(), count, rays);
     store_nodes(at(row, first), rays, angle.data(), count);
   }

@@ -73,8 +73,8 @@ PsiFrame psi_frame(const SkyTable& table) {
 
 LensCurve::View LensCurve::operator()(double v) const {
   const Lookup curve = lookup();
-  const Lookup::Spot at = curve(v);
-  const double* c = curve.coefficients + kTerms * at.interval;
+  const Lookup::Index at = curve(v);
+  const double* c = at.coefficients;
   return curve.view(v, at.share, c[0], c[1], c[2], c[3]);
 }
 

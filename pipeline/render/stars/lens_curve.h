@@ -3,10 +3,10 @@
 //
 // The light of both sweeps an azimuth between 2 p pi and (2 p + 2) pi.  It is tabulated against
 //     v = tan((phi_middle - phi)/4),  phi_middle = (2 p + 1) pi,
-// which is v_star for the even order and -v_star for the odd one, v_star = tan((pi - phi_star)/4) in
-// [0, 1] an algebraic function of the source.  What is tabulated is psi, the angle of view from the
-// sky's far end: smooth from -1 to 1, odd in phi about the far end itself.  Intervals are even, each
-// holds the cubic with the exact values and slopes at its ends.
+// which is v_star for the even order and -v_star for the odd one, v_star = tan((pi - phi_star)/4)
+// in [0, 1] an algebraic function of the source.  What is tabulated is psi, the angle of view from
+// the sky's far end: smooth from -1 to 1, odd in phi about the far end itself.  Intervals are even,
+// each holds the cubic with the exact values and slopes at its ends.
 #pragma once
 
 #include <bit>
@@ -47,24 +47,25 @@ class LensCurve {
   // Of one v, in [-1, 1].
   View operator()(double v) const;
 
-  // Where the polynomials of any number of v stand, for loops that are to become SIMD code: by value, so that no
-  // store of the loop can be taken to alter it.
+  // Finds the polynomial of any v, for loops that are to become SIMD code.  It is a copy, so that
+  // the compiler knows that no store of the loop alters it.
   static constexpr int kTerms = 4;
   struct Lookup {
     const double* coefficients;  // kTerms of each interval, of powers of the share
     double half;                 // intervals/2
     std::int64_t last;
-    struct Spot {
-      std::int64_t interval;
-      double share;
+    // Where v lies in the table.
+    struct Index {
+      const double* coefficients;  // of its interval
+      double share;                // the position in the interval, 0 to 1
     };
-    Spot operator()(double v) const {
+    Index operator()(double v) const {
       const double u = (v + 1) * half;
       const double shifted = (u - 0.5) + kRounding;
       const auto at = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(shifted) & 0xffff);
-      return {at < last ? at : last, u - (shifted - kRounding)};
+      return {coefficients + kTerms * (at < last ? at : last), u - (shifted - kRounding)};
     }
-    // c0 to c3: of the spot's interval.
+    // c0 to c3 are the coefficients of the interval of v, t is its share.
     View view(double v, double t, double c0, double c1, double c2, double c3) const {
       const double by_t = (3 * c3 * t + 2 * c2) * t + c1;
       const double slope = by_t * half * (1 + v * v) * 0.25;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/optics/half_angle.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/transpose_quads.h"
 #include "pipeline/simd/vector_math.h"
@@ -41,10 +42,9 @@ Dispatched<into_tetrad_loop> into_tetrad;
   for (int k = 0; k < count; ++k) {
     const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
     const double sine = std::sqrt(y * y + z * z);
-    const double larger = std::sqrt((1 + std::abs(x)) * 0.5), smaller = 0.5 * sine / larger;
-    const double c = x < 0 ? smaller : larger, s = x < 0 ? larger : smaller;
+    const HalfAngle half = half_angle(x, sine);
     sources.sine[k] = sine;
-    sources.v[k] = (1 + c - s) / (1 + c + s);
+    sources.v[k] = (1 + half.cosine - half.sine) / (1 + half.cosine + half.sine);
   }
 }
 Dispatched<to_lens_loop> to_lens;
@@ -62,44 +62,31 @@ inline void receive(const Aberration& boost, const M33d& camera, const V3d& dire
   views.x[k] = n.x, views.y[k] = n.y, views.z[k] = n.z;
 }
 
-struct TexelIndices {
-  alignas(64) StarColumn<std::int64_t> interval;
+// The cubics of a batch of v: where they stand in the table, and their coefficients by power.
+struct Cubics {
+  alignas(64) StarColumn<const double*> row;
   alignas(64) StarColumn<double> v, share;
   alignas(64) std::array<StarColumn<double>, LensCurve::kTerms> coefficient;
 };
-
-// count: a multiple of four.
-[[gnu::always_inline]] inline void fetch(const LensCurve::Lookup& curve, int count,
-                                         TexelIndices& spots) {
-  for (int k = 0; k < count; k += 4) {
-    const double* at[4];
-    double* out[4];
-    for (int m = 0; m < 4; ++m) {
-      at[m] = curve.coefficients + LensCurve::kTerms * spots.interval[k + m];
-      out[m] = &spots.coefficient[m][k];
-    }
-    turn_quads(at, out);
-  }
-}
 
 [[gnu::always_inline]] inline void look_up_loop(const LensCurve::Lookup& lookup, double side,
                                                 const double* v, int count, double* __restrict psi,
                                                 double* __restrict slope) {
   const LensCurve::Lookup curve = lookup;
-  TexelIndices spots;
+  Cubics cubics;
   for (int k = 0; k < count; ++k) {
-    spots.v[k] = side * v[k];
-    const LensCurve::Lookup::Spot at = curve(spots.v[k]);
-    spots.interval[k] = at.interval;
-    spots.share[k] = at.share;
+    cubics.v[k] = side * v[k];
+    const LensCurve::Lookup::Index at = curve(cubics.v[k]);
+    cubics.row[k] = at.coefficients;
+    cubics.share[k] = at.share;
   }
-  const int whole = (count + 3) / 4 * 4;
-  for (int k = count; k < whole; ++k) spots.interval[k] = 0;
-  fetch(curve, whole, spots);
-  const auto& c = spots.coefficient;
+  const int whole = (count + 3) / 4 * 4;  // rows are fetched by fours
+  for (int k = count; k < whole; ++k) cubics.row[k] = curve.coefficients;
+  transpose_rows(cubics.row, whole, cubics.coefficient);
+  const auto& c = cubics.coefficient;
   for (int k = 0; k < count; ++k) {
     const LensCurve::View view =
-        curve.view(spots.v[k], spots.share[k], c[0][k], c[1][k], c[2][k], c[3][k]);
+        curve.view(cubics.v[k], cubics.share[k], c[0][k], c[1][k], c[2][k], c[3][k]);
     psi[k] = view.psi;
     slope[k] = view.slope;
   }

@@ -22,7 +22,7 @@ struct Scene30 {
   ViewTracer tracer;
 };
 
-// [Riazuelo] eq. eq_ampl in the limit of a small image: both forms of the Jacobian.
+// [Riazuelo] eq. eq_ampl in the limit of a small image, by both forms of the Jacobian.
 TEST(Amplification, OfSmallImagesIsTheInverseOfTheJacobian) {
   std::mt19937 random(11);
   for (const Trajectory& t :
@@ -31,41 +31,41 @@ TEST(Amplification, OfSmallImagesIsTheInverseOfTheJacobian) {
     const Scene30 scene(t);
     int seen = 0;
     for (int k = 0; k < 500; ++k) {
-      const ViewRay look = scene.tracer.trace({random_direction(random)});
-      if (look.sky == SkyRegion::kIV || look.to_edge < 0.01) continue;
-      const RayBundle& b = look.bundle;
+      const ViewRay ray = scene.tracer.trace({random_direction(random)});
+      if (ray.sky == SkyRegion::kIV || ray.to_edge < 0.01) continue;
+      const RayBundle& b = ray.bundle;
       const double sine = std::abs(std::sin(b.azimuth));
       if (sine < 0.01) continue;
       ++seen;
       const double formula = std::sin(b.angle) / (sine * b.slope * b.doppler * b.doppler);
       const double f = amplification(b, 1e-7);
       EXPECT_NEAR(f / formula, 1, 1e-9);
-      EXPECT_NEAR(f * look.radial_scale * look.tangential_scale, 1, 1e-9);
+      EXPECT_NEAR(f * ray.radial_scale * ray.tangential_scale, 1, 1e-9);
     }
     EXPECT_GT(seen, 30);
   }
 }
 
-// Stars and backgrounds are magnified alike: the solver of the stars' images is another code.
+// Stars and backgrounds are magnified alike, though the stars' images come from other code.
 TEST(Amplification, IsThatOfAStarSeenThere) {
   std::mt19937 random(12);
   const Scene30 scene(RadialInfall{30});
   int seen = 0;
   for (int k = 0; k < 200; ++k) {
     const CameraDirection n{random_direction(random)};
-    const ViewRay look = scene.tracer.trace(n);
-    if (look.sky != SkyRegion::kI || look.bundle.azimuth > 3) continue;
-    const V3d source = apply_transposed(scene.state.observer.sky_from_tetrad, look.sky_direction);
+    const ViewRay ray = scene.tracer.trace(n);
+    if (ray.sky != SkyRegion::kI || ray.bundle.azimuth > 3) continue;
+    const V3d source = apply_transposed(scene.state.observer.sky_from_tetrad, ray.sky_direction);
     const SkyImage image = image_of(&*scene.optics.home_sky, source, 0, 1e-9);
     // The table's slope is good to 1e-7.
-    EXPECT_NEAR(amplification(look.bundle, 1e-7) / image.amplification, 1, 1e-6);
+    EXPECT_NEAR(amplification(ray.bundle, 1e-7) / image.amplification, 1, 1e-6);
     ++seen;
   }
   EXPECT_GT(seen, 100);
 }
 
-// What all the rings of an image cover of the sky, each as large as its amplification says: azimuths 0
-// to 3 pi/2 pass over the sky once, and over half of it again, with an Einstein ring between.
+// Each ring of the image covers as much of the sky as its amplification says.  Azimuths from 0 to
+// 3 pi/2 pass over the whole sky once, across an Einstein ring, and over half of it again.
 TEST(Amplification, AccountsForTheWholeSkyAcrossTheEinsteinRing) {
   const SkyTable table(30.0, Critical::kFirst);
   const double last = table.distance(1.5 * pi);
@@ -85,9 +85,9 @@ TEST(Amplification, AccountsForTheWholeSkyAcrossTheEinsteinRing) {
   }
 }
 
-// The same over a picture.  At half the speed of light the half sphere ahead, 2 pi, holds 3 pi of the
-// sky: cos alpha = -v at its rim.
-TEST(Amplification, AccountsForTheSkyInAPictureWithAberration) {
+// The same holds for the pixels of a dome.  At half the speed of light the half sphere ahead, 2 pi,
+// holds 3 pi of the sky, since cos alpha = -v at its rim.
+TEST(Amplification, AccountsForTheSkyOnADomeWithAberration) {
   const GivenVelocity half{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0.5 / std::sqrt(0.75))};
   Scene30 scene(half, Domemaster{256});
   scene.show.timeline[0].camera.attitude = LookAlongMotion{};
@@ -99,9 +99,9 @@ TEST(Amplification, AccountsForTheSkyInAPictureWithAberration) {
     for (int i = 1; i <= 256; ++i) {
       const PixelPosition at{double(i), double(j)};
       if (!is_inside(scene.show.projection, at)) continue;
-      const ViewRay look = tracer.trace(direction_at(scene.show.projection, at));
+      const ViewRay ray = tracer.trace(direction_at(scene.show.projection, at));
       sky += pixel_solid_angle(scene.show.projection, at) /
-             amplification(look.bundle, pixel_angle(scene.show.projection, at));
+             amplification(ray.bundle, pixel_angle(scene.show.projection, at));
     }
   // Pixels of the rim are in or out as a whole.
   EXPECT_NEAR(sky / (3 * pi), 1, 2e-3);

@@ -16,9 +16,12 @@ TEST(PixelDirections, AreThoseOfTheProjection) {
     std::uniform_real_distribution<double> i(0.5, columns(p) + 0.5), j(0.5, rows(p) + 0.5);
     constexpr int kCount = 1003;
     std::vector<double> at_i, at_j, angle(kCount);
-    for (int k = 0; k < kCount; ++k) at_i.push_back(i(random)), at_j.push_back(j(random));
+    for (int k = 0; k < kCount; ++k) {
+      at_i.push_back(i(random));
+      at_j.push_back(j(random));
+    }
     std::vector<CameraDirection> n(kCount);
-    view_directions(p, at_i.data(), at_j.data(), kCount, n.data(), angle.data());
+    find_directions(p, at_i.data(), at_j.data(), kCount, n.data(), angle.data());
     for (std::size_t k = 0; k < kCount; ++k) {
       const PixelPosition at{at_i[k], at_j[k]};
       // A dome's corners are 0.71 pi from its middle.

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// Observers of every kind in all four regions, with aberration from none to a Lorentz factor of 1000.
+// Observers of every kind in all four regions, from no aberration to a Lorentz factor of 1000.
 std::vector<Show> observers() {
   const Projection dome = Domemaster{64};
   return {show_of(StaticObserver{3}, dome),
@@ -29,7 +29,7 @@ std::vector<Show> observers() {
           show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}, dome)};
 }
 
-TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
+TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   for (const Show& show : observers()) {
@@ -46,20 +46,20 @@ TEST(ViewTracer, TheBatchSeesWhatTheSingleLookSees) {
       n[1].v = -n[0].v;
       tracer.trace(n.data(), ViewRayBatch::kSize, batch);
       for (int k = 0; k < ViewRayBatch::kSize; ++k) {
-        const ViewRay look = tracer.trace(n[static_cast<std::size_t>(k)]);
-        ASSERT_EQ(batch.sky[k], look.sky);
-        ASSERT_TRUE(look.known);
+        const ViewRay ray = tracer.trace(n[static_cast<std::size_t>(k)]);
+        ASSERT_EQ(batch.sky[k], ray.sky);
+        ASSERT_TRUE(ray.known);
         // Near the axis of a lens sin(phi)/sin(delta) amplifies the last bits of both.
-        const double scale = 1 + look.radial_scale + look.tangential_scale;
-        ASSERT_LT((batch.sky_direction(k) - look.sky_direction).length(), 2e-15 * scale);
-        if (look.sky == SkyRegion::kIV) {
-          ASSERT_NEAR(batch.emission_time[k], look.emission_time,
-                      1e-9 * (1 + std::abs(look.emission_time)));
-          ASSERT_NEAR(batch.time_scale[k], look.time_scale, 1e-9 + 1e-6 * look.time_scale);
+        const double scale = 1 + ray.radial_scale + ray.tangential_scale;
+        ASSERT_LT((batch.sky_direction(k) - ray.sky_direction).length(), 2e-15 * scale);
+        if (ray.sky == SkyRegion::kIV) {
+          ASSERT_NEAR(batch.emission_time[k], ray.emission_time,
+                      1e-9 * (1 + std::abs(ray.emission_time)));
+          ASSERT_NEAR(batch.time_scale[k], ray.time_scale, 1e-9 + 1e-6 * ray.time_scale);
         }
-        ASSERT_NEAR(batch.frequency_ratio[k] / look.frequency_ratio, 1, 1e-13);
-        ASSERT_NEAR(batch.radial_scale[k] / look.radial_scale, 1, 1e-11);
-        ASSERT_NEAR(batch.tangential_scale[k], look.tangential_scale, 1e-12 * scale);
+        ASSERT_NEAR(batch.frequency_ratio[k] / ray.frequency_ratio, 1, 1e-13);
+        ASSERT_NEAR(batch.radial_scale[k] / ray.radial_scale, 1, 1e-11);
+        ASSERT_NEAR(batch.tangential_scale[k], ray.tangential_scale, 1e-12 * scale);
         ASSERT_NEAR(batch.sky_direction(k).length(), 1, 1e-14);
       }
     }
@@ -76,14 +76,13 @@ TEST(ViewTracer, TheSilhouetteAtTheHorizonHas84Point2DegreesAcross) {
   for (const double side : {-1e-9, 1e-9}) {
     const double delta = edge + side;
     const V3d n(-std::cos(delta), std::sin(delta), 0);
-    const ViewRay look = tracer.trace({apply_transposed(state.observer.tetrad_from_camera, n)});
-    EXPECT_EQ(look.sky, side > 0 ? SkyRegion::kI : SkyRegion::kIV);
-    EXPECT_NEAR(look.to_edge, 1e-9, 1e-13);
+    const ViewRay ray = tracer.trace({apply_transposed(state.observer.tetrad_from_camera, n)});
+    EXPECT_EQ(ray.sky, side > 0 ? SkyRegion::kI : SkyRegion::kIV);
+    EXPECT_NEAR(ray.to_edge, 1e-9, 1e-13);
   }
 }
 
-// A sky seen from inside, north up: Betelgeuse to the upper left of Rigel.  A mirrored one would fool
-// nobody who has looked up.
+// The sky is seen from inside with north up, so that Betelgeuse stands to the upper left of Rigel.
 TEST(ViewTracer, OrionStandsUprightAndUnmirrored) {
   Show show = show_of(StaticObserver{}, Stereographic{800, 600, 40 * kDegree});
   const auto star = [](double ra, double dec) {
