@@ -49,7 +49,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
                 BandMemory& memory, HalfFrame& frame) {
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
   const bool lit = scene.plan.has_background();
-  const auto draw_band = [&](int band, SplatCanvas& splats) {
+  const auto draw_band = [&](int band, SplatBuffer& splats) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     std::vector<float>& rgb = memory.rows.local();
     rgb.resize(stride * kBandRows + 1);
@@ -66,8 +66,8 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
   tbb::parallel_for(
       tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_run(bands) : 1),
       [&](const tbb::blocked_range<int>& run) {
-        SplatCanvas& splats = memory.splats.local();
-        stars.start_canvas(splats);
+        SplatBuffer& splats = memory.splats.local();
+        stars.start_buffer(splats);
         for (int band = run.begin(); band < run.end(); ++band) draw_band(band, splats);
       },
       tbb::simple_partitioner());

@@ -15,7 +15,7 @@ namespace domefall {
 // The memory of each thread, kept from frame to frame, since new memory costs more time than
 // writing into it.
 struct BandMemory {
-  tbb::enumerable_thread_specific<SplatCanvas> splats{};
+  tbb::enumerable_thread_specific<SplatBuffer> splats{};
   tbb::enumerable_thread_specific<std::vector<float>> rows{};
 };
 

@@ -1,5 +1,5 @@
-// What a dome's stars cost once their images are known: placing them, sorting them into bands and
-// drawing them, for a catalogue's numbers of stars by magnitude, on one thread.
+// The time that a dome's stars take once their images are known: placing them, sorting them into
+// bands and drawing them on one thread, for a catalogue's numbers of stars by magnitude.
 //
 //     build/release/tests/bench_blobs
 #include <benchmark/benchmark.h>
@@ -24,7 +24,7 @@ using std::numbers::pi;
 
 enum Law { kSize, kPsf };
 
-// Stars brighter than V, of Tycho-2.
+// The number of stars of Tycho-2 that are brighter than V.
 constexpr struct {
   double magnitude, stars;
 } kCounts[] = {{0, 4},      {2, 50},      {4, 500},     {6.5, 8805},   {8, 45630},
@@ -40,8 +40,8 @@ double magnitude_of(double rank) {
   return kCounts[std::size(kCounts) - 1].magnitude;
 }
 
-// The brightest 2 * count stars of the sky, of which a dome shows half, within an angle of its
-// zenith and `gain` times as bright as they are.
+// Images of the 2 * count brightest stars of the sky, of which a dome shows half, within an angle
+// of its zenith and `gain` times as bright as they are.
 std::vector<StarImage> stars(const Projection& p, std::size_t count, double within, double gain) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(0, 1);
@@ -76,15 +76,15 @@ struct Cost {
 void measure(const std::vector<StarImage>& images, const Projection& p, const PointSpread& widths,
              std::vector<float>& rgb, Cost& least) {
   BlobLayer layer(p);
-  SplatCanvas dots;
+  SplatBuffer buffer;
   if (BlobLayer::are_many(static_cast<double>(images.size()), p)) layer.use_splats(widths);
   const double start = cpu_seconds();
   layer.add(images, widths);
   const double placed = cpu_seconds();
   layer.sort_into_bands();
   const double sorted = cpu_seconds();
-  layer.start_canvas(dots);
-  for (int band = 0; band < rows(p) / kBandRows; ++band) layer.draw_band(band, dots, rgb.data());
+  layer.start_buffer(buffer);
+  for (int band = 0; band < rows(p) / kBandRows; ++band) layer.draw_band(band, buffer, rgb.data());
   const double drawn = cpu_seconds();
   benchmark::DoNotOptimize(rgb.data());
   least.place = std::min(least.place, placed - start);
@@ -99,8 +99,13 @@ void draw_stars(benchmark::State& state, double within, double gain) {
   const auto count = static_cast<std::size_t>(state.range(1));
   const std::vector<StarImage> images = stars(p, count, within, gain);
   PointSpreadLaw law;
-  law.min_sigma = 0.05 * pi / 180, law.max_sigma = 0.3 * pi / 180, law.white_core = 10;
-  if (state.range(2) == kPsf) law.halo = 0.15, law.halo_sigma = 0.2 * pi / 180;
+  law.min_sigma = 0.05 * pi / 180;
+  law.max_sigma = 0.3 * pi / 180;
+  law.white_core = 10;
+  if (state.range(2) == kPsf) {
+    law.halo = 0.15;
+    law.halo_sigma = 0.2 * pi / 180;
+  }
   const PointSpread widths(law, p, exposure_scale(FrameSettings{}));
   std::vector<float> rgb(static_cast<std::size_t>(3 * size) * kBandRows);
   Cost cost;
@@ -115,8 +120,8 @@ void draw_stars(benchmark::State& state, double within, double gain) {
 
 void open_sky(benchmark::State& state) { draw_stars(state, pi / 2, 1); }
 
-// All of the sky within a degree of the zenith and a hundred million times as bright, as for a
-// static observer at r = 2.0001.
+// All of the sky lies within a degree of the zenith and is a hundred million times as bright, as
+// for a static observer at r = 2.0001.
 void crowded_sky(benchmark::State& state) { draw_stars(state, pi / 180, 1e8); }
 
 BENCHMARK(open_sky)

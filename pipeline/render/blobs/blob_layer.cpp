@@ -13,15 +13,18 @@
 namespace domefall {
 namespace {
 
-// Images that one task places; however many threads there are.
+// The images that one task places, whatever the number of threads, and those that it places at
+// once.
 constexpr std::size_t kTask = 32768, kStep = 256;
 
-// A blob brighter than this part of where stars turn white may show it: in its middle 1/65 of its colour.
+// A blob whose peak is this part of the value at which stars are half white is drawn as a cap,
+// which can turn white: at such a peak its middle has lost 1/65 of its colour.
 constexpr double kPalingSeen = 1.0 / 8;
 
-// A picture with more images than a 32nd of its pixels is quicker with dots: measured at 4k.
+// Splats are quicker where a frame has more than one image for so many pixels: measured at 4k.
 constexpr double kPixelsPerSplat = 32;
-// The peak of a dot where the blob is at its smallest.  A brighter one would be seen to end.
+// The brightest peak of a splat, where blobs are at their smallest.  A brighter one would visibly
+// end.
 constexpr double kBrightestSplat = 1;
 
 double most_coloured(const PointSpread& widths) {
@@ -34,24 +37,37 @@ float brightest_splat(const PointSpread& widths) {
       widths.single_blob_light(), peak * 2 * std::numbers::pi * widths.least() * widths.least()));
 }
 
-// Of bands, that a small blob may touch.
+// The most bands that an ellipse touches.
 constexpr int kMostBands = (kMostEllipsePixels + 2 * kBandRows - 2) / kBandRows;
+
+// The columns of each row of a band that the image covers.
+std::array<ColumnRange, kBandRows> columns_inside(const Projection& projection, int first,
+                                                  int count) {
+  std::array<ColumnRange, kBandRows> inside;
+  for (int k = 0; k < count; ++k)
+    inside[static_cast<std::size_t>(k)] = inside_columns(projection, first + k);
+  return inside;
+}
 
 }  // namespace
 
 void BlobLayer::Task::clear() {
-  small.clear(), band.clear(), last_band.clear(), wide.clear();
-  dots.images.clear(), dots.first.clear();
+  ellipses.clear();
+  band.clear();
+  last_band.clear();
+  caps.clear();
+  splats.images.clear();
+  splats.first.clear();
   size = 0;
 }
 
 void BlobLayer::start(const Projection& projection) {
   projection_ = projection;
   bands_ = static_cast<std::size_t>((rows(projection) + kBandRows - 1) / kBandRows);
-  brush_.reset();
+  kernel_.reset();
   for (Task& task : tasks_) task.clear();
   used_ = size_ = 0;
-  wide_.clear();
+  caps_.clear();
 }
 
 bool BlobLayer::are_many(double images, const Projection& projection) {
@@ -59,9 +75,11 @@ bool BlobLayer::are_many(double images, const Projection& projection) {
 }
 
 void BlobLayer::use_splats(const PointSpread& widths) {
-  brush_.emplace(projection_, widths.least());
-  if (!brush_->usable()) brush_.reset();
+  kernel_.emplace(projection_, widths.least());
+  if (!kernel_->usable()) kernel_.reset();
 }
+
+// ---- placing ----
 
 std::size_t BlobLayer::new_tasks(std::size_t count) {
   const std::size_t before = used_;
@@ -74,11 +92,35 @@ void BlobLayer::place(std::size_t number, std::vector<StarImage>& images,
                       const PointSpread& widths) {
   Task& task = tasks_[number];
   std::size_t others = images.size();
-  if (brush_) {
-    others = brush_->sort(images, brightest_splat(widths), task.dots);
-    task.size += task.dots.images.size();
+  if (kernel_) {
+    others = kernel_->sort(images, brightest_splat(widths), task.splats);
+    task.size += task.splats.images.size();
   }
   place_blobs(images.data(), others, widths, task);
+}
+
+// Places this share of an image's light as a cap; false if the frame has nothing of it.
+bool BlobLayer::place_one_cap(const StarImage& image, double sigma, double share, float paling,
+                              Task& task) const {
+  const auto part = static_cast<float>(share);
+  CapBlob cap{image.x,
+              image.y,
+              static_cast<float>(sigma),
+              {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part},
+              paling};
+  const bool seen = place_cap(projection_, cap);
+  if (seen) task.caps.push_back(cap);
+  return seen;
+}
+
+void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Task& task) const {
+  task.ellipses.push_back(ellipse);
+  const int band = std::max(first_row, 0) / kBandRows;
+  task.band.push_back(static_cast<std::uint16_t>(band));
+  // The ellipse reaches as far below its middle as above; two more rows make up for rounding.
+  const auto last_row = static_cast<int>(2 * ellipse.y) - first_row + 2;
+  int& last = task.last_band[static_cast<std::size_t>(band)];
+  last = std::max(last, last_row / kBandRows);
 }
 
 void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const PointSpread& widths,
@@ -86,50 +128,35 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
   const double most_peak = most_coloured(widths);
   std::array<StarImage, kStep> middle;
   std::array<double, kStep> sigma;
-  std::array<EllipseBlob, kStep> blobs;
+  std::array<EllipseBlob, kStep> ellipses;
   std::array<int, kStep> first_row;
-  std::array<Placed, kStep> placed;
-  const auto add_wide = [&](const StarImage& image, double width, double share) {
-    const auto part = static_cast<float>(share);
-    CapBlob blob{image.x,
-                 image.y,
-                 static_cast<float>(width),
-                 {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part},
-                 widths.paling()};
-    const bool seen = place_cap(projection_, blob);
-    if (seen) task.wide.push_back(blob);
-    return seen;
-  };
-  task.small.reserve(count), task.band.reserve(count);
+  std::array<BlobKind, kStep> kind;
+  task.ellipses.reserve(count);
+  task.band.reserve(count);
   task.last_band.resize(bands_, 0);
   for (std::size_t begin = 0; begin < count; begin += kStep) {
     const std::size_t n = std::min(kStep, count - begin);
     for (std::size_t k = 0; k < n; ++k) {
       const StarImage& image = images[begin + k];
-      middle[k] = image, sigma[k] = widths.least();
-      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light())
-        continue;
+      middle[k] = image;
+      sigma[k] = widths.least();
+      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light()) continue;
       const PointSpreadParts parts = widths.parts(image);
-      middle[k] = parts.image, sigma[k] = parts.sigma;
+      middle[k] = parts.image;
+      sigma[k] = parts.sigma;
       for (const PointSpreadParts::Halo& halo : parts.halo)
-        if (halo.share > 0) add_wide(image, halo.sigma, halo.share);
+        if (halo.share > 0) place_one_cap(image, halo.sigma, halo.share, widths.paling(), task);
     }
-    place_ellipses(projection_, middle.data(), sigma.data(), n, most_peak, blobs.data(),
-                   first_row.data(), placed.data());
+    place_ellipses(projection_, middle.data(), sigma.data(), n, most_peak, ellipses.data(),
+                   first_row.data(), kind.data());
     for (std::size_t k = 0; k < n; ++k) {
-      if (placed[k] == Placed::kNowhere) continue;
-      if (placed[k] == Placed::kCap) {
-        task.size += add_wide(middle[k], sigma[k], 1);
+      if (kind[k] == BlobKind::kNowhere) continue;
+      if (kind[k] == BlobKind::kCap) {
+        task.size += place_one_cap(middle[k], sigma[k], 1, widths.paling(), task);
         continue;
       }
       ++task.size;
-      task.small.push_back(blobs[k]);
-      const int band = std::max(first_row[k], 0) / kBandRows;
-      task.band.push_back(static_cast<std::uint16_t>(band));
-      // As far below the middle as above, and a row for rounding.
-      const auto last_row = static_cast<int>(2 * blobs[k].y) - first_row[k] + 2;
-      int& last = task.last_band[static_cast<std::size_t>(band)];
-      last = std::max(last, last_row / kBandRows);
+      place_one_ellipse(ellipses[k], first_row[k], task);
     }
   }
 }
@@ -144,108 +171,115 @@ void BlobLayer::add(const std::vector<StarImage>& images, const PointSpread& wid
   });
 }
 
-void BlobLayer::add(const std::vector<CapBlob>& blobs) {
+void BlobLayer::add(const std::vector<CapBlob>& caps) {
   Task& task = tasks_[new_tasks(1)];
-  task.wide = blobs, task.size = blobs.size();
+  task.caps = caps;
+  task.size = caps.size();
 }
 
-// A counting sort by band that keeps the order within a band, each task's blobs in its own turn.
-void BlobLayer::sort_small() {
+// ---- sorting ----
+
+void BlobLayer::sort_splats() {
+  first_splat_.assign(static_cast<std::size_t>(kernel_->buckets()) + 1, 0);
+  for (std::size_t t = 0; t < used_; ++t)
+    for (std::size_t k = 0; k < tasks_[t].splats.first.size(); ++k)
+      first_splat_[k] += tasks_[t].splats.first[k];
+}
+
+// A counting sort by band.  Within a band the tasks' ellipses follow one another in the tasks'
+// order.
+void BlobLayer::sort_ellipses() {
   std::vector<std::vector<std::size_t>> next(used_, std::vector<std::size_t>(bands_));
   tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
     for (const std::uint16_t band : tasks_[t].band) ++next[t][band];
   });
-  first_small_.assign(bands_ + 1, 0), last_small_.assign(bands_, 0);
+  first_ellipse_.assign(bands_ + 1, 0);
+  last_band_.assign(bands_, 0);
   for (const Task& task : tasks_)
     for (std::size_t band = 0; band < task.last_band.size(); ++band)
-      last_small_[band] = std::max(last_small_[band], task.last_band[band]);
+      last_band_[band] = std::max(last_band_[band], task.last_band[band]);
   std::size_t sum = 0;
   for (std::size_t band = 0; band < bands_; ++band) {
-    first_small_[band] = sum;
+    first_ellipse_[band] = sum;
     for (auto& of_task : next) {
       const std::size_t count = of_task[band];
       of_task[band] = sum;
       sum += count;
     }
   }
-  first_small_[bands_] = sum;
-  if (small_capacity_ < sum) {
-    small_ = std::make_unique_for_overwrite<EllipseBlob[]>(sum);
-    small_capacity_ = sum;
+  first_ellipse_[bands_] = sum;
+  if (ellipse_capacity_ < sum) {
+    ellipses_ = std::make_unique_for_overwrite<EllipseBlob[]>(sum);
+    ellipse_capacity_ = sum;
   }
   tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
     const Task& task = tasks_[t];
-    for (std::size_t k = 0; k < task.small.size(); ++k)
-      small_[next[t][task.band[k]]++] = task.small[k];
+    for (std::size_t k = 0; k < task.ellipses.size(); ++k)
+      ellipses_[next[t][task.band[k]]++] = task.ellipses[k];
   });
 }
 
-void BlobLayer::sort_into_bands() {
-  sort_small();
-  for (std::size_t t = 0; t < used_; ++t) size_ += tasks_[t].size;
-  if (brush_) {
-    first_splat_.assign(static_cast<std::size_t>(brush_->buckets()) + 1, 0);
-    for (std::size_t t = 0; t < used_; ++t)
-      for (std::size_t k = 0; k < tasks_[t].dots.first.size(); ++k)
-        first_splat_[k] += tasks_[t].dots.first[k];
-  }
-  for (const Task& task : tasks_) wide_.insert(wide_.end(), task.wide.begin(), task.wide.end());
-  merge_crowds(projection_, wide_);
-  // Those of a band side by side in memory, in an order that only blobs of one place and light share.
+// The caps of a band lie side by side in memory.  Only caps of one place and light compare as
+// equal, so that the order does not depend on the tasks.
+void BlobLayer::sort_caps() {
+  for (const Task& task : tasks_) caps_.insert(caps_.end(), task.caps.begin(), task.caps.end());
+  merge_crowds(projection_, caps_);
   const auto key = [](const CapBlob& b) {
     return std::tuple(b.first_row / kBandRows, b.y, b.x, b.sigma, b.rgb[0], b.rgb[1], b.rgb[2]);
   };
-  std::sort(wide_.begin(), wide_.end(),
+  std::sort(caps_.begin(), caps_.end(),
             [&key](const CapBlob& a, const CapBlob& b) { return key(a) < key(b); });
-  wide_of_band_.assign(bands_, {});
-  for (std::size_t k = 0; k < wide_.size(); ++k)
-    for (int band = wide_[k].first_row / kBandRows; band <= wide_[k].last_row / kBandRows; ++band)
-      wide_of_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
+  caps_of_band_.assign(bands_, {});
+  for (std::size_t k = 0; k < caps_.size(); ++k)
+    for (int band = caps_[k].first_row / kBandRows; band <= caps_[k].last_row / kBandRows; ++band)
+      caps_of_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
 }
 
-void BlobLayer::draw_splats(int band, SplatCanvas& canvas, float* rgb) const {
-  const int first = band * kBandRows, last = std::min(first + kBandRows, rows(projection_)) - 1;
-  const int end_bucket = brush_->last_bucket(last) + 1;
-  const auto number = [this](int bucket) { return first_splat_[static_cast<std::size_t>(bucket)]; };
-  if (number(brush_->first_bucket(first)) == number(end_bucket)) {
-    canvas.start(*brush_);
+void BlobLayer::sort_into_bands() {
+  for (std::size_t t = 0; t < used_; ++t) size_ += tasks_[t].size;
+  if (kernel_) sort_splats();
+  sort_ellipses();
+  sort_caps();
+}
+
+// ---- drawing ----
+
+void BlobLayer::draw_splats(int band, SplatBuffer& buffer, float* rgb) const {
+  const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
+  const int end_bucket = kernel_->last_bucket(first + count - 1) + 1;
+  const auto before = [this](int bucket) { return first_splat_[static_cast<std::size_t>(bucket)]; };
+  if (before(kernel_->first_bucket(first)) == before(end_bucket)) {
+    buffer.start(*kernel_);
     return;
   }
-  canvas.advance(first);
-  std::vector<SplatCanvas::Dots> lists;
-  while (canvas.next_bucket() < end_bucket) {
-    const auto bucket = static_cast<std::size_t>(canvas.next_bucket());
+  buffer.advance(first);
+  std::vector<SplatBuffer::Splats> lists;
+  while (buffer.next_bucket() < end_bucket) {
+    const auto bucket = static_cast<std::size_t>(buffer.next_bucket());
     lists.clear();
     for (std::size_t t = 0; t < used_; ++t) {
-      const SplatList& dots = tasks_[t].dots;
-      if (!dots.images.empty())
-        lists.push_back(
-            {dots.images.data() + dots.first[bucket], dots.first[bucket + 1] - dots.first[bucket]});
+      const SplatList& splats = tasks_[t].splats;
+      if (!splats.images.empty())
+        lists.push_back({splats.images.data() + splats.first[bucket],
+                         splats.first[bucket + 1] - splats.first[bucket]});
     }
-    canvas.drop(lists);
+    buffer.drop(lists);
   }
-  std::array<ColumnRange, kBandRows> inside;
-  for (int row = first; row <= last; ++row)
-    inside[static_cast<std::size_t>(row - first)] = inside_columns(projection_, row);
-  canvas.add_band(first, last - first + 1, inside.data(), rgb);
+  buffer.add_band(first, count, columns_inside(projection_, first, count).data(), rgb);
 }
 
 // rgb is drawn on by way of the canvas.  NOLINTNEXTLINE(readability-non-const-parameter)
-void BlobLayer::draw_band(int band, SplatCanvas& dots, float* rgb) const {
-  if (brush_) draw_splats(band, dots, rgb);
+void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
+  if (kernel_) draw_splats(band, buffer, rgb);
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
-  std::array<ColumnRange, kBandRows> inside;
-  for (int k = 0; k < count; ++k)
-    inside[static_cast<std::size_t>(k)] = inside_columns(projection_, first + k);
+  const auto inside = columns_inside(projection_, first, count);
   const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};
   const auto own = static_cast<std::size_t>(band);
   auto begin = static_cast<std::size_t>(std::max(0, band - kMostBands + 1));
-  while (begin < own && last_small_[begin] < band) ++begin;
-  const std::size_t from = first_small_[begin];
-  const std::size_t end = first_small_[static_cast<std::size_t>(band) + 1];
-  draw_ellipses(small_.get() + from, end - from, canvas);
-  for (const std::uint32_t k : wide_of_band_[static_cast<std::size_t>(band)])
-    draw_cap(wide_[k], projection_, canvas);
+  while (begin < own && last_band_[begin] < band) ++begin;
+  const std::size_t from = first_ellipse_[begin], end = first_ellipse_[own + 1];
+  draw_ellipses(ellipses_.get() + from, end - from, canvas);
+  for (const std::uint32_t k : caps_of_band_[own]) draw_cap(caps_[k], projection_, canvas);
 }
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// All stars of a frame, in bands of rows, ready to be drawn by several threads.
+// The blobs of all stars of a frame, sorted into bands of rows, so that several threads can draw
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,79 +8,90 @@
 #include <vector>
 
 #include "pipeline/render/blobs/cap_blob.h"
-#include "pipeline/render/blobs/splat_canvas.h"
+#include "pipeline/render/blobs/ellipse_blob.h"
+#include "pipeline/render/blobs/splat_buffer.h"
+#include "pipeline/render/scene/point_spread.h"
 
 namespace domefall {
 
-// Rows that one task shades, covers with stars and stores, while they are still in its cache.
-inline constexpr int kBandRows = 8;
-static_assert(kBandRows <= kMostCanvasRows);
-
-static_assert(kBandRows == kBucketRows);
-
-// The same sums for any number of threads: dots first, then small blobs, both by the band in which they
-// begin, then wide ones, each in the order of the tasks that found them.
+// Places images as splats, ellipses and caps, and draws these in that order.  Splats and ellipses
+// are drawn by the band in which they begin, and blobs of a kind in the order of the tasks that
+// placed them, so that the sums are the same for any number of threads.
 class BlobLayer {
  public:
   explicit BlobLayer(const Projection& projection) { start(projection); }
-  // An empty layer for another frame, in the memory of the one before: new memory costs as much as what
-  // is done in it.
+  // Empties the layer for another frame.  Its memory is kept, because new memory costs as much as
+  // what is done in it.
   void start(const Projection& projection);
-  // From now on faint images are dots, which is worth it where there are many.
+  // From now on draws faint images as splats, if the blobs are of a width at which that is
+  // possible.
   void use_splats(const PointSpread& widths);
+  // Whether a frame has so many images that splats are quicker than ellipses.
   static bool are_many(double images, const Projection& projection);
-  bool has_splats() const { return brush_.has_value(); }
+  bool has_splats() const { return kernel_.has_value(); }
 
-  // So many tasks more; the first one's number.
+  // Adds `count` tasks and returns the first one's number.
   std::size_t new_tasks(std::size_t count);
-  // The images of task `number`, in whatever thread, once.  What is in the list afterwards is of no use.
+  // Places the images of task `number`, once, in whatever thread.  It leaves no meaningful images
+  // in the list.
   void place(std::size_t number, std::vector<StarImage>& images, const PointSpread& widths);
 
+  // Adds images, or caps that are placed already, as tasks of its own.
   void add(const std::vector<StarImage>& images, const PointSpread& widths);
-  void add(const std::vector<CapBlob>& blobs);
-  // Once all are there.
+  void add(const std::vector<CapBlob>& caps);
+  // Ends the placing.  Bands can be drawn afterwards.
   void sort_into_bands();
 
-  // Images of which something is in the picture, and dots next to it.
+  // The number of images of which something is in the frame.  Splats that just miss it are counted
+  // too.
   std::size_t size() const { return size_; }
 
-  // Before bands of this layer, in rising order, are drawn with a thread's canvas.
-  void start_canvas(SplatCanvas& canvas) const {
-    if (brush_) canvas.start(*brush_);
+  // Prepares a thread's buffer for drawing bands of this layer, in rising order.
+  void start_buffer(SplatBuffer& buffer) const {
+    if (kernel_) buffer.start(*kernel_);
   }
-  // Adds what lies on the rows of a band to rgb[rows][3 * columns], row by row.  The canvas is one thread's;
-  // bands that follow one another cost less.
-  void draw_band(int band, SplatCanvas& dots, float* rgb) const;
+  // Adds the blobs' light on the rows of a band to rgb[rows][3 * columns].  The buffer belongs to
+  // one thread; bands that follow one another in it cost less.
+  void draw_band(int band, SplatBuffer& buffer, float* rgb) const;
 
  private:
   // What one task places.
   struct Task {
-    SplatList dots;
-    std::vector<EllipseBlob> small;
-    std::vector<std::uint16_t> band;  // in which small[k] begins
-    std::vector<int> last_band;       // that blobs which begin in a band reach
-    std::vector<CapBlob> wide;
+    SplatList splats;
+    std::vector<EllipseBlob> ellipses;
+    std::vector<std::uint16_t> band;  // in which ellipses[k] begins
+    std::vector<int> last_band;       // by band: the last one that ellipses beginning there reach
+    std::vector<CapBlob> caps;
     std::size_t size = 0;
 
     void clear();
   };
   void place_blobs(const StarImage* images, std::size_t count, const PointSpread& widths,
                    Task& task) const;
-  void sort_small();
-  void draw_splats(int band, SplatCanvas& canvas, float* rgb) const;
+  bool place_one_cap(const StarImage& image, double sigma, double share, float paling,
+                     Task& task) const;
+  void place_one_ellipse(const EllipseBlob& ellipse, int first_row, Task& task) const;
+  void sort_splats();
+  void sort_ellipses();
+  void sort_caps();
+  void draw_splats(int band, SplatBuffer& buffer, float* rgb) const;
 
   Projection projection_;
   std::size_t bands_ = 0;
-  std::optional<SplatBrush> brush_;
-  std::vector<std::size_t> first_splat_;  // of each bucket among all
-  std::vector<Task> tasks_;               // of which `used_` are this frame's
+  std::vector<Task> tasks_;  // of which `used_` are this frame's
   std::size_t used_ = 0, size_ = 0;
-  std::unique_ptr<EllipseBlob[]> small_;  // by band
-  std::size_t small_capacity_ = 0;
-  std::vector<std::size_t> first_small_;  // of each band, and the end
-  std::vector<int> last_small_;           // the last band that those of a band reach
-  std::vector<CapBlob> wide_;
-  std::vector<std::vector<std::uint32_t>> wide_of_band_;
+
+  std::optional<SplatKernel> kernel_;
+  std::vector<std::size_t>
+      first_splat_;  // by bucket: the splats of all tasks in the buckets before
+
+  std::unique_ptr<EllipseBlob[]> ellipses_;  // by the band in which they begin
+  std::size_t ellipse_capacity_ = 0;
+  std::vector<std::size_t> first_ellipse_;  // by band, and the end
+  std::vector<int> last_band_;              // by band, as a task's
+
+  std::vector<CapBlob> caps_;
+  std::vector<std::vector<std::uint32_t>> caps_of_band_;  // that reach into it
 };
 
 }  // namespace domefall

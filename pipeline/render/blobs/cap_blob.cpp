@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/render/blobs/blob_shape.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/lanes.h"
 
@@ -15,7 +16,9 @@ namespace {
 
 using std::numbers::pi;
 
-// Pixels per radian at most, up to an angle `reach` from a direction `theta` off the middle.
+// The most pixels per radian up to an angle `reach` from a direction that is `theta` off the
+// middle.  On a dome they are theta/sin(theta) times those of the middle, along the tangent; on a
+// flat image 1/cos^2(theta/2) times.
 double densest(const Projection& p, double theta, double reach) {
   const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
   if (std::holds_alternative<Domemaster>(p)) return centre * std::max(1.0, far / std::sin(far));
@@ -25,9 +28,11 @@ double densest(const Projection& p, double theta, double reach) {
 
 bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
 
+// As blob_shape() has it.
 double unit_of(const Projection& p) { return central_pixel_angle(p) / (is_dome(p) ? 1 : 2); }
 
-// Beyond the half sphere the shape is that at its edge; it matters for the pixel's blur only.
+// Far beyond the half sphere the shape is taken from near its edge, since blob_shape() holds to
+// theta < 1.9 only.  A cap depends on it for its scale and for the pixel's blur.
 BlobShape shape_of(const Projection& p, double cx, double cy, double sigma) {
   const double unit = unit_of(p);
   if (!is_dome(p)) return blob_shape<false>(unit, cx, cy, sigma);
@@ -37,21 +42,29 @@ BlobShape shape_of(const Projection& p, double cx, double cy, double sigma) {
 
 double brightest(const CapBlob& b) { return std::max({b.rgb[0], b.rgb[1], b.rgb[2]}); }
 
-// ---- one row ----
+// ---- the chord on a dome ----
 
-// Powers of the growth: all of them, and what a blob needs that reaches less than kNear (radians),
-// where the next term is below 1e-9.
+// On a dome a pixel at c, in pixels from the middle, has the direction (sinc(theta) unit c, cos
+// theta) with theta = unit |c|.  The chord between two close pixels is a small difference of such
+// directions.  So that nothing cancels and floats suffice, sinc and cos are series about the blob's
+// centre in the growth of t = theta^2 from there, and the growth itself is taken from the offset d
+// between the pixels: unit^2 (2 c + d).d.
+
+// The terms of these series, and those that suffice for a blob that reaches less than kNear
+// (radians); what follows is below 1e-9.
 constexpr int kTerms = 7, kNearTerms = 4;
 constexpr double kNear = 0.1;
 
-// In units of the picture's `unit`: sinc theta and cos theta about the centre, as series in the growth
-// of theta^2, so that nothing cancels and float suffices.
+// The coefficients of powers of the growth.  sinc[0] is the value at the centre; cosine[0] is not
+// needed.
 struct Series {
-  std::array<float, kTerms> sinc, cosine;  // sinc[0] is the value itself; cosine[0] is left out
+  std::array<float, kTerms> sinc, cosine;
 };
 
-// sinc(sqrt t) = sum over n of (-t)^n / (2n + 1)!; its k-th derivative over k! has the coefficients
-// kSinc[k][m] of t^m.
+// sinc(sqrt t) is the sum of (-t)^n/(2n + 1)! over n.  kSinc[k] holds the coefficients of powers of
+// t of its k-th derivative over k!, which by Taylor's theorem is the k-th coefficient about t.
+// There are powers for t up to 3.4 (a star beyond a dome's rim), where what is left out is below
+// 1e-9 of the value.
 constexpr int kPowers = 15, kNearPowers = 10;
 constexpr auto kSinc = [] {
   std::array<std::array<double, kPowers>, kTerms> table{};
@@ -68,7 +81,8 @@ constexpr auto kSinc = [] {
   return table;
 }();
 
-// For t up to 3.4 (a star beyond a dome's rim); what is left out is below 1e-9 of sinc's part.
+// Since d cos(sqrt t)/dt = -sinc(sqrt t)/2, the coefficients of the cosine follow from those of
+// sinc.
 template <std::size_t kCount, std::size_t kPowersUsed>
 Series series_about(double t) {
   std::array<double, kCount> sinc{};
@@ -82,72 +96,89 @@ Series series_about(double t) {
   return s;
 }
 
-// A blob ready to be drawn.
-struct Brush {
-  bool dome, near;
+// ---- drawing ----
+
+// What drawing needs of a blob.
+struct PreparedCap {
+  bool dome;
+  bool near;  // whether it reaches less than kNear
   Series series;
-  float cx, cy, unit, unit2;  // the centre from the picture's middle
-  float one_plus_w2;          // flat: 1 + tan^2(theta/2) at the centre
-  float chord;                // chord^2 to q
-  float xx, xy, yy;           // the pixel's blur: what it adds to q, per pixel^2
-  float slope, dent, end;     // FlatGaussian, and its value at the cut
-  float paling;               // times v: 1 where the colour is half way to white
-  std::array<float, 3> colour, pale;
-  std::array<float, 24> colours, pales;  // eight times
+  float cx, cy;                 // the centre, in pixels from the image's middle
+  float unit, unit2;            // unit_of() and its square
+  float one_plus_t;             // flat image: 1 + tan^2(theta/2) at the centre
+  float chord;                  // q per chord2()
+  float xx, xy, yy;             // what the pixel's blur adds to q, per pixel^2
+  float slope, dent, end;       // of FlattenedGaussian, and its value at the cut
+  float paling;                 // the colour is half way to white where this times the weight is 1
+  std::array<float, 3> colour;  // at the peak
+  std::array<float, 3> pale;    // grey of the same luminance, less `colour`
+  std::array<float, 24> colours, pales;  // the same for eight pixels
 };
 
-Brush brush_of(const CapBlob& b, const Projection& p, float middle_x, float middle_y) {
+PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float middle_y) {
   const double cx = b.x - middle_x, cy = b.y - middle_y, unit = unit_of(p), sigma = b.sigma;
   const BlobShape s = shape_of(p, cx, cy, sigma);
   const BlobScale scale{b.peak_per_flux, b.cut};
-  const FlatGaussian flat(s.flat);
+  const FlattenedGaussian flattened(s.flattening);
   const double t = unit * unit * (cx * cx + cy * cy);
-  Brush brush{};
-  brush.dome = is_dome(p), brush.near = b.reach * unit < kNear;
-  if (brush.dome)
-    brush.series =
-        brush.near ? series_about<kNearTerms, kNearPowers>(t) : series_about<kTerms, kPowers>(t);
-  brush.cx = static_cast<float>(cx), brush.cy = static_cast<float>(cy);
-  brush.unit = static_cast<float>(unit), brush.unit2 = static_cast<float>(unit * unit);
-  brush.one_plus_w2 = static_cast<float>(1 + t);
-  brush.chord =
-      static_cast<float>((brush.dome ? 0.5 : 2 / (1 + t)) * unit * unit / (sigma * sigma));
-  brush.xx = static_cast<float>((s.xx - s.bare_xx) / 2);
-  brush.xy = static_cast<float>(s.xy - s.bare_xy);
-  brush.yy = static_cast<float>((s.yy - s.bare_yy) / 2);
-  brush.slope = static_cast<float>(flat.slope), brush.dent = static_cast<float>(flat.dent);
-  brush.end = static_cast<float>(flat(scale.cut));
+  PreparedCap cap{};
+  cap.dome = is_dome(p);
+  cap.near = b.reach * unit < kNear;
+  if (cap.dome)
+    cap.series =
+        cap.near ? series_about<kNearTerms, kNearPowers>(t) : series_about<kTerms, kPowers>(t);
+  cap.cx = static_cast<float>(cx);
+  cap.cy = static_cast<float>(cy);
+  cap.unit = static_cast<float>(unit);
+  cap.unit2 = static_cast<float>(unit * unit);
+  cap.one_plus_t = static_cast<float>(1 + t);
+  cap.chord = static_cast<float>((cap.dome ? 0.5 : 2 / (1 + t)) * unit * unit / (sigma * sigma));
+  cap.xx = static_cast<float>((s.xx - s.bare_xx) / 2);
+  cap.xy = static_cast<float>(s.xy - s.bare_xy);
+  cap.yy = static_cast<float>((s.yy - s.bare_yy) / 2);
+  cap.slope = static_cast<float>(flattened.slope);
+  cap.dent = static_cast<float>(flattened.dent);
+  cap.end = static_cast<float>(flattened(scale.cut));
   const double light = luminance({b.rgb[0], b.rgb[1], b.rgb[2]});
-  // Bounded so that its square is finite.
-  brush.paling = static_cast<float>(std::min(1e9, light * scale.peak_per_flux * b.paling));
+  // The bound keeps its square finite.
+  cap.paling = static_cast<float>(std::min(1e9, light * scale.peak_per_flux * b.paling));
   for (std::size_t c = 0; c < 3; ++c) {
-    brush.colour[c] = static_cast<float>(b.rgb[c] * scale.peak_per_flux);
-    brush.pale[c] =
+    cap.colour[c] = static_cast<float>(b.rgb[c] * scale.peak_per_flux);
+    cap.pale[c] =
         b.paling > 0 ? static_cast<float>((light - b.rgb[c]) * scale.peak_per_flux) : 0.0f;
   }
-  for (std::size_t k = 0; k < 24; ++k)
-    brush.colours[k] = brush.colour[k % 3], brush.pales[k] = brush.pale[k % 3];
-  return brush;
+  for (std::size_t k = 0; k < 24; ++k) {
+    cap.colours[k] = cap.colour[k % 3];
+    cap.pales[k] = cap.pale[k % 3];
+  }
+  return cap;
 }
 
-// chord^2 / unit^2 (on a flat picture times (1 + w0^2)/4) to a pixel (dx, dy) from the centre.
+// The squared chord to the pixel at (dx, dy) from the centre over unit^2, on a flat image times
+// (1 + t)/4, t that of the centre: stereographic points with w = unit c have the chord
+// 2 |w - w'|/sqrt((1 + w^2)(1 + w'^2)).
 template <bool kDome, int kCount>
-[[gnu::always_inline]] inline float chord2(const Brush& b, float dx, float dy) {
+[[gnu::always_inline]] inline float chord2(const PreparedCap& b, float dx, float dy) {
   const float growth = b.unit2 * ((dx + 2 * b.cx) * dx + (dy + 2 * b.cy) * dy);
-  if constexpr (!kDome) return (dx * dx + dy * dy) / (b.one_plus_w2 + growth);
+  if constexpr (!kDome) return (dx * dx + dy * dy) / (b.one_plus_t + growth);
   float sinc = b.series.sinc[kCount - 1], cosine = b.series.cosine[kCount - 1];
-  for (std::size_t k = kCount - 1; k-- > 1;)
-    sinc = sinc * growth + b.series.sinc[k], cosine = cosine * growth + b.series.cosine[k];
-  sinc *= growth, cosine *= growth;
+  for (std::size_t k = kCount - 1; k-- > 1;) {
+    sinc = sinc * growth + b.series.sinc[k];
+    cosine = cosine * growth + b.series.cosine[k];
+  }
+  sinc *= growth;
+  cosine *= growth;
   const float x = b.series.sinc[0] * dx + sinc * (b.cx + dx);
-  const float y = b.series.sinc[0] * dy + sinc * (b.cy + dy), z = cosine / b.unit;
+  const float y = b.series.sinc[0] * dy + sinc * (b.cy + dy);
+  const float z = cosine / b.unit;
   return x * x + y * y + z * z;
 }
 
 constexpr int kChunk = 16;
 
+// Adds `count` <= kChunk pixels of a row, of which the first lies at (dx0, dy) from the centre.
 template <bool kDome, int kCount>
-[[gnu::always_inline]] inline void add_chunk(const Brush& b, float dx0, float dy, int count,
+[[gnu::always_inline]] inline void add_chunk(const PreparedCap& b, float dx0, float dy, int count,
                                              float* __restrict out) {
   alignas(64) std::array<float, kChunk> weight, pale;
   for (int k = 0; k < kChunk; ++k) {
@@ -181,9 +212,10 @@ template <bool kDome, int kCount>
   }
 }
 
-// `room`: pixels from out on that may be touched; beyond the blob they get 0.
-[[gnu::always_inline]] inline void add_span_loop(const Brush& b, float dx, float dy, int count,
-                                                 int room, float* out) {
+// Adds `count` pixels of a row.  `room` is the number of pixels from `out` on that may be touched;
+// those beyond the blob get 0.
+[[gnu::always_inline]] inline void add_span_loop(const PreparedCap& b, float dx, float dy,
+                                                 int count, int room, float* out) {
   for (; count > 0; count -= kChunk, room -= kChunk, dx += kChunk, out += 3 * kChunk) {
     const int pixels = std::min(room, kChunk);
     if (!b.dome)
@@ -233,8 +265,8 @@ void draw_cap(const CapBlob& blob, const Projection& projection, const Canvas& c
   const int first = std::max(blob.first_row, canvas.first_row);
   const int last = std::min(blob.last_row, canvas.first_row + canvas.rows - 1);
   if (first > last) return;
-  const Brush brush = brush_of(blob, projection, static_cast<float>(columns(projection) - 1) / 2,
-                               static_cast<float>(rows(projection) - 1) / 2);
+  const PreparedCap cap = prepare(blob, projection, static_cast<float>(columns(projection) - 1) / 2,
+                                  static_cast<float>(rows(projection) - 1) / 2);
   for (int row = first; row <= last; ++row) {
     const ColumnRange inside = canvas.columns[row - canvas.first_row];
     const float dy = static_cast<float>(row) - blob.y;
@@ -243,7 +275,7 @@ void draw_cap(const CapBlob& blob, const Projection& projection, const Canvas& c
     const int right =
         std::min({blob.last_column, inside.last, static_cast<int>(blob.x + half) + 1});
     if (left > right) continue;
-    add_span(brush, static_cast<float>(left) - blob.x, dy, right - left + 1, inside.last - left + 1,
+    add_span(cap, static_cast<float>(left) - blob.x, dy, right - left + 1, inside.last - left + 1,
              canvas.at(row, left));
   }
 }

@@ -8,16 +8,18 @@
 namespace domefall {
 namespace {
 
-constexpr std::size_t kCrowd = 16;
-constexpr double kSide = 0.25;  // of a crowd's square, in sigmas
+constexpr std::size_t kCrowd = 16;  // the fewest caps of a crowd
+constexpr double kSide = 0.25;      // the side of a crowd's square, in sigmas
 
-struct Cell {
-  std::uint64_t key;
+// A cap and the square that it lies in.
+struct Member {
+  std::uint64_t square;
   std::uint32_t blob;
 };
 
-std::uint64_t key_of(const CapBlob& b, double pixels_per_radian) {
-  // Half a pixel at least, so that 16 bits suffice for a picture of 32k.
+// The number of the square holds the width, so that caps of different widths never share a square.
+std::uint64_t square_of(const CapBlob& b, double pixels_per_radian) {
+  // With a side of half a pixel at least, 16 bits suffice for a frame of 32k.
   const double side = std::max(kSide * b.sigma * pixels_per_radian, 0.5);
   const auto place = [side](double at) {
     return static_cast<std::uint64_t>(std::clamp(at / side + 1024, 0.0, 65535.0));
@@ -26,24 +28,27 @@ std::uint64_t key_of(const CapBlob& b, double pixels_per_radian) {
          place(b.y);
 }
 
-// The first of a crowd takes in the others, which are marked by an empty range of rows.  Together they
-// are brighter and reach farther: where no blob so large has a place, at the end of a very wide flat
-// picture, they stay as they are.
-void merge(const Projection& projection, const Cell* first, const Cell* end,
+// Merges a crowd into its first cap and marks the others by an empty range of rows.  Together they
+// are brighter and so reach farther; where a cap so large cannot be placed, at the end of a very
+// wide flat image, the crowd stays as it is.
+void merge(const Projection& projection, const Member* first, const Member* end,
            std::vector<CapBlob>& blobs) {
   double x = 0, y = 0, light = 0, rgb[3] = {0, 0, 0};
-  for (const Cell* cell = first; cell != end; ++cell) {
-    const CapBlob& b = blobs[cell->blob];
+  for (const Member* member = first; member != end; ++member) {
+    const CapBlob& b = blobs[member->blob];
     const double weight = std::max({b.rgb[0], b.rgb[1], b.rgb[2]});
-    x += weight * b.x, y += weight * b.y, light += weight;
+    x += weight * b.x;
+    y += weight * b.y;
+    light += weight;
     for (int c = 0; c < 3; ++c) rgb[c] += b.rgb[c];
   }
   CapBlob one = blobs[first->blob];
-  one.x = static_cast<float>(x / light), one.y = static_cast<float>(y / light);
+  one.x = static_cast<float>(x / light);
+  one.y = static_cast<float>(y / light);
   for (int c = 0; c < 3; ++c) one.rgb[c] = static_cast<float>(rgb[c]);
   if (!place_cap(projection, one)) return;
-  for (const Cell* cell = first; cell != end; ++cell)
-    blobs[cell->blob].last_row = blobs[cell->blob].first_row - 1;
+  for (const Member* member = first; member != end; ++member)
+    blobs[member->blob].last_row = blobs[member->blob].first_row - 1;
   blobs[first->blob] = one;
 }
 
@@ -52,15 +57,16 @@ void merge(const Projection& projection, const Cell* first, const Cell* end,
 void merge_crowds(const Projection& projection, std::vector<CapBlob>& blobs) {
   if (blobs.size() < kCrowd) return;
   const double pixels_per_radian = 1 / central_pixel_angle(projection);
-  std::vector<Cell> cells(blobs.size());
+  std::vector<Member> members(blobs.size());
   for (std::size_t k = 0; k < blobs.size(); ++k)
-    cells[k] = {key_of(blobs[k], pixels_per_radian), static_cast<std::uint32_t>(k)};
-  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
-    return std::pair(a.key, a.blob) < std::pair(b.key, b.blob);
+    members[k] = {square_of(blobs[k], pixels_per_radian), static_cast<std::uint32_t>(k)};
+  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
+    return std::pair(a.square, a.blob) < std::pair(b.square, b.blob);
   });
-  for (auto first = cells.begin(); first != cells.end();) {
-    const auto end = std::find_if(first, cells.end(),
-                                  [key = first->key](const Cell& c) { return c.key != key; });
+  for (auto first = members.begin(); first != members.end();) {
+    const auto end = std::find_if(first, members.end(), [square = first->square](const Member& c) {
+      return c.square != square;
+    });
     if (static_cast<std::size_t>(end - first) >= kCrowd)
       merge(projection, &*first, &*first + (end - first), blobs);
     first = end;

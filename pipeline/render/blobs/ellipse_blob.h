@@ -1,45 +1,35 @@
-// The blobs of nearly all stars: a few pixels wide, drawn as ellipses in pixels.
+// Ellipse blobs: the blobs of nearly all stars, a few pixels wide and drawn as ellipses in pixels,
+// to the first order of the projection.
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
-#include "pipeline/render/blobs/blob_shape.h"
+#include "pipeline/render/blobs/canvas.h"
 #include "pipeline/render/scene/star_image.h"
 
 namespace domefall {
 
 struct EllipseBlob {
   float x, y;        // as StarImage's
-  float xx, xy, yy;  // BlobShape's P
+  float xx, xy, yy;  // P of BlobShape
   float rgb[3];      // peak values
 };
 static_assert(sizeof(EllipseBlob) == 32);
 
-// Pixels along each axis that a small blob covers at most.
+// The most pixels that an ellipse blob covers along each axis.
 inline constexpr int kMostEllipsePixels = 32;
 
-// Places images as small blobs.  kind[k] says what became of images[k], whose blob is blobs[k].
-enum class Placed : unsigned char { kNowhere, kEllipse, kCap };
+// What becomes of an image: nothing of it lies in the frame, or it is drawn in one of two ways.
+enum class BlobKind : unsigned char { kNowhere, kEllipse, kCap };
 
-// Of count images, each with its sigma (radians).  Brighter peaks than `most_peak` are for wide blobs.
-// first_row: the first that a small blob covers, which may lie above the picture.
+// Places `count` images, each of width sigma[k] (radians), as ellipse blobs.  kind[k] tells what
+// becomes of images[k], and only where it is kEllipse do blobs[k] and first_row[k] have a meaning:
+// the latter is the first row that the blob covers, which may be negative.  An image becomes a cap
+// where an ellipse would be too large or too inaccurate, and where its peak is brighter than
+// `most_peak`.
 void place_ellipses(const Projection& projection, const StarImage* images, const double* sigma,
                     std::size_t count, double most_peak, EllipseBlob* blobs, int* first_row,
-                    Placed* kind);
-
-// The columns that may be drawn on, one range per row.
-struct Canvas {
-  float* rgb;  // rows of 3 * width floats
-  int width;
-  int first_row, rows;  // at most kMostCanvasRows
-  const ColumnRange* columns;
-
-  float* at(int row, int column) const {
-    return rgb + 3 * (static_cast<std::ptrdiff_t>(row - first_row) * width + column);
-  }
-};
-inline constexpr int kMostCanvasRows = 8;
+                    BlobKind* kind);
 
 // Adds the part of each blob that lies on the canvas, in their order.
 void draw_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas);

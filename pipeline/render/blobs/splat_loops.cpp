@@ -19,11 +19,16 @@ using Block = float __attribute__((vector_size(4 * kFloats)));
 using Pixel = float __attribute__((vector_size(4 * kChannels)));
 using Pair = float __attribute__((vector_size(8 * kChannels)));
 
-// Where a star is dropped, in widths of what is missing, and the parts of its light.
+// ---- the points at which a star is dropped ----
+
+// The offset of a point, in units of the missing width along two axes, and its share of the light.
+// The missing width is the square root of the variance that neither spline nor blur supplies.
 struct Point {
   float along, across, share;
 };
-// Gauss and Hermite's points, and for both directions a triangle, and a cross without and with its middle.
+// On a line the points are those of Gauss-Hermite quadrature, whose n points have the moments of a
+// Gaussian up to order 2 n - 1.  In the plane they are a triangle, a cross and a cross with its
+// middle, each of variance 1 along both axes.
 constexpr Point kOne[] = {{0, 0, 1}};
 constexpr Point kTwo[] = {{-1, 0, 0.5f}, {1, 0, 0.5f}};
 constexpr Point kThree[] = {
@@ -44,11 +49,12 @@ constexpr Point kCross[] = {{1.4142136f, 0, 0.25f},
                             {-1.4142136f, 0, 0.25f},
                             {0, 1.4142136f, 0.25f},
                             {0, -1.4142136f, 0.25f}};
-constexpr Point kStar[] = {
+constexpr Point kCrossWithMiddle[] = {
     {0, 0, 0.5f}, {2, 0, 0.125f}, {-2, 0, 0.125f}, {0, 2, 0.125f}, {0, -2, 0.125f}};
 
-// The fewest points that err by less than 1e-2 of the peak (at the outskirts of a flat picture 2e-2) where
-// so much of the blob's variance, in parts, is missing; on a dome along one direction.
+// The rules pick the fewest points that err by less than 1e-2 of the peak, or 2e-2 at the outskirts
+// of a flat image.  `missing` is the missing variance over the blob's; on a dome it is missing
+// along one axis only.
 struct Rule {
   const Point* points;
   int count;
@@ -64,30 +70,37 @@ constexpr Rule plane_rule(float missing) {
   if (missing < 0.02f) return {kOne, 1};
   if (missing < 0.09f) return {kTriangle, 3};
   if (missing < 0.15f) return {kCross, 4};
-  return {kStar, 5};
+  return {kCrossWithMiddle, 5};
 }
-// Dots on their way to the pixels, in columns of kBatch: the last ones may be there twice.
+
+// ---- dropping ----
+
+// A batch of splats, column by column.
 using Column = std::array<float, kBatch>;
-struct Drops {
-  alignas(64) Column x, y, along_x, along_y, across_x, across_y, density;
-  struct At {
-    alignas(64) Column x0, x1, x2, x3, y0, y1, y2, y3;
-    alignas(64) std::array<int, kBatch> column, row;
-  };
-  At at;
+struct Splats {
+  alignas(64) Column x, y;
+  alignas(64) Column along_x, along_y, across_x, across_y;  // the missing widths as vectors, pixels
+  alignas(64) Column density;                               // 1 / solid angle of the pixel, 1 / sr
+};
+// The cubic B-splines of a batch about one point of each star: their weights along both axes, those
+// of y times the point's light, and the first of their four columns and rows.
+struct Splines {
+  alignas(64) Column x0, x1, x2, x3, y0, y1, y2, y3;
+  alignas(64) std::array<int, kBatch> column, row;
 };
 
-// u = (1 - sinc theta) / theta^2; the next term is below 2e-9 at 1.9.
+// The series of u = (1 - sinc theta)/theta^2 in theta^2; the next term is below 2e-9 at 1.9.
 constexpr std::array<float, 6> kSinc{1.0f / 6,       -1.0f / 120,     1.0f / 5040,
                                      -1.0f / 362880, 1.0f / 39916800, -1.0f / 6227020800.0f};
 
-// The missing variance as vectors of one width each, and what a pixel's solid angle makes of the light.
-// Returns the largest part of a blob's variance that is missing.
+// Sets the missing widths and the densities, and returns the largest part of a blob's variance that
+// is missing.  blob_shape.h derives the variances: with the middle's as v they are v and v/sinc^2
+// along the meridian and the tangent of a dome, and v (1 + t)^2 in all directions of a flat image.
+// Positive floats are ordered as their bits are, whose maximum becomes SIMD code.
 template <bool kDome>
-[[gnu::always_inline]] inline float shape(const SplatFrame& frame, Drops& d) {
+[[gnu::always_inline]] inline float find_missing(const SplatFrame& frame, Splats& d) {
   const SplatFrame f = frame;
-  std::int32_t most =
-      0;  // a positive float's bits are in its order, and their maximum is SIMD code
+  std::int32_t most = 0;
   for (std::size_t k = 0; k < kBatch; ++k) {
     const float cx = d.x[k] - f.middle_x, cy = d.y[k] - f.middle_y;
     const float t = f.unit2 * (cx * cx + cy * cy);
@@ -97,18 +110,23 @@ template <bool kDome>
       const float sinc = 1 - t * u, inverse = 1 / sinc, missing = 1 - sinc * sinc;
       const auto bits = std::bit_cast<std::int32_t>(missing);
       most = bits > most ? bits : most;
-      // variance (1/sinc^2 - 1) along the tangent (-cy, cx)
-      const float long_one = std::sqrt(f.variance * f.unit2 * u * (1 + sinc)) * inverse;
-      d.along_x[k] = -cy * long_one, d.along_y[k] = cx * long_one;
+      // The missing variance along the tangent (-cy, cx) is v (1/sinc^2 - 1), where
+      // 1 - sinc^2 = t u (1 + sinc) and t = unit2 |c|^2.
+      const float width = std::sqrt(f.variance * f.unit2 * u * (1 + sinc)) * inverse;
+      d.along_x[k] = -cy * width;
+      d.along_y[k] = cx * width;
       d.across_x[k] = d.across_y[k] = 0;
       d.density[k] = f.density * inverse;
     } else {
-      const float grown = 1 + t, wide = std::sqrt(f.variance * t * (1 + grown));
+      // The missing variance is v ((1 + t)^2 - 1) = v t (2 + t).
+      const float grown = 1 + t, width = std::sqrt(f.variance * t * (1 + grown));
       const float missing = 1 - 1 / (grown * grown);
       const auto bits = std::bit_cast<std::int32_t>(missing);
       most = bits > most ? bits : most;
-      d.along_x[k] = wide, d.along_y[k] = 0;
-      d.across_x[k] = 0, d.across_y[k] = wide;
+      d.along_x[k] = width;
+      d.along_y[k] = 0;
+      d.across_x[k] = 0;
+      d.across_y[k] = width;
       d.density[k] = f.density * (grown * grown);
     }
   }
@@ -117,8 +135,9 @@ template <bool kDome>
 
 constexpr int kPositive = 256;  // makes numbers positive, so that truncation rounds down
 
-// The spline's weights along both axes, across the rows with the point's light.
-[[gnu::always_inline]] inline void place(const Point& point, const Drops& d, Drops::At& at) {
+// At a fraction f beyond a pixel the cubic B-spline has the weights (1 - f)^3/6,
+// 2/3 + f^2 (3 f - 6)/6, the same of 1 - f, and f^3/6.
+[[gnu::always_inline]] inline void find_splines(const Point& point, const Splats& d, Splines& at) {
   const Point p = point;
   for (std::size_t k = 0; k < kBatch; ++k) {
     const float x = d.x[k] + (p.along * d.along_x[k] + p.across * d.across_x[k]);
@@ -128,11 +147,14 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
     const float g = y - static_cast<float>(row), h = 1 - g;
     const float sixth = p.share * d.density[k] * (1.0f / 6), whole = 4 * sixth;
     const float f = x - static_cast<float>(column), e = 1 - f;
-    at.x0[k] = (1.0f / 6) * (e * e * e), at.x3[k] = (1.0f / 6) * (f * f * f);
+    at.x0[k] = (1.0f / 6) * (e * e * e);
+    at.x3[k] = (1.0f / 6) * (f * f * f);
     at.x1[k] = (2.0f / 3) + (1.0f / 6) * (f * f * (3 * f - 6));
     at.x2[k] = (2.0f / 3) + (1.0f / 6) * (e * e * (3 * e - 6));
-    at.column[k] = column - 1, at.row[k] = row - 1;
-    at.y0[k] = sixth * (h * h * h), at.y3[k] = sixth * (g * g * g);
+    at.column[k] = column - 1;
+    at.row[k] = row - 1;
+    at.y0[k] = sixth * (h * h * h);
+    at.y3[k] = sixth * (g * g * g);
     at.y1[k] = whole + sixth * (g * g * (3 * g - 6));
     at.y2[k] = whole + sixth * (h * h * (3 * h - 6));
   }
@@ -145,8 +167,8 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
   std::memcpy(out, &sum, sizeof sum);
 }
 
-[[gnu::always_inline]] inline void add_drops(const Pixel* light, std::size_t count,
-                                             const Drops::At& at, const SplatRows& rows) {
+[[gnu::always_inline]] inline void add_splines(const Pixel* light, std::size_t count,
+                                               const Splines& at, const SplatRows& rows) {
   for (std::size_t k = 0; k < count; ++k) {
     const Pixel x0 = light[k] * at.x0[k], x1 = light[k] * at.x1[k], x2 = light[k] * at.x2[k],
                 x3 = light[k] * at.x3[k];
@@ -163,21 +185,24 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
   }
 }
 
+// A batch of fewer than kBatch stars is filled up with its last one, which is added once.
 template <bool kDome>
 [[gnu::always_inline]] inline void drop_batch(const SplatFrame& frame, const StarImage* images,
                                               std::size_t count, const SplatRows& rows) {
-  Drops drops;
+  Splats splats;
+  Splines splines;
   alignas(64) Pixel light[kBatch];
   for (std::size_t k = 0; k < kBatch; ++k) {
     const StarImage& image = images[k < count ? k : count - 1];
-    drops.x[k] = image.x, drops.y[k] = image.y;
+    splats.x[k] = image.x;
+    splats.y[k] = image.y;
     light[k] = Pixel{image.rgb[0], image.rgb[1], image.rgb[2], 0};
   }
-  const float missing = shape<kDome>(frame, drops);
+  const float missing = find_missing<kDome>(frame, splats);
   const Rule rule = kDome ? line_rule(missing) : plane_rule(missing);
   for (int p = 0; p < rule.count; ++p) {
-    place(rule.points[p], drops, drops.at);
-    add_drops(light, count, drops.at, rows);
+    find_splines(rule.points[p], splats, splines);
+    add_splines(light, count, splines, rows);
   }
 }
 
@@ -192,6 +217,10 @@ template <bool kDome>
 Dispatched<drop_on_dome> to_dome;
 Dispatched<drop_on_flat> to_flat;
 
+// ---- blurring ----
+
+// Sets kBlocks blocks of `out` from float k on: sums over the rows, of which the n-th is read n *
+// step floats on from the middle one.
 [[gnu::always_inline]] inline void blur_blocks(const SplatBlur& blur, const float* const* rows,
                                                std::ptrdiff_t step, std::ptrdiff_t k, float* out) {
   Block sum[kBlocks];
@@ -212,8 +241,7 @@ Dispatched<drop_on_flat> to_flat;
   for (int b = 0; b < kBlocks; ++b) std::memcpy(out + k + b * kFloats, &sum[b], sizeof sum[b]);
 }
 
-// Down `lines` rows at once, which have most of what they read in common.  rows: lines + 2 taps
-// pointers; out: lines, `stride` apart.  Goes on to a whole number of blocks.
+// Goes on beyond `count` to a whole number of blocks.
 [[gnu::always_inline]] inline void blur_down_loop(const SplatBlur& blur, const float* const* rows,
                                                   int lines, int count, float* out,
                                                   std::ptrdiff_t stride) {
@@ -223,7 +251,7 @@ Dispatched<drop_on_flat> to_flat;
 }
 Dispatched<blur_down_loop> down;
 
-// Along a row of `count` pixels, added to what is in `out`.  between: room for as much as is read.
+// Here all the rows are the same one.
 [[gnu::always_inline]] inline void blur_along_loop(const SplatBlur& blur, const float* row,
                                                    int count, float* between,
                                                    float* __restrict out) {

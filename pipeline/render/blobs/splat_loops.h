@@ -1,4 +1,5 @@
-// The inner loops of dots (star_dots.h): dropping them onto rows of pixels, and blurring those.
+// The inner loops of splats (splat_kernel.h): one drops them onto rows of pixels, the others blur
+// the rows.
 #pragma once
 
 #include <cstddef>
@@ -7,47 +8,50 @@
 
 namespace domefall {
 
-// What of a picture the loops need.
+// What the loops need of the frame.
 struct SplatFrame {
   float middle_x, middle_y;
-  float unit2;     // of radians, or tan(theta/2), per pixel
-  float variance;  // of the blob in the picture's middle, pixel^2
-  float density;   // 1 / the solid angle of the pixel in the middle
+  float unit2;     // square of the radians (dome) or of tan(theta/2) (flat image) per pixel
+  float variance;  // of the blob in the image's middle, pixel^2
+  float density;   // 1 / solid angle of the pixel in the middle, 1 / sr
 };
 
-// A pixel: red, green, blue and nothing, so that two of them are one load and one store, which seldom
-// straddle cache lines.  All four of a spline's columns at once, or one by one, measured slower.
+// A pixel has red, green, blue and a fourth channel that stays unused, so that one load and one
+// store, which seldom straddle cache lines, move two pixels.  Moving all four of a spline's columns
+// at once, or one by one, measured slower.
 inline constexpr int kSplatChannels = 4;
-// Beyond a row's end, floats that the loops may touch.
+// The floats beyond a row's end that the loops may touch.
 inline constexpr int kSplatFloatsBeyond = 64;
 
-// The first pixels of rows, by row from `first` on.
+// The first pixel of each row, from row `first` on.
 struct SplatRows {
   float* const* row;
   int first;
 };
 
-// No point at which a star is dropped is farther from it, in widths of what is missing; a dot touches two
-// pixels more.
+// The distance between a star and the farthest of the points at which it is dropped, in units of
+// the width (square root of the variance) that the spline and the blur leave to the points.  From
+// each point a splat touches two pixels more.
 inline constexpr float kFarthestPoint = 2.8569700f;
 
-// Drops stars about their places in pixels, each with its light.
+// Drops `count` stars onto the rows.  `dome` tells the two projections apart.
 void drop_splats(bool dome, const SplatFrame& frame, const StarImage* images, std::size_t count,
                  const SplatRows& rows);
 
-// A blur: the sum of tap[n] times what stands n pixels, or rows, before and after.
+// A blur with a kernel that is even: the sum of tap[|n|] times the pixel n places on, |n| <= taps.
 struct SplatBlur {
   const float* tap;
   int taps;  // at most kMostSplatTaps
 };
 inline constexpr int kMostSplatTaps = 64;
 
-// Down `lines` rows at once, which have most of what they read in common.  rows: lines + 2 taps; out:
-// lines of `count` floats, `stride` apart.
+// Blurs downwards and writes `lines` rows of `count` floats to `out`, which are `stride` apart.
+// `rows` holds lines + 2 taps rows, since most of what they read the lines have in common.
 void blur_down(const SplatBlur& blur, const float* const* rows, int lines, int count, float* out,
                std::ptrdiff_t stride);
 
-// Along a row of `count` pixels, added to rgb[3 * count].  between: room for a row.
+// Blurs a row of `count` pixels along itself and adds it to rgb[3 * count].  `between` has room for
+// a row.
 void blur_along(const SplatBlur& blur, const float* row, int count, float* between, float* rgb);
 
 }  // namespace domefall

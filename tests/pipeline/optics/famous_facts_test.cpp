@@ -6,6 +6,7 @@
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/exact_azimuth.h"
+#include "pipeline/optics/hole_optics.h"
 #include "pipeline/optics/null_ray.h"
 #include "pipeline/optics/traced_ray.h"
 #include "trajectories/circular_orbit.h"
@@ -139,6 +140,22 @@ TEST(RegionFour, ConvergesOnTheAntipodeNextToTheHorizon) {
     left_before = left;
   }
   EXPECT_LT(left_before, 1e-5);
+}
+
+// Far away the two bright images of a star behind the hole obey the lens equation of weak fields: the
+// product of their distances from the hole, theta1 theta2, is the square of the Einstein ring's radius,
+// theta_E^2 = 4/r, and the difference is the star's own.
+TEST(Lensing, FarFromTheHoleTheTwoImagesObeyTheLensEquation) {
+  const double r = 1e6;
+  const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {});
+  const double beta = 1e-3;
+  const V3d source(-std::cos(beta), std::sin(beta), 0);
+  const V3d one = image_of(&*optics.home_sky, source, 0, 1e-9).direction.v;
+  const V3d two = image_of(&*optics.home_sky, source, 1, 1e-9).direction.v;
+  const double theta1 = std::atan2(one.y, -one.x), theta2 = -std::atan2(two.y, -two.x);
+  const double einstein2 = 4 / r;
+  EXPECT_NEAR(theta1 * theta2 / einstein2, 1, 0.01);
+  EXPECT_NEAR((theta1 - theta2) / beta, 1, 0.01);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// For the tests that hold each width of SIMD against the portable code.
+// What the tests share that compare each width of SIMD with the portable code.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class ScopedSimd {
   Simd before_;
 };
 
-// What a computation leaves, bit by bit: -0 is not 0, and one NaN not another.
+// The results of a computation, bit by bit: -0 is not 0, and one NaN is not another.
 class Bytes {
  public:
   template <class T>
@@ -46,7 +46,7 @@ class Bytes {
   void add(const Bytes& other) { add(other.bytes_); }
 
   std::size_t size() const { return bytes_.size(); }
-  // The first byte that differs, -1 if none does.
+  // Returns the first byte that differs, or -1 if none does.
   std::ptrdiff_t difference(const Bytes& other) const {
     if (bytes_ == other.bytes_) return -1;
     return std::mismatch(bytes_.begin(), bytes_.end(), other.bytes_.begin(), other.bytes_.end())
@@ -58,13 +58,13 @@ class Bytes {
   std::vector<std::byte> bytes_;
 };
 
-// A test for each level but the portable one; skipped where the processor lacks it, and says so.
+// A test for each level but the portable one.  It is skipped where the processor lacks the level.
 class SimdLevel : public testing::TestWithParam<Simd> {
  protected:
   void SetUp() override {
     if (!processor_has(GetParam())) GTEST_SKIP() << "this processor has no " << name_of(GetParam());
   }
-  // make: what is computed, as Bytes.  How many there were.
+  // Compares the Bytes that `make` computes at both levels, and returns how many they are.
   template <class Make>
   std::size_t compare(const std::string& what, const Make& make) {
     const auto at = [&](Simd level) {
@@ -83,7 +83,7 @@ inline std::string level_name(const testing::TestParamInfo<Simd>& level) {
   return name_of(level.param);
 }
 
-// Noise over the sky, as bright as a real one; thermal light from 2000 to 30000 K.
+// Paints noise over a sky, as bright as a real one; thermal light is from 2000 to 30000 K.
 inline void noise(const SkyPyramid& pyramid) {
   const bool thermal = pyramid.kind == SkyMapKind::kThermal;
   paint(pyramid.levels[0], [&](const V3d& n, float* channel) {

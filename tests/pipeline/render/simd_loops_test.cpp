@@ -1,4 +1,5 @@
-// The loops one by one: the same bits from each width of SIMD, for counts that fill no register too.
+// The loops one by one: each width of SIMD gives the same bits, also for counts that fill no
+// register.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +72,7 @@ SampleBatch random_samples(std::mt19937& random, double gain) {
   return batch;
 }
 
-TEST_P(SimdLoops, SeesTheSameInSkyMaps) {
+TEST_P(SimdLoops, SamplesTheSameInSkyMaps) {
   for (const SkyMapKind kind : {SkyMapKind::kColour, SkyMapKind::kThermal}) {
     const SkyPyramid pyramid(kind, 1e-9, 64);
     noise(pyramid);
@@ -122,11 +123,11 @@ std::vector<Trajectory> observers() {
           GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}};
 }
 
-Bytes looks(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
+Bytes rays_of(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
   Bytes bytes;
   ViewRayBatch b;
   const auto count = static_cast<int>(n.size());
-  // Skies without a table leave their columns alone.
+  // A ray from a sky without a table leaves most columns as they are.
   for (auto* column :
        {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
         &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
@@ -140,7 +141,7 @@ Bytes looks(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
   return bytes;
 }
 
-TEST_P(SimdLoops, LooksAtTheSamePlaces) {
+TEST_P(SimdLoops, TracesTheSameRays) {
   std::mt19937 random(4);
   for (const Trajectory& trajectory : observers()) {
     const Show show = show_of(trajectory, Domemaster{64});
@@ -153,7 +154,7 @@ TEST_P(SimdLoops, LooksAtTheSamePlaces) {
       for (auto& direction : n) direction.v = random_direction(random);
       n[0].v = apply_transposed(state.observer.tetrad_from_camera, V3d(-1, 0, 0));
       compare("observer " + std::to_string(trajectory.index()) + ", " + std::to_string(count),
-              [&] { return looks(tracer, n); });
+              [&] { return rays_of(tracer, n); });
     }
   }
 }
@@ -272,10 +273,10 @@ TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
     compare("places", [&] {
       std::vector<EllipseBlob> blobs(images.size());
       std::vector<int> first_row(images.size());
-      std::vector<Placed> kind(images.size());
+      std::vector<BlobKind> kind(images.size());
       place_ellipses(p, images.data(), sigma.data(), images.size(), 50, blobs.data(),
                      first_row.data(), kind.data());
-      EXPECT_GT(std::count(kind.begin(), kind.end(), Placed::kEllipse), 500);
+      EXPECT_GT(std::count(kind.begin(), kind.end(), BlobKind::kEllipse), 500);
       Bytes bytes;
       bytes.add(blobs), bytes.add(first_row), bytes.add(kind);
       return bytes;

@@ -30,7 +30,7 @@ TEST(Simd, IsWhatAWordAsksForOrTheWidestThereIs) {
 }
 
 #if DOMEFALL_X86
-// Where the loop that runs stands in memory.
+// Returns where the loop that runs stands in memory.
 [[gnu::always_inline]] inline std::uintptr_t place_loop() {
   std::uintptr_t here = 0;
   asm volatile("lea (%%rip), %0" : "=r"(here));
@@ -56,7 +56,7 @@ TEST(Simd, RunsCodeOfItsOwnAtEachLevel) {
 class SimdFrames : public SimdLevel {};
 INSTANTIATE_TEST_SUITE_P(Every, SimdFrames, kLevels, level_name);
 
-// A map in a file, gone with the process.
+// A map in a file that goes with the process.
 class NoisyFile {
  public:
   explicit NoisyFile(SkyMapKind kind)
@@ -92,7 +92,7 @@ PanoramaSky thermal_sky() {
   return file.sky();
 }
 
-// Panorama, thermal map and stars over all of the lens.
+// Panoramas, thermal maps and stars, for observers of all kinds.
 std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
   const auto with = [&](const Trajectory& trajectory, const SkyBackground& one,
                         const SkyBackground& three, const SkyBackground& four) {
@@ -140,7 +140,7 @@ TEST_P(SimdFrames, MakesTheSameDomes) {
     compare(name, [&show = show] { return frame_of(show); });
 }
 
-TEST_P(SimdFrames, MakesTheSameFlatPictures) {
+TEST_P(SimdFrames, MakesTheSameFlatImages) {
   for (const auto& [name, show] : scenes(Stereographic{250, 141, 100 * kDegree}))
     compare(name, [&show = show] { return frame_of(show); });
 }
@@ -172,8 +172,8 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   return bytes;
 }
 
-// What half floats would hide.
-TEST_P(SimdFrames, InterpolatesTheSameLooks) {
+// The interpolated rays are compared too, whose differences half floats could hide.
+TEST_P(SimdFrames, InterpolatesTheSameRays) {
   for (const PanoramaSky& sky : {colour_sky(), thermal_sky()}) {
     const SkyMap map = open_sky_file(sky.image).map;
     for (const Trajectory& trajectory :
@@ -186,7 +186,7 @@ TEST_P(SimdFrames, InterpolatesTheSameLooks) {
   }
 }
 
-// No scene is empty, or another one again.
+// No scene is black, and no two are the same.
 TEST(Simd, IsTriedOnScenesThatDiffer) {
   std::vector<Bytes> frames;
   for (const auto& [name, show] : scenes(Domemaster{64})) {

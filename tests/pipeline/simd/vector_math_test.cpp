@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace domefall {
@@ -28,6 +30,18 @@ TEST(VectorMath, TheExponentialIsTheLibrarysAndVanishesFarDown) {
   }
   EXPECT_EQ(exponential(0), 1);
   EXPECT_EQ(exponential(-1e300), 0);
+}
+
+TEST(VectorMath, TheLogarithmIsTheLibrarysToTheLastBits) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-1022, 1023), near(0.5, 2);
+  for (int k = 0; k < 200'000; ++k) {
+    const double x = k % 2 ? std::exp2(exponent(random)) : near(random);
+    const double expected = std::log(x);
+    ASSERT_NEAR(logarithm(x), expected, 4e-16 * std::max(1.0, std::abs(expected))) << x;
+  }
+  EXPECT_EQ(logarithm(1), 0);
+  EXPECT_NEAR(logarithm(0x1p-1022), -1022 * std::numbers::ln2, 3e-13);
 }
 
 }  // namespace

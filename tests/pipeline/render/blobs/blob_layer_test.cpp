@@ -23,14 +23,14 @@ std::vector<float> drawn(const BlobLayer& layer, const Projection& p) {
   const auto stride = static_cast<std::size_t>(columns(p)) * 3;
   const int bands = (rows(p) + kBandRows - 1) / kBandRows;
   std::vector<float> all(stride * static_cast<std::size_t>(kBandRows * bands) + 1);
-  SplatCanvas dots;
-  layer.start_canvas(dots);
+  SplatBuffer buffer;
+  layer.start_buffer(buffer);
   for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, dots, all.data() + static_cast<std::size_t>(band * kBandRows) * stride);
+    layer.draw_band(band, buffer, all.data() + static_cast<std::size_t>(band * kBandRows) * stride);
   return all;
 }
 
-// However the images come, each is drawn as a whole, in every band that it reaches.
+// However images are divided among tasks, each is drawn as a whole, in every band that it reaches.
 TEST(BlobLayer, DrawsTheSameHoweverItsImagesAreListed) {
   for (const Projection& p :
        {Projection(Domemaster{500}), Projection(Stereographic{300, 205, 1.5})}) {
@@ -49,13 +49,14 @@ TEST(BlobLayer, DrawsTheSameHoweverItsImagesAreListed) {
       const std::size_t first = layer.new_tasks(tasks.size());
       for (std::size_t t = 0; t < tasks.size(); ++t) layer.place(first + t, tasks[t], widths);
     };
-    add(split, lists), add(alone, singles);
-    whole.sort_into_bands(), split.sort_into_bands(), alone.sort_into_bands();
+    add(split, lists);
+    add(alone, singles);
+    for (BlobLayer* layer : {&whole, &split, &alone}) layer->sort_into_bands();
     EXPECT_EQ(whole.size(), split.size());
     const std::vector<float> expected = drawn(whole, p);
     EXPECT_EQ(drawn(split, p), expected);
     EXPECT_EQ(drawn(alone, p), expected);
-    // And what one star brings does not depend on the others.
+    // The light of one star does not depend on the others.
     std::vector<float> sum(expected.size());
     for (const StarImage& image : images) {
       BlobLayer one(p);

@@ -1,4 +1,4 @@
-// Blobs drawn the way a frame draws them, and what they bring.
+// Blobs drawn the way a frame draws them, and the light that they bring.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// A whole picture of blobs.
+// All the pixels of an image with nothing but blobs.
 struct DrawnBlobs {
   Projection projection;
   std::vector<float> rgb;
@@ -21,15 +21,15 @@ struct DrawnBlobs {
 };
 
 inline DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
-  DrawnBlobs picture{p, {}};
+  DrawnBlobs image{p, {}};
   const auto row = static_cast<std::size_t>(columns(p)) * 3;
   const int bands = (rows(p) + kBandRows - 1) / kBandRows;
-  picture.rgb.resize(row * kBandRows * bands);
-  SplatCanvas dots;
-  layer.start_canvas(dots);
+  image.rgb.resize(row * kBandRows * bands);
+  SplatBuffer buffer;
+  layer.start_buffer(buffer);
   for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, dots, picture.rgb.data() + row * kBandRows * band);
-  return picture;
+    layer.draw_band(band, buffer, image.rgb.data() + row * kBandRows * band);
+  return image;
 }
 
 inline DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
@@ -40,7 +40,8 @@ inline DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& 
   return drawn(layer, p);
 }
 
-// Sum over the picture, or the bands about a row, of a channel times the pixels' solid angles.
+// The sum of red over the bands about a blob, each pixel times its solid angle, and the brightest
+// pixel.
 struct Brought {
   double flux = 0, peak = 0;
 };
@@ -54,11 +55,11 @@ inline Brought brought(const StarImage& image, const Projection& p, const PointS
   Brought sum;
   const int first = std::max(0, (static_cast<int>(image.y) - reach) / kBandRows);
   const int last = std::min(bands - 1, (static_cast<int>(image.y) + reach) / kBandRows);
-  SplatCanvas dots;
-  layer.start_canvas(dots);
+  SplatBuffer buffer;
+  layer.start_buffer(buffer);
   for (int band = first; band <= last; ++band) {
     std::fill(rgb.begin(), rgb.end(), 0.0f);
-    layer.draw_band(band, dots, rgb.data());
+    layer.draw_band(band, buffer, rgb.data());
     for (int k = 0; k < width * kBandRows; ++k) {
       const double value = rgb[3 * static_cast<std::size_t>(k)];
       if (value == 0) continue;
@@ -70,7 +71,7 @@ inline Brought brought(const StarImage& image, const Projection& p, const PointS
   return sum;
 }
 
-// An image at a direction of the camera, of a given light in red.
+// A white image in a direction of the camera, with the given light in each channel.
 inline StarImage image_at(const Projection& p, double theta, double azimuth, double flux) {
   const auto at = pixel_of(p, {{std::sin(theta) * std::cos(azimuth),
                                 std::sin(theta) * std::sin(azimuth), std::cos(theta)}});
@@ -78,7 +79,7 @@ inline StarImage image_at(const Projection& p, double theta, double azimuth, dou
   return {static_cast<float>(at->i - 1), static_cast<float>(at->j - 1), {light, light, light}};
 }
 
-// The flux that has this peak value where the blob is at its smallest.
+// The flux of a blob with this peak value where blobs are at their smallest.
 inline double flux_of_peak(const PointSpread& widths, double peak) {
   return peak * 2 * std::numbers::pi * widths.least() * widths.least();
 }

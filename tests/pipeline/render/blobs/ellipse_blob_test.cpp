@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "pipeline/render/blobs/blob_shape.h"
 #include "tests/pipeline/render/blobs/drawn_blobs.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The mean of exp(-d P d / 2) over a pixel: 4 points of Gauss and Legendre in each of 4 parts.
+// The mean of exp(-d P d / 2) over a pixel, by 4 points of Gauss-Legendre quadrature along each
+// axis of each of 16 parts.
 double mean_over_pixel(const BlobShape& s, double x, double y) {
   constexpr double kAt[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                             0.8611363115940526};
@@ -30,21 +32,22 @@ double mean_over_pixel(const BlobShape& s, double x, double y) {
 }
 
 double worst_over_pixels(const BlobShape& s) {
-  const FlatGaussian flat(s.flat);
+  const FlattenedGaussian flattened(s.flattening);
   const double bare = 2 * pi / std::sqrt(s.bare_xx * s.bare_yy - s.bare_xy * s.bare_xy);
   const double blurred = 2 * pi / std::sqrt(s.xx * s.yy - s.xy * s.xy);
   double worst = 0;
   for (double x = 0; x < 5; x += 0.25)
     for (double y = -5; y < 5; y += 0.25) {
       const double w = std::exp(-(s.xx * x * x + 2 * s.xy * x * y + s.yy * y * y) / 2);
-      worst = std::max(worst, std::abs(flat(w) / (flat.slope - flat.dent / 2) / blurred -
-                                       mean_over_pixel(s, x, y) / bare));
+      worst =
+          std::max(worst, std::abs(flattened(w) / (flattened.slope - flattened.dent / 2) / blurred -
+                                   mean_over_pixel(s, x, y) / bare));
     }
   return worst * bare;
 }
 
-// The claim of FlatGaussian, in parts of the peak: at the zenith and, as ellipses, at the rim.
-TEST(SmallBlobs, AreTheIntegralOverEachPixel) {
+// What FlattenedGaussian claims in parts of the peak, at the zenith and at the rim.
+TEST(EllipseBlobs, AreTheIntegralOverEachPixel) {
   const double unit = pi / 4096;
   for (const double azimuth : {0.0, 0.4, 0.785}) {
     const double x = 2047 * std::cos(azimuth), y = 2047 * std::sin(azimuth);
@@ -75,8 +78,8 @@ PointSpread widths_of(const Law& law) {
   return {point_spread, law.projection, 1e3};
 }
 
-// The promise: 1e-3, wherever the centre lies, for faint stars and for bright ones.
-TEST(SmallBlobs, BringTheirLightWhereverTheyLie) {
+// The light is right to 1e-3, wherever the centre lies, for faint stars and for bright ones.
+TEST(EllipseBlobs, BringTheirLightWhereverTheyLie) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> u(0, 1);
   for (const Law& law : kLaws) {
@@ -91,8 +94,9 @@ TEST(SmallBlobs, BringTheirLightWhereverTheyLie) {
   }
 }
 
-// No twinkling: 40 steps of a fifteenth of a pixel and a little, across the zenith and near the rim.
-TEST(SmallBlobs, KeepTheirLightWhileTheyDrift) {
+// Stars that drift by 40 steps of a tenth of a pixel, across the zenith and near the rim, do not
+// twinkle.
+TEST(EllipseBlobs, KeepTheirLightWhileTheyDrift) {
   const Law& law = kLaws[1];
   const PointSpread widths = widths_of(law);
   for (const double start_x : {509.3, 40.2, 150.6})
@@ -106,9 +110,9 @@ TEST(SmallBlobs, KeepTheirLightWhileTheyDrift) {
       }
 }
 
-// What docs/show-format.md says of the brightest pixel: at the floor it swings by a third, at 4k with
-// the default width by a fifth, at 8k by a twentieth.
-TEST(SmallBlobs, HaveABrightestPixelThatSwingsBySoMuch) {
+// As docs/show-format.md says, the brightest pixel swings by a third at the smallest width, by a
+// fifth at 4k with the default width, and by a twentieth at 8k.
+TEST(EllipseBlobs, HaveABrightestPixelThatSwingsBySoMuch) {
   const auto swing = [](const Law& law) {
     const PointSpread widths = widths_of(law);
     const double middle = columns(law.projection) / 2;
@@ -128,38 +132,40 @@ TEST(SmallBlobs, HaveABrightestPixelThatSwingsBySoMuch) {
   EXPECT_NEAR(swing({"8k", Domemaster{8192}, 0.05, 1}), 1.05, 0.01);
 }
 
-// Both ways of drawing the same blob, where the first gives way to the second.
-TEST(SmallBlobs, AgreeWithTheExactOnesInAngle) {
+// Ellipses and caps are the same blobs up to where the former give way to the latter.
+TEST(EllipseBlobs, AgreeWithCaps) {
   for (const Law& law : kLaws) {
     const Projection& p = law.projection;
     const double sigma = widths_of(law).least();
     double worst = 0;
     for (double theta = 0.01; theta < law.most_theta; theta += 0.1) {
       const StarImage image = image_at(p, theta, 2 * theta, sigma * sigma);
-      EllipseBlob small;
+      EllipseBlob ellipse;
       int first_row = 0;
-      Placed placed{};
-      place_ellipses(p, &image, &sigma, 1, HUGE_VAL, &small, &first_row, &placed);
-      if (placed != Placed::kEllipse) continue;
-      CapBlob exact{image.x, image.y, static_cast<float>(sigma), {}, 0};
-      std::copy_n(image.rgb, 3, exact.rgb);
-      ASSERT_TRUE(place_cap(p, exact));
-      const int width = columns(p), first = exact.first_row, count = 8;
-      for (int top = first; top <= exact.last_row; top += count) {
+      BlobKind kind{};
+      place_ellipses(p, &image, &sigma, 1, HUGE_VAL, &ellipse, &first_row, &kind);
+      if (kind != BlobKind::kEllipse) continue;
+      CapBlob cap{image.x, image.y, static_cast<float>(sigma), {}, 0};
+      std::copy_n(image.rgb, 3, cap.rgb);
+      ASSERT_TRUE(place_cap(p, cap));
+      const int width = columns(p), first = cap.first_row, count = 8;
+      for (int top = first; top <= cap.last_row; top += count) {
         const std::vector<ColumnRange> inside(count, {0, width - 1});
         std::vector<float> one(3 * width * count), other(one);
-        draw_ellipses(&small, 1, {one.data(), width, top, count, inside.data()});
-        draw_cap(exact, p, {other.data(), width, top, count, inside.data()});
+        draw_ellipses(&ellipse, 1, {one.data(), width, top, count, inside.data()});
+        draw_cap(cap, p, {other.data(), width, top, count, inside.data()});
         for (std::size_t k = 0; k < one.size(); ++k)
-          worst = std::max(worst, std::abs(static_cast<double>(one[k]) - other[k]) / small.rgb[0]);
+          worst =
+              std::max(worst, std::abs(static_cast<double>(one[k]) - other[k]) / ellipse.rgb[0]);
       }
     }
     EXPECT_LT(worst, 1.5e-3) << law.name;
   }
 }
 
-// Where a picture ends a blob is cut: with its neighbour's part it is whole.
-TEST(SmallBlobs, AtTheEdgesOfAPictureAreCutNotDimmed) {
+// Where an image ends, a blob is cut: half of its light is left at an edge and a quarter in a
+// corner.
+TEST(EllipseBlobs, AtTheEdgesOfAnImageAreCutNotDimmed) {
   const Projection p = Stereographic{320, 200, 1.0};
   const PointSpread widths({0.001, 0, 40, 0.001}, p, 1e3);
   for (const double peak : {0.05, 3.0}) {
@@ -175,7 +181,7 @@ TEST(SmallBlobs, AtTheEdgesOfAPictureAreCutNotDimmed) {
   }
 }
 
-TEST(SmallBlobs, InAnyOrderOfTasksGiveTheSameSums) {
+TEST(EllipseBlobs, InAnyOrderOfTasksGiveTheSameSums) {
   const Projection p = Domemaster{256};
   const PointSpread widths = widths_of({"", p, 0.05, 0});
   std::mt19937 random(3);

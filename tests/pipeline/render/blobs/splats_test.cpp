@@ -1,9 +1,8 @@
-#include "pipeline/render/blobs/splat_canvas.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "pipeline/render/blobs/splat_buffer.h"
 #include "tests/pipeline/render/blobs/drawn_blobs.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -34,11 +33,11 @@ PointSpread widths_of(const Law& law) {
   return {point_spread, law.projection, 1e3};
 }
 
-BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool dots) {
+BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool splats) {
   BlobLayer layer(law.projection);
   const PointSpread widths = widths_of(law);
-  if (dots) layer.use_splats(widths);
-  EXPECT_EQ(layer.has_splats(), dots);
+  if (splats) layer.use_splats(widths);
+  EXPECT_EQ(layer.has_splats(), splats);
   layer.place(layer.new_tasks(1), images, widths);
   layer.sort_into_bands();
   return layer;
@@ -59,66 +58,67 @@ std::vector<StarImage> scattered(const Law& law, int count, double peak) {
   return images;
 }
 
-double flux_of(const DrawnBlobs& picture) {
+double flux_of(const DrawnBlobs& image) {
   double flux = 0;
-  const int width = columns(picture.projection);
-  for (std::size_t k = 0; k < picture.rgb.size() / 3; ++k) {
+  const int width = columns(image.projection);
+  for (std::size_t k = 0; k < image.rgb.size() / 3; ++k) {
     const auto column = static_cast<int>(k) % width, row = static_cast<int>(k) / width;
-    const double value = picture.rgb[3 * k];
-    if (value != 0)
-      flux += value * pixel_solid_angle(picture.projection, {column + 1.0, row + 1.0});
+    const double value = image.rgb[3 * k];
+    if (value != 0) flux += value * pixel_solid_angle(image.projection, {column + 1.0, row + 1.0});
   }
   return flux;
 }
 
-TEST(StarDots, BringTheirLightWhereverTheyLie) {
+TEST(Splats, BringTheirLightWhereverTheyLie) {
   for (const Law& law : kLaws)
     for (const StarImage& image : scattered(law, 60, 0.3)) {
-      const DrawnBlobs picture = drawn(layer_of({image}, law, true), law.projection);
-      EXPECT_NEAR(flux_of(picture) / image.rgb[0], 1, 1e-3)
+      const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
+      EXPECT_NEAR(flux_of(splat) / image.rgb[0], 1, 1e-3)
           << law.name << " " << image.x << " " << image.y;
     }
 }
 
-// The rim of a dome, and the edges of a flat picture, cut dots as they cut blobs; what is beyond them and
-// reaches in is there.
-TEST(StarDots, LookLikeSmallBlobs) {
+// The rim of a dome and the edges of a flat image cut splats as they cut ellipses, and splats from
+// beyond them reach in.
+TEST(Splats, LookLikeEllipses) {
   for (const Law& law : kLaws) {
     const double rim =
         std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : law.most_theta + 0.1;
     for (double theta = 0.004; theta < rim; theta += 0.043) {
       const StarImage image = star_at(law, theta, 2.3 * theta, 0.5);
-      const DrawnBlobs dot = drawn(layer_of({image}, law, true), law.projection);
-      const DrawnBlobs blob = drawn(layer_of({image}, law, false), law.projection);
+      const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
+      const DrawnBlobs ellipse = drawn(layer_of({image}, law, false), law.projection);
       double worst = 0;
-      for (std::size_t k = 0; k < dot.rgb.size(); ++k)
-        worst = std::max(worst, std::abs(double{dot.rgb[k]} - blob.rgb[k]));
-      const float peak = *std::max_element(blob.rgb.begin(), blob.rgb.end());
+      for (std::size_t k = 0; k < splat.rgb.size(); ++k)
+        worst = std::max(worst, std::abs(double{splat.rgb[k]} - ellipse.rgb[k]));
+      const float peak = *std::max_element(ellipse.rgb.begin(), ellipse.rgb.end());
       if (peak < 0.2f) continue;
       EXPECT_LT(worst / peak, law.misshapen) << law.name << " " << theta;
     }
   }
 }
 
-TEST(StarDots, KeepTheirLightAndTheirPeakWhileTheyDrift) {
+TEST(Splats, KeepTheirLightAndTheirPeakWhileTheyDrift) {
   const Law& law = kLaws[1];
   for (const double start : {500.3, 60.2}) {
     double low = 1e9, high = 0;
     for (int k = 0; k < 40; ++k) {
       StarImage image = star_at(law, 0, 0, 0.1);
-      image.x = static_cast<float>(start + 0.0717 * k),
+      image.x = static_cast<float>(start + 0.0717 * k);
       image.y = static_cast<float>(511.3 + 0.0793 * k);
-      const DrawnBlobs picture = drawn(layer_of({image}, law, true), law.projection);
-      EXPECT_NEAR(flux_of(picture) / image.rgb[0], 1, 1e-3);
-      const float peak = *std::max_element(picture.rgb.begin(), picture.rgb.end());
-      low = std::min(low, double{peak}), high = std::max(high, double{peak});
+      const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
+      EXPECT_NEAR(flux_of(splat) / image.rgb[0], 1, 1e-3);
+      const float peak = *std::max_element(image.rgb.begin(), image.rgb.end());
+      low = std::min(low, double{peak});
+      high = std::max(high, double{peak});
     }
-    EXPECT_LT(high / low, 1.34) << start;  // 1.32 for small blobs
+    EXPECT_LT(high / low, 1.34) << start;  // 1.32 for ellipses
   }
 }
 
-// Bands by themselves, in any order, and by several canvases; and however tasks divide the stars.
-TEST(StarDots, AreTheSameHoweverTheyAreDrawn) {
+// Bands may be drawn one by one, in any order and with several buffers, and tasks may divide the
+// stars in any way.
+TEST(Splats, AreTheSameHoweverTheyAreDrawn) {
   for (const Law& law : kLaws) {
     const Projection& p = law.projection;
     const PointSpread widths = widths_of(law);
@@ -138,18 +138,18 @@ TEST(StarDots, AreTheSameHoweverTheyAreDrawn) {
     std::vector<float> alone(expected.size());
     const std::size_t band_floats = std::size_t{3} * columns(p) * kBandRows;
     for (std::size_t band = expected.size() / band_floats; band-- > 0;) {
-      SplatCanvas canvas;
-      whole.start_canvas(canvas);
-      whole.draw_band(static_cast<int>(band), canvas, alone.data() + band * band_floats);
+      SplatBuffer buffer;
+      whole.start_buffer(buffer);
+      whole.draw_band(static_cast<int>(band), buffer, alone.data() + band * band_floats);
     }
     EXPECT_EQ(alone, expected) << law.name;
   }
 }
 
-TEST(StarDots, AreForThoseThatAreMany) {
+TEST(Splats, AreForManyFaintStars) {
   EXPECT_FALSE(BlobLayer::are_many(300000, Domemaster{4096}));
   EXPECT_TRUE(BlobLayer::are_many(600000, Domemaster{4096}));
-  // Bright stars, and blobs too wide to blur, are not dots.
+  // Bright stars, and blobs too wide to blur, are no splats.
   const PointSpread widths = widths_of(kLaws[1]);
   BlobLayer layer(kLaws[1].projection);
   layer.use_splats(widths);
@@ -159,9 +159,9 @@ TEST(StarDots, AreForThoseThatAreMany) {
   EXPECT_EQ(layer.size(), 50u);
   EXPECT_EQ(drawn(layer, kLaws[1].projection).rgb,
             drawn(layer_of(scattered(kLaws[1], 50, 20), kLaws[1], false), kLaws[1].projection).rgb);
-  EXPECT_TRUE(SplatBrush(Domemaster{1024}, 0.65 * kDegree).usable());
-  EXPECT_FALSE(SplatBrush(Domemaster{4096}, 0.2).usable());
-  EXPECT_FALSE(SplatBrush(Domemaster{32}, 0.1).usable());
+  EXPECT_TRUE(SplatKernel(Domemaster{1024}, 0.65 * kDegree).usable());
+  EXPECT_FALSE(SplatKernel(Domemaster{4096}, 0.2).usable());
+  EXPECT_FALSE(SplatKernel(Domemaster{32}, 0.1).usable());
 }
 
 }  // namespace

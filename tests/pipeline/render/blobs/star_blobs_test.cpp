@@ -1,9 +1,6 @@
-#include "pipeline/render/blobs/cap_blob.h"
-
 #include <gtest/gtest.h>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/blobs/cap_crowds.h"
 #include "pipeline/render/scene/photometry.h"
 #include "pipeline/render/stars/star_images.h"
 #include "tests/pipeline/render/blobs/drawn_blobs.h"
@@ -12,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// One star of magnitude `m` in flat space, seen in a camera direction.
+// The image of a star of magnitude `m` in flat space, seen in a direction of the camera.
 StarImage image_of_star(const Show& show, const V3d& camera_direction, double m) {
   FrameState state = frame_state(show, 0);
   state.settings.sky[SkyRegion::kI] = {1, 1, 40};
@@ -35,8 +32,9 @@ V3d dome_direction(double theta, double azimuth) {
           std::cos(theta)};
 }
 
-// The promise: 1e-3, wherever the centre lies between pixels.
-TEST(PointSpreadLaw, BringTheSameFluxWhereverTheyLieBetweenPixels) {
+// The light is right to 1e-3 wherever the centre lies between pixels, for the whole path from a
+// catalogue's star to the pixels.
+TEST(StarBlobs, BringTheSameFluxWhereverTheyLieBetweenPixels) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> u(0, 1);
   for (const Projection& p : {Projection(Domemaster{512}), Projection(Domemaster{2048}),
@@ -53,8 +51,8 @@ TEST(PointSpreadLaw, BringTheSameFluxWhereverTheyLieBetweenPixels) {
   }
 }
 
-// At the rim half of a star is on the dome: with it and its mirror image a whole one.
-TEST(PointSpreadLaw, AtTheRimAreCutNotDimmed) {
+// A star near the rim and its mirror image outside together bring the light of one.
+TEST(StarBlobs, AtTheRimAreCutNotDimmed) {
   const Projection p = Domemaster{1024};
   const Show show = show_of(StaticObserver{}, p);
   for (const double m : {4.0, 10.0})
@@ -70,26 +68,29 @@ TEST(PointSpreadLaw, AtTheRimAreCutNotDimmed) {
     }
 }
 
-TEST(PointSpreadLaw, AreRoundOnTheDome) {
+TEST(StarBlobs, AreRoundOnTheDome) {
   const Projection p = Domemaster{2048};
   Show show = show_of(StaticObserver{}, p);
   show.point_spread.min_sigma = 0.15 * kDegree;
   for (const double m : {10.0, 0.0}) {
     const StarImage image = image_of_star(show, dome_direction(80 * kDegree, 0), m);
     const V3d centre = direction_at(p, {image.x + 1.0, image.y + 1.0}).v;
-    const DrawnBlobs picture = drawn({image}, p, widths_of(show));
+    const DrawnBlobs blob = drawn({image}, p, widths_of(show));
     double along = 0, across = 0, sum = 0;
     for (int y = 924; y < 1124; ++y)
       for (int x = 1800; x < 2048; ++x) {
         const PixelPosition pixel{x + 1.0, y + 1.0};
-        const double w = picture.at(y, x) * pixel_solid_angle(p, pixel);
+        const double w = blob.at(y, x) * pixel_solid_angle(p, pixel);
         const V3d d = direction_at(p, pixel).v - centre;
         const V3d up = dome_direction(170 * kDegree, 0);  // towards the rim
-        along += w * d.dot(up) * d.dot(up), across += w * d.y * d.y, sum += w;
+        along += w * d.dot(up) * d.dot(up);
+        across += w * d.y * d.y;
+        sum += w;
       }
-    // A pixel is 1 by 0.7 pixel in angle there: so much less it blurs across.
+    // In angle a pixel there is 1 by 0.705 central pixels, and blurs the star by that.
     const double pixel = central_pixel_angle(p);
-    along -= sum * pixel * pixel / 12, across -= sum * pixel * pixel * 0.705 * 0.705 / 12;
+    along -= sum * pixel * pixel / 12;
+    across -= sum * pixel * pixel * 0.705 * 0.705 / 12;
     EXPECT_NEAR(std::sqrt(along / across), 1, 2e-3) << m;
     // Cut at 3.5 sigma and lowered to 0 there, the Gaussian is 1 % narrower.
     const double sigma = widths_of(show).sigma_of(image);
@@ -97,7 +98,7 @@ TEST(PointSpreadLaw, AreRoundOnTheDome) {
   }
 }
 
-TEST(PointSpreadLaw, GrowWithBrightnessByTheLawOfTheShow) {
+TEST(StarBlobs, GrowWithBrightnessByTheLawOfTheShow) {
   const Show show = show_of(StaticObserver{}, Domemaster{8192});
   const auto sigma = [&show](double m) {
     return widths_of(show).sigma_of(image_of_star(show, dome_direction(0.5, 1), m));
@@ -107,11 +108,12 @@ TEST(PointSpreadLaw, GrowWithBrightnessByTheLawOfTheShow) {
   EXPECT_NEAR(sigma(-20), 0.3 * kDegree, 1e-12);
 }
 
-// The law with a halo: one width for all, and what the halo takes the middle gives.
-TEST(PointSpreadLaw, WithAHaloKeepTheirLight) {
+// With a halo all middles have one width, and give to the halo what it has.
+TEST(StarBlobs, WithAHaloKeepTheirLight) {
   const Projection p = Domemaster{1024};
   Show show = show_of(StaticObserver{}, p);
-  show.point_spread.halo = 0.2, show.point_spread.halo_sigma = 0.5 * kDegree;
+  show.point_spread.halo = 0.2;
+  show.point_spread.halo_sigma = 0.5 * kDegree;
   double before = 0;
   for (double m = 12; m > -6; m -= 0.25) {
     const StarImage image = image_of_star(show, dome_direction(0.5, 1), m);
@@ -127,17 +129,17 @@ TEST(PointSpreadLaw, WithAHaloKeepTheirLight) {
 }
 
 // [Riazuelo] sec. sec_stars_eff: the centre of a bright blob is less saturated than its edge.
-TEST(PointSpreadLaw, PaleInTheirMiddleOnly) {
+TEST(StarBlobs, PaleInTheirMiddleOnly) {
   const Projection p = Domemaster{1024};
   PointSpreadLaw law{0.003, 0, 40, 0.003};
   law.white_core = 10;
   const PointSpread widths(law, p, 1e3);
   const auto flux = static_cast<float>(flux_of_peak(widths, 1000));
   const StarImage image{500, 500, {0.3f * flux, 0.6f * flux, flux}};
-  const DrawnBlobs picture = drawn({image}, p, widths);
-  const auto blue = [&](int x) { return picture.at(500, x, 2) / picture.at(500, x, 0); };
+  const DrawnBlobs blob = drawn({image}, p, widths);
+  const auto blue = [&](int x) { return blob.at(500, x, 2) / blob.at(500, x, 0); };
   EXPECT_NEAR(blue(500), 1, 0.01);
-  const auto edge = [&](int x) { return picture.at(500, x, 1) > 0.01f; };
+  const auto edge = [&](int x) { return blob.at(500, x, 1) > 0.01f; };
   int x = 500;
   while (edge(x + 1)) ++x;
   EXPECT_GT(x, 503);
@@ -149,69 +151,22 @@ TEST(PointSpreadLaw, PaleInTheirMiddleOnly) {
     const auto light = [at](const DrawnBlobs& d) {
       return luminance({d.at(500, at, 0), d.at(500, at, 1), d.at(500, at, 2)});
     };
-    EXPECT_NEAR(light(picture), light(own), 3e-4 * light(own) + 1e-6) << at;
+    EXPECT_NEAR(light(blob), light(own), 3e-4 * light(own) + 1e-6) << at;
   }
 }
 
-// What bounds the cost where the sky shrinks to a spot: the sums stay, and so does the picture.
-TEST(PointSpreadLaw, InACrowdAreDrawnTogether) {
-  const Projection p = Domemaster{512};
-  std::mt19937 random(5);
-  std::uniform_real_distribution<float> u(-1.5f, 1.5f);
-  std::vector<CapBlob> blobs;
-  for (int k = 0; k < 4000; ++k) {
-    CapBlob blob{300 + u(random), 200 + u(random), 0.04f, {1, 2, 3}, 0};
-    ASSERT_TRUE(place_cap(p, blob));
-    blobs.push_back(blob);
-  }
-  std::vector<CapBlob> merged = blobs;
-  merge_crowds(p, merged);
-  EXPECT_LT(merged.size(), 16u);
-  const auto picture = [&p](const std::vector<CapBlob>& some) {
-    std::vector<float> rgb(512 * 512 * 3);
-    const std::vector<ColumnRange> inside(8, {0, 511});
-    for (int row = 0; row < 512; row += 8)
-      for (const CapBlob& b : some)
-        draw_cap(b, p, {rgb.data() + row * 512 * 3, 512, row, 8, inside.data()});
-    return rgb;
-  };
-  const auto each = picture(blobs), together = picture(merged);
-  const float peak = *std::max_element(each.begin(), each.end());
-  for (std::size_t k = 0; k < each.size(); ++k)
-    ASSERT_NEAR(each[k] / peak, together[k] / peak, 0.01) << k;
-}
-
-// Together they are brighter and so reach farther than a very wide flat picture does.
-TEST(PointSpreadLaw, OfACrowdThatHasNoPlaceAsOneStay) {
-  const Projection p = Stereographic{512, 512, 350 * kDegree};
-  const auto placed = [&p](float x, float light) {
-    CapBlob blob{x, 256, 0.1f, {light, light, light}, 0, 0, 0, 0, 0, 0};
-    return std::pair(place_cap(p, blob), blob);
-  };
-  constexpr int kStars = 20;
-  float x = 256;
-  while (x < 512 && placed(x, 20 * kStars).first) ++x;
-  ASSERT_TRUE(placed(x, 20).first);
-  ASSERT_FALSE(placed(x, 20 * kStars).first);
-  std::vector<CapBlob> blobs(kStars, placed(x, 20).second);
-  merge_crowds(p, blobs);
-  EXPECT_EQ(blobs.size(), kStars);
-  // One that has a place is still one.
-  blobs.assign(kStars, placed(256, 20).second);
-  merge_crowds(p, blobs);
-  ASSERT_EQ(blobs.size(), 1u);
-  EXPECT_EQ(blobs[0].rgb[0], 20 * kStars);
-}
-
-// Sizes are angles: a picture of twice the size, averaged over 2 by 2 pixels, shows the same star.
-TEST(PointSpreadLaw, OfTwiceThePictureAreTheSame) {
+// Sizes are angles, so that an image of twice the size, averaged over 2 by 2 pixels, shows the same
+// star.
+TEST(StarBlobs, AreTheSameInAnImageOfTwiceTheSize) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
-  show.point_spread.min_sigma = 0.3 * kDegree, show.point_spread.max_sigma = 0.6 * kDegree;
+  show.point_spread.min_sigma = 0.3 * kDegree;
+  show.point_spread.max_sigma = 0.6 * kDegree;
   const Projection coarse = Domemaster{1024}, fine = Domemaster{2048};
   for (const double m : {9.0, 1.0}) {
     const StarImage image = image_of_star(show, dome_direction(1.1, 2), m);
     StarImage twice = image;
-    twice.x = 2 * image.x + 0.5f, twice.y = 2 * image.y + 0.5f;
+    twice.x = 2 * image.x + 0.5f;
+    twice.y = 2 * image.y + 0.5f;
     const double scale = exposure_scale(FrameSettings{});
     const DrawnBlobs one = drawn({image}, coarse, PointSpread(show.point_spread, coarse, scale)),
                      other = drawn({twice}, fine, PointSpread(show.point_spread, fine, scale));
@@ -228,27 +183,12 @@ TEST(PointSpreadLaw, OfTwiceThePictureAreTheSame) {
 }
 
 // A star of V = 0 brings 2.63e-6 lux at about 5800 K.
-TEST(PointSpreadLaw, OfMagnitudeZeroBringTheIlluminanceOfTheMagnitudeScale) {
+TEST(StarBlobs, OfMagnitudeZeroBringTheIlluminanceOfTheMagnitudeScale) {
   Show show = show_of(StaticObserver{}, Domemaster{1024});
   const StarImage image = image_of_star(show, dome_direction(0.5, 1), 0);
   const WorkingRgb c{image.rgb[0], image.rgb[1], image.rgb[2]};
   EXPECT_NEAR(luminance(c) / exposure_scale(FrameSettings{}), kMagnitudeZeroLux,
               0.02 * kMagnitudeZeroLux);
-}
-
-// [Riazuelo]: the k-th image. Behind the hole every star of a plane has two bright images, and
-// their separations from the hole obey the lens equation far away: theta1 * theta2 = theta_E^2.
-TEST(PointSpreadLaw, FarFromTheHoleTheTwoImagesObeyTheLensEquation) {
-  const double r = 1e6;
-  const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {});
-  const double beta = 1e-3;
-  const V3d source(-std::cos(beta), std::sin(beta), 0);
-  const V3d one = image_of(&*optics.home_sky, source, 0, 1e-9).direction.v,
-            two = image_of(&*optics.home_sky, source, 1, 1e-9).direction.v;
-  const double theta1 = std::atan2(one.y, -one.x), theta2 = -std::atan2(two.y, -two.x);
-  const double einstein2 = 4 / r;
-  EXPECT_NEAR(theta1 * theta2 / einstein2, 1, 0.01);
-  EXPECT_NEAR((theta1 - theta2) / beta, 1, 0.01);
 }
 
 }  // namespace

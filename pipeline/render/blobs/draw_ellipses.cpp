@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "pipeline/render/blobs/ellipse_blob.h"
+#include "pipeline/render/scene/point_spread.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/lanes.h"
+
+namespace domefall {
+namespace {
+
+// A blob is drawn in strips of so many columns, which are three blocks of floats.
+constexpr int kPixels = 16, kFloats = 3 * kPixels;
+constexpr int kBlock = 16;
+using Block = float __attribute__((vector_size(4 * kBlock)));
+using BlockBits = std::int32_t __attribute__((vector_size(4 * kBlock)));
+constexpr std::size_t kBatch = 32;
+static_assert(kMostEllipsePixels == 2 * kPixels && kBandRows <= kPixels);
+
+// ---- what drawing needs of each blob ----
+
+// -ln x for x > 0, or up to 0.06 more.  As an integer, the bits of a float are about
+// 2^23 (127 + log2 x): its mantissa stands for its own logarithm.
+[[gnu::always_inline]] inline float about_minus_log(float x) {
+  const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x)) * 0x1p-23f;
+  return (127.0f - bits) * 0.69314718f;
+}
+
+// A batch of blobs, column by column, computed for all at once.  Pixels count from 0.
+//
+// The value is that of FlattenedGaussian less the one at the cut.  With u = part W and
+// part = dent/slope, W (slope - dent W) = gain (u - u^2), gain = slope/part.
+struct PreparedEllipses {
+  alignas(64) std::array<float, kBatch> dx, dy;      // from the centre to the first pixel drawn
+  alignas(64) std::array<float, kBatch> xx, xy, yy;  // of -q: -P_xx/2, -P_xy and -P_yy/2
+  alignas(64) std::array<float, kBatch> part, gain;
+  alignas(64) std::array<float, kBatch> end;  // u - u^2 at the cut
+  alignas(64) std::array<int, kBatch> column, columns;
+  alignas(64) std::array<int, kBatch> first, last;  // rows, within the canvas
+};
+
+// The ellipse q = -ln(cut) has the half width sqrt(2 q C_xx), where the covariance's
+// C_xx = P_yy/det P.
+[[gnu::always_inline]] inline void prepare(const EllipseBlob* blobs, std::size_t count,
+                                           const Canvas& canvas, PreparedEllipses& prepared) {
+  constexpr int kMargin = 64;  // makes numbers positive, so that truncation rounds down
+  const int first_row = canvas.first_row, end_row = canvas.first_row + canvas.rows - 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const EllipseBlob& b = blobs[k];
+    const float warm = b.rgb[0] > b.rgb[1] ? b.rgb[0] : b.rgb[1];
+    const float peak = warm > b.rgb[2] ? warm : b.rgb[2];
+    const float low = static_cast<float>(kUnseen) / peak;
+    const auto highest = static_cast<float>(kHighestCut), lowest = static_cast<float>(kLowestCut);
+    const float high = low < highest ? low : highest, cut = high > lowest ? high : lowest;
+    const float spread = 2 * about_minus_log(cut) / (b.xx * b.yy - b.xy * b.xy);
+    const float half_x = std::sqrt(spread * b.yy), half_y = std::sqrt(spread * b.xx);
+    const int left = static_cast<int>(b.x - half_x + kMargin) - (kMargin - 1);
+    const int right = static_cast<int>(b.x + half_x + kMargin) - kMargin;
+    const int top = static_cast<int>(b.y - half_y + kMargin) - (kMargin - 1);
+    const int bottom = static_cast<int>(b.y + half_y + kMargin) - kMargin;
+    const int first = top > first_row ? top : first_row;
+    const float flattening = (b.xx * b.xx + b.yy * b.yy) * static_cast<float>(1.0 / 5760);
+    const float slope = 1 + 7.5f * flattening, dent = 13.5f * flattening, part = dent / slope;
+    prepared.column[k] = left;
+    prepared.columns[k] = right - left + 1;
+    prepared.first[k] = first;
+    prepared.last[k] = bottom < end_row ? bottom : end_row;
+    prepared.dx[k] = static_cast<float>(left) - b.x;
+    prepared.dy[k] = static_cast<float>(first) - b.y;
+    prepared.xx[k] = -0.5f * b.xx;
+    prepared.xy[k] = -b.xy;
+    prepared.yy[k] = -0.5f * b.yy;
+    prepared.part[k] = part;
+    prepared.gain[k] = slope / part;
+    prepared.end[k] = part * cut * (1 - part * cut);
+  }
+}
+
+// ---- strips ----
+
+// The columns of a blob from column `first` of the blob on.
+struct Strip {
+  int blob, first;
+};
+
+// Lists the strips of the batch's blobs that touch the canvas: first one of each blob, then a
+// second one of those that are wider than a strip.  Returns their number.
+[[gnu::always_inline]] inline int list_strips(const PreparedEllipses& prepared, std::size_t count,
+                                              Strip* strips) {
+  int listed = 0;
+  bool wide = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    strips[listed] = {static_cast<int>(k), 0};
+    const bool seen = prepared.first[k] <= prepared.last[k];
+    listed += seen ? 1 : 0;
+    wide |= seen && prepared.columns[k] > kPixels;
+  }
+  for (std::size_t k = 0; k < count && wide; ++k)
+    if (prepared.first[k] <= prepared.last[k] && prepared.columns[k] > kPixels)
+      strips[listed++] = {static_cast<int>(k), kPixels};
+  return listed;
+}
+
+// The exponentials of which the weights of a strip are made.  With (x, y) the offset of a pixel
+// from the centre and y0 that of the first row,
+//     W = exp(-P_xx x^2/2 - P_xy x y0) exp(-P_xy x)^(y - y0) exp(-P_yy y^2/2).
+struct StripExponentials {
+  alignas(64) float weight[kPixels];  // of the first row, without its factor
+  alignas(64) float step[kPixels];    // from row to row
+  alignas(64) float rows[kPixels];    // each row's factor, times `part`
+};
+
+[[gnu::always_inline]] inline void find_exponentials(const PreparedEllipses& prepared,
+                                                     const Strip* strips, int count,
+                                                     StripExponentials* exponentials) {
+  for (int n = 0; n < count; ++n) {
+    const auto k = static_cast<std::size_t>(strips[n].blob);
+    const float x0 = prepared.dx[k] + static_cast<float>(strips[n].first), y0 = prepared.dy[k],
+                xx = prepared.xx[k], xy = prepared.xy[k], yy = prepared.yy[k], along = xy * y0,
+                scale = prepared.part[k];
+    StripExponentials& strip = exponentials[n];
+    for (int m = 0; m < kPixels; ++m) {
+      const float dx = x0 + static_cast<float>(m), dy = y0 + static_cast<float>(m);
+      strip.weight[m] = exponential_of_float((xx * dx + along) * dx);
+      strip.step[m] = exponential_of_float(xy * dx);
+      strip.rows[m] = scale * exponential_of_float(yy * dy * dy);
+    }
+  }
+}
+
+// Repeats the values of a strip's first pixels for their three channels.
+template <int kCount>
+[[gnu::always_inline]] inline void in_blocks(const float* pixels, Block* blocks) {
+  Lanes floats[6];
+  repeat_for_channels<2 * kCount>(pixels, floats);
+  for (int m = 0; m < kCount; ++m)
+    blocks[m] = __builtin_shufflevector(floats[2 * m], floats[2 * m + 1], 0, 1, 2, 3, 4, 5, 6, 7, 8,
+                                        9, 10, 11, 12, 13, 14, 15);
+}
+
+// Replaces negative values by 0, on the bits: as an integer, those of a negative float are below 0.
+[[gnu::always_inline]] inline void keep_positive(Block& v) {
+  BlockBits bits;
+  std::memcpy(&bits, &v, sizeof v);
+  bits = bits > 0 ? bits : BlockBits{};
+  std::memcpy(&v, &bits, sizeof v);
+}
+
+// Adds the rows of a strip to `out`, which begins with the strip's first pixel.  kCount blocks of
+// each row are drawn.
+template <int kCount>
+[[gnu::always_inline]] inline void add_rows(const EllipseBlob& blob,
+                                            const PreparedEllipses& prepared, std::size_t k,
+                                            const StripExponentials& strip, float* __restrict out,
+                                            std::ptrdiff_t stride) {
+  Block weight[3], step[3], scale[3];
+  in_blocks<kCount>(strip.weight, weight);
+  in_blocks<kCount>(strip.step, step);
+  const float gain = prepared.gain[k], r = gain * blob.rgb[0], g = gain * blob.rgb[1],
+              b = gain * blob.rgb[2], end = prepared.end[k];
+  scale[0] = Block{r, g, b, r, g, b, r, g, b, r, g, b, r, g, b, r};
+  scale[1] = Block{g, b, r, g, b, r, g, b, r, g, b, r, g, b, r, g};
+  scale[2] = Block{b, r, g, b, r, g, b, r, g, b, r, g, b, r, g, b};
+  for (int j = 0; j <= prepared.last[k] - prepared.first[k]; ++j, out += stride) {
+    const float row = strip.rows[j];
+    for (int m = 0; m < kCount; ++m) {
+      const Block u = weight[m] * row;
+      Block v = (u - u * u) - end;
+      keep_positive(v);
+      Block sum;
+      std::memcpy(&sum, out + m * kBlock, sizeof sum);
+      sum += scale[m] * v;
+      std::memcpy(out + m * kBlock, &sum, sizeof sum);
+      weight[m] *= step[m];
+    }
+  }
+}
+
+// Adds a strip to `out`, which begins with its first pixel.  Narrow blobs do without the third
+// block.
+[[gnu::always_inline]] inline void add_strip(const EllipseBlob& blob,
+                                             const PreparedEllipses& prepared, const Strip& at,
+                                             const StripExponentials& strip, float* out,
+                                             std::ptrdiff_t stride) {
+  const auto k = static_cast<std::size_t>(at.blob);
+  if (3 * (prepared.columns[k] - at.first) <= 2 * kBlock)
+    add_rows<2>(blob, prepared, k, strip, out, stride);
+  else
+    add_rows<3>(blob, prepared, k, strip, out, stride);
+}
+
+// Adds a strip of which some is outside the image: it is drawn aside, and what is inside is copied.
+[[gnu::always_inline]] inline void add_clipped(const EllipseBlob& blob,
+                                               const PreparedEllipses& prepared, const Strip& at,
+                                               const StripExponentials& strip,
+                                               const Canvas& canvas) {
+  const auto k = static_cast<std::size_t>(at.blob);
+  float aside[kBandRows * kFloats] = {};
+  add_strip(blob, prepared, at, strip, aside, kFloats);
+  const int column = prepared.column[k] + at.first;
+  for (int row = prepared.first[k]; row <= prepared.last[k]; ++row) {
+    const ColumnRange inside = canvas.columns[row - canvas.first_row];
+    const int left = std::max(column, inside.first);
+    const int right = std::min(column + kPixels - 1, inside.last);
+    if (left > right) continue;
+    const float* from = aside + (row - prepared.first[k]) * kFloats + 3 * (left - column);
+    float* out = canvas.at(row, left);
+    for (int m = 0; m < 3 * (right - left + 1); ++m) out[m] += from[m];
+  }
+}
+
+[[gnu::always_inline]] inline void draw_loop(const EllipseBlob* blobs, std::size_t count,
+                                             const Canvas& canvas) {
+  // A strip between these columns is inside on every row, with the padding to whole blocks.
+  int least = 0, most = canvas.width - 1;
+  for (int row = 0; row < canvas.rows; ++row) {
+    least = std::max(least, canvas.columns[row].first);
+    most = std::min(most, canvas.columns[row].last);
+  }
+  const std::ptrdiff_t stride = 3 * static_cast<std::ptrdiff_t>(canvas.width);
+  PreparedEllipses prepared;
+  std::array<Strip, 2 * kBatch> strips;
+  std::array<StripExponentials, 2 * kBatch> exponentials;
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t n = std::min(kBatch, count - begin);
+    prepare(blobs + begin, n, canvas, prepared);
+    const int listed = list_strips(prepared, n, strips.data());
+    find_exponentials(prepared, strips.data(), listed, exponentials.data());
+    for (std::size_t m = 0; m < static_cast<std::size_t>(listed); ++m) {
+      const Strip& strip = strips[m];
+      const auto k = static_cast<std::size_t>(strip.blob);
+      const EllipseBlob& blob = blobs[begin + k];
+      const int column = prepared.column[k] + strip.first;
+      if (column >= least && column + kPixels - 1 <= most)
+        add_strip(blob, prepared, strip, exponentials[m], canvas.at(prepared.first[k], column),
+                  stride);
+      else
+        add_clipped(blob, prepared, strip, exponentials[m], canvas);
+    }
+  }
+}
+Dispatched<draw_loop> draw;
+
+}  // namespace
+
+void draw_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas) {
+  draw(blobs, count, canvas);
+}
+
+}  // namespace domefall

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/render/blobs/blob_shape.h"
+#include "pipeline/render/blobs/ellipse_blob.h"
+#include "pipeline/simd/dispatch.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kBatch = 32;
+constexpr int kNowhere = static_cast<int>(BlobKind::kNowhere),
+              kEllipse = static_cast<int>(BlobKind::kEllipse),
+              kCap = static_cast<int>(BlobKind::kCap);
+
+// What the loop needs of the frame.
+struct ImagePlane {
+  double unit;  // as blob_shape() has it
+  double middle_x, middle_y, width, height;
+  double most_peak;
+};
+
+// A batch of images, column by column, with what becomes of them.
+struct Placing {
+  alignas(64) std::array<double, kBatch> x, y, red, green, blue, sigma;
+  alignas(64) std::array<float, kBatch> xx, xy, yy, peak_per_flux;
+  alignas(64) std::array<int, kBatch> kind, first_row;
+};
+
+// The choices are selections and not branches, so that the loop becomes SIMD code.
+template <bool kDome>
+[[gnu::always_inline]] inline void place_loop(const ImagePlane& plane, Placing& p) {
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    const double cx = p.x[k] - plane.middle_x, cy = p.y[k] - plane.middle_y;
+    // Far outside the half sphere ellipses grow without bound, so caps are drawn there.
+    const bool far = kDome && plane.unit * plane.unit * (cx * cx + cy * cy) > 3;
+    const BlobShape s = blob_shape<kDome>(plane.unit, far ? 0 : cx, far ? 0 : cy, p.sigma[k]);
+    const double warm = p.red[k] > p.green[k] ? p.red[k] : p.green[k];
+    const double brightest = warm > p.blue[k] ? warm : p.blue[k];
+    const BlobScale scale = blob_scale(s, brightest);
+    // The factor is 2, and 1 % more because drawing takes a logarithm that is up to 1 % larger.
+    const double q = -2.02 * logarithm(scale.cut);
+    const double half_x = std::sqrt(q * s.spread_x), half_y = std::sqrt(q * s.spread_y);
+    const double half = half_x > half_y ? half_x : half_y;
+    const double from_left = p.x[k] + half_x, from_top = p.y[k] + half_y;
+    const double to_right = plane.width - 1 - (p.x[k] - half_x);
+    const double to_bottom = plane.height - 1 - (p.y[k] - half_y);
+    const double across = from_left < to_right ? from_left : to_right;
+    const double down = from_top < to_bottom ? from_top : to_bottom;
+    int kind = brightest * scale.peak_per_flux > plane.most_peak ? kCap : kEllipse;
+    kind = s.scale_change > kMostScaleChange ? kCap : kind;
+    kind = 2 * half > kMostEllipsePixels - 1 ? kCap : kind;
+    kind = (across < down ? across : down) < 0 ? kNowhere : kind;
+    p.kind[k] = far ? kCap : kind;
+    p.first_row[k] = static_cast<int>(p.y[k] - half_y + 64) - 64;  // rounded down
+    p.xx[k] = static_cast<float>(s.xx);
+    p.xy[k] = static_cast<float>(s.xy);
+    p.yy[k] = static_cast<float>(s.yy);
+    p.peak_per_flux[k] = static_cast<float>(scale.peak_per_flux);
+  }
+}
+Dispatched<place_loop<true>> place_on_dome;
+Dispatched<place_loop<false>> place_on_flat;
+
+// A batch of fewer than kBatch images is filled up with its last one.
+void place_batch(const ImagePlane& plane, bool dome, const StarImage* images, const double* sigma,
+                 std::size_t count, EllipseBlob* blobs, int* first_row, BlobKind* kind) {
+  Placing p;
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    const StarImage& image = images[std::min(k, count - 1)];
+    p.x[k] = image.x;
+    p.y[k] = image.y;
+    p.sigma[k] = sigma[std::min(k, count - 1)];
+    p.red[k] = image.rgb[0];
+    p.green[k] = image.rgb[1];
+    p.blue[k] = image.rgb[2];
+  }
+  if (dome)
+    place_on_dome(plane, p);
+  else
+    place_on_flat(plane, p);
+  for (std::size_t k = 0; k < count; ++k) {
+    const StarImage& image = images[k];
+    const float scale = p.peak_per_flux[k];
+    blobs[k] = {image.x, image.y,
+                p.xx[k], p.xy[k],
+                p.yy[k], {image.rgb[0] * scale, image.rgb[1] * scale, image.rgb[2] * scale}};
+    first_row[k] = p.first_row[k];
+    kind[k] = static_cast<BlobKind>(p.kind[k]);
+  }
+}
+
+}  // namespace
+
+void place_ellipses(const Projection& projection, const StarImage* images, const double* sigma,
+                    std::size_t count, double most_peak, EllipseBlob* blobs, int* first_row,
+                    BlobKind* kind) {
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const double width = columns(projection), height = rows(projection);
+  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
+  const ImagePlane plane{unit, (width - 1) / 2, (height - 1) / 2, width, height, most_peak};
+  for (std::size_t k = 0; k < count; k += kBatch)
+    place_batch(plane, dome, images + k, sigma + k, std::min(kBatch, count - k), blobs + k,
+                first_row + k, kind + k);
+}
+
+}  // namespace domefall
