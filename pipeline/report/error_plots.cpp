@@ -16,10 +16,10 @@ constexpr double kMicro = 1e-3;  // microseconds in a nanosecond
 // Adds the point to the curve of that name, which its first point creates.
 void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
   auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
-                            [&](const Curve& c) { return c.name == name; });
+                            [&](const PlotCurve& c) { return c.name == name; });
   if (curve == plot.curves.end()) {
     const int colour = static_cast<int>(plot.curves.size());
-    curve = plot.curves.insert(curve, {name, {}, colour, Curve::Style::kPoints});
+    curve = plot.curves.insert(curve, {name, {}, colour, PlotCurve::Style::kPoints});
   }
   curve->points.push_back(point);
 }
@@ -61,9 +61,9 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                                                                   : plot;
     add_point(its, row.scene, {row.copies, row.*error});
   }
-  for (Curve& curve : everywhere.curves) curve.style = Curve::Style::kDashed;
+  for (PlotCurve& curve : everywhere.curves) curve.style = PlotCurve::Style::kDashed;
   for (const Plot* other : {&everywhere, &exact})
-    for (Curve curve : other->curves) {
+    for (PlotCurve curve : other->curves) {
       curve.name.clear();
       plot.curves.push_back(curve);
     }

@@ -65,8 +65,8 @@ std::vector<PlotPoint> continued(const std::vector<PlotPoint>& points) {
 // Adds a curve from 0 to pi and its continuation to 2 pi under one name.
 void add_deviation(Plot& plot, const std::string& name, int colour,
                    const std::vector<PlotPoint>& points) {
-  plot.curves.push_back({name, points, colour, Curve::Style::kLine});
-  plot.curves.push_back({"", continued(points), colour, Curve::Style::kLine});
+  plot.curves.push_back({name, points, colour, PlotCurve::Style::kLine});
+  plot.curves.push_back({"", continued(points), colour, PlotCurve::Style::kLine});
 }
 
 Plot deviation_plot(const std::string& title, double turns) {
@@ -107,7 +107,7 @@ Plot far_away() {
   plot.curves.push_back({"δ − π: neither bent nor aberrated",
                          {{0, -kPi}, {2 * kPi, kPi}},
                          kColourFlat,
-                         Curve::Style::kDashed});
+                         PlotCurve::Style::kDashed});
   return plot;
 }
 
@@ -156,12 +156,12 @@ Plot what_is_seen() {
   plot.y = {"angle from the front, degrees", Axis::Scale::kLinear, 0, kAll, 30};
   plot.legend = "";
   plot.curves = {
-      {"", closed(silhouette, {{kFar, kAll}, {0, kAll}}), kColourOne, Curve::Style::kArea},
-      {"", dark, kColourFlat, Curve::Style::kArea},
-      {"", closed(third, {{0, 0}}), kColourThree, Curve::Style::kArea},
-      {"", silhouette, kColourOne, Curve::Style::kLine},
-      {"", third, kColourThree, Curve::Style::kLine},
-      {"", {{kHorizon, 0}, {kHorizon, kAll}}, kColourFlat, Curve::Style::kDotted}};
+      {"", closed(silhouette, {{kFar, kAll}, {0, kAll}}), kColourOne, PlotCurve::Style::kArea},
+      {"", dark, kColourFlat, PlotCurve::Style::kArea},
+      {"", closed(third, {{0, 0}}), kColourThree, PlotCurve::Style::kArea},
+      {"", silhouette, kColourOne, PlotCurve::Style::kLine},
+      {"", third, kColourThree, PlotCurve::Style::kLine},
+      {"", {{kHorizon, 0}, {kHorizon, kAll}}, kColourFlat, PlotCurve::Style::kDotted}};
   plot.labels = {{6, 120, "region I"},
                  {4.1, 14, "silhouette (past singularity)"},
                  {0.7, 25, "region III"},

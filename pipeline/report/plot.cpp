@@ -79,7 +79,7 @@ bool can_be_drawn(const Axis& axis, double value) {
   return std::isfinite(value) && (axis.scale != Axis::Scale::kLog || value > 0);
 }
 
-std::string data_block(const Plot& plot, const Curve& curve, const std::string& name) {
+std::string data_block(const Plot& plot, const PlotCurve& curve, const std::string& name) {
   std::string block = name + " << EOD\n";
   for (const PlotPoint& p : curve.points)
     if (can_be_drawn(plot.x, p.x) && can_be_drawn(plot.y, p.y))
@@ -87,19 +87,19 @@ std::string data_block(const Plot& plot, const Curve& curve, const std::string& 
   return block + "EOD\n";
 }
 
-std::string drawn_with(const Curve& curve) {
+std::string drawn_with(const PlotCurve& curve) {
   const std::string in = " linecolor rgb " + quoted(colour(curve.colour));
   switch (curve.style) {
-    case Curve::Style::kDashed:
+    case PlotCurve::Style::kDashed:
       return "with lines linewidth 1.5 dashtype (9,6)" + in;
-    case Curve::Style::kDotted:
+    case PlotCurve::Style::kDotted:
       return "with lines linewidth 1 dashtype (2,4)" + in;
-    case Curve::Style::kPoints:
+    case PlotCurve::Style::kPoints:
       return fmt::format("with linespoints linewidth 1.5 pointsize 0.7 pointtype {}{}",
                          4 + curve.colour % 10, in);
-    case Curve::Style::kArea:
+    case PlotCurve::Style::kArea:
       return "with filledcurves closed fillstyle solid 0.15 noborder" + in;
-    case Curve::Style::kLine:
+    case PlotCurve::Style::kLine:
       break;
   }
   return "with lines linewidth 2" + in;
@@ -124,7 +124,7 @@ std::string gnuplot_script(const Plot& plot) {
                           number(label.x), number(label.y));
   std::string curves;
   int index = 0;
-  for (const Curve& curve : plot.curves) {
+  for (const PlotCurve& curve : plot.curves) {
     const std::string name = fmt::format("$c{}", index++);
     script += data_block(plot, curve, name);
     curves +=

@@ -10,7 +10,7 @@ struct PlotPoint {
   double x, y;
 };
 
-struct Curve {
+struct PlotCurve {
   // kPoints joins its points by lines, kArea fills a closed curve.
   enum class Style { kLine, kDashed, kDotted, kPoints, kArea };
   std::string name;  // a curve without one is not in the legend
@@ -36,7 +36,7 @@ struct PlotLabel {
 struct Plot {
   std::string title;
   Axis x, y;
-  std::vector<Curve> curves;
+  std::vector<PlotCurve> curves;
   std::vector<PlotLabel> labels;
   std::string legend = "top right";  // a place in gnuplot's words, or "below"; empty for none
 };

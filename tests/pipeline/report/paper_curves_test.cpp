@@ -20,12 +20,12 @@ const Plot& plot_of(const std::vector<NamedPlot>& figures, const std::string& na
       ->plot;
 }
 
-const Curve& curve_of(const Plot& plot, const std::string& name) {
+const PlotCurve& curve_of(const Plot& plot, const std::string& name) {
   return *std::find_if(plot.curves.begin(), plot.curves.end(),
-                       [&](const Curve& c) { return c.name == name; });
+                       [&](const PlotCurve& c) { return c.name == name; });
 }
 
-double near(const Curve& curve, double x) {
+double near(const PlotCurve& curve, double x) {
   return std::min_element(curve.points.begin(), curve.points.end(),
                           [&](const PlotPoint& a, const PlotPoint& b) {
                             return std::abs(a.x - x) < std::abs(b.x - x);
@@ -38,7 +38,7 @@ TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
   std::vector<std::string> names;
   for (const NamedPlot& figure : figures) {
     names.push_back(figure.name);
-    for (const Curve& curve : figure.plot.curves)
+    for (const PlotCurve& curve : figure.plot.curves)
       for (const PlotPoint& p : curve.points)
         EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << figure.name << " " << curve.name;
   }
@@ -48,7 +48,7 @@ TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
 
 TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
   const auto figures = paper_curves();
-  const Curve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
+  const PlotCurve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
   EXPECT_NEAR(near(curve, kPi), 0, 1e-8);
   EXPECT_LT(curve.points.front().y, -5.25 * kPi);
   // Far from the hole the curve differs from delta - pi by little more than aberration.
@@ -58,7 +58,7 @@ TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
 
 TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
   const auto figures = paper_curves();
-  const Curve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
+  const PlotCurve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
   double most = -1e300;
   for (const PlotPoint& p : curve.points) most = std::max(most, p.y);
   EXPECT_NEAR(most, -(2 * kPi - kPi / 2), 1e-4);  // a turn less arcsin(0) + pi/2

@@ -86,7 +86,7 @@ TEST(ErrorPlots, HaveOneCurveForEveryMethod) {
   ASSERT_EQ(frames.curves.size(), 3U);
   EXPECT_EQ(frames.curves[0].points.size(), 1U);
   EXPECT_EQ(frames.curves[1].points.size(), 2U);  // one view ray is traced in every pixel
-  EXPECT_EQ(frames.curves[1].style, Curve::Style::kDashed);
+  EXPECT_EQ(frames.curves[1].style, PlotCurve::Style::kDashed);
   EXPECT_EQ(frames.curves[2].points.size(), 1U);
   EXPECT_EQ(frames.curves[2].colour, frames.curves[0].colour);
   EXPECT_EQ(plot_of(plots, "orbit_round").curves.size(), 2U);
