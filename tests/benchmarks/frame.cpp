@@ -17,6 +17,7 @@
 #include "pipeline/render/renderer.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/show/read_show.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
@@ -35,7 +36,7 @@ double peak_mib() {
 }
 
 Show first_light(int size) {
-  Show show = read_show(DOMEFALL_SOURCE_DIR "/shows/first_light.yaml");
+  Show show = read_show(source_file("shows/first_light.yaml"));
   show.projection = Domemaster{size};
   return show;
 }

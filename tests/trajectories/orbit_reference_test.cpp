@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/source_tree.h"
 #include "trajectories/bound_orbit.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/infall.h"
@@ -32,7 +33,7 @@ struct Row {
 };
 
 std::vector<Row> rows() {
-  std::ifstream file(DOMEFALL_TEST_DATA "/orbits.csv");
+  std::ifstream file(source_file("tests/reference/orbits.csv"));
   std::vector<Row> all;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#' || line.rfind("kind", 0) == 0) continue;

@@ -12,11 +12,12 @@
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
 
-constexpr const char* kConfig = DOMEFALL_SOURCE_DIR "/shows/assets/dome.ocio";
+const std::string kConfig = source_file("shows/assets/dome.ocio");
 constexpr const char* kDisplays[] = {"Dome G2.2 Rec.709", "Dome G2.6 P3-D65", "sRGB - Display",
                                      "Rec.1886 Rec.709 - Display"};
 constexpr const char* kViews[] = {"Dome", "ACES SDR", "Star log", "Un-tone-mapped", "Raw"};
@@ -57,7 +58,7 @@ HalfFrame all_greys() {
 TEST(DomeConfig, IsSoundToOpenColorIOsOwnChecker) {
   if (std::system("command -v ociocheck >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "opencolorio-tools is not installed";
-  const std::string check = std::string("ociocheck --iconfig '") + kConfig + "' 2>&1";
+  const std::string check = "ociocheck --iconfig '" + kConfig + "' 2>&1";
   FILE* pipe = popen(check.c_str(), "r");
   ASSERT_TRUE(pipe);
   std::string talk;

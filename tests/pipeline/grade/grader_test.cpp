@@ -7,13 +7,14 @@
 #include <cstring>
 
 #include "pipeline/image/errors.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
 
 GradeSettings shipped(const std::string& view = "") {
   GradeSettings settings;
-  settings.config = DOMEFALL_SOURCE_DIR "/shows/assets/dome.ocio";
+  settings.config = source_file("shows/assets/dome.ocio");
   settings.view = view;
   return settings;
 }

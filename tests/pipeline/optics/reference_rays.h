@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/source_tree.h"
+
 namespace domefall {
 
 struct ReferenceRay {
@@ -20,8 +22,8 @@ inline constexpr const char* kReferenceObservers[] = {"rain", "static", "outgoin
 inline double number_or_zero(const std::string& text) { return text.empty() ? 0 : std::stod(text); }
 
 inline std::vector<ReferenceRay> reference_rays(const std::string& observer) {
-  std::ifstream file(DOMEFALL_TEST_DATA "/rays.csv");
-  if (!file) throw std::runtime_error("no " DOMEFALL_TEST_DATA "/rays.csv");
+  std::ifstream file(source_file("tests/reference/rays.csv"));
+  if (!file) throw std::runtime_error("no " + source_file("tests/reference/rays.csv"));
   std::vector<ReferenceRay> rays;
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with(observer + ",")) continue;

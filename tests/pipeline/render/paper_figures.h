@@ -12,6 +12,7 @@
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 
@@ -23,7 +24,7 @@ inline double angle_between(const V3d& a, const V3d& b) {
 }
 
 inline Show figure(const std::string& label) {
-  return read_show(DOMEFALL_SOURCE_DIR "/shows/paper/" + label + ".yaml");
+  return read_show(source_file("shows/paper/" + label + ".yaml"));
 }
 
 // One panel of a figure, which is one frame of its show.  Positions in it are fractions of its
@@ -87,7 +88,7 @@ class Panel {
 
 inline V3d star(const std::string& name) {
   static const StarCatalogue catalogue =
-      read_star_catalogue(DOMEFALL_SOURCE_DIR "/shows/assets/stars_to_8.csv", 8);
+      read_star_catalogue(source_file("shows/assets/stars_to_8.csv"), 8);
   const auto place = find_star(catalogue, name);
   EXPECT_TRUE(place) << name;
   return place ? place->v : V3d(1, 0, 0);

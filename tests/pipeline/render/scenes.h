@@ -10,11 +10,12 @@
 #include "pipeline/render/renderer.h"
 #include "pipeline/render/scene/frame_scene.h"
 #include "tests/pipeline/render/panorama_file.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
-inline const std::string kTestAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
+inline const std::string kTestAssets = source_file("shows/assets/");
 
 // A small panorama of a few clouds, which costs little time to read.  Its file is removed with the
 // process.

@@ -3,12 +3,13 @@
 
 #include "pipeline/show/frame_state.h"
 #include "tests/pipeline/show/show_file.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
 
 std::string manual() {
-  std::ifstream in(DOMEFALL_SOURCE_DIR "/docs/show-format.md");
+  std::ifstream in(source_file("docs/show-format.md"));
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();

@@ -19,6 +19,7 @@
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/show/show_file.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
@@ -154,13 +155,13 @@ Motion motion_of(const Show& show, int first = 0, int end = 1 << 30) {
 }
 
 std::string text_of(const std::string& name) {
-  std::ifstream in(DOMEFALL_SOURCE_DIR "/shows/" + name + ".yaml");
+  std::ifstream in(source_file("shows/") + name + ".yaml");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
 class SmoothShows : public ShowFile, public testing::WithParamInterface<const char*> {
  protected:
-  SmoothShows() { setenv("DOMEFALL_ASSETS", DOMEFALL_SOURCE_DIR "/shows/assets", 1); }
+  SmoothShows() { setenv("DOMEFALL_ASSETS", source_file("shows/assets").c_str(), 1); }
 };
 
 void expect_within(const char* what, const Worst& worst, const Bounds& bounds) {

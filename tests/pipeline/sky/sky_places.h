@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/sky/catalogue/import/catalogue_formats.h"
+#include "tests/source_tree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -24,6 +25,6 @@ inline CatalogueStar star_of(const RawCatalogue& catalogue, std::string_view id)
   return none;
 }
 
-inline const std::filesystem::path kRows = std::filesystem::path(DOMEFALL_TEST_DATA) / "stars";
+inline const std::filesystem::path kRows = source_file("tests/reference/stars");
 
 }  // namespace domefall

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/source_tree.h"
+
 namespace domefall {
 namespace {
 
@@ -49,7 +51,7 @@ Row row_of(const std::string& line) {
 }
 
 std::vector<Row> rows() {
-  std::ifstream in(DOMEFALL_TEST_DATA "/rays.csv");
+  std::ifstream in(source_file("tests/reference/rays.csv"));
   std::vector<Row> found;
   for (std::string line; std::getline(in, line);)
     if (!line.empty() && line[0] != '#' && line.rfind("observer", 0) != 0)

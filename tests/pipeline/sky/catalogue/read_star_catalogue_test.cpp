@@ -6,12 +6,13 @@
 #include <fstream>
 
 #include "pipeline/image/errors.h"
+#include "tests/source_tree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
 
-const std::string kAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
+const std::string kAssets = source_file("shows/assets/");
 
 TEST(Stars, AreTheNakedEyeSky) {
   const StarCatalogue catalogue = read_star_catalogue(kAssets + "naked_eye_stars.csv", 6.5);

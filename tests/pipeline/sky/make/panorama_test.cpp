@@ -5,6 +5,7 @@
 #include <random>
 
 #include "pipeline/image/read_image.h"
+#include "tests/source_tree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -57,7 +58,7 @@ TEST(SkyMap, HasNoSeamAndNoPole) {
 }
 
 TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
-  const SkyMap map = map_of_panorama(read_image(DOMEFALL_SOURCE_DIR "/shows/assets/milky_way.exr"));
+  const SkyMap map = map_of_panorama(read_image(source_file("shows/assets/milky_way.exr")));
   const auto light = [&map](double ra, double dec) {
     return luminance_of(map.sample(sky_direction(ra, dec).v, 0.02)) / kPanoramaUnit;
   };

@@ -8,6 +8,7 @@
 #include "pipeline/image/read_image.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/make/panorama.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kDegree = pi / 180;
-const std::string kAssets = DOMEFALL_SOURCE_DIR "/shows/assets/";
+const std::string kAssets = source_file("shows/assets/");
 
 const StarCatalogue& stars() {
   static const StarCatalogue catalogue = read_star_catalogue(kAssets + "naked_eye_stars.csv", 6.5);

@@ -4,6 +4,7 @@
 #include "pipeline/sky/catalogue/star_id.h"
 #include "tests/pipeline/image/test_folder.h"
 #include "tests/pipeline/sky/sky_places.h"
+#include "tests/source_tree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -110,8 +111,7 @@ TEST_F(StarCorrections, TheShippedOnesGiveTheHenryDraperCatalogueItsBetaLyrae) {
     star.id = henry_draper_id(hd), star.v = kNoMagnitude;
     draper.stars.push_back(star);
   }
-  EXPECT_EQ(apply_corrections(draper, DOMEFALL_SOURCE_DIR "/shows/assets/star_corrections.csv"),
-            9u);
+  EXPECT_EQ(apply_corrections(draper, source_file("shows/assets/star_corrections.csv")), 9u);
   EXPECT_EQ(draper.stars[0].v, 3.52F);
   for (const CatalogueStar& star : draper.stars) EXPECT_LT(star.v, 5);
 }
