@@ -13,14 +13,13 @@
 #include <exception>
 #include <string>
 
+#include "pipeline/cli/command_line.h"
 #include "pipeline/cli/interruption.h"
-#include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/simd/dispatch.h"
 
 namespace {
 
-constexpr int kBadInput = 2, kTryAgain = 75, kFailure = 1;
+constexpr int kTryAgain = 75, kFailure = 1;
 
 int report(const char* message, int code) {
   std::fprintf(stderr, "%s\n", message);
@@ -33,39 +32,15 @@ int flushed(int code) {
   throw domefall::TemporaryError(std::string("standard output: ") + std::strerror(errno));
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Black-hole shows for planetariums: a show file in, graded Domemaster frames out");
-  app.set_version_flag("--version", "domefall " DOMEFALL_VERSION);
-  app.require_subcommand(1);
-  domefall::add_check(app);
-  domefall::add_render(app);
-  domefall::add_grade(app);
-  domefall::add_preview(app);
-  domefall::add_states(app);
-  domefall::add_probe(app);
-  domefall::add_trace(app);
-  domefall::add_report(app);
-  domefall::add_stars(app);
-  domefall::add_sky(app);
-  // A wrong DOMEFALL_SIMD ends the program before anything is made.
-  app.parse_complete_callback([] { domefall::simd_in_use(); });
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return flushed(run(argc, argv));
+    return flushed(domefall::run_command_line(argc, argv));
   } catch (const domefall::Interrupted& stop) {
     return report("stopped; run the same command again to go on", 128 + stop.signal);
   } catch (const domefall::InputError& error) {
-    return report(error.what(), kBadInput);
+    return report(error.what(), domefall::kBadInput);
   } catch (const domefall::TemporaryError& error) {
     return report(error.what(), kTryAgain);
   } catch (const std::bad_alloc&) {

@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/verbs.h"

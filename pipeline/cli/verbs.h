@@ -1,7 +1,9 @@
 // The verbs of the command line, one file each.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace domefall {
 
