@@ -26,8 +26,8 @@ namespace domefall {
 enum class Pace {
   kSteady,  // evenly, or by a rate that changes smoothly from the first instant's to the last one's
   kEased,   // from standstill to standstill
-  kSlowing,  // so that the time left to the singularity shrinks by equal factors in equal show
-             // times: log r falls evenly, and the end is not over in a frame
+  kSlowing,    // so that the time left to the singularity shrinks by equal factors in equal show
+               // times: log r falls evenly, and the end is not over in a frame
   kQuickening  // the same backwards, from the past singularity on
 };
 
@@ -61,8 +61,8 @@ struct Segment {
   Timing timing;
   Placement placement;
   Camera camera;  // holds wherever nothing is keyframed
-  std::vector<AttitudeKey>
-      attitudes;  // in ascending order; camera.attitude counts where it is empty
+  // Keyframes in ascending order.  Where there are none the camera keeps its attitude.
+  std::vector<AttitudeKey> attitudes;
   // A channel has a curve if the show or the segment keyframes it, or if the segment has a value of
   // its own for it.
   PerChannel<std::optional<Curve>> curves;
@@ -104,12 +104,12 @@ struct PanoramaShift {
   double blueshift_power = 2;
 };
 
+inline constexpr double kWhiteCore = 10;  // a show's default of PointSpreadLaw::white_core
+
 // The law by which stars are spread over pixels.  Each is a truncated Gaussian in angle.  Without a
 // halo its width grows with its observed magnitude m,
 //     sigma = min_sigma max(1, 10^(0.4 growth (reference_magnitude - m))),
-// up to max_sigma.  With a halo every star has the width min_sigma, and bright ones show their
-// halo.
-inline constexpr double kWhiteCore = 10;  // a show's default of white_core
+// up to max_sigma.  With a halo every star has the width min_sigma, and bright ones show it.
 struct PointSpreadLaw {
   double min_sigma = 0;            // radians; the renderer takes 0.9 pixel where that is wider
   double growth = 0.2;             // with 0 all stars have the same size, with 0.5 the same peak
