@@ -30,7 +30,7 @@ template <int kCount>
 
 // exp(x) for x <= 80, where arguments below -80 count as -80.  With n = round(x / ln 2) it is 2^n,
 // which is written into the exponent's bits, times the Taylor series of exp(x - n ln 2) to the
-// fifth power.  Measured: its relative error is below 3e-6.
+// fifth power.  Measured: its relative error is below 5e-6 for |x| <= 20 and 8e-6 for |x| <= 80.
 [[gnu::always_inline]] inline float exponential_of_float(float x) {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
   const float bounded = x > -80.0f ? x : -80.0f;

