@@ -85,7 +85,7 @@ double tan_half_critical(const Radius& at, Critical edge) {
 
 double kappa(const Radius& at, const RadialFrame& frame) { return kappa_of<double>(at, frame); }
 
-NullRay ray_at(const Radius& at, const LookAngle& alpha, const RadialFrame& frame) {
+NullRay ray_at(const Radius& at, const PolarAngle& alpha, const RadialFrame& frame) {
   const auto kappa = kappa_of<long double>(at, frame);
   const auto gap_from = [&](Critical edge) {
     const long double root = edge == Critical::kFirst ? tan_half_silhouette_long(at)
@@ -107,10 +107,10 @@ NullRay ray_at(const Radius& at, const LookAngle& alpha, const RadialFrame& fram
 }
 
 NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame) {
-  return ray_at(at, look_angle(alpha), frame);
+  return ray_at(at, polar_angle(alpha), frame);
 }
 
-LookAngle look_angle(long double angle) {
+PolarAngle polar_angle(long double angle) {
   // pi, and what a long double leaves of it.
   constexpr long double kPi = std::numbers::pi_v<long double>, kRest = -5.01655761266833202e-20L;
   return {angle, (kPi - angle) + kRest};

@@ -1,7 +1,7 @@
 // A light ray as it reaches an observer, and what decides where it came from: its angle alpha in
 // the frame of radial free fall at the observer's place, and its distances from the edges there.
 //
-// Rain (falling in):  alpha = delta, the angle of the look from -R, the direction of the hole,
+// Rain (falling in):  alpha = delta, the angle from -R, the direction of the hole,
 //     k = T + cos(delta) R + sin(delta) Theta,   E = 1 - s cos(delta),   L = r sin(delta),
 // s = sqrt(2/r), M = 1.  [Riazuelo] eq. def_k_prec, and app. app_geod for the origins.
 // Outgoing frame (T_I' of [Riazuelo]):  alpha = pi - delta, the angle from +R.  Time reversal makes
@@ -43,15 +43,15 @@ struct RadialFrame {
 double kappa(const Radius& at, const RadialFrame& frame);
 
 // An angle in [0, pi] and what is left to pi, each to full relative accuracy.
-struct LookAngle {
+struct PolarAngle {
   long double angle, rest;
 
-  LookAngle reversed() const { return {rest, angle}; }
+  PolarAngle reversed() const { return {rest, angle}; }
 };
-LookAngle look_angle(long double angle);
+PolarAngle polar_angle(long double angle);
 
 // alpha in [0, pi], in that frame.
-NullRay ray_at(const Radius& at, const LookAngle& alpha, const RadialFrame& frame = {});
+NullRay ray_at(const Radius& at, const PolarAngle& alpha, const RadialFrame& frame = {});
 NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame = {});
 // alpha = edge + offset in that frame, the offset given to full relative accuracy.
 NullRay ray_off_edge(const Radius& at, Critical edge, double offset, const RadialFrame& frame = {});

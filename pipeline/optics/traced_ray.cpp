@@ -41,7 +41,7 @@ NullRay ray_of(const RayRequest& q, const View& view) {
     const double offset = view.from_behind ? -q.offset : q.offset;
     return ray_off_edge(q.at, critical_of(view, *q.edge), offset, view.frame);
   }
-  const LookAngle delta = look_angle(q.delta);
+  const PolarAngle delta = polar_angle(q.delta);
   return ray_at(q.at, view.from_behind ? delta.reversed() : delta, view.frame);
 }
 
@@ -116,7 +116,7 @@ Integrator integrator_of(TraceMethod method) {
   }
 }
 
-// E, L and k^r of a look at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses
+// E, L and k^r of a ray seen at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses
 // beside an edge is the methods' own.
 PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delta) {
   const double s = std::sqrt(2 / at.r), c = std::cos(delta);

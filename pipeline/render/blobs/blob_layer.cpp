@@ -140,7 +140,8 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
       const StarImage& image = images[begin + k];
       middle[k] = image;
       sigma[k] = widths.least();
-      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light()) continue;
+      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light())
+        continue;
       const PointSpreadParts parts = widths.parts(image);
       middle[k] = parts.image;
       sigma[k] = parts.sigma;

@@ -33,7 +33,7 @@ class SplatBuffer {
   float* row_at(int row);
 
   const SplatKernel* kernel_ = nullptr;
-  std::vector<float> memory_;   // `ring_` rows, and one more on which nobody looks
+  std::vector<float> memory_;   // `ring_` rows, and one more that is never read
   std::vector<float> blurred_;  // the rows of a band, blurred downwards, and one more
   std::vector<float*> rows_;    // the first pixel of each row from table_first_ on
   std::vector<StarImage> sorted_;

@@ -38,7 +38,8 @@ TEST_P(SimdLoops, MakesTheSameHalves) {
     std::vector<std::uint16_t> out(from.size());
     const bool finite = to_half(from.data(), count, out.data());
     Bytes bytes;
-    bytes.add(out), bytes.add(&finite, 1);
+    bytes.add(out);
+    bytes.add(&finite, 1);
     return bytes;
   };
   for (const int less : {0, 1, 7, 31})
@@ -278,7 +279,9 @@ TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
                      first_row.data(), kind.data());
       EXPECT_GT(std::count(kind.begin(), kind.end(), BlobKind::kEllipse), 500);
       Bytes bytes;
-      bytes.add(blobs), bytes.add(first_row), bytes.add(kind);
+      bytes.add(blobs);
+      bytes.add(first_row);
+      bytes.add(kind);
       return bytes;
     });
     PointSpreadLaw plain{0.05 * kDegree, 0.3, 2, 3 * kDegree}, haloes = plain;

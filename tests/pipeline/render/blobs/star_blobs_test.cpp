@@ -51,7 +51,7 @@ TEST(StarBlobs, BringTheSameFluxWhereverTheyLieBetweenPixels) {
   }
 }
 
-// A star near the rim and its mirror image outside together bring the light of one.
+// A star within the rim and another as far outside it together bring the light of one.
 TEST(StarBlobs, AtTheRimAreCutNotDimmed) {
   const Projection p = Domemaster{1024};
   const Show show = show_of(StaticObserver{}, p);
@@ -108,7 +108,7 @@ TEST(StarBlobs, GrowWithBrightnessByTheLawOfTheShow) {
   EXPECT_NEAR(sigma(-20), 0.3 * kDegree, 1e-12);
 }
 
-// With a halo all middles have one width, and give to the halo what it has.
+// With a halo all middles have the least width, and the halo's light is missing in the middle.
 TEST(StarBlobs, WithAHaloKeepTheirLight) {
   const Projection p = Domemaster{1024};
   Show show = show_of(StaticObserver{}, p);
