@@ -51,8 +51,8 @@ struct PhotonAtObserver {
 enum class Integrator { kPaperRk4, kFullDopri5, kFullRkf78, kBinetDopri5, kBinetRkf78 };
 
 struct IntegratedRay {
-  // Where the light started; nothing for a ray that has not arrived, or whirls at the light circle for
-  // ever.
+  // Where the light started; nothing for a ray that has not arrived, or whirls at the light circle
+  // for ever.
   std::optional<SkyRegion> origin;
   double phi = 0;        // swept azimuth, radians; NaN if undecided
   long steps = 0;        // attempted, rejected ones included

@@ -23,7 +23,8 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
 double SkyStore::faintest_magnitude(SkyRegion which) const {
   double faintest = show_.sky[which].stars.value_or(StarField{}).max_magnitude;
   for (const Segment& segment : show_.timeline)
-    if (const auto& curve = segment.curves[max_magnitude_channel(which)]) faintest = std::max(faintest, largest(*curve));
+    if (const auto& curve = segment.curves[max_magnitude_channel(which)])
+      faintest = std::max(faintest, largest(*curve));
   return faintest;
 }
 

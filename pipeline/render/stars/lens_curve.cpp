@@ -9,14 +9,14 @@ namespace {
 
 using std::numbers::pi;
 
-// Where the slope of Hermite's cubic errs most, 1/2 - 1/sqrt 12; its value errs there by 4/9 of what
-// it does in the middle.
+// Where the slope of Hermite's cubic errs most, 1/2 - 1/sqrt 12; its value errs there by 4/9 of
+// what it does in the middle.
 constexpr double kTested = 0.21132486540518712;
 constexpr double kOfTheMiddle = 4.0 / 9;
 
-// What bounds a product of three factors on an interval by their values at three of its points.  Each
-// is monotone, but where it turns, which costs it an eighth of the square of a step that the factor
-// makes in a fraction of a per cent.
+// What bounds a product of three factors on an interval by their values at three of its points.
+// Each is monotone, but where it turns, which costs it an eighth of the square of a step that the
+// factor makes in a fraction of a per cent.
 constexpr double kBetween = 1.001;
 constexpr double kUnbounded = 1e37;  // and all that is larger; a float
 

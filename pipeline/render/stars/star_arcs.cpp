@@ -12,8 +12,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kMostPieces = 4096;
-// Chords of a disc whose light is summed: the sum converges like a power unless the axis is about as far
-// from the middle as the rim is.
+// Chords of a disc whose light is summed: the sum converges like a power unless the axis is about
+// as far from the middle as the rim is.
 constexpr int kChords = 8, kChordsAtRim = 64;
 constexpr double kAtRim = 1.5;  // radii from the axis up to which that is so
 
@@ -35,8 +35,8 @@ class Disc {
     double near, far;  // distances from the axis
     double width;      // of azimuth
   };
-  // The k-th of `count`, all equally wide in tau: azimuth itself where the axis lies in the disc, else
-  // sin(azimuth) = radius/from_axis sin(tau).
+  // The k-th of `count`, all equally wide in tau: azimuth itself where the axis lies in the disc,
+  // else sin(azimuth) = radius/from_axis sin(tau).
   Chord chord(int k, int count) const {
     const double share = (k + 0.5) / count;
     if (is_ring()) {

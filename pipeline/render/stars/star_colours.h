@@ -16,8 +16,8 @@ class StarColours {
     float r, g, b, luminance;
   };
 
-  // blackbody_colours(), interpolated once more.  Measured: within 1e-4 of it above 3000 K, 4e-4 above
-  // 1000 K.  Any temperature >= 0.
+  // blackbody_colours(), interpolated once more.  Measured: within 1e-4 of it above 3000 K, 4e-4
+  // above 1000 K.  Any temperature >= 0.
   Light operator()(double temperature) const {
     const auto bits = std::bit_cast<std::uint64_t>(temperature);
     const std::uint64_t key = bits >> kShift;

@@ -17,9 +17,9 @@ constexpr double kBlurPixels = 4;
 
 using std::numbers::pi;
 
-// Where an effect is left out, images up to this order are always tried, since either side may be the
-// bright one; beyond, the flux falls by exp(-2 pi) with every second order and the first faint one
-// ends the series.
+// Where an effect is left out, images up to this order are always tried, since either side may be
+// the bright one; beyond, the flux falls by exp(-2 pi) with every second order and the first faint
+// one ends the series.
 constexpr int kAlwaysTried = 4;
 constexpr int kWithoutAmplification = 2;
 
@@ -28,7 +28,8 @@ constexpr double kFade = 0.5;  // magnitudes
 // Pieces of an arc are so many sigma apart: its light is even to 2 exp(-2 pi^2/1.5^2), 3e-4.
 constexpr double kPieceSigmas = 1.5;
 
-// The part of a star's light that a frame takes.  Magnitudes are floats: so is a limit that some have.
+// The part of a star's light that a frame takes.  Magnitudes are floats: so is a limit that some
+// have.
 double part_taken(const FrameSettings::Sky& sky, double magnitude) {
   if (!sky.soft_limit) return magnitude <= double{static_cast<float>(sky.max_magnitude)} ? 1 : 0;
   return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
@@ -96,8 +97,8 @@ void StarImages::append_orders(const SceneStar& star, const V3d& source, int fir
   }
 }
 
-// A disc's amplification is that of its points in the mean, and the mean of 1/(their distance from the
-// axis) is at most 2/radius.
+// A disc's amplification is that of its points in the mean, and the mean of 1/(their distance from
+// the axis) is at most 2/radius.
 bool StarImages::may_be_seen(const SceneStar& star, double sine, int order) const {
   const double radius = std::max(disc_, star.angular_radius);
   const double least = sine < kNearAxis * radius ? radius / 2 : sine;

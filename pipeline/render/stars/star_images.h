@@ -15,19 +15,19 @@ namespace domefall {
 // An image fainter than this peak pixel value, drawn at its smallest, is left out.
 inline constexpr double kFaintestPeak = 2e-4;
 
-// The observed images of stars, before any is drawn.  Where light goes straight a star has one image.
-// Without amplification all images of a star are equally bright and there is no end of them, so that only
-// the two are drawn whose light does not go once around the hole.
+// The observed images of stars, before any is drawn.  Where light goes straight a star has one
+// image.  Without amplification all images of a star are equally bright and there is no end of
+// them, so that only the two are drawn whose light does not go once around the hole.
 //
-// Near the axis of the lens, where points would be infinitely bright, a star is a disc as large as the
-// smallest blob would cover there.  Its image is an arc or a ring (star_arcs.h).
+// Near the axis of the lens, where points would be infinitely bright, a star is a disc as large as
+// the smallest blob would cover there.  Its image is an arc or a ring (star_arcs.h).
 class StarImages {
  public:
   // The images of the stars of one sky.  The scene must outlive this.
   StarImages(const FrameScene& scene, SkyRegion sky);
 
-  // One star, every order by inverting the table: exact, slow.  Appends the images that may be seen,
-  // and some that lie beside the picture.
+  // One star, every order by inverting the table: exact, slow.  Appends the images that may be
+  // seen, and some that lie beside the picture.
   void append(const SceneStar& catalogued, std::vector<StarImage>& images) const;
 
   // How many of the stars may be seen at all, by their magnitudes and fluxes: the first ones.

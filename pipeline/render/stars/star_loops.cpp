@@ -195,8 +195,8 @@ StarPlane::StarPlane(const Projection& projection, double reach)
     half_i_ = half_j_ = HUGE_VAL;
     return;
   }
-  // A blob that touches the picture has its middle no farther from it than `reach`, at no more pixels
-  // per radian than there are that far beyond the corners.
+  // A blob that touches the picture has its middle no farther from it than `reach`, at no more
+  // pixels per radian than there are that far beyond the corners.
   scale_ *= 2;
   const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
   const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);

@@ -1,5 +1,5 @@
-// Many stars at once from their catalogue to their pixels: loops over columns that become SIMD code.
-// Units and names are those of StarImages, which looks after everything that is not plain.
+// Many stars at once from their catalogue to their pixels: loops over columns that become SIMD
+// code.  Units and names are those of StarImages, which looks after everything that is not plain.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct StarFrame {
   M33d sky_from_tetrad, tetrad_from_camera;
   Aberration from_tetrad{V3d(0, 0, 0)};
   PsiFrame psi{0, 1, 1};
-  // A star of magnitude m gives gain * min(1, (limit - m) * inverse_fade) of its light, and none from
-  // the limit on.
+  // A star of magnitude m gives gain * min(1, (limit - m) * inverse_fade) of its light, and none
+  // from the limit on.
   double gain = 1, limit = 0, inverse_fade = 0;
 };
 

@@ -142,9 +142,9 @@ TEST(RegionFour, ConvergesOnTheAntipodeNextToTheHorizon) {
   EXPECT_LT(left_before, 1e-5);
 }
 
-// Far away the two bright images of a star behind the hole obey the lens equation of weak fields: the
-// product of their distances from the hole, theta1 theta2, is the square of the Einstein ring's radius,
-// theta_E^2 = 4/r, and the difference is the star's own.
+// Far away the two bright images of a star behind the hole obey the lens equation of weak fields:
+// the product of their distances from the hole, theta1 theta2, is the square of the Einstein ring's
+// radius, theta_E^2 = 4/r, and the difference is the star's own.
 TEST(Lensing, FarFromTheHoleTheTwoImagesObeyTheLensEquation) {
   const double r = 1e6;
   const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {});

@@ -37,7 +37,7 @@ class ReferenceRows : public testing::TestWithParam<const char*> {};
 
 TEST_P(ReferenceRows, HaveTheRightOrigin) {
   for (const ReferenceRay& row : reference_rays(GetParam()))
-    EXPECT_EQ(name(trace_ray(request_of(row), TraceMethod::kExact).origin), row.origin)
+    EXPECT_EQ(name_of(trace_ray(request_of(row), TraceMethod::kExact).origin), row.origin)
         << place(row);
 }
 
