@@ -6,7 +6,7 @@
 
 namespace domefall {
 
-// Where to write footprints, column by column.  FootprintBatch has such columns.
+// Where to write footprints, column by column.  SampleBatch has such columns.
 struct FootprintColumns {
   float *x, *y, *z;      // the middle, a unit vector on the sky
   float *wide, *narrow;  // the axes of the ellipse, radians

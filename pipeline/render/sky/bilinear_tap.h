@@ -52,8 +52,8 @@ struct FloatFacePoint {
 
 // Sets the index of the first of the four texels about a point, and how far the point lies from the
 // first towards the others (0 to 1).  Texel i of n has its centre at u = (2 i + 1)/n - 1, so a
-// point lies (u + 1) n/2 - 1/2 texels from the first centre; the border adds one texel.  half_size:
-// n/2.
+// point lies (u + 1) n/2 - 1/2 texels from the first centre; the border adds one texel.
+// `half_size` is n/2.
 [[gnu::always_inline]] inline void locate_texels(const FloatFacePoint& point, float half_size,
                                                  std::int32_t stride, std::int32_t& first,
                                                  float& fx, float& fy) {

@@ -8,8 +8,10 @@
 //   away.
 // - At the nodes around it, the cubic through the nodes 1 and 3 steps away on both sides errs by
 //   less than kCoarser tolerances.  Its nodes are twice as far apart, so that it errs 2^4 times as
-//   much.  All pixels of a cell that fails are traced.  (Directions are kept as floats, which are
-//   right to 3e-7 radians: a thousandth of a texel of a map 16k wide.)
+//   much.
+//
+// All pixels of a cell that fails are traced.  Directions are kept as floats, which are right to
+// 3e-7 radians: a thousandth of a texel of a map 16k wide.
 #pragma once
 
 #include <array>
@@ -27,9 +29,9 @@ class RayGrid {
   static constexpr int kStep = 8;
   static constexpr double kTolerance = 0.01;
 
-  // Traces all nodes, on all threads of the arena, and classifies the cells.  Memory is kept from
-  // frame to frame.  Cells of skies that are no maps are exact. special: directions about which a
-  // grid may miss detail.
+  // Traces all nodes, on all threads of the arena, and classifies the cells.  Cells of skies that
+  // are no maps are exact, and so are those near the special directions, about which a grid may
+  // miss detail.  Memory is kept from frame to frame.
   void make(const PixelShader& shader, const std::vector<CameraDirection>& special);
 
   enum class Kind : std::uint8_t {
