@@ -19,7 +19,8 @@ class FrameKeys {
   // an asset cannot be read.
   explicit FrameKeys(const Show& show, std::string grade = {});
 
-  // The digest of what all frames share, which is everything but the timeline.
+  // The digest of what all frames share, which is neither in the timeline nor a sky that only some
+  // of them see.
   const std::string& show() const { return common_; }
   // The key of a scene-linear frame.
   std::string scene(const FrameState& state) const;

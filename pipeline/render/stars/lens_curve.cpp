@@ -9,23 +9,26 @@ namespace {
 
 using std::numbers::pi;
 
-// Where the slope of Hermite's cubic errs most, 1/2 - 1/sqrt 12; its value errs there by 4/9 of
-// what it does in the middle.
+// Intervals are tested where the slope of Hermite's cubic errs most.  The cubic's error is
+// proportional to t^2 (1 - t)^2, whose slope has its extremum at t = 1/2 - 1/sqrt 12.  There t (1 -
+// t) is 1/6, and the error is 4/9 of that in the middle, where t (1 - t) is 1/4.
 constexpr double kTested = 0.21132486540518712;
-constexpr double kOfTheMiddle = 4.0 / 9;
+constexpr double kErrorThere = 4.0 / 9;
 
-// What bounds a product of three factors on an interval by their values at three of its points.
-// Each is monotone, but where it turns, which costs it an eighth of the square of a step that the
-// factor makes in a fraction of a per cent.
+// The light on an interval is bounded by the product of the largest values that its three factors
+// have at the ends and at the tested point.  A factor with an extremum between these points exceeds
+// them by at most f''/8 times the square of their distance, which is what kBetween leaves room for.
 constexpr double kBetween = 1.001;
-constexpr double kUnbounded = 1e37;  // and all that is larger; a float
+constexpr double kUnbounded = 1e37;  // replaces any larger bound; it is within a float
 
 // The exact image of a source whose light has swept phi.
 struct Exact {
-  double psi, slope;  // as LensCurve::View
-  double sine, energy;
-  double from_edge;  // radians, to full relative accuracy
+  double psi, slope;    // as LensCurve::View has them
+  double sine, energy;  // sin(psi), and 1 + z of the free-fall observer
+  double from_edge;     // angle from the sky's edge in radians, to full relative accuracy
 
+  // amplification * |sin phi_star| / (1 + z)^4, where the amplification is
+  // |sin psi d psi/(sin phi d phi)|.
   double light() const { return slope * sine / (energy * energy * energy * energy); }
 };
 
@@ -37,7 +40,7 @@ Exact exact(const SkyTable& table, double phi) {
           2 * ray.sin_half * ray.cos_half, one_plus_z(ray), from_edge};
 }
 
-// Over the interval that has these three on it.
+// An upper bound of light() on the interval between a and c, in which b lies.
 double most_light(const Exact& a, const Exact& b, const Exact& c) {
   const auto most = [](double p, double q, double r) { return std::max({p, q, r}); };
   const double sine = std::min(1.0, most(a.sine, b.sine, c.sine) + std::abs(a.psi - c.psi) / 2);
@@ -54,7 +57,8 @@ double light_of(const LensCurve::View& view, const PsiFrame& frame) {
 
 }  // namespace
 
-// From there to the edge the slope falls, and energy and angle lie between those of the two ends.
+// From this order to the edge the slope falls, and energy and angle lie between their values at the
+// two ends.
 double most_light_from(const SkyTable& table, int order) {
   const Exact from = exact(table, order * pi);
   const NullRay edge = table.ray_at_distance(0);
@@ -63,10 +67,12 @@ double most_light_from(const SkyTable& table, int order) {
   return most_light(from, from, to);
 }
 
+// With s = sqrt(2/r), 1 + z is |1 - s cos(alpha)|.  Beyond the first edge psi is pi - alpha, beyond
+// the second alpha itself.  The angle alpha counts from -R in rain and from R in the outgoing
+// frame.  The difference 1 - s is (1 - s^2)/(1 + s), which does not cancel near the horizon.
 PsiFrame psi_frame(const SkyTable& table) {
   const NullRay ray = table.ray_at_distance(table.x_max());
   const double s = std::sqrt(2 / ray.at.r), less = ray.at.above_horizon / (ray.at.r * (1 + s));
-  // Beyond the first edge psi is pi - alpha, else alpha; alpha counts from -R in rain.
   if (table.edge().sign > 0) return {less, 1 + s, 1};
   return {1 + s, less, ray.outgoing ? 1.0 : -1.0};
 }
@@ -78,14 +84,14 @@ LensCurve::View LensCurve::operator()(double v) const {
   return curve.view(v, at.share, c[0], c[1], c[2], c[3]);
 }
 
-LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Wanted& wanted)
+LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Tolerance& tolerance)
     : coefficients_(4 * static_cast<std::size_t>(intervals)),
       bound_(static_cast<std::size_t>(intervals)),
       intervals_(intervals) {
   const double middle = (2 * pair + 1) * pi, width = 2.0 / intervals;
   const PsiFrame frame = psi_frame(table);
   const auto at = [&](double v) { return exact(table, middle - 4 * std::atan(v)); };
-  // d psi/d v times the width: phi falls with v, psi grows with phi.
+  // d psi/d v times the width.  The azimuth falls with v by d phi/d v = -4/(1 + v^2).
   const auto by_interval = [&](const Exact& e, double v) {
     return -e.slope * 4 / (1 + v * v) * width;
   };
@@ -96,11 +102,14 @@ LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Wante
     const double d0 = by_interval(low, v), d1 = by_interval(high, next);
     const double rise = low.from_edge - high.from_edge;
     double* c = &coefficients_[4 * static_cast<std::size_t>(i)];
-    c[0] = low.psi, c[1] = d0, c[2] = 3 * rise - 2 * d0 - d1, c[3] = d0 + d1 - 2 * rise;
+    c[0] = low.psi;
+    c[1] = d0;
+    c[2] = 3 * rise - 2 * d0 - d1;
+    c[3] = d0 + d1 - 2 * rise;
     const View found = (*this)(v + kTested * width);
     const double light = tested.light(), most = most_light(low, tested, high);
-    const bool good = std::abs(found.psi - tested.psi) < kOfTheMiddle * wanted.position &&
-                      std::abs(light_of(found, frame) - light) < wanted.flux * light;
+    const bool good = std::abs(found.psi - tested.psi) < kErrorThere * tolerance.position &&
+                      std::abs(light_of(found, frame) - light) < tolerance.flux * light;
     bound_[static_cast<std::size_t>(i)] =
         static_cast<float>(good ? std::min(most, kUnbounded) : -1);
     double& largest = largest_[v + width / 2 > 0 ? 0 : 1];

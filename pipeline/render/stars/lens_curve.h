@@ -1,12 +1,13 @@
-// Where the images of a pair of orders are seen, 2 p and 2 p + 1, for every place of a source: one
-// polynomial look-up instead of the inversion of a SkyTable.
+// The images of a pair of orders, 2 p and 2 p + 1, for every place of a source: one polynomial
+// instead of the inversion of a SkyTable.
 //
-// The light of both sweeps an azimuth between 2 p pi and (2 p + 2) pi.  It is tabulated against
+// The light of both orders sweeps an azimuth between 2 p pi and (2 p + 2) pi.  The table's
+// coordinate is
 //     v = tan((phi_middle - phi)/4),  phi_middle = (2 p + 1) pi,
-// which is v_star for the even order and -v_star for the odd one, v_star = tan((pi - phi_star)/4)
-// in [0, 1] an algebraic function of the source.  What is tabulated is psi, the angle of view from
-// the sky's far end: smooth from -1 to 1, odd in phi about the far end itself.  Intervals are even,
-// each holds the cubic with the exact values and slopes at its ends.
+// which is v_star for the even order and -v_star for the odd one.  v_star = tan((pi - phi_star)/4),
+// in [0, 1], is an algebraic function of the source's components.  The table's value is psi, the
+// angle of view from the sky's far end, which is smooth from -1 to 1.  Intervals have equal
+// widths.  Each holds the cubic that has the exact values and slopes at its ends.
 #pragma once
 
 #include <bit>
@@ -20,31 +21,29 @@ namespace domefall {
 
 class LensCurve {
  public:
-  struct Wanted {
-    double position = 1e-6;  // radians: error of psi
-    double flux = 1e-4;      // relative error of the flux
+  struct Tolerance {
+    double position = 1e-6;  // of psi, radians
+    double flux = 1e-4;      // relative
   };
-  // Where an interval misses what is wanted, measured at the point where the
-  // cubic's slope errs most, it is not for use.  Costs 2 look-ups of the table for each interval.
-  LensCurve(const SkyTable& table, int pair, int intervals, const Wanted& wanted);
+  // Each interval is checked against the table at the point where the cubic's slope errs most.  One
+  // that misses the tolerance is not for use.  The table is inverted twice for each interval.
+  LensCurve(const SkyTable& table, int pair, int intervals, const Tolerance& tolerance);
 
-  int intervals() const { return intervals_; }
-  bool good(int interval) const { return bound_[static_cast<std::size_t>(interval)] >= 0; }
   int interval_of(double v) const {
     const int i = static_cast<int>((v + 1) * (0.5 * intervals_));
     return i < intervals_ ? i : intervals_ - 1;
   }
-  // No image there has more of amplification times |sin phi_star| times (frequency ratio)^4 than
-  // this, in the frame of the tetrad; negative where the curve is not for use.
-  const float* bound() const { return bound_.data(); }
-  // The largest of all bounds of the even (order 0) or the odd order, unusable intervals included.
+  // For each interval an upper bound of amplification * |sin phi_star| * (frequency ratio)^4 in the
+  // frame of the tetrad, or a negative number if the interval is not for use.
+  const float* bounds() const { return bound_.data(); }
+  // The largest bound of the even or the odd order, with those of the intervals not for use.
   double largest_bound(bool odd) const { return largest_[odd ? 1 : 0]; }
 
   struct View {
-    double psi;    // from the far end
+    double psi;    // the angle of view from the far end, radians
     double slope;  // |d psi/d phi|
   };
-  // Of one v, in [-1, 1].
+  // The image at one v in [-1, 1].
   View operator()(double v) const;
 
   // Finds the polynomial of any v, for loops that are to become SIMD code.  It is a copy, so that
@@ -60,12 +59,14 @@ class LensCurve {
       double share;                // the position in the interval, 0 to 1
     };
     Index operator()(double v) const {
+      // The sum with kRounding has the number of the interval, u rounded down, in its low bits.
       const double u = (v + 1) * half;
       const double shifted = (u - 0.5) + kRounding;
       const auto at = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(shifted) & 0xffff);
       return {coefficients + kTerms * (at < last ? at : last), u - (shifted - kRounding)};
     }
-    // c0 to c3 are the coefficients of the interval of v, t is its share.
+    // c0 to c3 are the coefficients of the interval of v, t is its share.  The factors of the slope
+    // are d psi/d t, d t/d v = half and |d v/d phi| = (1 + v^2)/4.
     View view(double v, double t, double c0, double c1, double c2, double c3) const {
       const double by_t = (3 * c3 * t + 2 * c2) * t + c1;
       const double slope = by_t * half * (1 + v * v) * 0.25;
@@ -81,13 +82,14 @@ class LensCurve {
   int intervals_;
 };
 
-// The same bound for everything from this order on.
+// The same bound for this order and all that follow.
 double most_light_from(const SkyTable& table, int order);
 
-// |E| = 1 + z of the free-fall observer, and the direction's component along R, from psi.
+// How 1 + z for the free-fall observer and the component of a direction along R follow from psi:
+//     1 + z = |sine2 sin^2(psi/2) + cosine2 cos^2(psi/2)|,  component = outward cos(psi).
 struct PsiFrame {
-  double sine2, cosine2;  // |E| = |sine2 sin^2(psi/2) + cosine2 cos^2(psi/2)|
-  double outward;         // R.direction = outward cos(psi)
+  double sine2, cosine2;
+  double outward;  // 1 or -1
 };
 PsiFrame psi_frame(const SkyTable& table);
 

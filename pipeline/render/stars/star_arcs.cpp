@@ -12,31 +12,32 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kMostPieces = 4096;
-// Chords of a disc whose light is summed: the sum converges like a power unless the axis is about
-// as far from the middle as the rim is.
+// The light of a disc is summed over so many chords.  The sum converges fast in their number,
+// but slowly if the axis is about as far from the disc's middle as the rim is, or nearer.
 constexpr int kChords = 8, kChordsAtRim = 64;
-constexpr double kAtRim = 1.5;  // radii from the axis up to which that is so
+constexpr double kAtRim = 1.5;  // the distance, in radii, up to which there are more chords
 
-// The disc in polar coordinates about the axis, which is small enough to be flat.
+// The disc in polar coordinates about the axis.  It is small enough to be flat.
 class Disc {
  public:
   Disc(double from_axis, double radius)
       : from_axis_(from_axis),
         radius_(radius),
-        gathered_(std::clamp((kPoint - from_axis / radius) / (kPoint - 1), 0.0, 1.0)) {}
+        drawn_part_(std::clamp((kPoint - from_axis / radius) / (kPoint - 1), 0.0, 1.0)) {}
 
   bool is_ring() const { return from_axis_ < radius_; }
   bool is_at_rim() const { return from_axis_ < kAtRim * radius_; }
-  // The angle about the axis that its image takes, at most.
-  double extent() const { return gathered_ * (is_ring() ? 2 * pi : pi * radius_ / from_axis_); }
+  // An upper bound of the angle about the axis over which the image is drawn.
+  double extent() const { return drawn_part_ * (is_ring() ? 2 * pi : pi * radius_ / from_axis_); }
 
   struct Chord {
-    double azimuth;    // about the axis, from the disc's middle, where it is drawn
-    double near, far;  // distances from the axis
-    double width;      // of azimuth
+    double azimuth;    // about the axis, against the disc's middle; where the chord is drawn
+    double near, far;  // distances of its ends from the axis
+    double width;      // in azimuth
   };
-  // The k-th of `count`, all equally wide in tau: azimuth itself where the axis lies in the disc,
-  // else sin(azimuth) = radius/from_axis sin(tau).
+  // The k-th of `count` chords, which lie on lines through the axis.  They are evenly spaced in
+  // azimuth where the axis lies in the disc, else in tau, where sin(azimuth) = radius/from_axis
+  // sin(tau).  Half a chord is then radius cos(tau) long, which is smooth up to the rim.
   Chord chord(int k, int count) const {
     const double share = (k + 0.5) / count;
     if (is_ring()) {
@@ -46,45 +47,49 @@ class Disc {
     }
     const double tau = pi * share - pi / 2, s = radius_ / from_axis_ * std::sin(tau);
     const double c = std::sqrt((1 - s) * (1 + s)), half = radius_ * std::cos(tau);
-    return {gathered_ * std::asin(s), std::max(0.0, from_axis_ * c - half), from_axis_ * c + half,
+    return {drawn_part_ * std::asin(s), std::max(0.0, from_axis_ * c - half), from_axis_ * c + half,
             radius_ / from_axis_ * std::cos(tau) / c * pi / count};
   }
 
  private:
-  static constexpr double kPoint = 3;  // radii from the axis where arcs are points
+  static constexpr double kPoint = 3;  // the distance, in radii, from which on arcs are points
 
-  double from_axis_, radius_, gathered_;
+  double from_axis_, radius_;
+  double drawn_part_;  // of the arc's length
 };
 
-// The images of one order of what lies about the axis, on the source's side of the observer.
+// The images of one order of the sky about the axis, on the source's side of the observer.
 class Caustic {
  public:
   Caustic(const SkyTable& table, const V3d& source, int order)
       : table_(table), frame_(psi_frame(table)), side_(order % 2 == 0 ? 1 : -1) {
     const bool below = source.x < 0, even = order % 2 == 0;
-    // phi = k pi + phi_star for even, (k + 1) pi - phi_star for odd orders.
+    // Light of even order k sweeps k pi + phi_star, that of odd order (k + 1) pi - phi_star, where
+    // phi_star is near pi for a source below and near 0 for one above.
     axis_ = pi * (order + (below == even ? 1 : 0));
     sign_ = below == even ? -1 : 1;
     const double sine = std::hypot(source.y, source.z);
     if (sine > 0) across_ = V3d(0, source.y, source.z) / sine;
   }
 
-  // Part of the angle from a sky's edge, as x.
+  // The x of SkyTable of light that starts so far from the axis.
   double distance(double from_axis) const { return table_.distance(axis_ + sign_ * from_axis); }
 
-  // One chord's image; amplification: its solid angle.
+  // The image of a chord, with its solid angle in place of the amplification.  That is the width
+  // times the difference of cos(psi) between the chord's ends.  With psi = psi_0 - 4 atan(x/2) and
+  // the ends' atan(x/2) = a and b, the difference is 2 sin(psi_0 - 2 (a + b)) sin(2 |a - b|).
   SkyImage image(const Disc::Chord& chord) const {
     const double a = std::atan(distance(chord.near) / 2), b = std::atan(distance(chord.far) / 2);
     const NullRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
     const double psi = 4 * std::atan(table_.x_max() / 2) - 2 * (a + b);
     SkyImage image;
-    // The integral of the sine of the angle of view.
     image.amplification = 2 * std::sin(psi) * std::sin(2 * std::abs(a - b)) * chord.width;
     image.frequency_ratio = 1 / one_plus_z(ray);
     image.direction = direction(psi, chord.azimuth);
     return image;
   }
 
+  // Of the angle psi from the sky's far end and an azimuth about the axis.
   TetradDirection direction(double psi, double azimuth) const {
     const V3d left(0, -across_.z, across_.y);
     const V3d e = (across_ * std::cos(azimuth) + left * std::sin(azimuth)) * side_;
@@ -98,31 +103,32 @@ class Caustic {
  private:
   const SkyTable& table_;
   PsiFrame frame_;
-  double side_, axis_, sign_;
-  V3d across_{0, 1, 0};
+  double side_;          // 1 if the images are on the source's side of the hole, else -1
+  double axis_, sign_;   // light from the distance d off the axis sweeps axis_ + sign_ * d
+  V3d across_{0, 1, 0};  // the direction from the axis to the source, across the axis
 };
 
-// How many pieces the arc is long, its spacing taken where that is least.
+// The number of pieces of the arc, whose spacing is the least along it.
 int pieces(const Caustic& caustic, const Disc& disc, double from_axis,
            const std::function<double(const V3d&)>& spacing) {
-  constexpr int kLooks = 16;
+  constexpr int kSamples = 16;
   const double psi = caustic.psi(from_axis), length = disc.extent() * std::sin(psi);
   double least = HUGE_VAL;
-  for (int k = 0; k < kLooks; ++k) {
-    const double azimuth = disc.extent() * ((k + 0.5) / kLooks - 0.5);
+  for (int k = 0; k < kSamples; ++k) {
+    const double azimuth = disc.extent() * ((k + 0.5) / kSamples - 0.5);
     least = std::min(least, spacing(caustic.direction(psi, azimuth).v));
   }
   const double count = std::ceil(length / least);
   return count < kMostPieces ? std::max(1, static_cast<int>(count)) : kMostPieces;
 }
 
-// Several chords as one image, in the middle of their light.
+// Several neighbouring chords as one image, in the middle of their light.
 class Piece {
  public:
   void add(const SkyImage& image) {
     light_ += image.amplification;
     direction_ += image.direction.v * image.amplification;
-    // Light goes with the fourth power of the frequency ratio.
+    // The light goes with the fourth power of the frequency ratio, whose mean is kept.
     const double g2 = image.frequency_ratio * image.frequency_ratio;
     fourth_ += image.amplification * g2 * g2;
   }

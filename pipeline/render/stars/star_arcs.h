@@ -1,13 +1,13 @@
-// The images of a star that stands behind the hole, or right above it: arcs and rings.
+// The images of a star that stands behind the hole, or right above the observer: arcs and rings.
 //
-// Where source, hole and observer are in line the amplification of a point diverges like 1/sin of
-// its angle from the axis.  A picture shows no points: the star counts there as an even disc of the
-// size that a pixel has.  The light of its image is what the map makes of that disc: the solid
-// angle of an arc about the axis and finally a ring, finite and known.
+// Where source, hole and observer are in line, the amplification of a point diverges like 1/sin of
+// its angle from this axis.  A frame resolves no points, so near the axis a star is an even disc
+// about as large as a pixel.  Its light is the solid angle of the image of that disc, which is
+// finite: an arc about the axis, or a ring if the axis lies in the disc.
 //
-// It is drawn as that arc while the axis lies in the disc.  Outside, the arc is gathered to a point
-// from both its ends, until at three radii it is one: else all stars nearer to the axis than
-// Einstein's ring were arcs, so much it stretches any disc.
+// The image is drawn as a ring while the axis lies in the disc.  Outside, the arc is shortened from
+// both ends, until at three radii from the axis it is a point.  Otherwise every star inside the
+// Einstein ring would be drawn as an arc, since the lens stretches any disc there.
 #pragma once
 
 #include <functional>
@@ -17,17 +17,18 @@
 
 namespace domefall {
 
-// A star nearer to the axis than this many radii has the light of the disc: beyond, that is the
-// light of its middle to 1/(8 * 8^2), two parts in a thousand.
+// A star nearer to the axis than this many radii is such a disc, and a point elsewhere.  The mean
+// of 1/distance over a disc whose middle is d radii from the axis is 1 + 1/(8 d^2) times that of
+// its middle, so that at 8 radii the light changes by two parts in a thousand.
 inline constexpr double kNearAxis = 8;
 
-// Whether images of this order are on a caustic for a source near the axis, on this side of it: all
-// are but the primary of a source above.
+// Whether images of this order lie on a caustic for a source near the axis.  All do, but for the
+// primary image of a source above the observer.
 inline bool on_caustic(const V3d& source, int order) { return source.x < 0 || order > 0; }
 
-// The image of an even disc of the given radius (radians, > 0, small) about `source`, in pieces
-// from one end of the arc to the other, each with its part of the amplification.  A piece is no
-// longer than spacing(its direction), but for a limit of 4096 pieces.
+// The image of an even disc of this radius (radians, > 0, small) about `source`, in pieces from one
+// end of the arc to the other.  Each piece has its part of the amplification.  It is no longer than
+// spacing(direction) anywhere on the arc, unless that takes more than 4096 pieces.
 std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order, double radius,
                              const std::function<double(const V3d&)>& spacing);
 

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// Beyond, blackbody_colours() is asked itself.
+// The range of the table in kelvin.
 constexpr double kCoolest = 512, kHottest = 0x1p26;
 
 StarColours::Light light_at(double temperature) {
@@ -21,12 +21,13 @@ StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kCoolest) >> kS
   const std::uint64_t last = std::bit_cast<std::uint64_t>(kHottest) >> kShift;
   for (std::uint64_t key = first_; key <= last; ++key)
     table_.push_back(light_at(std::bit_cast<double>(key << kShift)));
-  // Per flux a blackbody is brightest near 6600 K, where the table has nodes 0.1 per cent apart.
+  // The luminance of a unit of flux is largest near 6600 K.  The table has nodes 0.1 per cent apart
+  // there, so that the largest of them is within 1e-5 of the maximum.
   for (const Light& light : table_) most_ = std::max(most_, double{light.luminance});
   most_ *= 1 + 1e-5;
 }
 
-StarColours::Light StarColours::outside(double temperature) { return light_at(temperature); }
+StarColours::Light StarColours::beyond_table(double temperature) { return light_at(temperature); }
 
 const StarColours& star_colours() {
   static const StarColours colours;

@@ -12,31 +12,31 @@
 namespace domefall {
 namespace {
 
-// A blob is blurred by the pixels' squares, and a rim's pixels lie partly beyond it.
-constexpr double kBlurPixels = 4;
-
 using std::numbers::pi;
 
-// Where an effect is left out, images up to this order are always tried, since either side may be
-// the bright one; beyond, the flux falls by exp(-2 pi) with every second order and the first faint
-// one ends the series.
+// A blob covers some pixels more than its reach, since it is blurred by their squares, and pixels
+// on the rim of a dome lie partly beyond it.
+constexpr double kBlurPixels = 4;
+
+// Where an effect is left out, this many orders are always tried, since either side may be the
+// bright one.  Beyond, the flux falls by exp(-2 pi) with every second order, so that the first
+// faint order ends the series.
 constexpr int kAlwaysTried = 4;
-constexpr int kWithoutAmplification = 2;
+constexpr int kOrdersWithoutAmplification = 2;
 
-constexpr double kFade = 0.5;  // magnitudes
-
-// Pieces of an arc are so many sigma apart: its light is even to 2 exp(-2 pi^2/1.5^2), 3e-4.
+// The spacing of the pieces of an arc in sigma.  A row of Gaussians at this distance is even to
+// 2 exp(-2 pi^2/1.5^2) = 3e-4.
 constexpr double kPieceSigmas = 1.5;
 
-// The part of a star's light that a frame takes.  Magnitudes are floats: so is a limit that some
-// have.
-double part_taken(const FrameSettings::Sky& sky, double magnitude) {
+// The part of a star's light that the frame's limit of magnitude leaves.  Magnitudes are floats, so
+// a hard limit is rounded as they were, lest a star on the limit be lost.
+double part_within_limit(const FrameSettings::Sky& sky, double magnitude) {
   if (!sky.soft_limit) return magnitude <= double{static_cast<float>(sky.max_magnitude)} ? 1 : 0;
-  return std::clamp((sky.max_magnitude - magnitude) / kFade, 0.0, 1.0);
+  return std::clamp((sky.max_magnitude - magnitude) / kFadeMagnitudes, 0.0, 1.0);
 }
 
-double peak_per_lux(double scale, const PointSpread& widths) {
-  return scale / (2 * pi * widths.least() * widths.least());
+double peak_per_lux(double exposure, const PointSpread& point_spread) {
+  return exposure / (2 * pi * point_spread.least() * point_spread.least());
 }
 
 }  // namespace
@@ -54,19 +54,20 @@ StarImages::StarImages(const FrameScene& scene, SkyRegion sky)
       peak_per_lux_(peak_per_lux(scene.exposure, scene.point_spread)),
       stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
       disc_(scene.point_spread.least() / stretch_),
-      plain_((scene.effects.lensing || is_flat(observer_)) && scene.effects.intensity &&
-             scene.effects.doppler_colour && scene.effects.amplification != Amplification::kNone &&
-             !vantage_.measured),
+      // The loops know all effects of nature and nothing else.
+      in_batches_((scene.effects.lensing || is_flat(observer_)) && scene.effects.intensity &&
+                  scene.effects.doppler_colour &&
+                  scene.effects.amplification != Amplification::kNone && !vantage_.measured),
       plane_(scene.projection(),
              scene.point_spread.reach() + kBlurPixels * central_pixel_angle(scene.projection())) {
-  plain_ = plain_ && plane_.usable();
-  if (plain_) prepare_batches();
+  in_batches_ = in_batches_ && plane_.usable();
+  if (in_batches_) prepare_batches();
 }
 
-// ---- one star at a time ----
-
-std::optional<SceneStar> StarImages::taken(const SceneStar& catalogued) const {
-  const double part = sky_.star_gain * part_taken(sky_, catalogued.magnitude);
+// The star with the gain and the limit of the frame applied to its flux, or nothing if none is
+// left.
+std::optional<SceneStar> StarImages::with_gain(const SceneStar& catalogued) const {
+  const double part = sky_.star_gain * part_within_limit(sky_, catalogued.magnitude);
   if (!(part > 0)) return std::nullopt;
   SceneStar star = catalogued;
   star.flux *= part;
@@ -74,13 +75,13 @@ std::optional<SceneStar> StarImages::taken(const SceneStar& catalogued) const {
 }
 
 void StarImages::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
-  const auto star = taken(catalogued);
+  const auto star = with_gain(catalogued);
   if (star)
-    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0,
-                  kLastOrder, images);
+    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0, kOrders,
+                  images);
 }
 
-// Orders first to before end.
+// Appends the images of the orders from `first` to before `end`.
 void StarImages::append_orders(const SceneStar& star, const V3d& source, int first, int end,
                                std::vector<StarImage>& images) const {
   if (table_ == nullptr) {
@@ -89,16 +90,16 @@ void StarImages::append_orders(const SceneStar& star, const V3d& source, int fir
   }
   const double sine = std::hypot(source.y, source.z);
   if (scene_.effects.amplification == Amplification::kNone)
-    end = std::min(end, kWithoutAmplification);
+    end = std::min(end, kOrdersWithoutAmplification);
   for (int order = first; order < end; ++order) {
-    if (plain_ && !may_be_seen(star, sine, order)) return;
+    if (in_batches_ && !may_be_seen(star, sine, order)) return;
     const bool bright = append_order(star, source, order, images);
-    if (!plain_ && !bright && order + 1 >= kAlwaysTried) return;
+    if (!in_batches_ && !bright && order + 1 >= kAlwaysTried) return;
   }
 }
 
-// A disc's amplification is that of its points in the mean, and the mean of 1/(their distance from
-// the axis) is at most 2/radius.
+// Whether the star may be bright enough in this order or a later one.  The amplification of a disc
+// is the mean over its points, of which that of 1/(distance from the axis) is at most 2/radius.
 bool StarImages::may_be_seen(const SceneStar& star, double sine, int order) const {
   const double radius = std::max(disc_, star.angular_radius);
   const double least = sine < kNearAxis * radius ? radius / 2 : sine;
@@ -112,7 +113,7 @@ bool StarImages::is_arc(const V3d& source, int order) const {
          source.y * source.y + source.z * source.z < near * near && on_caustic(source, order);
 }
 
-// In the frame of the tetrad.
+// The image of one order in the frame of the tetrad.
 SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) const {
   if (scene_.effects.lensing) return image_of(table_, source, order, star.angular_radius);
   const AberratedLight at = from_rest_.to_rest(source);
@@ -120,7 +121,8 @@ SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) 
   return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
 }
 
-// [Riazuelo] sec. sec_stars_eff: m_obs = m + 10 log10(1+z) - 2.5 log10(f), T_obs = T/(1+z).
+// The image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its magnitude is
+// m + 10 log10(1+z) - 2.5 log10(f), with the amplification f, and its temperature is T/(1+z).
 StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& at) const {
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
@@ -146,7 +148,8 @@ StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& 
   return received;
 }
 
-// Whether the image is bright enough to matter, be it in the picture or not.
+// Appends the image of one order.  Returns whether it is bright enough, even if it is beside the
+// frame.
 bool StarImages::append_order(const SceneStar& star, const V3d& source, int order,
                               std::vector<StarImage>& images) const {
   if (is_arc(source, order)) return append_arc(star, source, order, images);
@@ -158,7 +161,7 @@ bool StarImages::append_order(const SceneStar& star, const V3d& source, int orde
 
 bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
                             std::vector<StarImage>& images) const {
-  // As wide as it was before the boost.
+  // The spacing is that of the frame, carried back through the boost.
   const auto spacing = [&](const V3d& direction) {
     return kPieceSigmas * scene_.point_spread.least() *
            from_tetrad_.to_rest(direction).frequency_ratio;
@@ -171,6 +174,7 @@ bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
     peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);
   }
+  // In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
   const double neighbours = images.size() > before + 1 ? std::sqrt(2 * pi) / kPieceSigmas : 1;
   if (peak * neighbours > kFaintestPeak) return true;
   images.resize(before);

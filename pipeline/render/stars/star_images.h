@@ -1,4 +1,4 @@
-// The stars that one frame receives: every image whose flux matters.
+// The images of stars that one frame receives, as far as they are bright enough to be seen.
 #pragma once
 
 #include <array>
@@ -12,42 +12,50 @@
 
 namespace domefall {
 
-// An image fainter than this peak pixel value, drawn at its smallest, is left out.
+// An image is left out if the peak pixel value of its blob, drawn at its smallest, is below this.
 inline constexpr double kFaintestPeak = 2e-4;
+// Where a frame's limit of magnitude is soft, stars fade in over so many magnitudes.
+inline constexpr double kFadeMagnitudes = 0.5;
 
-// The observed images of stars, before any is drawn.  Where light goes straight a star has one
-// image.  Without amplification all images of a star are equally bright and there is no end of
-// them, so that only the two are drawn whose light does not go once around the hole.
+// Finds the images of the stars of one sky.  Where light goes straight a star has one image.
+// Without amplification all images of a star are equally bright and infinitely many, so only the
+// two are found whose light does not go around the hole.
 //
-// Near the axis of the lens, where points would be infinitely bright, a star is a disc as large as
-// the smallest blob would cover there.  Its image is an arc or a ring (star_arcs.h).
+// Near the axis of the lens, where a point would be infinitely bright, a star is a disc with the
+// radius of the smallest blob.  Its image is an arc or a ring (star_arcs.h).
+//
+// Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
+// (star_loops.h).  This part of the class is star_images_by_batch.cpp.  Images near the axis, of
+// high orders and of frames without some effect are found one star at a time in star_images.cpp.
 class StarImages {
  public:
-  // The images of the stars of one sky.  The scene must outlive this.
+  // The scene must outlive this object.
   StarImages(const FrameScene& scene, SkyRegion sky);
 
-  // One star, every order by inverting the table: exact, slow.  Appends the images that may be
-  // seen, and some that lie beside the picture.
+  // Appends the images of one star that are bright enough, even some beside the frame.  Each order
+  // inverts the table, which is exact and slow.
   void append(const SceneStar& catalogued, std::vector<StarImage>& images) const;
 
-  // How many of the stars may be seen at all, by their magnitudes and fluxes: the first ones.
+  // The number of the stars, counted from the first, that may be bright enough by their magnitudes
+  // and fluxes.
   std::size_t count(const SceneStars& stars) const;
-  // The stars first to first + kStarBatch - 1, or up to `end`: the same images but for LensCurve's
-  // errors (0.01 pixel, 1e-4 of the light), and none from which no blob reaches the picture.
-  // first: a multiple of kStarBatch.
+  // Appends the images of a batch: the stars from `first`, a multiple of kStarBatch, to the end of
+  // the batch or before `end`.  Images differ from those of single stars by the errors of LensCurve
+  // (0.01 pixel, 1e-4 of the light), and those whose blobs do not reach the frame are left out.
   void append(const SceneStars& stars, std::size_t first, std::size_t end,
               std::vector<StarImage>& images) const;
 
  private:
-  static constexpr int kLastOrder = 24, kCurves = 4;
+  static constexpr int kOrders = 24;  // those that are tried at most
+  static constexpr int kCurves = 4;   // each for a pair of orders
   struct Received {
     StarImage image;
-    double peak;  // of the narrowest blob with its light
-    bool placed;  // the picture has a place for it
+    double peak;  // pixel value of the smallest blob with this light
+    bool placed;  // whether the projection has a place for it
   };
   struct Batch;
 
-  std::optional<SceneStar> taken(const SceneStar& catalogued) const;
+  std::optional<SceneStar> with_gain(const SceneStar& catalogued) const;
   bool append_order(const SceneStar& star, const V3d& source, int order,
                     std::vector<StarImage>& images) const;
   bool append_arc(const SceneStar& star, const V3d& source, int order,
@@ -61,33 +69,35 @@ class StarImages {
 
   void prepare_batches();
   void append_curved(Batch& batch, int order, std::vector<StarImage>& images) const;
-  void leave_axis(Batch& batch) const;
-  void keep_bright(Batch& batch, int order) const;
-  void leave_orders_beyond(Batch& batch) const;
+  void set_aside_axis(Batch& batch) const;
+  void drop_faint(Batch& batch, int order) const;
+  void set_aside_high_orders(Batch& batch) const;
   void append_views(StarViews& views, int count, std::vector<StarImage>& images) const;
   void append_exact(const SceneStars& stars, const Batch& batch,
                     std::vector<StarImage>& images) const;
 
   const FrameScene& scene_;
-  const FrameSettings::Sky& sky_;  // what the frame takes of these stars
+  const FrameSettings::Sky& sky_;  // gain and limit of these stars
   const ObserverState& observer_;
   const Vantage& vantage_;
   const SkyTable* table_;  // null where light goes straight
   Aberration from_tetrad_, to_measured_, from_rest_;
   double straight_ratio_;  // gravity's part of the frequency ratio where light goes straight
-  double peak_per_lux_;    // of the smallest blob
-  double stretch_;         // gamma + |celerity|: by how much the boost widens or compresses angles
+  double peak_per_lux_;    // pixel value of the peak of the smallest blob
+  double stretch_;         // gamma + |celerity|, the most by which the boost stretches angles
   double disc_;            // radius of a star near the axis, radians
-  bool plain_;             // no effect is left out, and the vantage is the observer's own
+  bool in_batches_;        // whether stars are found in batches
 
+  // The rest is used if stars are found in batches.
   StarFrame batch_frame_;
   StarPlane plane_;
   std::vector<LensCurve> curves_;
-  // A star with flux * per_flux_ * (amplification * (1+z)^-4 in the tetrad) below 1 is too faint.
-  double per_flux_ = 0;
-  // By order: one with flux * bound below the sine of its angle from the axis is too faint in this
-  // order and in all that follow.
-  std::array<double, kLastOrder> bound_{};
+  // An image is too faint if this times its flux, amplification/(1+z)^4 in the tetrad included, is
+  // below 1.
+  double brightness_per_flux_ = 0;
+  // For each order: a star is too faint in this order and all that follow if this times its flux is
+  // below the sine of its angle from the axis.
+  std::array<double, kOrders> bound_{};
 };
 
 }  // namespace domefall

@@ -15,10 +15,13 @@ namespace {
 
 using std::numbers::pi;
 
+// Columns of SceneStars.
 struct Input {
   const float *x, *y, *z, *magnitude, *flux, *temperature;
 };
 
+// Copies of what is passed by reference are for the compiler, which then knows that no store of the
+// loop alters them.
 [[gnu::always_inline]] inline void into_tetrad_loop(const StarFrame& frame, const Input& input,
                                                     int count, StarSources& s) {
   const M33d matrix = frame.sky_from_tetrad;
@@ -29,15 +32,17 @@ struct Input {
         apply_transposed(matrix, V3d(double{in.x[k]}, double{in.y[k]}, double{in.z[k]})));
     const double part = (limit - in.magnitude[k]) * inverse_fade;
     const double whole = part < 1 ? part : 1;
-    s.x[k] = v.x, s.y[k] = v.y, s.z[k] = v.z;
+    s.x[k] = v.x;
+    s.y[k] = v.y;
+    s.z[k] = v.z;
     s.flux[k] = in.flux[k] * (gain * (whole > 0 ? whole : 0));
     s.temperature[k] = in.temperature[k];
   }
 }
 Dispatched<into_tetrad_loop> into_tetrad;
 
-// sine and v.  With c and s the cosine and sine of half the angle from +R,
-// tan((pi - angle)/4) = (1 + c - s)/(1 + c + s).
+// Fills the columns sine and v.  With c and s the cosine and sine of half the angle from +R,
+// v = tan(pi/4 - angle/4) is (1 - t)/(1 + t) for t = tan(angle/4) = s/(1 + c).
 [[gnu::always_inline]] inline void to_lens_loop(int count, StarSources& sources) {
   for (int k = 0; k < count; ++k) {
     const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
@@ -49,17 +54,21 @@ Dispatched<into_tetrad_loop> into_tetrad;
 }
 Dispatched<to_lens_loop> to_lens;
 
-// A tetrad's direction with what gravity does to its light, as the moving camera has it.
+// Stores the k-th view, that of light which comes from `direction` in the frame of the tetrad with
+// this frequency ratio and amplification.  The boost divides solid angles, and so the
+// amplification, by the square of its own frequency ratio, and multiplies the intensity by the
+// fourth power of it.
 inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
                     double frequency_ratio, double amplification, const StarSources& sources, int k,
                     StarViews& views) {
   const AberratedLight seen = boost.to_rest(direction);
   const V3d n = apply_transposed(camera, seen.direction);
   const double g = frequency_ratio * seen.frequency_ratio, g2 = g * frequency_ratio;
-  // amplification/doppler^2 g^4
   views.flux[k] = sources.flux[k] * amplification * (g2 * g2);
   views.temperature[k] = sources.temperature[k] * g;
-  views.x[k] = n.x, views.y[k] = n.y, views.z[k] = n.z;
+  views.x[k] = n.x;
+  views.y[k] = n.y;
+  views.z[k] = n.z;
 }
 
 // The cubics of a batch of v: where they stand in the table, and their coefficients by power.
@@ -136,7 +145,7 @@ Dispatched<onto_dome_loop> onto_dome;
                                                    int count, StarViews& views) {
   for (int k = 0; k < count; ++k) {
     const double x = views.x[k], y = views.y[k], z = views.z[k];
-    // 1 + cos(theta), from the sine where the sum would cancel.
+    // 1 + cos(theta), from sin^2(theta) where the sum would cancel.
     const double behind = (x * x + y * y) / (1 + std::abs(z));
     const double m = scale / (z < 0 ? behind : 1 + z);
     views.i[k] = middle_i + m * x;
@@ -145,7 +154,8 @@ Dispatched<onto_dome_loop> onto_dome;
 }
 Dispatched<onto_plane_loop> onto_plane;
 
-// 1 for the views in front that lie within half_i and half_j of the middle.
+// Sets `seen` to 1 for views that are far enough in front and within half_i and half_j of the
+// middle.
 [[gnu::always_inline]] inline void flag_loop(const StarViews& views, double least_z,
                                              double middle_i, double middle_j, double half_i,
                                              double half_j, int count, int* __restrict seen) {
@@ -158,7 +168,7 @@ Dispatched<onto_plane_loop> onto_plane;
 }
 Dispatched<flag_loop> flag;
 
-// Pixels per radian of the flat picture, and of any, in its middle.
+// The number of pixels per radian in the middle of the frame.
 double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
 
 }  // namespace
@@ -189,19 +199,21 @@ StarPlane::StarPlane(const Projection& projection, double reach)
       middle_i_((columns(projection) - 1) / 2.0),
       middle_j_((rows(projection) - 1) / 2.0) {
   if (dome_) {
-    // A blob is seen if it reaches over the rim.
+    // The middle of a blob that reaches over the rim is no farther beyond it than `reach`.
     least_z_ = -std::sin(std::min(reach, pi / 2));
     usable_ = least_z_ >= kLeastCosine;
     half_i_ = half_j_ = HUGE_VAL;
     return;
   }
-  // A blob that touches the picture has its middle no farther from it than `reach`, at no more
-  // pixels per radian than there are that far beyond the corners.
+  // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin is
+  // that angle at the scale of the projection as far beyond a corner, which grows like
+  // 1/cos^2(theta/2).
   scale_ *= 2;
   const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
   const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);
   const double margin = reach * pixels_per_radian(projection) / (c * c) + 1;
-  half_i_ = middle_i_ + margin, half_j_ = middle_j_ + margin;
+  half_i_ = middle_i_ + margin;
+  half_j_ = middle_j_ + margin;
 }
 
 int StarPlane::place(StarViews& views, int count, int* listed) const {

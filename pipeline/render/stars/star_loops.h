@@ -1,5 +1,5 @@
-// Many stars at once from their catalogue to their pixels: loops over columns that become SIMD
-// code.  Units and names are those of StarImages, which looks after everything that is not plain.
+// Loops over columns of many stars, from the catalogue to pixels, which the compiler turns into
+// SIMD code.  They know all effects of nature and no source on the axis of the lens.
 #pragma once
 
 #include <array>
@@ -13,62 +13,63 @@ namespace domefall {
 
 inline constexpr int kStarBatch = static_cast<int>(SceneStars::kBlock);
 
-// What of a frame the loops need.
+// The constants of a frame that the loops need.
 struct StarFrame {
   M33d sky_from_tetrad, tetrad_from_camera;
   Aberration from_tetrad{V3d(0, 0, 0)};
   PsiFrame psi{0, 1, 1};
-  // A star of magnitude m gives gain * min(1, (limit - m) * inverse_fade) of its light, and none
-  // from the limit on.
+  // The flux of a star of magnitude m is multiplied by gain * min(1, (limit - m) * inverse_fade),
+  // and by 0 from the limit on.
   double gain = 1, limit = 0, inverse_fade = 0;
 };
 
 template <class T>
 using StarColumn = std::array<T, kStarBatch>;
 
-// Sources in the frame of the tetrad.
+// Stars as sources of light, with their directions in the frame of the tetrad.
 struct StarSources {
-  StarColumn<double> x, y, z;
-  StarColumn<double> sine;  // of the angle from the axis
-  StarColumn<double> v;     // as LensCurve has it, of the even order: 0 to 1
-  StarColumn<double> flux, temperature;
+  StarColumn<double> x, y, z;            // unit vector along R, Theta, Phi
+  StarColumn<double> sine;               // of the angle from the axis
+  StarColumn<double> v;                  // v_star of LensCurve, 0 to 1
+  StarColumn<double> flux, temperature;  // W/m^2 and K at no redshift
 };
 
-// Images as the observer receives them.
+// Images of stars as the moving camera receives them.
 struct StarViews {
-  StarColumn<double> x, y, z;      // camera components
-  StarColumn<double> flux;         // bolometric, observed
-  StarColumn<double> temperature;  // observed
-  StarColumn<double> i, j;         // pixels, counted as StarImage does
+  StarColumn<double> x, y, z;            // unit vector along the camera's axes
+  StarColumn<double> flux, temperature;  // W/m^2 and K
+  StarColumn<double> i, j;               // position in pixels, as StarImage has it
 };
 
-// Stars first to first + count - 1 of the catalogue.
+// Fills the sources with the stars from `first` to first + count - 1.
 void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
                   StarSources& sources);
 
-// Through the lens and the boost: the images of the curve's even (side = 1) or odd (-1) order.  No
-// source may be on the axis.
+// Finds the images of the curve's even (side = 1) or odd (side = -1) order.  No source may be on
+// the axis.
 void bend(const StarFrame& frame, const LensCurve& curve, double side, const StarSources& sources,
           int count, StarViews& views);
-// The same where light goes straight.
+// Finds the images where light goes straight.
 void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
 
-// Where in a picture, and what is in it.
+// The projection of views to the frame's pixels.
 class StarPlane {
  public:
-  // Blobs of up to `reach` radians are to be seen.
+  // `reach` is the radius of the largest blob in radians.
   StarPlane(const Projection& projection, double reach);
-  // False if blobs reach so far that views for the dome's other half would be needed.
+  // Whether place() lists all views.  On a dome blobs may reach over the rim from views so far
+  // behind that angle_over_sine() does not hold.
   bool usable() const { return usable_; }
-  // Fills i and j, and lists the views from which a blob may reach the picture; their number.
+  // Fills i and j of the views.  Lists those from which a blob may reach the frame and returns
+  // their number.
   int place(StarViews& views, int count, int* listed) const;
 
  private:
   bool dome_ = true, usable_ = true;
-  double scale_ = 1;  // pixels per radian, or per half tangent
-  double middle_i_ = 0, middle_j_ = 0;
-  double half_i_ = 0, half_j_ = 0;  // of the picture, with the margin
-  double least_z_ = -1;
+  double scale_ = 1;                    // pixels per radian, or per tan(theta/2) if not a dome
+  double middle_i_ = 0, middle_j_ = 0;  // pixels
+  double half_i_ = 0, half_j_ = 0;      // half the frame's sides with the margin, pixels
+  double least_z_ = -1;                 // cosine of the largest angle from the camera's axis
 };
 
 }  // namespace domefall
