@@ -7,10 +7,10 @@ namespace domefall {
 namespace {
 
 // What stays at its radius.
-template <class Kind>
+template <class Motion>
 constexpr bool kStays =
-    std::is_same_v<Kind, StaticObserver> || std::is_same_v<Kind, CircularOrbit> ||
-    std::is_same_v<Kind, GivenVelocity> || std::is_same_v<Kind, SpeedRamp>;
+    std::is_same_v<Motion, StaticObserver> || std::is_same_v<Motion, CircularOrbit> ||
+    std::is_same_v<Motion, GivenVelocity> || std::is_same_v<Motion, SpeedRamp>;
 
 // To a few parts in 1e5 of the path's extent.
 std::pair<double, double> reach_of(const AcceleratedPath& path) {
@@ -37,10 +37,10 @@ double birth(const Trajectory& trajectory) {
 std::optional<double> time_at(const Trajectory& trajectory, double r, Leg leg, double after) {
   return std::visit(
       [&](const auto& kind) -> std::optional<double> {
-        using Kind = std::decay_t<decltype(kind)>;
-        if constexpr (kStays<Kind>) {
+        using Motion = std::decay_t<decltype(kind)>;
+        if constexpr (kStays<Motion>) {
           return std::nullopt;
-        } else if constexpr (std::is_same_v<Kind, RadialInfall>) {
+        } else if constexpr (std::is_same_v<Motion, RadialInfall>) {
           if (leg == Leg::kOutward || r > kind.from_r) return std::nullopt;
           const double tau = proper_time_to(kind, r);
           return tau >= after ? std::optional(tau) : std::nullopt;
@@ -54,14 +54,14 @@ std::optional<double> time_at(const Trajectory& trajectory, double r, Leg leg, d
 std::pair<double, double> reach(const Trajectory& trajectory) {
   return std::visit(
       [](const auto& kind) -> std::pair<double, double> {
-        using Kind = std::decay_t<decltype(kind)>;
-        if constexpr (std::is_same_v<Kind, SpeedRamp>)
+        using Motion = std::decay_t<decltype(kind)>;
+        if constexpr (std::is_same_v<Motion, SpeedRamp>)
           return {kind.frame.r, kind.frame.r};
-        else if constexpr (kStays<Kind>)
+        else if constexpr (kStays<Motion>)
           return {kind.r, kind.r};
-        else if constexpr (std::is_same_v<Kind, RadialInfall>)
+        else if constexpr (std::is_same_v<Motion, RadialInfall>)
           return {0, kind.from_r};
-        else if constexpr (std::is_same_v<Kind, AcceleratedPath>)
+        else if constexpr (std::is_same_v<Motion, AcceleratedPath>)
           return reach_of(kind);
         else
           return {kind.innermost(), kind.outermost()};
