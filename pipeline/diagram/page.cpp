@@ -12,9 +12,9 @@ constexpr double kWidth = 1400, kLeft = 80;
 std::string subtitle(const Show& show) {
   const int frames = frame_count(show);
   const double seconds = segment_times(show).back();
-  const std::string text = fmt::format("{}  \u00b7  {} s  \u00b7  {} frames at {} a second",
-                                       show.file.filename().string(), number_text(seconds), frames,
-                                       number_text(show.frames_per_second));
+  std::string text = fmt::format("{}  \u00b7  {} s  \u00b7  {} frames at {} a second",
+                                 show.file.filename().string(), number_text(seconds), frames,
+                                 number_text(show.frames_per_second));
   if (!show.mass_solar) return text;
   return fmt::format("{}  \u00b7  {} solar masses, 1 M = {} s", text, number_text(*show.mass_solar),
                      number_text(*show.mass_solar * kSecondsPerSolarMass));

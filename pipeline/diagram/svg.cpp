@@ -135,7 +135,7 @@ void Svg::text(const PagePoint& at, std::string_view text, const TextStyle& styl
   if (style.turned_deg != 0)
     more += fmt::format(" transform=\"rotate({} {})\"", number(style.turned_deg), pair(at));
   const std::string common =
-      fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\"{}", number(at.x),
+      fmt::format(R"(<text x="{}" y="{}" font-size="{}" text-anchor="{}"{})", number(at.x),
                   number(at.y), number(style.size), style.anchor, more);
   const std::string end = fmt::format(">{}</text>\n", xml_escaped(text));
   // The rim is drawn under the letters.  The attribute paint-order would do both in one, but some

@@ -87,6 +87,7 @@ ocio::ConstConfigRcPtr read_config(const GradeSettings& settings) {
 template <class At>
 std::string listed(int count, At at) {
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) names.push_back(fmt::format("'{}'", at(k)));
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -75,7 +75,7 @@ std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
   static const Words<Attitude, 3> kWords{
       {{"hole", LookAtHole{}}, {"motion", LookAlongMotion{}}, {"outward", LookOutward{}}}};
-  if (const auto attitude = meaning(item, kWords)) return attitude;
+  if (auto attitude = meaning(item, kWords)) return attitude;
   if (peek(item, "keyframe")) return read_other_keyframe(item, named);
   if (const auto place = read_sky_place(item, lookup, names_of(kWords))) return LookAtSky{*place};
   return std::nullopt;

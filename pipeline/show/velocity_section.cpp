@@ -78,7 +78,7 @@ std::optional<V3d> read_direction(const Item& item, const Stage& stage, const Gi
                                      {"backward", V3d(0, 0, -1)},
                                      {"north", V3d(0, -1, 0)},
                                      {"south", V3d(0, 1, 0)}}};
-  if (const auto direction = meaning(item, kWords)) return direction;
+  if (auto direction = meaning(item, kWords)) return direction;
   if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
   const auto place = read_sky_place(item, lookup, names_of(kWords));
   if (!place) return std::nullopt;

@@ -48,6 +48,7 @@ SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
   if (interpolates_) grid_.make(shader_, special_directions(scene));
 }
 
+// The band is drawn on by way of rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
   Band band{number, std::min(kStep, rows(scene_.projection()) - number * kStep), {}, rgb};
   for (int row = 0; row < band.rows; ++row)

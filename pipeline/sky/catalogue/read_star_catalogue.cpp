@@ -31,7 +31,7 @@ SkyDirection direction_of(const CsvFile& row, double epoch) {
   const double ra = row.required("ra_deg", 0, 360), dec = row.required("dec_deg", -90, 90);
   const double pm_ra = row.number("pm_ra_mas_yr", -kFastest, kFastest).value_or(0);
   const double pm_dec = row.number("pm_dec_mas_yr", -kFastest, kFastest).value_or(0);
-  const SkyDirection direction = sky_direction(ra, dec);
+  SkyDirection direction = sky_direction(ra, dec);
   if (epoch == kCatalogueEpoch || (pm_ra == 0 && pm_dec == 0)) return direction;
   return moved(direction, pm_ra, pm_dec, epoch - kCatalogueEpoch);
 }
