@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <random>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -35,8 +35,10 @@ class Bytes {
   template <class T>
   void add(const T* values, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto bytes = std::as_bytes(std::span(values, count));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    if (count == 0) return;
+    const std::size_t before = bytes_.size();
+    bytes_.resize(before + count * sizeof(T));
+    std::memcpy(&bytes_[before], values, count * sizeof(T));
   }
   template <class T>
   void add(const std::vector<T>& values) {
