@@ -27,10 +27,10 @@ void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) 
 
 // The time to render; nothing where it is not worth measuring, or where no temporary file can be
 // written, which is no fault of the show.
-std::optional<RenderTime> time_to_render(const Show& show, Renderer& renderer,
-                                         const Grader* grader) {
+std::optional<RenderTime> time_to_render(const Show& show, const Grader* grader) {
   if (!is_worth_measuring(show)) return std::nullopt;
   try {
+    Renderer renderer(show);
     return estimate_render_time(show, renderer, grader);
   } catch (const InputError&) {
   } catch (const TemporaryError&) {
@@ -44,13 +44,13 @@ void check(const std::string& file, bool json) {
   std::optional<Grader> grader;
   if (show.graded_format != GradedFormat::kNone) grader.emplace(show.grade);
   const Grader* grade = grader ? &*grader : nullptr;
-  Renderer renderer(show, 0);
+  Renderer renderer(show, 0, {}, kSurveyFace);
   const ShowSurvey found = survey(show);
   load_skies(show, found, renderer);
   CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}};
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
-  report.time = time_to_render(show, renderer, grade);
+  report.time = time_to_render(show, grade);
   const std::string text = json ? check_json(report) : check_page(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }

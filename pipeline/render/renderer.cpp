@@ -58,10 +58,10 @@ struct Renderer::Memory {
   BandMemory bands{};
 };
 
-Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing)
+Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, int largest_face)
     : show_(show),
       anti_aliasing_(anti_aliasing),
-      skies_(show),
+      skies_(show, largest_face),
       memory_(new Memory{tbb::task_arena(threads_of(threads))}) {
   if (anti_aliasing.samples < 1 || anti_aliasing.samples > kMostSamples)
     throw InputError(

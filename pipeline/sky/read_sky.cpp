@@ -33,13 +33,13 @@ constexpr std::uintmax_t kReadWhole = std::uintmax_t{256} << 20;
 
 }  // namespace
 
-std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file) {
+std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
     SkyFile opened = open_sky_file(file);
     if (std::filesystem::file_size(file) <= kReadWhole) verify_sky_file(file);
-    return std::make_shared<const SkyMap>(std::move(opened.map));
+    return std::make_shared<const SkyMap>(opened.map.without_levels_above(largest_face));
   }
-  return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file)));
+  return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));
 }
 
 std::string sky_digest(const std::filesystem::path& file) {

@@ -10,8 +10,11 @@
 namespace domefall {
 
 // Opens a .sky file (is_sky_file), or makes a map of an equirectangular image (map_of_panorama).
-// Throws InputError naming the file.
-std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file);
+// Finer levels than those with `largest_face` texels along an edge are left out, which is for
+// frames of few pixels: painting them is most of the time that an image takes.  Throws InputError
+// naming the file.
+std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file,
+                                       int largest_face = kLargestFace);
 
 // Returns a digest of what decides how the sky looks.  A .sky file is not read whole for it.
 std::string sky_digest(const std::filesystem::path& file);

@@ -29,6 +29,10 @@ struct LightSurvey {
   int frames = 0;  // how many were measured
 };
 
+// What the renderer of survey_light needs of a map (its `largest_face`): texels of 0.7 degrees,
+// where a pixel of its frames has 4.
+inline constexpr int kSurveyFace = 128;
+
 // Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.
 // `grader` is null for a show without a grade.  Means agree with those of large frames to a few
 // percent, since stars are as bright at a small size, only larger.

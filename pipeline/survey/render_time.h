@@ -12,8 +12,8 @@ struct RenderTime {
   int threads = 0;
 };
 
-// Whether the estimate renders less than a tenth of the show's pixels.  A single frame of 4096
-// pixels or a few seconds of tiny ones are rendered almost as soon as measured.
+// Whether the estimate renders less than a fiftieth of the show's pixels.  A single frame of 4096
+// pixels or a few seconds of small ones are rendered almost as soon as measured.
 bool is_worth_measuring(const Show& show);
 
 // Renders, grades and writes frames spread over the show, as domefall render does it but into the

@@ -42,7 +42,7 @@ void SkyStore::load_background(SkyRegion which) {
     background = loaded.sky.background;
     return;
   }
-  background = read_sky(panorama->image);
+  background = read_sky(panorama->image, largest_face_);
 }
 
 void SkyStore::load_stars(SkyRegion which) {

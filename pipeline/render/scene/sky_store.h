@@ -26,8 +26,10 @@ struct Sky {
 
 class SkyStore {
  public:
-  // The show must outlive the store.
-  explicit SkyStore(const Show& show) : show_(show) {}
+  // The show must outlive the store.  Maps are loaded without their levels of more than
+  // `largest_face` texels along an edge of a face (read_sky).
+  explicit SkyStore(const Show& show, int largest_face = kLargestFace)
+      : show_(show), largest_face_(largest_face) {}
 
   // A sky with the parts that this call or an earlier one asked for.  A file that several regions
   // name is loaded once.  Throws InputError if a file cannot be read.
@@ -46,6 +48,7 @@ class SkyStore {
   double faintest_magnitude(SkyRegion which) const;
 
   const Show& show_;
+  int largest_face_;
   std::mutex loading_;
   PerSky<Loaded> skies_;
 };

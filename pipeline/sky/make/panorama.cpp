@@ -75,6 +75,19 @@ void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
   paint(level, painter, across);
 }
 
+// The means of `by` x `by` pixels, of which an image's sides are multiples.
+FloatImage shrunk(const FloatImage& image, int by) {
+  FloatImage small(image.width / by, image.height / by);
+  const float part = 1.0f / static_cast<float>(by * by);
+  for (int y = 0; y < image.height; ++y) {
+    const float* from = image.row(y);
+    float* to = small.row(y / by);
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) to[3 * (x / by) + c] += part * from[3 * x + c];
+  }
+  return small;
+}
+
 }  // namespace
 
 int panorama_face(int width) {
@@ -93,7 +106,10 @@ void paint_panorama(const LightImage& image, const Orientation& orientation, dou
               luminance * image.unit / pyramid.unit, pyramid.levels[0]);
 }
 
-SkyMap map_of_panorama(const FloatImage& image) {
+SkyMap map_of_panorama(const FloatImage& image, int largest_face) {
+  int by = 1;
+  while (panorama_face(image.width / by) > largest_face && image.height % (2 * by) == 0) by *= 2;
+  if (by > 1) return map_of_panorama(shrunk(image, by));
   const double unit = sky_unit(kPanoramaUnit * greatest_working(image));
   const SkyPyramid pyramid(SkyMapKind::kColour, unit, panorama_face(image.width));
   paint_image(image, M33d(), kPanoramaUnit / unit, pyramid.levels[0]);

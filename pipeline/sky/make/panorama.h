@@ -14,8 +14,9 @@ inline constexpr double kPanoramaUnit = 1e-4;
 
 // Makes a map from an image in linear Rec.709, equatorial J2000 and seen from inside: the middle
 // column is RA 0h, RA grows to the left, and the top row is Dec +90.  The image is twice as wide as
-// it is high, and at least 4 x 2.
-SkyMap map_of_panorama(const FloatImage& image);
+// it is high, and at least 4 x 2.  The faces of the map have at most `largest_face` texels along an
+// edge; for fewer than the image's detail asks for, means of its pixels are painted.
+SkyMap map_of_panorama(const FloatImage& image, int largest_face = kLargestFace);
 
 // Returns the texels along a face that keep the detail of an image of this width.  They are half as
 // fine as its pixels, so that samples, which are linear between texels, stay smooth.  At most 4096.

@@ -16,6 +16,12 @@ SkyMap::SkyMap(SkyMapKind kind, double unit, std::vector<SkyLevel> levels,
                std::shared_ptr<const void> owner)
     : kind_(kind), unit_(unit), levels_(std::move(levels)), owner_(std::move(owner)) {}
 
+SkyMap SkyMap::without_levels_above(int size) const {
+  auto first = std::find_if(levels_.begin(), levels_.end() - 1,
+                            [size](const SkyLevel& level) { return level.size <= size; });
+  return {kind_, unit_, {first, levels_.end()}, owner_};
+}
+
 SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double v) {
   const int n = level.size;
   const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // from the border on

@@ -26,6 +26,9 @@ enum class SkyMapKind : std::uint32_t {
 // Every temperature of a map exceeds this one (kelvin), so that theta > 0.
 inline constexpr double kThermalBase = 256;
 
+// No map has a finer level than one of this many texels along an edge of a face.
+inline constexpr int kLargestFace = 8192;
+
 // A level has six faces (cube_face.h) of (size + 2)^2 texels, row by row.  The border of one texel
 // around each is what a sample between the outermost texels of two faces needs.
 struct SkyLevel {
@@ -60,6 +63,9 @@ class SkyMap {
   // 2^-11.
   double unit() const { return unit_; }
   const std::vector<SkyLevel>& levels() const { return levels_; }
+  // The same map without the levels that have more than `size` texels along an edge of a face, but
+  // with one level at least.
+  SkyMap without_levels_above(int size) const;
 
   // Returns the light (cd/m^2, working space) in a direction of any length, averaged over about
   // `footprint` radians.  For a thermal map it is that at frequency ratio 1.

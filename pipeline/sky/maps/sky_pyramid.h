@@ -42,8 +42,6 @@ struct SkyPyramid {
   SkyMap map() const;
 };
 
-inline constexpr int kLargestFace = 8192;
-
 // Sets the border of every face.  A texel of the border has a direction that belongs to the face
 // across the edge; it becomes what a sample there finds between that face's inner texels.
 void fill_border(const SkyPyramid::Level& level);

@@ -57,6 +57,20 @@ TEST(SkyMap, HasNoSeamAndNoPole) {
   }
 }
 
+// Filtered over some degrees, a map of means is the map that they were taken from.
+TEST(MilkyWay, IsTheSameFromAfarWhereItsFineLevelsAreLeftOut) {
+  const FloatImage image = read_image(source_file("shows/assets/milky_way.exr"));
+  const SkyMap whole = map_of_panorama(image), coarse = map_of_panorama(image, 64);
+  EXPECT_EQ(whole.levels().front().size, 1024);
+  EXPECT_EQ(coarse.levels().front().size, 64);
+  for (double ra = 5; ra < 360; ra += 40)
+    for (double dec = -85; dec < 90; dec += 17) {
+      const V3d d = sky_direction(ra, dec).v;
+      const double light = luminance_of(whole.sample(d, 0.1));
+      EXPECT_NEAR(luminance_of(coarse.sample(d, 0.1)), light, 0.05 * light) << ra << " " << dec;
+    }
+}
+
 TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
   const SkyMap map = map_of_panorama(read_image(source_file("shows/assets/milky_way.exr")));
   const auto light = [&map](double ra, double dec) {

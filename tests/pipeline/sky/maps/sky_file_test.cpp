@@ -72,6 +72,10 @@ TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
     EXPECT_NEAR(file.map.sample(d, 0).r, (2 + d.z) * 0x1p-20, 2e-3 * 0x1p-20);
   EXPECT_NO_THROW(verify_sky_file(path));
   EXPECT_NEAR(read_sky(path)->sample({0, 0, 1}, 0).r, 3 * 0x1p-20, 2e-3 * 0x1p-20);
+  const auto coarse = read_sky(path, 9);
+  ASSERT_EQ(coarse->levels().size(), 4u);
+  EXPECT_EQ(coarse->levels().front().size, 8);
+  EXPECT_EQ(read_sky(path, 0)->levels().size(), 1u);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary is left";
 }
 
