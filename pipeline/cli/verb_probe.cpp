@@ -6,7 +6,7 @@
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/render/scene/effect_light.h"
+#include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/show/read_show.h"
 #include "trajectories/equatorial.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/stars/star_image_finder.h"
 
 namespace domefall {
 namespace {
@@ -20,8 +20,8 @@ std::size_t stars_per_task(std::size_t count) {
 
 // Each task has a place of its own in the layer, in the order of the catalogue, so that the layer
 // holds the same images in the same order for any number of threads.
-void add_stars(const StarImages& maker, const SceneStars& stars, const PointSpread& point_spread,
-               ImageLists& lists, BlobLayer& layer) {
+void add_stars(const StarImageFinder& maker, const SceneStars& stars,
+               const PointSpread& point_spread, ImageLists& lists, BlobLayer& layer) {
   const std::size_t count = maker.count(stars);
   const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
   const std::size_t before = layer.new_tasks(tasks);
@@ -49,7 +49,7 @@ double images_expected(std::size_t stars, const FrameScene& scene) {
 }  // namespace
 
 void lay_stars(const FrameScene& scene, ImageLists& lists, BlobLayer& layer) {
-  PerSky<std::optional<StarImages>> makers;
+  PerSky<std::optional<StarImageFinder>> makers;
   double expected = 0;
   for (const SkyRegion sky : kEverySky) {
     if (scene.stars[sky] == nullptr) continue;

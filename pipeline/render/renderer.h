@@ -6,7 +6,7 @@
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/scene/optics_store.h"
 #include "pipeline/render/scene/sky_store.h"
-#include "pipeline/render/sky/anti_aliasing.h"
+#include "pipeline/render/sky/anti_aliasing_settings.h"
 #include "pipeline/render/stage_times.h"
 #include "pipeline/show/frame_state.h"
 

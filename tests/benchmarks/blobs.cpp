@@ -14,7 +14,7 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/blobs/blob_layer.h"
-#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/scene/exposure.h"
 #include "pipeline/report/frame_timing.h"
 
 namespace domefall {

@@ -15,7 +15,7 @@
 #include <random>
 
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/stars/star_image_finder.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
@@ -80,7 +80,7 @@ void find_images(benchmark::State& bench) {
   for (auto _ : bench) {
     const double start = cpu_seconds();
     images.clear();
-    const StarImages maker(scene, SkyRegion::kI);
+    const StarImageFinder maker(scene, SkyRegion::kI);
     const std::size_t count = maker.count(stars);
     for (std::size_t k = 0; k < count; k += kStarBatch) maker.append(stars, k, count, images);
     best = std::min(best, cpu_seconds() - start);

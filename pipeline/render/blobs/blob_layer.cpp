@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "pipeline/render/blobs/cap_crowds.h"
+#include "pipeline/render/blobs/merged_caps.h"
 
 namespace domefall {
 namespace {

@@ -1,6 +1,6 @@
 #include "pipeline/render/scene/frame_scene.h"
 
-#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/scene/exposure.h"
 
 namespace domefall {
 namespace {

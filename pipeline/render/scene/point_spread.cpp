@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
-#include "pipeline/render/scene/photometry.h"
+#include "pipeline/render/scene/exposure.h"
 #include "pipeline/simd/vector_math.h"
 
 namespace domefall {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/scene/effect_light.h"
+#include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/vector_math.h"
 #include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/ring_glow.h"
+#include "pipeline/sky/ring_sky.h"
 
 namespace domefall {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/render/scene/frame_scene.h"
-#include "pipeline/render/sky/anti_aliasing.h"
+#include "pipeline/render/sky/anti_aliasing_settings.h"
 #include "pipeline/render/sky/sky_sampler.h"
 
 namespace domefall {

@@ -7,8 +7,8 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/frame_key.h"
-#include "pipeline/render/scene/photometry.h"
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/stars/star_image_finder.h"
 #include "pipeline/show/attitude.h"
 #include "tests/pipeline/render/effect_shows.h"
 
@@ -87,7 +87,7 @@ std::vector<StarImage> images_of(const Show& show, const V3d& sky) {
   const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
   const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
   std::vector<StarImage> images;
-  StarImages(scene_with(show, state, optics), SkyRegion::kI).append(star, images);
+  StarImageFinder(scene_with(show, state, optics), SkyRegion::kI).append(star, images);
   return images;
 }
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/scene/photometry.h"
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/stars/star_image_finder.h"
 #include "tests/pipeline/render/blobs/drawn_blobs.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -19,7 +19,7 @@ StarImage image_of_star(const Show& show, const V3d& camera_direction, double m)
   const SceneStar star{{sky}, m, std::pow(10, -0.4 * m) * bolometric_flux_at_v_zero(t), t, 1e-9};
   std::vector<StarImage> images;
   const HoleOptics straight;
-  StarImages(scene_with(show, state, straight), SkyRegion::kI).append(star, images);
+  StarImageFinder(scene_with(show, state, straight), SkyRegion::kI).append(star, images);
   return images.at(0);
 }
 

@@ -1,10 +1,9 @@
-#include "pipeline/render/sky/anti_aliasing.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/sky/anti_aliasing_settings.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/render/scene/photometry.h"
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/stars/star_image_finder.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -29,7 +29,7 @@ class StarScene {
   const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
   double exposure() const { return exposure_scale(state.settings); }
   PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }
-  StarImages images(bool far = false) const {
+  StarImageFinder images(bool far = false) const {
     scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics)));
     return {*scenes_.back(), region(far)};
   }
@@ -47,7 +47,7 @@ class StarScene {
 };
 
 // The images of all stars, found in batches as lay_stars() does.
-inline std::vector<StarImage> all_images(const StarImages& maker, const SceneStars& stars) {
+inline std::vector<StarImage> all_images(const StarImageFinder& maker, const SceneStars& stars) {
   std::vector<StarImage> images;
   const std::size_t count = maker.count(stars);
   for (std::size_t k = 0; k < count; k += kStarBatch) maker.append(stars, k, count, images);

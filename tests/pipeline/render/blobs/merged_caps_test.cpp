@@ -1,4 +1,4 @@
-#include "pipeline/render/blobs/cap_crowds.h"
+#include "pipeline/render/blobs/merged_caps.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace domefall {
 namespace {
 
 // What bounds the cost of a sky that shrinks to a few pixels leaves its image as it is.
-TEST(CapCrowds, LookLikeTheirCapsDrawnOneByOne) {
+TEST(MergedCaps, LookLikeTheirCapsDrawnOneByOne) {
   const Projection p = Domemaster{512};
   std::mt19937 random(5);
   std::uniform_real_distribution<float> u(-1.5f, 1.5f);
@@ -39,7 +39,7 @@ TEST(CapCrowds, LookLikeTheirCapsDrawnOneByOne) {
 }
 
 // Merged caps are brighter and reach farther, here than a very wide flat image does.
-TEST(CapCrowds, StayWhereOneCapCannotBePlaced) {
+TEST(MergedCaps, StayWhereOneCapCannotBePlaced) {
   const Projection p = Stereographic{512, 512, 350 * kDegree};
   const auto placed = [&p](float x, float light) {
     CapBlob blob{x, 256, 0.1f, {light, light, light}, 0, 0, 0, 0, 0, 0};

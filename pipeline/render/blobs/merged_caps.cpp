@@ -1,4 +1,4 @@
-#include "pipeline/render/blobs/cap_crowds.h"
+#include "pipeline/render/blobs/merged_caps.h"
 
 #include <algorithm>
 #include <bit>

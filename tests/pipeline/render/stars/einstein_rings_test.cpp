@@ -1,4 +1,4 @@
-#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/stars/einstein_rings.h"
 
 #include <gtest/gtest.h>
 
@@ -55,13 +55,13 @@ struct Sweep {
 };
 
 // A star passes behind the hole.
-TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
+TEST(EinsteinRings, HaveTheLightOfADiscAcrossTheAxis) {
   for (const Sweep& s :
        {Sweep{Region::kI, 1e8, false}, Sweep{Region::kI, 1e6, false}, Sweep{Region::kI, 1e3, false},
         Sweep{Region::kI, 10, false}, Sweep{Region::kI, 2.5, false}, Sweep{Region::kII, 1, false},
         Sweep{Region::kII, 1, true}}) {
     const StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
-    const StarImages maker = scene.images(s.far);
+    const StarImageFinder maker = scene.images(s.far);
     const double disc = scene.point_spread().least();
     double before = 0;
     for (int k = -60; k <= 10; ++k) {
@@ -91,7 +91,7 @@ TEST(StarArcs, HaveTheLightOfADiscAcrossTheAxis) {
 
 // In line the image is Einstein's ring, which is even, closed and everywhere at one angle from the
 // hole.
-TEST(StarArcs, InLineAreARing) {
+TEST(EinsteinRings, InLineAreARing) {
   const StarScene scene({Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)}, Domemaster{1024});
   std::vector<StarImage> images;
   scene.images().append(bright_star(scene.sky(V3d(-1, 0, 0))), images);
@@ -120,7 +120,7 @@ TEST(StarArcs, InLineAreARing) {
 }
 
 // As the star leaves the axis, its arc shrinks to a point.
-TEST(StarArcs, BecomePoints) {
+TEST(EinsteinRings, BecomePoints) {
   const StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
   const double disc = scene.point_spread().least();
   const auto longest = [&](double radii) {
@@ -151,7 +151,7 @@ TEST(StarArcs, BecomePoints) {
 // the bolometric flux of its stars rises to infinity.  But the visible light of so hot a source
 // grows like its temperature only, and the solid angle shrinks faster, so that the visible flux
 // falls like 1+z.
-TEST(StarArcs, OfTheFirstLightOfRegionThreeAreFiniteAndOrdered) {
+TEST(EinsteinRings, OfTheFirstLightOfRegionThreeAreFiniteAndOrdered) {
   std::mt19937 random(2);
   std::vector<SceneStar> list;
   for (int k = 0; k < 300; ++k) list.push_back(bright_star({random_direction(random)}));

@@ -1,13 +1,13 @@
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/stars/star_image_finder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/render/scene/effect_light.h"
-#include "pipeline/render/scene/photometry.h"
-#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/scene/effect_ratios.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/stars/einstein_rings.h"
 
 namespace domefall {
 namespace {
@@ -41,7 +41,7 @@ double peak_per_lux(double exposure, const PointSpread& point_spread) {
 
 }  // namespace
 
-StarImages::StarImages(const FrameScene& scene, SkyRegion sky)
+StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
     : scene_(scene),
       sky_(scene.state.settings.sky[sky]),
       observer_(scene.state.observer),
@@ -66,7 +66,7 @@ StarImages::StarImages(const FrameScene& scene, SkyRegion sky)
 
 // The star with the gain and the limit of the frame applied to its flux, or nothing if none is
 // left.
-std::optional<SceneStar> StarImages::with_gain(const SceneStar& catalogued) const {
+std::optional<SceneStar> StarImageFinder::with_gain(const SceneStar& catalogued) const {
   const double part = sky_.star_gain * part_within_limit(sky_, catalogued.magnitude);
   if (!(part > 0)) return std::nullopt;
   SceneStar star = catalogued;
@@ -74,7 +74,7 @@ std::optional<SceneStar> StarImages::with_gain(const SceneStar& catalogued) cons
   return star;
 }
 
-void StarImages::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
+void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
   const auto star = with_gain(catalogued);
   if (star)
     append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0, kOrders,
@@ -82,8 +82,8 @@ void StarImages::append(const SceneStar& catalogued, std::vector<StarImage>& ima
 }
 
 // Appends the images of the orders from `first` to before `end`.
-void StarImages::append_orders(const SceneStar& star, const V3d& source, int first, int end,
-                               std::vector<StarImage>& images) const {
+void StarImageFinder::append_orders(const SceneStar& star, const V3d& source, int first, int end,
+                                    std::vector<StarImage>& images) const {
   if (table_ == nullptr) {
     append_order(star, source, 0, images);
     return;
@@ -100,13 +100,13 @@ void StarImages::append_orders(const SceneStar& star, const V3d& source, int fir
 
 // Whether the star may be bright enough in this order or a later one.  The amplification of a disc
 // is the mean over its points, of which that of 1/(distance from the axis) is at most 2/radius.
-bool StarImages::may_be_seen(const SceneStar& star, double sine, int order) const {
+bool StarImageFinder::may_be_seen(const SceneStar& star, double sine, int order) const {
   const double radius = std::max(disc_, star.angular_radius);
   const double least = sine < kNearAxis * radius ? radius / 2 : sine;
   return star.flux * bound_[static_cast<std::size_t>(order)] > least;
 }
 
-bool StarImages::is_arc(const V3d& source, int order) const {
+bool StarImageFinder::is_arc(const V3d& source, int order) const {
   const double near = kNearAxis * disc_;
   return table_ != nullptr && scene_.effects.lensing &&
          scene_.effects.amplification != Amplification::kNone &&
@@ -114,7 +114,7 @@ bool StarImages::is_arc(const V3d& source, int order) const {
 }
 
 // The image of one order in the frame of the tetrad.
-SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) const {
+SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int order) const {
   if (scene_.effects.lensing) return image_of(table_, source, order, star.angular_radius);
   const AberratedLight at = from_rest_.to_rest(source);
   const double ratio = at.frequency_ratio;
@@ -123,7 +123,8 @@ SkyImage StarImages::image(const SceneStar& star, const V3d& source, int order) 
 
 // The image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its magnitude is
 // m + 10 log10(1+z) - 2.5 log10(f), with the amplification f, and its temperature is T/(1+z).
-StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& at) const {
+StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
+                                                   const SkyImage& at) const {
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
   double g = at.frequency_ratio * doppler;
@@ -150,8 +151,8 @@ StarImages::Received StarImages::receive(const SceneStar& star, const SkyImage& 
 
 // Appends the image of one order.  Returns whether it is bright enough, even if it is beside the
 // frame.
-bool StarImages::append_order(const SceneStar& star, const V3d& source, int order,
-                              std::vector<StarImage>& images) const {
+bool StarImageFinder::append_order(const SceneStar& star, const V3d& source, int order,
+                                   std::vector<StarImage>& images) const {
   if (is_arc(source, order)) return append_arc(star, source, order, images);
   const Received received = receive(star, image(star, source, order));
   if (!(received.peak > kFaintestPeak)) return false;
@@ -159,8 +160,8 @@ bool StarImages::append_order(const SceneStar& star, const V3d& source, int orde
   return true;
 }
 
-bool StarImages::append_arc(const SceneStar& star, const V3d& source, int order,
-                            std::vector<StarImage>& images) const {
+bool StarImageFinder::append_arc(const SceneStar& star, const V3d& source, int order,
+                                 std::vector<StarImage>& images) const {
   // The spacing is that of the frame, carried back through the boost.
   const auto spacing = [&](const V3d& direction) {
     return kPieceSigmas * scene_.point_spread.least() *

@@ -22,15 +22,15 @@ inline constexpr double kFadeMagnitudes = 0.5;
 // two are found whose light does not go around the hole.
 //
 // Near the axis of the lens, where a point would be infinitely bright, a star is a disc with the
-// radius of the smallest blob.  Its image is an arc or a ring (star_arcs.h).
+// radius of the smallest blob.  Its image is an arc or a ring (einstein_rings.h).
 //
 // Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
-// (star_loops.h).  This part of the class is star_images_by_batch.cpp.  Images near the axis, of
-// high orders and of frames without some effect are found one star at a time in star_images.cpp.
-class StarImages {
+// (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis, of
+// high orders and of frames without some effect are found one star at a time in star_image_finder.cpp.
+class StarImageFinder {
  public:
   // The scene must outlive this object.
-  StarImages(const FrameScene& scene, SkyRegion sky);
+  StarImageFinder(const FrameScene& scene, SkyRegion sky);
 
   // Appends the images of one star that are bright enough, even some beside the frame.  Each order
   // inverts the table, which is exact and slow.

@@ -1,10 +1,10 @@
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/stars/star_image_finder.h"
 
 #include <gtest/gtest.h>
 
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/blobs/cap_blob.h"
-#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/render/stars/star_colours.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 
@@ -118,7 +118,7 @@ void compare(const StarScene& scene, bool far, const SceneStar& star) {
   }
 }
 
-TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
+TEST(StarImageFinder, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> magnitude(-3, 14), temperature(2500, 30000);
   std::uniform_real_distribution<double> decades(-5, 0.4);
@@ -148,7 +148,7 @@ TEST(StarImages, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
 }
 
 // A list of stars has the images of its stars, down to the limit of magnitude.
-TEST(StarImages, OfManyStarsAreThoseOfEach) {
+TEST(StarImageFinder, OfManyStarsAreThoseOfEach) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> magnitude(-1, 12), temperature(2500, 30000);
   StarScene scene({Region::kI, Tetrad::kRain, 9, kBrisk}, Domemaster{512});
@@ -158,7 +158,7 @@ TEST(StarImages, OfManyStarsAreThoseOfEach) {
     std::vector<SceneStar> stars;
     for (int k = 0; k < 1500; ++k)
       stars.push_back(star_of({random_direction(random)}, magnitude(random), temperature(random)));
-    const StarImages maker = scene.images();
+    const StarImageFinder maker = scene.images();
     std::vector<StarImage> each, all = all_images(maker, SceneStars(stars));
     for (const SceneStar& star : stars)
       for (const StarImage& image : all_images(maker, SceneStars({star}))) each.push_back(image);
@@ -182,7 +182,7 @@ TEST(StarImages, OfManyStarsAreThoseOfEach) {
 }
 
 // What the light of a star at no redshift says of its V.
-TEST(StarImages, AtNoRedshiftHaveTheirMagnitude) {
+TEST(StarImageFinder, AtNoRedshiftHaveTheirMagnitude) {
   const StarScene scene({Region::kI, Tetrad::kRain, kFlatSpace, kAtRest}, Domemaster{1024}, 8);
   const V3d ahead = apply(scene.state.observer.tetrad_from_camera, V3d(0.3, 0.2, 0.9));
   for (double t = 3000; t <= 30000; t *= 1.07)
@@ -197,7 +197,7 @@ TEST(StarImages, AtNoRedshiftHaveTheirMagnitude) {
     }
 }
 
-TEST(StarImages, HaveTheColoursOfBlackbodies) {
+TEST(StarImageFinder, HaveTheColoursOfBlackbodies) {
   for (double t = 1000; t < 1e10; t *= 1.0013) {
     const StarColours::Light seen = star_colours()(t);
     const WorkingRgb wanted = blackbody_colours().per_flux(t);

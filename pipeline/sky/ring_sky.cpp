@@ -1,4 +1,4 @@
-#include "pipeline/sky/ring_glow.h"
+#include "pipeline/sky/ring_sky.h"
 
 #include <cmath>
 #include <numbers>

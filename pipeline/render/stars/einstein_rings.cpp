@@ -1,4 +1,4 @@
-#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/stars/einstein_rings.h"
 
 #include <algorithm>
 #include <cmath>

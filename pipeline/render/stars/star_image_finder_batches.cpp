@@ -1,10 +1,10 @@
-// The part of the class StarImages that finds the images of a batch of stars at once.
+// The part of the class StarImageFinder that finds the images of a batch of stars at once.
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/render/stars/star_arcs.h"
+#include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/render/stars/star_colours.h"
-#include "pipeline/render/stars/star_images.h"
+#include "pipeline/render/stars/star_image_finder.h"
 
 namespace domefall {
 namespace {
@@ -27,7 +27,7 @@ void copy_source(const StarSources& from, int k, StarSources& to, int at) {
 
 }  // namespace
 
-struct StarImages::Batch {
+struct StarImageFinder::Batch {
   std::size_t first;  // index of its first star
   int count;
   StarSources sources;
@@ -42,7 +42,7 @@ struct StarImages::Batch {
   std::vector<SetAside> set_aside;
 };
 
-void StarImages::prepare_batches() {
+void StarImageFinder::prepare_batches() {
   batch_frame_.sky_from_tetrad = observer_.sky_from_tetrad;
   batch_frame_.tetrad_from_camera = observer_.tetrad_from_camera;
   batch_frame_.from_tetrad = from_tetrad_;
@@ -69,7 +69,7 @@ void StarImages::prepare_batches() {
   }
 }
 
-std::size_t StarImages::count(const SceneStars& stars) const {
+std::size_t StarImageFinder::count(const SceneStars& stars) const {
   std::size_t number = stars.count_to_magnitude(sky_.max_magnitude);
   if (!in_batches_) return number;
   // The sine of a disc's angle from the axis counts as half its radius at least (may_be_seen).
@@ -80,8 +80,8 @@ std::size_t StarImages::count(const SceneStars& stars) const {
   return number;
 }
 
-void StarImages::append(const SceneStars& stars, std::size_t first, std::size_t end,
-                        std::vector<StarImage>& images) const {
+void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::size_t end,
+                             std::vector<StarImage>& images) const {
   end = std::min(end, first + kStarBatch);
   if (!in_batches_) {
     for (std::size_t k = first; k < end; ++k) append(stars[k], images);
@@ -107,7 +107,7 @@ void StarImages::append(const SceneStars& stars, std::size_t first, std::size_t 
 }
 
 // Sets aside the sources near the axis and makes the others candidates.
-void StarImages::set_aside_axis(Batch& batch) const {
+void StarImageFinder::set_aside_axis(Batch& batch) const {
   const double near = std::max(kNearAxis * disc_, kOnAxis);
   for (int k = 0; k < batch.count; ++k) {
     batch.candidates[static_cast<std::size_t>(batch.candidate_count)] = k;
@@ -119,7 +119,7 @@ void StarImages::set_aside_axis(Batch& batch) const {
 }
 
 // Drops the candidates that are too faint in this order and in all that follow.
-void StarImages::drop_faint(Batch& batch, int order) const {
+void StarImageFinder::drop_faint(Batch& batch, int order) const {
   const double bound = bound_[static_cast<std::size_t>(order)];
   int kept = 0;
   for (int n = 0; n < batch.candidate_count; ++n) {
@@ -133,7 +133,7 @@ void StarImages::drop_faint(Batch& batch, int order) const {
 
 // Appends the candidates' images of one order, by its curve.  Those in intervals not for use are
 // set aside.
-void StarImages::append_curved(Batch& batch, int order, std::vector<StarImage>& images) const {
+void StarImageFinder::append_curved(Batch& batch, int order, std::vector<StarImage>& images) const {
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   const double side = order % 2 == 0 ? 1 : -1;
   const float* bounds = curve.bounds();
@@ -161,7 +161,7 @@ void StarImages::append_curved(Batch& batch, int order, std::vector<StarImage>& 
 }
 
 // Sets aside the orders that have no curve.
-void StarImages::set_aside_high_orders(Batch& batch) const {
+void StarImageFinder::set_aside_high_orders(Batch& batch) const {
   drop_faint(batch, 2 * kCurves);
   for (int n = 0; n < batch.candidate_count; ++n)
     batch.set_aside.push_back(
@@ -169,8 +169,8 @@ void StarImages::set_aside_high_orders(Batch& batch) const {
 }
 
 // Appends the images that were set aside, by inverting the table.
-void StarImages::append_exact(const SceneStars& stars, const Batch& batch,
-                              std::vector<StarImage>& images) const {
+void StarImageFinder::append_exact(const SceneStars& stars, const Batch& batch,
+                                   std::vector<StarImage>& images) const {
   for (const Batch::SetAside& orders : batch.set_aside)
     if (const auto star = with_gain(stars[batch.first + static_cast<std::size_t>(orders.source)]))
       append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v),
@@ -178,7 +178,8 @@ void StarImages::append_exact(const SceneStars& stars, const Batch& batch,
 }
 
 // Gives the views that reach the frame their colours, and appends those that are bright enough.
-void StarImages::append_views(StarViews& views, int count, std::vector<StarImage>& images) const {
+void StarImageFinder::append_views(StarViews& views, int count,
+                                   std::vector<StarImage>& images) const {
   StarColumn<int> listed;
   const int number = plane_.place(views, count, listed.data());
   const StarColours& colours = star_colours();
