@@ -43,7 +43,27 @@ struct State {
     if (sign * slope(0) <= 0) return 0;
     return zero([&](double h) { return sign * slope(sign * h); }, 0, most);
   }
+
+  // 1/r of the next apoastron, and how far it is in w, at most `most`.
+  struct Top {
+    double w, risen;
+  };
+  Top apoastron(double most) const;
 };
+
+// Of an apoastron far away the difference has lost digits, which Newton's rule gives back: it is
+// well conditioned there, P' being 2 nearly.
+State::Top State::apoastron(double most) const {
+  if (c.energy == 0) return {0.5, w - 0.5};
+  const double risen = to_turn(-1, most), l2 = c.angular_momentum * c.angular_momentum;
+  double top = w - risen;
+  if (!(top < w / 4 && l2 * top < 0.25)) return {top, risen};
+  constexpr int kSteps = 3;
+  for (int k = 0; k < kSteps; ++k)
+    top -=
+        (c.excess_energy + top * (2 + l2 * top * (2 * top - 1))) / (2 + l2 * top * (6 * top - 2));
+  return {top, w - top};
+}
 
 double outward_sign(double speed) { return speed > 0 ? 1 : -1; }
 
@@ -55,14 +75,13 @@ OrbitStart unturned(const State& state, double w_b, double over) {
   return start;
 }
 
-// Falls from an apoastron `risen` in w above the state; `excess` as OrbitCurve::returning wants it.
+// Falls from that apoastron; `excess` as OrbitCurve::returning wants it.
 // E^2 = (1 - 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
-OrbitStart returning(const State& state, double risen, double excess) {
-  const double w = state.c.energy == 0 ? 0.5 : state.w - risen;
-  const double lw = state.c.angular_momentum * w;
-  const double over_two = state.c.energy * state.c.energy / (w * (1 + lw * lw));
-  return {OrbitCurve::returning(state.c, 1 / w, over_two, std::max(excess, kLeastExcess)),
-          -outward_sign(state.speed) * std::asinh(std::sqrt(risen / w))};
+OrbitStart returning(const State& state, const State::Top& top, double excess) {
+  const double lw = state.c.angular_momentum * top.w;
+  const double over_two = state.c.energy * state.c.energy / (top.w * (1 + lw * lw));
+  return {OrbitCurve::returning(state.c, 1 / top.w, over_two, std::max(excess, kLeastExcess)),
+          -outward_sign(state.speed) * std::asinh(std::sqrt(top.risen / top.w))};
 }
 
 // G of OrbitCurve::returning, no barrier or one that is overcome by `over`.
@@ -76,19 +95,18 @@ double returning_excess(const State& state, double w, const Barrier* barrier, do
 }
 
 OrbitStart falling(const State& state, const Barrier* barrier, double over) {
-  const double risen = state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, state.w);
-  return returning(state, risen, returning_excess(state, state.w - risen, barrier, over));
+  const State::Top top = state.apoastron(state.w);
+  return returning(state, top, returning_excess(state, top.w, barrier, over));
 }
 
 OrbitStart turned_inside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
-  const double risen =
-      state.c.energy == 0 ? state.w - 0.5 : state.to_turn(-1, std::max(state.w - barrier.w, 0.0));
+  const State::Top top = state.apoastron(std::max(state.w - barrier.w, 0.0));
   // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below -
   // above.
-  const double w = state.w - risen, plain = 2 - 2 * l * l * w * (1 - 3 * w);
+  const double plain = 2 - 2 * l * l * top.w * (1 - 3 * top.w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
-  return returning(state, risen, plain > kCancels ? plain : 2 * l * l * to_third * gap);
+  return returning(state, top, plain > kCancels ? plain : 2 * l * l * to_third * gap);
 }
 
 OrbitStart turned_outside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
@@ -101,9 +119,10 @@ OrbitStart turned_outside(const State& state, const BarrierRoots& beside, const 
     return {OrbitCurve::scattered(state.c, near, w1, gap),
             side * std::asinh(std::sqrt(sunk / state.w))};
   }
-  const double risen = state.to_turn(-1, state.w), far = 1 / (state.w - risen);
+  const State::Top top = state.apoastron(state.w);
+  const double far = 1 / top.w;
   return {OrbitCurve::bound(state.c, near, far, gap),
-          side * 2 * std::atan2(std::sqrt(sunk * near), std::sqrt(risen * far))};
+          side * 2 * std::atan2(std::sqrt(sunk * near), std::sqrt(top.risen * far))};
 }
 
 }  // namespace

@@ -106,6 +106,22 @@ TEST(Geodesic, ARadiusNeverPassedHasNoTime) {
   EXPECT_FALSE(parabolic_by_periastron(10).time_at(std::nan(""), Leg::kInward));
 }
 
+// E^2 - 1 = -(2/r_a) (1 - ...): the root was found to 1e-16 of the place where the orbit begins.
+TEST(Geodesic, AnApoastronFarAwayKeepsItsDigits) {
+  for (const double energy : {0.999, 0.9999999, 0.99999999, 0.999999999999}) {
+    const double far = 2 / ((1 - energy) * (1 + energy));
+    EXPECT_NEAR(kruskal_crossing(energy).outermost() / far, 1, 1e-15) << energy;
+  }
+  // Thrown on at the periastron of orbits whose turning points are known.
+  for (const double far : {1e3, 1e6, 1e9}) {
+    const Geodesic orbit = bound_by_turning_points(10, far);
+    const double excess = (orbit.energy() - 1) * (orbit.energy() + 1);
+    const double celerity = orbit.angular_momentum() / 10;
+    const double lost = 1e-15 / std::abs(excess);  // rounding of the celerity
+    EXPECT_NEAR(thrown_outside(10, 0, celerity).outermost() / far, 1, lost) << far;
+  }
+}
+
 TEST(Geodesic, ABoundOrbitPassesAgainEveryPeriod) {
   const Geodesic orbit = bound_by_turning_points(10, 20);
   const double first = orbit.time_at(15, Leg::kOutward).value(), period = orbit.radial_period();
