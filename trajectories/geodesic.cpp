@@ -63,16 +63,16 @@ OrbitPoint Geodesic::Tables::apex_state(double s) const {
 OrbitPoint Geodesic::Tables::state(double s) const {
   if (curve.constants().energy == 0) return apex_state(s);
   const OrbitCurve::Point p = curve.at(s);
-  const OrbitTable::Sums sums = table.at(s);
+  const OrbitTable::Place place = table.at(s);
   const bool outgoing = s < turn, inside = p.r <= 2;
   const Region region = !inside ? Region::kI : outgoing ? Region::kIV : Region::kII;
   return {region,
           outgoing ? Tetrad::kOutgoing : Tetrad::kRain,
           p.r,
-          sums.azimuth,
+          place.azimuth,
           V3d(radial_celerity(p, curve.constants(), outgoing), 0,
               curve.constants().angular_momentum / p.r),
-          sums.null_time};
+          place.null_time};
 }
 
 Geodesic::Geodesic(const OrbitCurve& curve, double origin, double turn, double tolerance)
@@ -97,33 +97,34 @@ double Geodesic::azimuth_per_period() const {
   return tables_->is_bound() ? table.end().azimuth - table.begin().azimuth : kInfinity;
 }
 
-OrbitPoint Geodesic::at(double tau) const {
+OrbitPoint Geodesic::at(const ProperTime& tau) const {
   const OrbitTable& table = tables_->table;
   double turns = 0;
-  if (tables_->is_bound() && std::isfinite(tau)) {
-    turns = std::floor((tau - table.begin().tau) / tables_->period());
-    tau -= turns * tables_->period();
+  if (tables_->is_bound() && std::isfinite(tau.hi)) {
+    turns = std::floor(double(tau - table.begin().tau) / tables_->period());
   } else if (!(tau >= table.begin().tau && tau <= table.end().tau)) {
-    throw std::domain_error("proper time " + short_number(tau) +
+    throw std::domain_error("proper time " + short_number(double(tau)) +
                             " (units of M) is beyond the orbit's ends");
   }
-  OrbitPoint p = tables_->state(table.parameter(tau));
+  OrbitPoint p = tables_->state(table.parameter(tau - exact_product(turns, tables_->period())));
   if (turns != 0) {
     p.azimuth += turns * azimuth_per_period();
-    p.null_time += turns * (table.end().null_time - table.begin().null_time);
+    p.null_time =
+        p.null_time + exact_product(turns, table.end().null_time - table.begin().null_time);
   }
   if (mirrored_) p.region = mirror_of(p.region), p.tetrad = mirror_of(p.tetrad);
   return p;
 }
 
-std::optional<double> Geodesic::time_at(double r, Leg leg, double after) const {
+std::optional<ProperTime> Geodesic::time_at(double r, Leg leg, const ProperTime& after) const {
   const double s = tables_->curve.parameter(r, leg == Leg::kOutward);
   if (std::isnan(s) || r > OrbitCurve::kFarthest || r < OrbitCurve::kDeepest) return std::nullopt;
-  double tau = tables_->table.at(s).tau;
+  ProperTime tau = tables_->table.at(s).tau;
   if (tables_->is_bound()) {
-    const double start = after == -kInfinity ? 0 : after, period = tables_->period();
-    tau += std::ceil((start - tau) / period) * period;
-    if (tau < start) tau += period;
+    const ProperTime start = after == -kInfinity ? 0 : after;
+    const double period = tables_->period();
+    tau = tau + exact_product(std::ceil(double(start - tau) / period), period);
+    if (tau < start) tau = tau + period;
     return tau;
   }
   if (tau < after) return std::nullopt;

@@ -1,6 +1,7 @@
 // What a trajectory emits: a point of an orbit in the plane of its motion.
 #pragma once
 
+#include "trajectories/double_double.h"
 #include "trajectories/observer_state.h"
 
 namespace domefall {
@@ -15,7 +16,7 @@ struct OrbitPoint {
   // v = t + r* (rain) or u = t - r* (outgoing), r* = r + 2 ln|r/2 - 1|, units of M; of the mirrored
   // tetrads after t -> -t.  t counts from an origin of the trajectory's own, the same for its
   // tetrads, so v - u = 2 r* where it changes from one to the other.
-  double null_time = 0;
+  DoubleDouble null_time{};
 };
 
 }  // namespace domefall

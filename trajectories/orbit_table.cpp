@@ -51,7 +51,7 @@ OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, doub
   std::sort(cuts.begin(), cuts.end());
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) append(cuts[k], cuts[k + 1], 0);
-  sum_up(origin, turn);
+  sum_up(origin);
 }
 
 // dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each
@@ -103,55 +103,116 @@ void OrbitTable::append(double low, double high, int depth) {
   append(middle, high, depth + 1);
 }
 
-OrbitTable::Sums OrbitTable::in_panel(const Panel& panel, double x) const {
-  return {panel.from.tau + panel_sum(panel.tau, x),
-          panel.from.azimuth + panel_sum(panel.azimuth, x),
-          panel.from.null_time + panel_sum(panel.null_time, x)};
+// The singularities, the periastron and the origin, in the order of the parameter.
+std::vector<double> OrbitTable::anchors(double origin) const {
+  using Kind = OrbitCurve::Kind;
+  const Kind kind = curve_.kind();
+  std::vector<double> found{origin};
+  if (kind == Kind::kScattered || kind == Kind::kBound) found.push_back(0);
+  if (kind == Kind::kReturning || kind == Kind::kEscaping) found.push_back(curve_.begin());
+  if (kind == Kind::kReturning || kind == Kind::kPlunging) found.push_back(curve_.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
-// From the origin to both sides, so that what is near it is exact.
-void OrbitTable::sum_up(double origin, double turn) {
-  double jump = 0;
-  if (std::isfinite(turn) && curve_.constants().energy > 0) {
-    const double r = curve_.at(turn).r;
-    jump = 2 * tortoise(r, turn == 0 ? curve_.outermost_over_two() : r - 2);
-  }
-  const auto first = std::lower_bound(panels_.begin(), panels_.end(), origin,
-                                      [](const Panel& p, double s) { return p.low < s; });
+OrbitTable::Panels OrbitTable::from_parameter(double s) {
+  return std::lower_bound(panels_.begin(), panels_.end(), s,
+                          [](const Panel& p, double value) { return p.low < value; });
+}
+
+// At the panel's upper end, of what is `from` at its lower end and before it was shifted.
+OrbitTable::Sums OrbitTable::risen(const Sums& from, const Panel& panel) const {
+  return {from.tau + panel_sum(panel.tau, 1), from.azimuth + panel_sum(panel.azimuth, 1),
+          from.null_time + panel_sum(panel.null_time, 1) + (panel.high == turn_ ? jump_ : 0)};
+}
+
+// Lets the panels count from their first one's lower end.  Returns the sums at the last one's upper
+// end.
+OrbitTable::Sums OrbitTable::count_up(Panels first, Panels last, const Sums& anchor) const {
   Sums sums;
-  for (auto p = first; p != panels_.end(); ++p) {
-    if (p->low == turn && p->low > origin) sums.null_time += jump;
-    p->from = sums, p->begin_tau = sums.tau;
-    sums = in_panel(*p, 1);
+  for (auto p = first; p != last; ++p) {
+    p->anchor = anchor, p->from = sums, p->begin_tau = ProperTime(anchor.tau) + sums.tau;
+    sums = risen(sums, *p);
   }
-  end_ = sums, sums = {};
-  for (auto p = std::make_reverse_iterator(first); p != panels_.rend(); ++p) {
-    if (p->high == turn) sums.null_time -= jump;
-    const Sums above = sums;
-    sums.tau -= panel_sum(p->tau, 1), sums.azimuth -= panel_sum(p->azimuth, 1);
-    sums.null_time -= panel_sum(p->null_time, 1);
-    // Counted from the upper end, which is the nearer to the origin.
-    p->from = above, p->begin_tau = sums.tau;
-    p->tau[0] -= panel_sum(p->tau, 1), p->azimuth[0] -= panel_sum(p->azimuth, 1);
-    p->null_time[0] -= panel_sum(p->null_time, 1);
-  }
-  begin_ = sums;
+  return sums;
 }
 
-OrbitTable::Sums OrbitTable::at(double s) const {
+// Lets the panels count from their last one's upper end.  Returns the sums at the first one's lower
+// end.
+OrbitTable::Sums OrbitTable::count_down(Panels first, Panels last, const Sums& anchor) const {
+  Sums sums;
+  for (auto p = std::make_reverse_iterator(last); p != std::make_reverse_iterator(first); ++p) {
+    if (p->high == turn_) sums.null_time -= jump_;
+    p->anchor = anchor, p->from = sums;
+    const Sums rise{panel_sum(p->tau, 1), panel_sum(p->azimuth, 1), panel_sum(p->null_time, 1)};
+    p->tau[0] -= rise.tau, p->azimuth[0] -= rise.azimuth, p->null_time[0] -= rise.null_time;
+    sums.tau -= rise.tau, sums.azimuth -= rise.azimuth, sums.null_time -= rise.null_time;
+    p->begin_tau = ProperTime(anchor.tau) + sums.tau;
+  }
+  return sums;
+}
+
+// Lets the panels between two anchors count from that which is the nearer in time.  One of the two
+// is known, and the other is returned.
+OrbitTable::Sums OrbitTable::count_between(Panels first, Panels last, const Sums& known,
+                                           bool known_is_first) {
+  Sums span;
+  for (auto p = first; p != last; ++p) span = risen(span, *p);
+  const double way = known_is_first ? 1 : -1;
+  const Sums found{known.tau + way * span.tau, known.azimuth + way * span.azimuth,
+                   known.null_time + way * span.null_time};
+  auto middle = first;
+  for (Sums sums; middle != last; ++middle) {
+    const double begin = sums.tau;
+    sums = risen(sums, *middle);
+    if (begin + sums.tau > span.tau) break;
+  }
+  count_up(first, middle, known_is_first ? known : found);
+  count_down(middle, last, known_is_first ? found : known);
+  return found;
+}
+
+void OrbitTable::sum_up(double origin) {
+  if (std::isfinite(turn_) && curve_.constants().energy > 0) {
+    const double r = curve_.at(turn_).r;
+    jump_ = 2 * tortoise(r, turn_ == 0 ? curve_.outermost_over_two() : r - 2);
+  }
+  const std::vector<double> places = anchors(origin);
+  const auto start = std::find(places.begin(), places.end(), origin);
+  const auto absolute = [](const Sums& anchor, const Sums& since) {
+    return Sums{anchor.tau + since.tau, anchor.azimuth + since.azimuth,
+                anchor.null_time + since.null_time};
+  };
+  Sums anchor;
+  for (auto s = start; s + 1 != places.end(); ++s)
+    anchor = count_between(from_parameter(*s), from_parameter(*(s + 1)), anchor, true);
+  end_ = absolute(anchor, count_up(from_parameter(places.back()), panels_.end(), anchor));
+  anchor = {};
+  for (auto s = start; s != places.begin(); --s)
+    anchor = count_between(from_parameter(*(s - 1)), from_parameter(*s), anchor, false);
+  begin_ = absolute(anchor, count_down(panels_.begin(), from_parameter(places.front()), anchor));
+}
+
+OrbitTable::Place OrbitTable::at(double s) const {
   const auto after = std::upper_bound(panels_.begin(), panels_.end(), s,
                                       [](double value, const Panel& p) { return value < p.low; });
   const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
-  const double x = ((s - panel.low) - (panel.high - s)) / (panel.high - panel.low);
-  return in_panel(panel, std::clamp(x, -1.0, 1.0));
+  const double x =
+      std::clamp(((s - panel.low) - (panel.high - s)) / (panel.high - panel.low), -1.0, 1.0);
+  return {ProperTime(panel.anchor.tau) + (panel.from.tau + panel_sum(panel.tau, x)),
+          panel.anchor.azimuth + (panel.from.azimuth + panel_sum(panel.azimuth, x)),
+          DoubleDouble(panel.anchor.null_time) +
+              (panel.from.null_time + panel_sum(panel.null_time, x))};
 }
 
-double OrbitTable::parameter(double tau) const {
+double OrbitTable::parameter(const ProperTime& tau) const {
   const auto after =
       std::upper_bound(panels_.begin(), panels_.end(), tau,
-                       [](double value, const Panel& p) { return value < p.begin_tau; });
+                       [](const ProperTime& value, const Panel& p) { return value < p.begin_tau; });
   const Panel& panel = after == panels_.begin() ? *after : *(after - 1);
-  const double half = (panel.high - panel.low) / 2, wanted = tau - panel.from.tau;
+  const double half = (panel.high - panel.low) / 2,
+               wanted = double(tau - panel.anchor.tau) - panel.from.tau;
   const double at_low = panel_sum(panel.tau, -1), at_high = panel_sum(panel.tau, 1);
   double low = -1, high = 1, x = 2 * (wanted - at_low) / (at_high - at_low) - 1;
   if (!(x > low)) return panel.low;

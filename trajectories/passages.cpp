@@ -34,16 +34,19 @@ double birth(const Trajectory& trajectory) {
   return path ? std::nextafter(path->begin(), before_all) : before_all;
 }
 
-std::optional<double> time_at(const Trajectory& trajectory, double r, Leg leg, double after) {
+std::optional<ProperTime> time_at(const Trajectory& trajectory, double r, Leg leg,
+                                  const ProperTime& after) {
   return std::visit(
-      [&](const auto& kind) -> std::optional<double> {
+      [&](const auto& kind) -> std::optional<ProperTime> {
         using Motion = std::decay_t<decltype(kind)>;
         if constexpr (kStays<Motion>) {
           return std::nullopt;
         } else if constexpr (std::is_same_v<Motion, RadialInfall>) {
           if (leg == Leg::kOutward || r > kind.from_r) return std::nullopt;
-          const double tau = proper_time_to(kind, r);
+          const ProperTime tau = proper_time_to(kind, r);
           return tau >= after ? std::optional(tau) : std::nullopt;
+        } else if constexpr (std::is_same_v<Motion, AcceleratedPath>) {
+          return kind.time_at(r, leg, double(after));
         } else {
           return kind.time_at(r, leg, after);
         }

@@ -14,8 +14,9 @@ double birth(const Trajectory& trajectory);
 
 // The first proper time >= after at which r (M) is passed on that leg; nothing if never, or if r
 // does not change.
-std::optional<double> time_at(const Trajectory& trajectory, double r, Leg leg,
-                              double after = -std::numeric_limits<double>::infinity());
+std::optional<ProperTime> time_at(
+    const Trajectory& trajectory, double r, Leg leg,
+    const ProperTime& after = -std::numeric_limits<double>::infinity());
 
 // The smallest and the largest r of its whole life, M.
 std::pair<double, double> reach(const Trajectory& trajectory);

@@ -14,22 +14,32 @@ double fallen_null_time(double r) {
 
 }  // namespace
 
-double proper_time_to(const RadialInfall& fall, double r) {
+double time_to_singularity(const RadialInfall& fall) {
   const double a = fall.from_r;
+  return std::numbers::sqrt2 / 3 * a * (a * a) / (a * std::sqrt(a));
+}
+
+ProperTime proper_time_to(const RadialInfall& fall, double r) {
+  const double a = fall.from_r;
+  const double left = std::numbers::sqrt2 / 3 * r * std::sqrt(r), all = time_to_singularity(fall);
+  if (left < all / 2) return ProperTime(all) - left;
   return std::numbers::sqrt2 / 3 * (a - r) * (a * a + a * r + r * r) /
          (a * std::sqrt(a) + r * std::sqrt(r));
 }
 
-OrbitPoint point_at(const RadialInfall& fall, double tau) {
+OrbitPoint point_at(const RadialInfall& fall, const ProperTime& tau) {
+  constexpr double kPerTime = 3 / std::numbers::sqrt2;
+  const double left = double(time_to_singularity(fall) - tau);
   const double root =
-      std::cbrt(fall.from_r * std::sqrt(fall.from_r) - 3 / std::numbers::sqrt2 * tau);
+      std::cbrt(left < double(tau) ? kPerTime * left
+                                   : fall.from_r * std::sqrt(fall.from_r) - kPerTime * double(tau));
   const double r = root * root;
   return {r > 2 ? Region::kI : Region::kII,
           Tetrad::kRain,
           r,
           0,
           V3d(0, 0, 0),
-          fallen_null_time(fall.from_r) - fallen_null_time(r)};
+          DoubleDouble(fallen_null_time(fall.from_r)) - fallen_null_time(r)};
 }
 
 }  // namespace domefall

@@ -1,11 +1,20 @@
 #include "trajectories/trajectory.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace domefall {
 
-OrbitPoint point_at(const Trajectory& trajectory, double tau) {
-  return std::visit([tau](const auto& kind) { return point_at(kind, tau); }, trajectory);
+OrbitPoint point_at(const Trajectory& trajectory, const ProperTime& tau) {
+  return std::visit(
+      [&tau](const auto& kind) {
+        using Motion = std::decay_t<decltype(kind)>;
+        if constexpr (std::is_same_v<Motion, Geodesic> || std::is_same_v<Motion, RadialInfall>)
+          return point_at(kind, tau);
+        else
+          return point_at(kind, double(tau));
+      },
+      trajectory);
 }
 
 double lifetime(const Trajectory& trajectory) {
@@ -14,7 +23,7 @@ double lifetime(const Trajectory& trajectory) {
   if (const auto* path = std::get_if<AcceleratedPath>(&trajectory))
     return std::nextafter(path->end(), std::numeric_limits<double>::infinity());
   const auto* fall = std::get_if<RadialInfall>(&trajectory);
-  return fall ? proper_time_to(*fall, 0) : std::numeric_limits<double>::infinity();
+  return fall ? time_to_singularity(*fall) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace domefall

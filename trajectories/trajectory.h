@@ -20,7 +20,7 @@ using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, Giv
 
 // The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
 // tau must be in [0, lifetime), of a geodesic in (birth, death), of a path on it.
-OrbitPoint point_at(const Trajectory& trajectory, double tau);
+OrbitPoint point_at(const Trajectory& trajectory, const ProperTime& tau);
 
 // The proper time before which the trajectory ends: at the singularity, or just behind the last key
 // of a path; infinity for an observer whose time does not end.

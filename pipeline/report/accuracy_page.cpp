@@ -229,9 +229,10 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
   page +=
       "\n**Default: the closed form, or the quadratures.** They are the most exact, and make any "
       "frame without the\nones before it. Their error at the end of a fall is the rounding of a "
-      "proper time of 77 M, of which 1e-5 M are\nleft (with angular momentum 2e-9 M). An "
-      "integrated "
-      "circle with an error of about 1 in r has left the circle.\n\n";
+      "proper time of 77 M, of which 1e-5 M are\nleft (with angular momentum 2e-9 M): here it is "
+      "one double from the beginning on, as an integration has it. A show\ncounts the time that is "
+      "left, and its r is right to 1e-14 down to 1e-6 M. An integrated circle with an error of "
+      "about\n1 in r has left the circle.\n\n";
   for (const NamedPlot& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
       page += fmt::format("![error against time](plots/{}.svg)\n", plot.name);

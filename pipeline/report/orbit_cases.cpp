@@ -63,8 +63,8 @@ std::vector<double> evenly(double end, int states) {
 std::vector<double> evenly_in_log_r(const RadialInfall& fall, int states) {
   std::vector<double> taus;
   for (int k = 1; k <= states; ++k)
-    taus.push_back(
-        proper_time_to(fall, fall.from_r * std::pow(kFallEnd / fall.from_r, double(k) / states)));
+    taus.push_back(double(
+        proper_time_to(fall, fall.from_r * std::pow(kFallEnd / fall.from_r, double(k) / states))));
   return taus;
 }
 

@@ -6,9 +6,9 @@
 
 namespace domefall {
 
-// The proper time of a segment's trajectory (M; seconds in flat space) when `part` of the segment's
-// duration, 0 to 1, has passed.
-double proper_time_at(const Segment& segment, double part);
+// The proper time of a segment's trajectory when `part` of the segment's duration, 0 to 1, has
+// passed.  At both ends it is that of the segment's timing.
+ProperTime proper_time_at(const Segment& segment, double part);
 
 // The observer's state when `part` of a segment, 0 to 1, has passed.  It has no camera yet:
 // tetrad_from_camera is the identity.  The axes on the sky, the azimuth and the null time run on

@@ -33,9 +33,8 @@ enum class Pace {
 
 // Which part of its trajectory a segment shows, and how the observer's clock runs meanwhile.
 struct Timing {
-  // Proper time of the trajectory at the segment's first and last instant, units of M (seconds in
-  // flat space).
-  double tau_begin = 0, tau_end = 0;
+  // Proper time of the trajectory at the segment's first and last instant.
+  ProperTime tau_begin, tau_end;
   Pace pace = Pace::kSteady;
   // How fast proper time runs at both ends for kSteady, as parts of the mean.  Their sum is 2.
   double rate_begin = 1, rate_end = 1;

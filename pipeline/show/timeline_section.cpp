@@ -179,7 +179,7 @@ class TimelineReader {
 
   static void check_targets(const Item& item, const Segment& segment, double begin) {
     const double end = begin + segment.duration_s;
-    const auto region_at = [&segment](double tau) {
+    const auto region_at = [&segment](const ProperTime& tau) {
       return point_at(segment.trajectory, tau).region;
     };
     const bool sees_no_sky = region_at(segment.timing.tau_begin) == Region::kIV &&

@@ -9,8 +9,7 @@ namespace domefall {
 namespace {
 
 constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
-constexpr double kDefaultRate = 1;      // M per second
-constexpr double kEndTolerance = 1e-3;  // relative, of r at the end of a segment
+constexpr double kDefaultRate = 1;  // M per second
 constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
@@ -37,21 +36,38 @@ void fail_unreached(const Item& item, const Trajectory& trajectory, std::optiona
                         leg ? fmt::format("on the {} leg ", leg_name(*leg)) : "", when, range));
 }
 
-std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
-                                 const Defaults& start) {
-  const Item* given = s.one_of({"from_r", "from_tau_m"});
-  const auto leg = read_leg(s, "from_leg", "from_r");
-  if (s.find("from_tau_m")) {
-    const auto tau = s.number("from_tau_m", kClock);
-    if (!tau) return std::nullopt;
-    if (*tau > birth(trajectory) && *tau < lifetime(trajectory)) return tau;
-    s.find("from_tau_m")
-        ->fail(fmt::format(
-            "must lie within the trajectory, that is between {} and {} (units of M), got {}",
-            short_number(birth(trajectory)), short_number(lifetime(trajectory)),
-            short_number(*tau)));
+// What is wrong with an instant at which the trajectory is nearer or farther than shows may be.
+std::optional<std::string> leaves_shows(const Trajectory& trajectory, const ProperTime& tau) {
+  constexpr double kRounding = 1e-9;
+  const double r = point_at(trajectory, tau).r;
+  if (r >= kNearest * (1 - kRounding) && r <= kFarthest * (1 + kRounding)) return std::nullopt;
+  return fmt::format("leads to r = {} M; shows go from {} to {} M", short_number(r),
+                     short_number(kNearest), short_number(kFarthest));
+}
+
+// Reads from_tau_m.
+std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& trajectory) {
+  const auto tau = s.number("from_tau_m", kClock);
+  if (!tau) return std::nullopt;
+  const Item& item = *s.find("from_tau_m");
+  if (!(*tau > birth(trajectory) && *tau < lifetime(trajectory))) {
+    item.fail(fmt::format(
+        "must lie within the trajectory, that is between {} and {} (units of M), got {}",
+        short_number(birth(trajectory)), short_number(lifetime(trajectory)), short_number(*tau)));
     return std::nullopt;
   }
+  if (const auto what = leaves_shows(trajectory, *tau)) {
+    item.fail(*what);
+    return std::nullopt;
+  }
+  return *tau;
+}
+
+std::optional<ProperTime> read_begin(const Section& s, const Trajectory& trajectory,
+                                     const Defaults& start) {
+  const Item* given = s.one_of({"from_r", "from_tau_m"});
+  const auto leg = read_leg(s, "from_leg", "from_r");
+  if (s.find("from_tau_m")) return read_begin_time(s, trajectory);
   if (!given) {
     if (!start.tau) s.require("from_r", " (units of M): where the segment begins");
     return start.tau;
@@ -63,20 +79,34 @@ std::optional<double> read_begin(const Section& s, const Trajectory& trajectory,
   return tau;
 }
 
+// Whether a passage of r is the beginning itself, which rounding of r has moved.
+bool is_same_passage(const Trajectory& trajectory, double r, const ProperTime& begin,
+                     const ProperTime& passed) {
+  constexpr double kSameRadius = 1e-12, kSoon = 1e-3;  // of r
+  const auto is_there = [&](const ProperTime& tau) {
+    return std::abs(point_at(trajectory, tau).r - r) <= kSameRadius * r;
+  };
+  const double later = double(passed - begin);
+  return later < kSoon * r && is_there(begin) && is_there(begin + later / 2);
+}
+
 // Proper time of the first passage of r after the beginning, on one leg or on either.
-std::optional<double> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
-                              double begin) {
-  const double after = begin + 1e-12 * (1 + std::abs(begin));
-  std::optional<double> first;
+std::optional<ProperTime> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
+                                  const ProperTime& begin) {
+  constexpr double kRounding = 1e-12;  // of proper time
+  std::optional<ProperTime> first;
   for (const Leg each : {Leg::kInward, Leg::kOutward}) {
     if (leg && *leg != each) continue;
-    const auto tau = time_at(trajectory, r, each, after);
+    auto tau = time_at(trajectory, r, each, begin);
+    if (tau && is_same_passage(trajectory, r, begin, *tau))
+      tau = time_at(trajectory, r, each, *tau + kRounding * (1 + std::abs(double(begin))));
     if (tau && (!first || *tau < *first)) first = tau;
   }
   return first;
 }
 
-std::optional<double> read_passage(const Section& s, const Trajectory& trajectory, double begin) {
+std::optional<ProperTime> read_passage(const Section& s, const Trajectory& trajectory,
+                                       const ProperTime& begin) {
   const auto leg = read_leg(s, "to_leg", "to_r");
   const auto r = s.number("to_r", kRadius);
   if (!r) return std::nullopt;
@@ -85,28 +115,29 @@ std::optional<double> read_passage(const Section& s, const Trajectory& trajector
   return tau;
 }
 
-std::optional<double> read_end_time(const Section& s, const Trajectory& trajectory, double begin) {
+std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& trajectory,
+                                        const ProperTime& begin) {
   const auto tau = s.number("to_tau_m", kClock);
   if (!tau) return std::nullopt;
   if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
   s.find("to_tau_m")
       ->fail(fmt::format(
           "must be at least {}, where the segment begins, and below {} (units of M), got {}",
-          short_number(begin), short_number(lifetime(trajectory)), short_number(*tau)));
+          short_number(double(begin)), short_number(lifetime(trajectory)), short_number(*tau)));
   return std::nullopt;
 }
 
 std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Trajectory& trajectory,
-                                 double begin) {
+                                 const ProperTime& begin) {
   const auto rate = read_rate(s, stage);
   if (!rate) return std::nullopt;
-  const double end = begin + rate->span;
+  const ProperTime end = begin + rate->span;
   if (end < lifetime(trajectory)) return Timing{begin, end, Pace::kSteady, rate->begin, rate->end};
   const Item* given = s.one_of({"rate_m_per_s", "time_lapse"});
   const std::string what = fmt::format(
       "lets {} M of proper time pass in the segment, but the trajectory ends {} M after its "
       "beginning",
-      short_number(rate->span), short_number(lifetime(trajectory) - begin));
+      short_number(rate->span), short_number(double(lifetime(trajectory) - begin)));
   if (given)
     given->fail(what + "; slow it down, shorten duration_s or give to_r");
   else
@@ -114,28 +145,15 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   return std::nullopt;
 }
 
-// Reports an end that doubles do not resolve, and one outside the radii that shows may have.
-bool check_end(const Section& s, const Trajectory& trajectory, double tau) {
-  const OrbitPoint end = point_at(trajectory, tau);
-  if (const Item* to_r = s.find("to_r")) {
-    // The time left to the singularity may be less than the rounding of the proper time before it.
-    const double wanted = s.number("to_r", kRadius).value_or(end.r);
-    if (std::abs(end.r - wanted) <= kEndTolerance * wanted) return true;
-    to_r->fail(
-        fmt::format("lies too close to the singularity: the proper time of this trajectory, "
-                    "rounded, leads to r = {} M instead; end farther out",
-                    short_number(end.r)));
-    return false;
-  }
-  if (end.r >= kNearest * (1 - 1e-9) && end.r <= kFarthest * (1 + 1e-9)) return true;
-  const Item* given = s.one_of({"to_tau_m", "rate_m_per_s", "time_lapse"});
-  const std::string what =
-      fmt::format("leads to r = {} M; shows go from {} to {} M", short_number(end.r),
-                  short_number(kNearest), short_number(kFarthest));
+// Reports an end outside the radii that shows may have.
+bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime& tau) {
+  const auto what = leaves_shows(trajectory, tau);
+  if (!what) return true;
+  const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
   if (given)
-    given->fail(what);
+    given->fail(*what);
   else
-    s.require("to_r", ": the default rate of 1 M per second " + what);
+    s.require("to_r", ": the default rate of 1 M per second " + *what);
   return false;
 }
 
@@ -224,7 +242,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
 }
 
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
-                               double begin, const Defaults& defaults) {
+                               const ProperTime& begin, const Defaults& defaults) {
   const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");
@@ -232,7 +250,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
     if (!read_pace(s, trajectory, timing)) return std::nullopt;
     return timing;
   }
-  std::optional<double> end;
+  std::optional<ProperTime> end;
   if (!s.find("to_r")) read_leg(s, "to_leg", "to_r");
   if (s.find("to_r")) {
     end = read_passage(s, trajectory, begin);

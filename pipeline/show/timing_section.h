@@ -42,10 +42,12 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing);
 
 // Where a segment of a world line begins and ends if the show does not say so.
 struct Defaults {
-  std::optional<double> tau;  // of the beginning; none if it must be given
-  Leg leg = Leg::kInward;     // on which from_r is sought
-  double after = -std::numeric_limits<double>::infinity();  // tau from which on it is sought
-  std::optional<double> to_r, to_tau;  // the end; with neither 1 M of proper time passes per second
+  std::optional<ProperTime> tau;  // of the beginning; none if it must be given
+  Leg leg = Leg::kInward;         // on which from_r is sought
+  ProperTime after = -std::numeric_limits<double>::infinity();  // tau from which on it is sought
+  // The end; with neither 1 M of proper time passes per second.
+  std::optional<double> to_r;
+  std::optional<ProperTime> to_tau;
 };
 
 // Reads the beginning (from_r, from_leg, from_tau_m), the end (to_r, to_leg, to_tau_m,
@@ -55,6 +57,6 @@ std::optional<Timing> read_timing(const Section& s, const Stage& stage,
 
 // Reads the end and the pace alone, for a trajectory whose beginning is known.
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
-                               double begin, const Defaults& defaults = {});
+                               const ProperTime& begin, const Defaults& defaults = {});
 
 }  // namespace domefall

@@ -16,18 +16,15 @@ namespace {
 constexpr double kDefaultEnd = 0.05;
 // The azimuth of this many orbits still has nine digits behind the point.
 constexpr double kMostOrbits = 1e6;
-// The largest ratio of the radii of a fall.  A fall is timed from its start, and rounding of
-// r^(3/2) there misplaces an end at 1e-8 of the start by 6e-4 of itself and one at 1e-9 by 2 %,
-// while one at 1e-11 may come out as 0 (measured on 2e5 random falls each).
-constexpr double kLongestFall = 1e8;
 
-// The timing of a trajectory that is given by a rate, from tau = 0 on.
-std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& trajectory,
-                                     const Rate& rate, bool mirrored) {
-  Timing timing{0, rate.span, Pace::kSteady, rate.begin, rate.end};
+std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& trajectory, Timing timing,
+                                     bool mirrored) {
   if (!read_pace(s, trajectory, timing)) return std::nullopt;
   return TimedTrajectory{trajectory, timing, {mirrored}};
 }
+
+// The timing of a trajectory that is given by a rate, from tau = 0 on.
+Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
 
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "r", "region"});
@@ -63,14 +60,13 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
                           short_number(orbits), short_number(kMostOrbits)));
     return std::nullopt;
   }
-  return timed(s, CircularOrbit{*r}, *rate, mirrored);
+  return timed(s, CircularOrbit{*r}, timing_of(*rate), mirrored);
 }
 
 // Reads the rate of a fall that is timed by one.  The segment must end before the singularity.
 std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
   const auto rate = read_rate(s, stage);
-  const double most = proper_time_to(fall, std::max(kNearest, fall.from_r / kLongestFall));
-  if (!rate || rate->span <= most) return rate;
+  if (!rate || rate->span <= proper_time_to(fall, kNearest)) return rate;
   s.one_of({"rate_m_per_s", "time_lapse"})
       ->fail(fmt::format("lets {} M of proper time pass in the segment, but from r = {} the "
                          "singularity is {} M away; slow it down, shorten duration_s or give to_r",
@@ -97,7 +93,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
       return std::nullopt;
     }
     const auto rate = read_fall_time(s, stage, fall);
-    return rate ? timed(s, fall, *rate, mirrored) : std::nullopt;
+    return rate ? timed(s, fall, timing_of(*rate), mirrored) : std::nullopt;
   }
   const double end = to_r.value_or(kDefaultEnd);
   if (end >= *from_r) {
@@ -110,16 +106,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
                                 short_number(end), short_number(*from_r)));
     return std::nullopt;
   }
-  if (end * kLongestFall < *from_r) {
-    (to ? to : s.find("from_r"))
-        ->fail(
-            fmt::format("{}must be at least from_r / 1e8 = {} (units of M), got {}; fall on in a "
-                        "further segment",
-                        to ? "" : "needs to_r, whose default 0.05 is too deep: to_r ",
-                        short_number(*from_r / kLongestFall), short_number(end)));
-    return std::nullopt;
-  }
-  return timed(s, fall, Rate{proper_time_to(fall, end)}, mirrored);
+  return timed(s, fall, {0, proper_time_to(fall, end)}, mirrored);
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
@@ -137,7 +124,7 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
   }
   const auto trajectory = read_velocity_trajectory(s, stage, observer, lookup);
   if (!trajectory) return std::nullopt;
-  return timed(s, *trajectory, Rate{proper_time_in(stage, stage.duration_s)}, false);
+  return timed(s, *trajectory, {0, proper_time_in(stage, stage.duration_s)}, false);
 }
 
 // Reads a trajectory that goes on with that of the segment before.

@@ -29,40 +29,40 @@ int frame_at(const Show& show, double time_s) {
 // The part of its trajectory that a segment shows, sampled in proper time.
 class SampledPath {
  public:
-  SampledPath(const Segment& segment, int frames)
-      : segment_(segment), begin_(segment.timing.tau_begin), end_(segment.timing.tau_end) {
+  SampledPath(const Segment& segment, int frames) : segment_(segment) {
+    const ProperTime &begin = segment.timing.tau_begin, &end = segment.timing.tau_end;
     const int samples = std::clamp(frames, kLeastSamples, kMostSamples);
-    const double span = end_ - begin_, step = std::min(span, period()) / samples;
-    for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end_, begin_ + step * k));
-    taus_.push_back(end_);
+    const double step = std::min(double(end - begin), period()) / samples;
+    for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end, begin + step * k));
+    taus_.push_back(end);
     // A path between two singularities is highest at 0, and may visit region I for a short time
     // only.
-    if (begin_ < 0 && 0 < end_) taus_.push_back(0);
+    if (begin < 0 && 0 < end) taus_.emplace_back(0);
     std::sort(taus_.begin(), taus_.end());
   }
 
   std::vector<Region> regions() const {
     std::vector<Region> regions;
-    for (const double tau : taus_) visit(regions, at(tau).region);
+    for (const ProperTime& tau : taus_) visit(regions, at(tau).region);
     return regions;
   }
 
   // Proper time and value of the least r.
-  std::pair<double, double> closest() const {
+  std::pair<ProperTime, double> closest() const {
     std::size_t least = 0;
     for (std::size_t k = 1; k < taus_.size(); ++k)
       if (at(taus_[k]).r < at(taus_[least]).r) least = k;
-    const double tau = taus_[least], r = at(tau).r;
-    const double before = taus_[least > 0 ? least - 1 : 0],
-                 after = taus_[std::min(least + 1, taus_.size() - 1)];
+    const ProperTime tau = taus_[least];
+    const double r = at(tau).r, before = double(taus_[least > 0 ? least - 1 : 0] - tau),
+                 after = double(taus_[std::min(least + 1, taus_.size() - 1)] - tau);
     if (!(before < after) || std::isinf(r)) return {tau, r};
-    const auto refined = boost::math::tools::brent_find_minima([this](double t) { return at(t).r; },
-                                                               before, after, kMinimumBits);
-    return refined.second < r ? refined : std::pair{tau, r};
+    const auto [later, lower] = boost::math::tools::brent_find_minima(
+        [this, &tau](double t) { return at(tau + t).r; }, before, after, kMinimumBits);
+    return lower < r ? std::pair{tau + later, lower} : std::pair{tau, r};
   }
 
  private:
-  OrbitPoint at(double tau) const {
+  OrbitPoint at(const ProperTime& tau) const {
     return placed(point_at(segment_.trajectory, tau), segment_.placement);
   }
 
@@ -73,12 +73,11 @@ class SampledPath {
   }
 
   const Segment& segment_;
-  double begin_, end_;
-  std::vector<double> taus_;
+  std::vector<ProperTime> taus_;
 };
 
 // The part of a segment, 0 to 1, after which its clock shows tau, by bisection.
-double part_of(const Segment& segment, double tau) {
+double part_of(const Segment& segment, const ProperTime& tau) {
   constexpr int kSteps = 60;
   if (tau <= segment.timing.tau_begin) return 0;
   if (tau >= segment.timing.tau_end) return 1;
@@ -105,7 +104,7 @@ SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   s.closest = {r, begin_s + segment.duration_s * part_of(segment, tau), 0, k};
   s.closest.frame = frame_at(show, s.closest.time_s);
   s.regions = path.regions();
-  s.proper_time = timing.tau_end - timing.tau_begin;
+  s.proper_time = double(timing.tau_end - timing.tau_begin);
   s.rate_begin = clock_rate(segment, 0), s.rate_end = clock_rate(segment, 1);
   return s;
 }
@@ -149,7 +148,7 @@ class Extremes {
 double clock_rate(const Segment& segment, double part) {
   constexpr double kStep = 1e-6;
   const double from = std::clamp(part - kStep / 2, 0.0, 1 - kStep);
-  return (proper_time_at(segment, from + kStep) - proper_time_at(segment, from)) /
+  return double(proper_time_at(segment, from + kStep) - proper_time_at(segment, from)) /
          (kStep * segment.duration_s);
 }
 

@@ -74,7 +74,7 @@ for row in benchmark:
 orbits = rows('orbits.csv', ['energy_drift', 'angular_momentum_drift', 'norm_drift', 'r_error', 'phi_error', 'seconds'])
 closed = [row for row in orbits if row['method'] == 'closed form']
 assert len(closed) >= 4 and len(orbits) > 2 * len(closed)
-# A fall that began 77 M of proper time ago, held in doubles, is 1e-9 of r from where it should be at 0.001 M.
+# A fall that began 77 M of proper time ago, held in one double, is 1e-9 of r from where it should be at 0.001 M.
 for row in closed:
     assert float(row['r_error']) < (1e-9 if 'fall' in row['orbit'] else 1e-12) and float(row['norm_drift']) < 1e-9, row
 

@@ -59,3 +59,24 @@ black_hole: {mass_solar: 10}
 timeline: [{duration_s: 1, trajectory: {type: path, file: marked.csv}}]
 SHOW
 exits 0 "$DOMEFALL" states marked.yaml
+
+# Out of region IV and back into II the tetrad changes: the halves are paths, the whole is none.
+cat >crossing.yaml <<'SHOW'
+frames_per_second: 10
+black_hole: {mass_solar: 10}
+timeline: [{duration_s: 8, trajectory: {type: kruskal, energy: 0.9, from_r: 0.5, to_r: 0.5, to_leg: inward}}]
+SHOW
+exits 0 "$DOMEFALL" states crossing.yaml
+cp stdout whole.csv
+grep -v ',rain,' stdout >out.csv
+grep -v ',outgoing,' stdout >in.csv
+for part in whole out in; do
+  cat >$part.yaml <<SHOW
+black_hole: {mass_solar: 10}
+timeline: [{duration_s: 4, trajectory: {type: path, file: $part.csv}}]
+SHOW
+done
+exits 2 "$DOMEFALL" states whole.yaml
+says 'whole.csv:46: the tetrad changes; a path has one, give each part a file and a segment'
+exits 0 "$DOMEFALL" states out.yaml
+exits 0 "$DOMEFALL" states in.yaml

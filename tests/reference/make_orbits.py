@@ -250,10 +250,15 @@ def crossings():
         one_way("crossing", [e, l], Orbit(mpf(e) ** 2 - 1, l), mpf(2), True, "u", radii)
 
 
-for make in (parabolics, hyperbolics, bounds, falls, throws, crossings):
-    make()
-    print(make.__name__, len(ROWS), file=sys.stderr, flush=True)
-print("# timelike geodesics, M = 1, computed with 50 digits by make_orbits.py; a, b, c: the factory's")
-print("# arguments; leg: in or out at this state; null_time: u on the way out from region IV, else v")
-print(FIELDS)
-print("\n".join(ROWS))
+def main():
+    for make in (parabolics, hyperbolics, bounds, falls, throws, crossings):
+        make()
+        print(make.__name__, len(ROWS), file=sys.stderr, flush=True)
+    print("# timelike geodesics, M = 1, computed with 50 digits by make_orbits.py; a, b, c: the factory's")
+    print("# arguments; leg: in or out at this state; null_time: u on the way out from region IV, else v")
+    print(FIELDS)
+    print("\n".join(ROWS))
+
+
+if __name__ == "__main__":
+    main()

@@ -42,7 +42,7 @@ TEST(AcceleratedPath, ItsStatesMoveAsItsPlacesDo) {
     EXPECT_NEAR(radial_speed_of(p), (after.r - before.r) / (2 * h), 1e-8);
     EXPECT_NEAR(p.celerity.z, p.r * (after.azimuth - before.azimuth) / (2 * h), 1e-8);
     const double l = p.celerity.z, e = energy_of(p);
-    EXPECT_NEAR((after.null_time - before.null_time) / (2 * h),
+    EXPECT_NEAR(double(after.null_time - before.null_time) / (2 * h),
                 (1 + l * l) / (e - radial_speed_of(p)), 1e-8);
   }
 }
@@ -54,7 +54,8 @@ TEST(AcceleratedPath, AClimbFromNextToTheHorizonIsTabulated) {
     const OrbitPoint down = path.at(60), up = path.at(120);
     // v = t + r* goes by the same r* both ways, and by t twice.
     const double rstar = 10 + 2 * std::log(4.0) - down.r - 2 * std::log((down.r - 2) / 2);
-    EXPECT_NEAR(up.null_time - down.null_time, down.null_time + 2 * rstar, 1e-10 + 1e-12 / off);
+    EXPECT_NEAR(double(up.null_time - down.null_time), double(down.null_time) + 2 * rstar,
+                1e-10 + 1e-12 / off);
   }
 }
 
@@ -79,7 +80,7 @@ TEST(AcceleratedPath, APathOverTheHorizonIsSmoothThere) {
     const OrbitPoint a = path.at(horizon - h), b = path.at(horizon + h);
     EXPECT_NEAR((b.r - a.r) / (2 * h), radial_speed_of(a), 10 * h + 1e-14 / h);
     EXPECT_NEAR(b.celerity.x, a.celerity.x, 20 * h + 1e-13);
-    EXPECT_NEAR(b.null_time, a.null_time, 20 * h + 1e-13);
+    EXPECT_NEAR(double(b.null_time), double(a.null_time), 20 * h + 1e-13);
   }
 }
 
@@ -97,7 +98,7 @@ TEST(AcceleratedPath, FollowsAGeodesicThroughItsKeys) {
   for (double tau = 0.05; tau < end; tau += 0.37) {
     const OrbitPoint p = path.at(tau), q = fall.at(tau);
     EXPECT_NEAR(p.r, q.r, 1e-6);
-    EXPECT_NEAR(p.null_time, q.null_time, 1e-4);
+    EXPECT_NEAR(double(p.null_time), double(q.null_time), 1e-4);
     EXPECT_NEAR(energy_of(p), fall.energy(), 1e-3) << tau;
   }
 }

@@ -59,7 +59,7 @@ Thrown drawn() {
 }
 
 void check_constants(const Geodesic& orbit, const OrbitPoint& p) {
-  RC_ASSERT(p.r > 0 && std::isfinite(p.r) && std::isfinite(p.null_time));
+  RC_ASSERT(p.r > 0 && std::isfinite(p.r) && std::isfinite(double(p.null_time)));
   RC_ASSERT(has_tetrad(p.region, p.tetrad));
   RC_ASSERT(p.r >= orbit.innermost() * (1 - 1e-14));
   RC_ASSERT(p.r <= orbit.outermost() * (1 + 1e-14));
@@ -89,7 +89,8 @@ TEST(GeodesicProperty, TimeAtIsTheInverseOfAt) {
     const double lost = 1e-15 * p.r / std::abs(speed);
     if (lost > 1e-6) return;
     RC_ASSERT(tau.has_value());
-    RC_ASSERT(std::abs(*tau - thrown.tau) <= 1e-13 * (1 + std::abs(thrown.tau)) + 10 * lost);
+    RC_ASSERT(std::abs(double(*tau - thrown.tau)) <=
+              1e-13 * (1 + std::abs(thrown.tau)) + 10 * lost);
   }));
 }
 

@@ -69,7 +69,7 @@ TEST(Geodesic, EnergyAndAngularMomentumOfItsStatesAreConstant) {
                   1e-15 * orbit.angular_momentum())
           << name << ' ' << tau;
       EXPECT_TRUE(has_tetrad(p.region, p.tetrad)) << name << ' ' << tau;
-      EXPECT_TRUE(std::isfinite(p.null_time)) << name << ' ' << tau;
+      EXPECT_TRUE(std::isfinite(double(p.null_time))) << name << ' ' << tau;
     }
 }
 
@@ -77,7 +77,7 @@ TEST(Geodesic, StartsWithAzimuthZero) {
   for (const auto& [name, orbit] : every_kind()) {
     if (orbit.energy() == 0) continue;  // the state beside the apex
     EXPECT_NEAR(orbit.at(0).azimuth, 0, 1e-15) << name;
-    EXPECT_NEAR(orbit.at(0).null_time, 0, 1e-13) << name;
+    EXPECT_NEAR(double(orbit.at(0).null_time), 0, 1e-13) << name;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(Geodesic, TimeAtIsTheInverseOfAt) {
       EXPECT_NEAR(orbit.at(*found).r / p.r, 1, 2e-13) << name << ' ' << tau;
       // A rounding of r moves tau by that over the speed.
       if (std::abs(radial_speed_of(p)) > 1e-3) {
-        EXPECT_NEAR(*found, tau, 1e-11 + 1e-14 * std::abs(tau)) << name;
+        EXPECT_NEAR(double(*found), tau, 1e-11 + 1e-14 * std::abs(tau)) << name;
       }
     }
 }
@@ -124,11 +124,13 @@ TEST(Geodesic, AnApoastronFarAwayKeepsItsDigits) {
 
 TEST(Geodesic, ABoundOrbitPassesAgainEveryPeriod) {
   const Geodesic orbit = bound_by_turning_points(10, 20);
-  const double first = orbit.time_at(15, Leg::kOutward).value(), period = orbit.radial_period();
+  const double first = double(orbit.time_at(15, Leg::kOutward).value()),
+               period = orbit.radial_period();
   EXPECT_GE(first, 0);
   EXPECT_LT(first, period);
-  EXPECT_NEAR(orbit.time_at(15, Leg::kOutward, first + 1).value(), first + period, 1e-12 * period);
-  EXPECT_NEAR(orbit.time_at(15, Leg::kOutward, -3.5 * period).value(), first - 3 * period,
+  EXPECT_NEAR(double(orbit.time_at(15, Leg::kOutward, first + 1).value()), first + period,
+              1e-12 * period);
+  EXPECT_NEAR(double(orbit.time_at(15, Leg::kOutward, -3.5 * period).value()), first - 3 * period,
               1e-12 * period);
   EXPECT_NEAR(orbit.at(period).r, 10, 1e-12);
   EXPECT_NEAR(orbit.at(1e6 * period).r, 10, 1e-8);
@@ -167,10 +169,10 @@ TEST(Geodesic, RadialFallFromInfinityIsTheRain) {
   const Geodesic orbit = fall_from_infinity(0, 10);
   EXPECT_NEAR(orbit.death(), lifetime(Trajectory(rain)), 1e-14);
   for (const double r : {9.0, 2.0, 1.0, 0.01}) {
-    const double tau = proper_time_to(rain, r);
+    const ProperTime tau = proper_time_to(rain, r);
     const OrbitPoint p = orbit.at(tau), q = point_at(rain, tau);
     EXPECT_NEAR(p.r, q.r, 1e-13 + 1e-15 / r);
-    EXPECT_NEAR(p.null_time, q.null_time, 1e-13 + 1e-15 / r);
+    EXPECT_NEAR(double(p.null_time), double(q.null_time), 1e-13 + 1e-15 / r);
     EXPECT_LT(p.celerity.length(), 1e-13);
   }
 }
@@ -182,7 +184,7 @@ TEST(Geodesic, WhatIsThrownAroundIsTheCircularOrbit) {
     const OrbitPoint p = orbit.at(tau), q = point_at(CircularOrbit{r}, tau);
     EXPECT_NEAR(p.r, r, 1e-13);
     EXPECT_NEAR(p.azimuth, q.azimuth, 1e-14 * tau);
-    EXPECT_NEAR(p.null_time, q.null_time, 1e-13 + 1e-14 * tau);
+    EXPECT_NEAR(double(p.null_time), double(q.null_time), 1e-13 + 1e-14 * tau);
   }
 }
 
@@ -196,7 +198,7 @@ TEST(Geodesic, TheApexOrbitIsTheCycloid) {
     EXPECT_NEAR(p.r, 1 + std::cos(eta), 2e-14);
     EXPECT_EQ(p.region, eta < 0 ? Region::kIV : Region::kII);
     EXPECT_NEAR(p.celerity.x, resting_celerity(p.r, p.tetrad).x, 1e-13 * gamma_of(p));
-    EXPECT_NEAR(p.null_time, (eta < 0 ? -1 : 1) * tortoise_of(p.r), 1e-11);
+    EXPECT_NEAR(double(p.null_time), (eta < 0 ? -1 : 1) * tortoise_of(p.r), 1e-11);
   }
 }
 
@@ -206,7 +208,7 @@ TEST(Geodesic, AtTheApexItselfTheStateIsThatBesideIt) {
       const OrbitPoint p = kruskal_crossing(0, momentum).at(tau);
       EXPECT_NEAR(p.r, 2, 1e-11);
       EXPECT_LT(p.r, 2);
-      EXPECT_TRUE(std::isfinite(gamma_of(p)) && std::isfinite(p.null_time));
+      EXPECT_TRUE(std::isfinite(gamma_of(p)) && std::isfinite(double(p.null_time)));
       EXPECT_LT(gamma_of(p), 1e7);
       if (std::abs(tau) > 1e-8) {
         EXPECT_EQ(p.tetrad, tau < 0 ? Tetrad::kOutgoing : Tetrad::kRain);
@@ -226,7 +228,7 @@ TEST(Geodesic, OutsideForEverMeansRainForEver) {
 
 TEST(Geodesic, FromThePastSingularityTheTetradIsOutgoingUntilTheApoastron) {
   const Geodesic orbit = kruskal_crossing(0.8);
-  const double horizon = orbit.time_at(2, Leg::kOutward).value();
+  const double horizon = double(orbit.time_at(2, Leg::kOutward).value());
   EXPECT_EQ(orbit.at(horizon * 1.001).region, Region::kIV);
   EXPECT_EQ(orbit.at(horizon * 0.999).region, Region::kI);
   EXPECT_EQ(orbit.at(-1e-9).tetrad, Tetrad::kOutgoing);
@@ -253,7 +255,7 @@ TEST(Geodesic, TheChangeOfTetradIsOne) {
     EXPECT_NEAR(before.r, after.r, 3 * h * speed + 1e-14);
     EXPECT_NEAR(radial_speed_of(before), radial_speed_of(after), 1e-8);
     EXPECT_NEAR(before.azimuth, after.azimuth, 1e-8);
-    EXPECT_NEAR(after.null_time - before.null_time, 2 * tortoise_of(after.r),
+    EXPECT_NEAR(double(after.null_time - before.null_time), 2 * tortoise_of(after.r),
                 1e-6 + 1e-11 / (after.r - 2));
   }
 }
@@ -269,7 +271,7 @@ TEST(Geodesic, NothingJumpsAtTheHorizon) {
         EXPECT_EQ(a.tetrad, b.tetrad);
         EXPECT_NE(a.region, b.region);
         return std::array{(b.r - a.r) / h, (b.azimuth - a.azimuth) / h,
-                          (b.celerity.x - a.celerity.x) / h, (b.null_time - a.null_time) / h};
+                          (b.celerity.x - a.celerity.x) / h, double(b.null_time - a.null_time) / h};
       };
       const auto wide = change(1e-4);
       for (const double h : {1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
@@ -323,7 +325,8 @@ TEST(Geodesic, NearlyNoEnergyInsideIsNoTrouble) {
     const Geodesic orbit = thrown_from_rain(r, rest + more, 1e-3);
     for (const double tau : instants(orbit)) {
       const OrbitPoint p = orbit.at(tau);
-      EXPECT_TRUE(std::isfinite(p.null_time) && std::isfinite(gamma_of(p))) << more << ' ' << tau;
+      EXPECT_TRUE(std::isfinite(double(p.null_time)) && std::isfinite(gamma_of(p)))
+          << more << ' ' << tau;
       EXPECT_NEAR(energy_of(p), orbit.energy(), 1e-13 * gamma_of(p)) << more << ' ' << tau;
     }
   }

@@ -71,7 +71,7 @@ TEST(RadialInfall, LivesFourThirdsOfMBelowTheHorizon) {
 
 TEST(RadialInfall, MovesAtSqrtTwoOverR) {
   const RadialInfall fall{30};
-  const double tau = proper_time_to(fall, 8), h = 1e-4;
+  const double tau = double(proper_time_to(fall, 8)), h = 1e-4;
   const double speed = (point_at(fall, tau - h).r - point_at(fall, tau + h).r) / (2 * h);
   EXPECT_NEAR(speed, 0.5, 1e-9);
 }
@@ -99,16 +99,16 @@ TEST(GivenVelocity, MovingInwardAtFreeFallSpeedAgainstTheStaticFrameIsTheRain) {
 TEST(Trajectory, TheNullTimeAdvancesAsTheOrbitsVelocitySays) {
   const auto rate = [](const Trajectory& t, double tau) {
     const double h = 1e-4;
-    return (point_at(t, tau + h).null_time - point_at(t, tau - h).null_time) / (2 * h);
+    return double(point_at(t, tau + h).null_time - point_at(t, tau - h).null_time) / (2 * h);
   };
   EXPECT_NEAR(rate(StaticObserver{20}, 3), 1 / std::sqrt(0.9), 1e-9);
   EXPECT_NEAR(rate(CircularOrbit{6}, 3), std::sqrt(2.0), 1e-9);
   const RadialInfall fall{8};
   for (const double r : {7.0, 3.0, 2.0, 1.0, 0.3}) {
     const double s = std::sqrt(2 / r);
-    EXPECT_NEAR(rate(fall, proper_time_to(fall, r)), 1 / (1 + s), 1e-5) << r;
+    EXPECT_NEAR(rate(fall, double(proper_time_to(fall, r))), 1 / (1 + s), 1e-5) << r;
   }
-  EXPECT_NEAR(point_at(Trajectory(fall), 0).null_time, 0, 1e-13);
+  EXPECT_NEAR(double(point_at(Trajectory(fall), 0).null_time), 0, 1e-13);
 }
 
 }  // namespace

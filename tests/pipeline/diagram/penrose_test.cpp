@@ -109,13 +109,13 @@ RC_GTEST_PROP(Penrose, MirroredFramesAreReflections, ()) {
 
 TEST(Penrose, AFallIsContinuousAcrossTheHorizon) {
   const RadialInfall fall{4};
-  const double crossing = proper_time_to(fall, 2);
+  const double crossing = double(proper_time_to(fall, 2));
   for (const double step : {1e-3, 1e-6, 1e-9}) {
     const OrbitPoint a = point_at(fall, crossing - step), b = point_at(fall, crossing + step);
     ASSERT_EQ(a.region, Region::kI);
     ASSERT_EQ(b.region, Region::kII);
-    const PenrosePoint p = penrose_point(a.region, a.tetrad, a.r, a.null_time),
-                       q = penrose_point(b.region, b.tetrad, b.r, b.null_time);
+    const PenrosePoint p = penrose_point(a.region, a.tetrad, a.r, double(a.null_time)),
+                       q = penrose_point(b.region, b.tetrad, b.r, double(b.null_time));
     EXPECT_GT(q.up, p.up);
     EXPECT_LT(std::hypot(q.x - p.x, q.up - p.up), 2 * step);
   }
@@ -125,7 +125,7 @@ TEST(Penrose, AStaticObserverGoesFromThePastToTheFutureInfinityOnACurveSymmetric
   const StaticObserver observer{6};
   const double middle = tortoise(6);  // v at t = 0
   for (const double tau : {0.5, 10.0, 60.0}) {
-    const double v = point_at(observer, tau).null_time;
+    const double v = double(point_at(observer, tau).null_time);
     const PenrosePoint after = penrose_point(Region::kI, Tetrad::kRain, 6, middle + v),
                        before = penrose_point(Region::kI, Tetrad::kRain, 6, middle - v);
     expect_near(after, {before.x, -before.up});
@@ -141,7 +141,7 @@ void expect_timelike(const Trajectory& trajectory, double tau_begin, double tau_
   PenrosePoint before;
   for (int i = 0; i <= kSteps; ++i) {
     const OrbitPoint o = point_at(trajectory, tau_begin + (tau_end - tau_begin) * i / kSteps);
-    const PenrosePoint p = penrose_point(o.region, o.tetrad, o.r, start + o.null_time);
+    const PenrosePoint p = penrose_point(o.region, o.tetrad, o.r, start + double(o.null_time));
     ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.up));
     if (i > 0) {
       const double dx = std::abs(p.x - before.x), up = p.up - before.up;
@@ -161,7 +161,7 @@ RC_GTEST_PROP(Penrose, EveryPathIsTimelike, ()) {
   expect_timelike(StaticObserver{r}, 0, span, start);
   expect_timelike(CircularOrbit{r}, 0, span, start);
   const RadialInfall fall{r};
-  expect_timelike(fall, 0, proper_time_to(fall, 1e-3), start);
+  expect_timelike(fall, 0, double(proper_time_to(fall, 1e-3)), start);
 }
 
 // The path leads through IV, I and II.  Its frame is outgoing up to the largest r and rain from
@@ -177,8 +177,8 @@ TEST(Penrose, APathThroughThreeRegionsIsContinuousWhereItsTetradChanges) {
   const OrbitPoint a = path.at(-1e-7), b = path.at(1e-7);
   ASSERT_EQ(a.tetrad, Tetrad::kOutgoing);
   ASSERT_EQ(b.tetrad, Tetrad::kRain);
-  const PenrosePoint p = penrose_point(a.region, a.tetrad, a.r, a.null_time),
-                     q = penrose_point(b.region, b.tetrad, b.r, b.null_time);
+  const PenrosePoint p = penrose_point(a.region, a.tetrad, a.r, double(a.null_time)),
+                     q = penrose_point(b.region, b.tetrad, b.r, double(b.null_time));
   EXPECT_LT(std::hypot(q.x - p.x, q.up - p.up), 1e-7);
   EXPECT_GT(q.up, p.up);
 }

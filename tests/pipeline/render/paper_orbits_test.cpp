@@ -44,8 +44,8 @@ TEST(PaperFigPar, NoParabolicOrbitSweeps600DegreesBeforeItIsAt402) {
   double most = 0;
   for (const double periastron : {4.02, 4.0199, 4.019, 4.01, 4.001, 4.00001}) {
     const Geodesic orbit = parabolic_by_periastron(periastron);
-    const double there = periastron == 4.02 ? 0 : *orbit.time_at(4.02, Leg::kInward);
-    const double from = *orbit.time_at(1e8, Leg::kInward);
+    const ProperTime there = periastron == 4.02 ? 0 : *orbit.time_at(4.02, Leg::kInward);
+    const ProperTime from = *orbit.time_at(1e8, Leg::kInward);
     most = std::max(most, (orbit.at(there).azimuth - orbit.at(from).azimuth) / kOneDegree);
   }
   EXPECT_GT(most, 590);

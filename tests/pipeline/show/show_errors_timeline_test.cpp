@@ -57,9 +57,6 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
       {"FromRBelowTheDefaultEnd", moving("{type: infall, from_r: 0.04}"),
        "3:56: timeline[0].trajectory.from_r must exceed 0.05 (units of M), the default of to_r, "
        "got 0.04: a free fall only goes inward"},
-      {"FallTooLongForRounding", moving("{type: infall, from_r: 1e8}"),
-       "3:56: timeline[0].trajectory.from_r needs to_r, whose default 0.05 is too deep: to_r must "
-       "be at least from_r / 1e8 = 1 (units of M), got 0.05; fall on in a further segment"},
       {"FallIntoTheSingularity", moving("{type: infall, from_r: 10, rate_m_per_s: 20}"),
        "3:74: timeline[0].trajectory.rate_m_per_s lets 40 M of proper time pass in the segment, "
        "but from r = 10 the singularity is 14.90711985 M away; slow it down, shorten duration_s or "

@@ -151,8 +151,9 @@ void expect_finite_numbers(const Show& show) {
     numbers.insert(numbers.end(), {sky.background_gain, sky.star_gain,
                                    sky.stars.value_or(StarField{}).max_magnitude});
   for (const Segment& s : show.timeline) {
-    numbers.insert(numbers.end(), {s.duration_s, s.timing.tau_begin, s.timing.tau_end,
-                                   s.camera.roll, s.camera.elevation, s.camera.dome_tilt});
+    numbers.insert(numbers.end(),
+                   {s.duration_s, double(s.timing.tau_begin), double(s.timing.tau_end),
+                    s.camera.roll, s.camera.elevation, s.camera.dome_tilt});
     EXPECT_GT(s.duration_s, 0);
     EXPECT_GE(s.timing.tau_end, s.timing.tau_begin);
   }

@@ -10,9 +10,9 @@ TEST_F(ShowKeys, AFallEndsAtItsToR) {
 }
 
 TEST_F(ShowKeys, RatesAreUnitsOfMPerSecondOfShow) {
-  EXPECT_DOUBLE_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").timing.tau_end, 15);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").timing.tau_end, 2.5);
-  EXPECT_DOUBLE_EQ(segment("{type: circular, r: 8}").timing.tau_end, 10)
+  EXPECT_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").timing.tau_end, 15);
+  EXPECT_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").timing.tau_end, 2.5);
+  EXPECT_EQ(segment("{type: circular, r: 8}").timing.tau_end, 10)
       << "1 M per second is the default";
 }
 
@@ -30,11 +30,11 @@ TEST_F(ShowKeys, OrbitsCountRevolutionsInTheSegment) {
 
 TEST_F(ShowKeys, TimeLapseIsRealSecondsPerSecondOfShow) {
   // One M of 4e6 suns is 4e6 * 4.925490947e-6 s = 19.701963788 s.
-  EXPECT_NEAR(segment("{type: circular, r: 8, time_lapse: 100}").timing.tau_end,
+  EXPECT_NEAR(double(segment("{type: circular, r: 8, time_lapse: 100}").timing.tau_end),
               1000 / 19.701963788, 1e-11);
-  EXPECT_NEAR(segment("{type: infall, from_r: 900, time_lapse: 100}").timing.tau_end,
+  EXPECT_NEAR(double(segment("{type: infall, from_r: 900, time_lapse: 100}").timing.tau_end),
               1000 / 19.701963788, 1e-11);
-  EXPECT_NEAR(segment("{type: static, r: 8}").timing.tau_end, 10 / 19.701963788, 1e-13);
+  EXPECT_NEAR(double(segment("{type: static, r: 8}").timing.tau_end), 10 / 19.701963788, 1e-13);
 }
 
 TEST_F(ShowKeys, AVelocityAgainstTheStaticFrameIsTheDefault) {

@@ -36,6 +36,17 @@ TEST_F(Surveys, APeriastronIsFoundAmongMoreTurnsThanFrames) {
   EXPECT_NEAR(s.closest->value, 7, 1e-9);
 }
 
+// It was told as "0 M of proper time".
+TEST_F(Surveys, TheProperTimeOfADeepSegmentIsWhatPasses) {
+  const ShowSurvey s = survey(timeline(
+      "  - {duration_s: 10, trajectory: {type: kruskal, energy: 0.99999999, from_r: 0.001, "
+      "rate_m_per_s: 0.0000001}}\n"));
+  EXPECT_NEAR(s.segments[0].proper_time, 1e-6, 1e-20);
+  EXPECT_NEAR(s.segments[0].rate_begin, 1e-7, 1e-13);
+  EXPECT_NEAR(s.segments[0].rate_end, 1e-7, 1e-13);
+  EXPECT_NEAR(s.segments[0].r_begin, 0.001, 1e-15);
+}
+
 TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
   const ShowSurvey s = survey(timeline(
       "  - {duration_s: 2, trajectory: {type: kruskal, energy: 0.001, from_r: 0.1, to_r: 0.1, "
