@@ -38,6 +38,7 @@ class SampledPath {
     // A path between two singularities is highest at 0, and may visit region I for a short time
     // only.
     if (begin < 0 && 0 < end) taus_.emplace_back(0);
+    add_periastron(begin, end);
     std::sort(taus_.begin(), taus_.end());
   }
 
@@ -62,6 +63,14 @@ class SampledPath {
   }
 
  private:
+  // An orbit that comes from far away is near its periastron for much less than a sample's time.
+  void add_periastron(const ProperTime& begin, const ProperTime& end) {
+    const auto* orbit = std::get_if<Geodesic>(&segment_.trajectory);
+    if (!orbit || !(orbit->innermost() > 0)) return;
+    const auto tau = orbit->time_at(orbit->innermost(), Leg::kOutward, begin);
+    if (tau && *tau < end) taus_.push_back(*tau);
+  }
+
   OrbitPoint at(const ProperTime& tau) const {
     return placed(point_at(segment_.trajectory, tau), segment_.placement);
   }

@@ -36,6 +36,14 @@ TEST_F(Surveys, APeriastronIsFoundAmongMoreTurnsThanFrames) {
   EXPECT_NEAR(s.closest->value, 7, 1e-9);
 }
 
+TEST_F(Surveys, APeriastronIsFoundWithinAWayOfMillionsOfYears) {
+  // The orbit turns at 10 M, in 1e-11 of the segment's proper time.
+  const ShowSurvey s = survey(timeline(
+      "  - {duration_s: 2, trajectory: {type: thrown, from_r: 1e9, speed: 4.5e-5, direction: "
+      "{radial: -1, phi: 1.11111111e-4}, to_r: 3e8, to_leg: outward}}\n"));
+  EXPECT_NEAR(s.closest->value, 10, 0.01);
+}
+
 // It was told as "0 M of proper time".
 TEST_F(Surveys, TheProperTimeOfADeepSegmentIsWhatPasses) {
   const ShowSurvey s = survey(timeline(
