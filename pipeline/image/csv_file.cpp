@@ -3,29 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <cstdint>
 
 #include "pipeline/image/byte_order_mark.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
 
+// A catalogue of 10^7 stars has 1 GiB.
+constexpr std::uint64_t kLargestTable = std::uint64_t{4} << 30;
+
 std::string contents_of(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes;
-  std::array<char, 1 << 16> block;
-  while (in && (in.read(block.data(), block.size()), in.gcount() > 0))
-    bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
-  if (!in.is_open() || in.bad())
-    throw InputError(fmt::format("{}: the table cannot be read: {}", file.string(),
-                                 errno ? std::strerror(errno) : "unknown reason"));
+  std::string bytes = read_file(require_file(file), kLargestTable);
   if (bytes.empty()) throw InputError(file.string() + ": the file is empty");
   return bytes;
 }

@@ -4,10 +4,9 @@
 #include <xxhash.h>
 
 #include <cstdint>
-#include <fstream>
 #include <vector>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 
@@ -42,15 +41,11 @@ Digest& Digest::add(double value) {
 }
 
 Digest& Digest::add_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string() + ": the file cannot be read");
+  RegularFile in(file);
   Digest contents;
   std::vector<char> block(1 << 20);
-  while (in) {
-    in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    XXH3_128bits_update(contents.state_->xxh, block.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw InputError(file.string() + ": reading stopped");
+  while (const std::size_t count = in.read(block.data(), block.size()))
+    XXH3_128bits_update(contents.state_->xxh, block.data(), count);
   return add(contents.hex());
 }
 

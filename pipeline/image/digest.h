@@ -25,7 +25,7 @@ class Digest {
   Digest& add_length(std::uint64_t length);
   Digest& add_piece(std::string_view piece);
   Digest& add(double value);                            // by its bits
-  Digest& add_file(const std::filesystem::path& file);  // its contents; InputError if unreadable
+  Digest& add_file(const std::filesystem::path& file);  // its contents; throws as RegularFile
 
   std::string hex() const;  // 32 digits
 

@@ -1,41 +1,22 @@
 #include "pipeline/image/map_file.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
-#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
-namespace {
-
-struct Descriptor {
-  int fd;
-  explicit Descriptor(int opened) : fd(opened) {}
-  ~Descriptor() {
-    if (fd >= 0) close(fd);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-};
-
-}  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& file) : path_(file) {
-  const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status {};
-  if (opened.fd < 0 || fstat(opened.fd, &status) != 0) throw_file_error(file, errno);
-  if (!S_ISREG(status.st_mode)) throw InputError(file.string() + ": is no regular file");
-  size_ = static_cast<std::size_t>(status.st_size);
+  const RegularFile opened(file);
+  size_ = static_cast<std::size_t>(opened.size());
   if (size_ == 0) return;  // nothing can be mapped
-  void* mapped = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, opened.fd, 0);
-  if (mapped == MAP_FAILED) throw_file_error(file, errno);
+  void* mapped = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, opened.descriptor(), 0);
+  if (mapped == MAP_FAILED)
+    throw TemporaryError(file.string() + ": cannot be mapped: " + std::strerror(errno));
   data_ = static_cast<const char*>(mapped);
 }
 

@@ -9,8 +9,7 @@ namespace domefall {
 
 class MappedFile {
  public:
-  // Throws InputError for what is missing, unreadable or no regular file, TemporaryError where the
-  // system failed; both name the file.
+  // Throws as RegularFile, and TemporaryError where the system cannot map the file.
   //
   // A file that another program shortens while it is mapped ends the process (SIGBUS).  Files
   // written by write_atomically are replaced, never shortened.

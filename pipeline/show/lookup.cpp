@@ -1,9 +1,9 @@
 #include "pipeline/show/lookup.h"
 
-#include <fstream>
 #include <limits>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/show/assets.h"
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/section.h"
@@ -11,16 +11,7 @@
 #include "trajectories/equatorial.h"
 
 namespace domefall {
-namespace {
-
 namespace fs = std::filesystem;
-
-bool is_readable_file(const fs::path& file) {
-  std::error_code error;
-  return fs::is_regular_file(file, error) && std::ifstream(file).good();
-}
-
-}  // namespace
 
 std::optional<fs::path> Lookup::find(const std::string& name) const {
   for (const fs::path& file : {folder_ / name, fs::path(name)})
@@ -32,12 +23,13 @@ std::optional<fs::path> Lookup::file(const Item& item, const std::string& name) 
   if (auto found = find(name)) return found;
   const fs::path beside = folder_ / name;
   std::error_code error;
-  const bool folder = fs::is_directory(beside, error);
-  const bool there = !folder && fs::exists(beside, error);
+  const bool folder = fs::is_directory(beside, error), regular = fs::is_regular_file(beside, error);
+  const bool there = fs::exists(beside, error);
   item.fail("names the file '" + shown(name) + "', " +
-            (folder  ? "which is a folder"
-             : there ? "which cannot be read"
-                     : "which is neither beside the show nor in the working folder"));
+            (folder    ? "which is a folder"
+             : regular ? "which cannot be read"
+             : there   ? "which is no regular file"
+                       : "which is neither beside the show nor in the working folder"));
   return std::nullopt;
 }
 

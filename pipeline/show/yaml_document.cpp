@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 
 #include "pipeline/image/byte_order_mark.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
@@ -88,15 +86,7 @@ std::string read_show_text(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError(file.string() + ": this is a folder; a show is a YAML file");
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError(file.string() + ": the show cannot be read: " +
-                     (errno ? std::strerror(errno) : "unknown reason"));
-  std::string text(kLargestFile + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw TemporaryError(file.string() + ": reading the show broke off");
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string text = start_of_file(require_file(file), kLargestFile + 1);
   if (text.size() > kLargestFile)
     throw InputError(file.string() + ": a show file is at most 1 MiB; this one is larger");
   return std::string(without_byte_order_mark(text));

@@ -9,6 +9,7 @@
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/image/some_light.h"
 #include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
@@ -29,14 +30,14 @@ FloatImage read_panorama(const std::filesystem::path& file) {
 
 // A .sky file up to this size is verified when it is opened, which takes a moment.  Of a larger one
 // only what is sampled is to be read.
-constexpr std::uintmax_t kReadWhole = std::uintmax_t{256} << 20;
+constexpr std::uint64_t kReadWhole = std::uint64_t{256} << 20;
 
 }  // namespace
 
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
     SkyFile opened = open_sky_file(file);
-    if (std::filesystem::file_size(file) <= kReadWhole) verify_sky_file(file);
+    if (RegularFile(file).size() <= kReadWhole) verify_sky_file(file);
     return std::make_shared<const SkyMap>(opened.map.without_levels_above(largest_face));
   }
   return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));

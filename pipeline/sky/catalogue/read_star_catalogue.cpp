@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "pipeline/image/csv_file.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/sky/catalogue/proper_motion.h"
 #include "pipeline/sky/catalogue/star_colour.h"
 #include "pipeline/sky/catalogue/star_file.h"
@@ -55,12 +55,9 @@ StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude
   return catalogue;
 }
 
-// A folder or an unreadable file is none, so that the reader of tables says what is wrong with it.
 bool begins_as_star_file(const std::filesystem::path& file) {
   if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader))) return true;
-  std::ifstream in(file, std::ios::binary);
-  std::string start(kStarMagic.size(), '\0');
-  return in.read(start.data(), static_cast<std::streamsize>(start.size())) && is_star_file(start);
+  return is_star_file(start_of_file(file, kStarMagic.size()));
 }
 
 }  // namespace

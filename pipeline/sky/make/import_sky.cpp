@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/image/some_light.h"
 #include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
@@ -23,9 +22,7 @@ namespace {
 
 bool is_fits(const std::filesystem::path& path) {
   constexpr std::string_view kStart = "SIMPLE  =";
-  std::array<char, kStart.size()> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  return std::string_view(start.data(), start.size()) == kStart;
+  return start_of_file(path, kStart.size()) == kStart;
 }
 
 SkyOrigin origin_of(const SkyImport& import, const Orientation& orientation) {
@@ -122,6 +119,7 @@ Orientation import_healpix(const SkyImport& import) {
 }  // namespace
 
 Orientation import_sky(const SkyImport& import) {
+  require_file(import.image);
   const bool healpix = import.projection == SkyProjection::kHealpix ||
                        (import.projection == SkyProjection::kOfFile && is_fits(import.image));
   return healpix ? import_healpix(import) : import_panorama(import);

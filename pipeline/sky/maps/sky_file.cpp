@@ -8,12 +8,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
@@ -224,9 +224,7 @@ void NewSkyFile::finish() {
 
 bool is_sky_file(const std::filesystem::path& path) {
   if (is_cut_short(path, kExtension, sizeof(Header))) return true;
-  std::array<char, kMagic.size()> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  return start == kMagic;
+  return start_of_file(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
 }
 
 SkyFile open_sky_file(const std::filesystem::path& path) {

@@ -178,8 +178,7 @@ TEST_F(ShowErrorsInYaml, FilesThatAreNoShowsAreNamed) {
     return "";
   };
   const std::string here = folder_.string();
-  EXPECT_EQ(told(folder_ / "no.yaml"),
-            here + "/no.yaml: the show cannot be read: No such file or directory");
+  EXPECT_EQ(told(folder_ / "no.yaml"), here + "/no.yaml: No such file or directory");
   EXPECT_EQ(told(folder_), here + ": this is a folder; a show is a YAML file");
   const std::string room(1 << 20, '#');
   EXPECT_EQ(told(write("big.yaml", kShow + room)),

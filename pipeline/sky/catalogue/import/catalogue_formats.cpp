@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "pipeline/image/map_file.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
@@ -66,7 +67,7 @@ const CatalogueFormat* guess_format(const Paths& inputs) {
   std::error_code ignored;
   if (inputs.empty()) return nullptr;
   if (fs::is_directory(inputs.front(), ignored)) return guess_folder(inputs.front());
-  const MappedFile file(inputs.front());
+  const MappedFile file(require_file(inputs.front()));
   std::string_view bytes = file.bytes();
   if (bytes.starts_with("\x0a\x04\x5f\x83")) return named("stellarium");
   while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos)

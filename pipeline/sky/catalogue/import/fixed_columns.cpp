@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
@@ -27,7 +28,7 @@ std::string quoted(std::string_view text) {
 
 FixedColumns::FixedColumns(const std::filesystem::path& file, std::size_t shortest,
                            std::size_t longest)
-    : file_(file), shortest_(shortest), longest_(longest), rest_(file_.bytes()) {
+    : file_(require_file(file)), shortest_(shortest), longest_(longest), rest_(file_.bytes()) {
   if (rest_.empty()) throw InputError(file.string() + ": the file is empty");
 }
 
@@ -85,7 +86,7 @@ std::uint32_t FixedColumns::whole(const NumberColumn& column) const {
 }
 
 std::size_t first_line_length(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
+  const MappedFile mapped(require_file(file));
   const std::string_view bytes = mapped.bytes();
   const std::string_view line = bytes.substr(0, bytes.find('\n'));
   return line.size() - (line.ends_with('\r') ? 1 : 0);

@@ -8,6 +8,7 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/sky/catalogue/count_text.h"
 #include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/import/star_row.h"
@@ -87,7 +88,7 @@ Packed unpack_short(const char* bytes) {
 
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : file_(path) {
+  explicit Reader(const fs::path& path) : file_(require_file(path)) {
     if (bytes().size() < sizeof head_) fail(bytes().size(), "the file ends within its header");
     std::memcpy(&head_, bytes().data(), sizeof head_);
     if (head_.magic != kMagic)
@@ -160,12 +161,15 @@ class Reader {
 
 Paths catalogues_in(const fs::path& folder) {
   Paths files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
     // stars_hip_*.cat are tables of spectral types and components.
     if (name.starts_with("stars_") && name.ends_with(".cat") && !name.starts_with("stars_hip"))
-      files.push_back(entry.path());
+      files.push_back(entry->path());
   }
+  if (error) throw TemporaryError(folder.string() + ": " + error.message());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw InputError(folder.string() + ": holds no stars_*.cat");
   return files;

@@ -115,8 +115,9 @@ Paths parts_of(const fs::path& folder) {
   Paths parts;
   for (int i = 0; i < kMainParts; ++i) parts.push_back(folder / fmt::format("tyc2.dat.{:02}", i));
   parts.push_back(folder / "suppl_1.dat");
+  std::error_code ignored;
   for (const fs::path& part : parts)
-    if (!fs::is_regular_file(part))
+    if (!fs::is_regular_file(part, ignored))
       throw InputError(part.string() +
                        ": missing; all of Tycho-2 is tyc2.dat.00 to .19 and suppl_1.dat");
   return parts;
@@ -127,7 +128,8 @@ Paths parts_of(const fs::path& folder) {
 ImportedCatalogue import_tycho2(const Paths& inputs) {
   Tycho tycho;
   for (const fs::path& input : inputs) {
-    const Paths parts = fs::is_directory(input) ? parts_of(input) : Paths{input};
+    std::error_code ignored;
+    const Paths parts = fs::is_directory(input, ignored) ? parts_of(input) : Paths{input};
     for (const fs::path& part : parts) {
       const std::size_t length = first_line_length(part);
       if (length == kSupplementLine)

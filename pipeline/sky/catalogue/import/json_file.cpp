@@ -4,11 +4,12 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/map_file.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 
 nlohmann::json read_json(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
+  const MappedFile mapped(require_file(file));
   const std::string_view bytes = mapped.bytes();
   if (bytes.empty()) throw InputError(file.string() + ": the file is empty");
   try {

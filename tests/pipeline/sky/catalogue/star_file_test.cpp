@@ -182,7 +182,7 @@ TEST_F(StarFiles, OtherFilesAreNotTakenForThem) {
   put(file_, "PNG and nothing else" + std::string(128, ' '));
   EXPECT_THROW(StarFile{file_}, InputError);
   EXPECT_THROW(StarFile{folder_}, InputError);
-  EXPECT_THROW(StarFile{folder_ / "missing.stars"}, InputError);
+  EXPECT_THROW(StarFile{folder_ / "missing.stars"}, TemporaryError);
   EXPECT_EQ(star_file_fingerprint(file_), std::nullopt);
 }
 

@@ -1,0 +1,106 @@
+#include "pipeline/image/regular_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_open(const fs::path& path, int error) {
+  const std::string what = path.string() + ": " + std::strerror(error);
+  if (error == ENAMETOOLONG || error == ELOOP || error == ENOTDIR) throw InputError(what);
+  throw TemporaryError(what);
+}
+
+const char* kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+void check_regular(const fs::path& path, const struct stat& status) {
+  if (!S_ISREG(status.st_mode))
+    throw InputError(path.string() + ": this is " + kind_of(status.st_mode) +
+                     "; only regular files can be read");
+}
+
+}  // namespace
+
+RegularFile::RegularFile(const fs::path& path) : path_(path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) fail_to_open(path, errno);
+  check_regular(path, status);
+  // Without waiting, since the file may have become a pipe meanwhile.
+  descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor_ < 0) fail_to_open(path, errno);
+  try {
+    if (fstat(descriptor_, &status) != 0) fail_to_open(path, errno);
+    check_regular(path, status);
+  } catch (...) {
+    close(descriptor_);
+    throw;
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+RegularFile::~RegularFile() { close(descriptor_); }
+
+std::size_t RegularFile::read(char* bytes, std::size_t count) {
+  count = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - position_));
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t got =
+        pread(descriptor_, bytes + done, count - done, static_cast<off_t>(position_ + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      throw TemporaryError(path_.string() + ": reading broke off: " + std::strerror(errno));
+    if (got == 0) break;  // another program has shortened it
+    done += static_cast<std::size_t>(got);
+  }
+  position_ += done;
+  return done;
+}
+
+std::string read_file(const fs::path& path, std::uint64_t most) {
+  RegularFile file(path);
+  if (file.size() > most)
+    throw InputError(path.string() + ": the file has " + std::to_string(file.size()) +
+                     " bytes; at most " + std::to_string(most) + " can be read");
+  std::string bytes(static_cast<std::size_t>(file.size()), '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+std::string start_of_file(const fs::path& path, std::size_t count) {
+  RegularFile file(path);
+  std::string bytes(count, '\0');
+  bytes.resize(file.read(bytes.data(), count));
+  return bytes;
+}
+
+bool is_readable_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), R_OK) == 0;
+}
+
+const fs::path& require_file(const fs::path& path) {
+  struct stat status {};
+  const bool found = stat(path.c_str(), &status) == 0;
+  if (found) check_regular(path, status);
+  if (found && access(path.c_str(), R_OK) == 0) return path;
+  if (errno == ENOENT || errno == EACCES)
+    throw InputError(path.string() + ": " + std::strerror(errno));
+  fail_to_open(path, errno);
+}
+
+}  // namespace domefall

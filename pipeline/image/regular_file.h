@@ -1,0 +1,53 @@
+// The one way in which Domefall opens a file that it reads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace domefall {
+
+// A regular file, open for reading.  A folder, a pipe, a socket or a device is refused before it is
+// opened, since to open or read one may wait for ever, and may act on a device.  Nothing is read
+// beyond the size that the file had when it was opened.  So a file of /proc, which calls itself
+// empty and may wait for news (/proc/kmsg), is empty.
+class RegularFile {
+ public:
+  // Throws InputError for what is no regular file and for a name that no machine can open,
+  // TemporaryError for a file that is missing or may not be read, which another machine may have.
+  // Both name the file.
+  explicit RegularFile(const std::filesystem::path& path);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile(RegularFile&&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+  RegularFile& operator=(RegularFile&&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }  // bytes
+
+  // Reads the next bytes, at most `count`, and returns how many there were; 0 at the end.  Throws
+  // TemporaryError where the system fails.
+  std::size_t read(char* bytes, std::size_t count);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0, position_ = 0;
+};
+
+// The whole of a file.  Throws as RegularFile, and InputError if it has more than `most` bytes.
+std::string read_file(const std::filesystem::path& path, std::uint64_t most);
+
+// A file's first bytes, at most `count`.  Throws as RegularFile.
+std::string start_of_file(const std::filesystem::path& path, std::size_t count);
+
+// Whether a regular file is there and may be read.  It is not opened.
+bool is_readable_file(const std::filesystem::path& path);
+
+// For a file that the command line names, which is a mistake where the file is missing or may not
+// be read: throws InputError for these, and as RegularFile besides.  Returns the path.
+const std::filesystem::path& require_file(const std::filesystem::path& path);
+
+}  // namespace domefall
