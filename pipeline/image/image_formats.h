@@ -22,7 +22,7 @@ inline bool is_floating_point(SampleType type) {
 }
 
 struct ImageLayout {
-  int width = 0, height = 0, depth = 0, channels = 0;
+  int width = 0, height = 0, channels = 0;
   SampleType samples = SampleType::kOtherInteger;
   int band = 1;             // so many rows are best read at once
   std::string description;  // the text that the file holds about itself
@@ -73,7 +73,8 @@ class ImageWriter : public Interface {
 
 class ImageFormats : public Interface {
  public:
-  // Throws std::runtime_error with the library's reason for a file that is missing or is no image.
+  // A picture as InputImage takes it, and with its bounds.  Throws as RegularFile, and otherwise
+  // std::runtime_error with a reason that does not name the file.
   virtual std::unique_ptr<ImageReader> open(const std::filesystem::path& file) const = 0;
 
   // PNG or TIFF by the file's extension.  The bytes go to `sink`, which must outlive the writer.

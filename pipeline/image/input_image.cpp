@@ -8,39 +8,34 @@
 namespace domefall {
 namespace {
 
-constexpr int kLargestSide = 32768;
+// Calls what may fail with a reason of the library's, which does not name the file.
+template <class Step>
+auto named(const std::filesystem::path& file, const char* what, Step step) {
+  try {
+    return step();
+  } catch (const InputError&) {
+    throw;
+  } catch (const TemporaryError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + what + ": " + error.what());
+  }
+}
 
 }  // namespace
 
 InputImage::InputImage(const std::filesystem::path& file) : file_(file) {
   const ImageFormats& formats = image_formats();
-  try {
-    reader_ = formats.open(file);
-  } catch (const std::runtime_error& error) {
-    fail(std::string("the image cannot be read: ") + error.what());
-  }
-  const ImageLayout& l = layout();
-  if (l.width < 1 || l.height < 1 || l.width > kLargestSide || l.height > kLargestSide ||
-      l.depth != 1)
-    fail("the image must be 1 to 32768 pixels a side, got " + std::to_string(l.width) + " x " +
-         std::to_string(l.height));
+  reader_ = named(file, "the image cannot be read", [&] { return formats.open(file); });
 }
 
 void InputImage::read(int first, int end, float* rgb) const {
-  try {
-    reader_->read(first, end, rgb);
-  } catch (const std::runtime_error& error) {
-    fail(std::string("the image cannot be read to its end: ") + error.what());
-  }
-}
-
-void InputImage::fail(const std::string& what) const {
-  throw InputError(file_.string() + ": " + what);
+  named(file_, "the image cannot be read to its end", [&] { reader_->read(first, end, rgb); });
 }
 
 void InputImage::fail_not_finite(int x, int y) const {
-  fail("pixel (" + std::to_string(x + 1) + ", " + std::to_string(y + 1) +
-       ") is not a finite number");
+  throw InputError(file_.string() + ": pixel (" + std::to_string(x + 1) + ", " +
+                   std::to_string(y + 1) + ") is not a finite number");
 }
 
 float linear_from_srgb(float v) {

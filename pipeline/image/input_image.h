@@ -1,4 +1,5 @@
-// An image file that the user names, of any format OpenImageIO reads.
+// A picture that the user names: OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP, whatever the
+// file is called.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,9 @@ namespace domefall {
 
 class InputImage {
  public:
-  // Throws InputError naming the file if it cannot be read or has more than 32768 pixels a side.
+  // Reads the header.  Throws as RegularFile, and InputError naming the file if it is of another
+  // format or damaged, has more than 32768 pixels a side, 32768 x 16384 pixels or 64 channels, or
+  // states more pixels than a file of its length can hold.
   explicit InputImage(const std::filesystem::path& file);
 
   const ImageLayout& layout() const { return reader_->layout(); }
@@ -21,8 +24,6 @@ class InputImage {
   [[noreturn]] void fail_not_finite(int x, int y) const;
 
  private:
-  [[noreturn]] void fail(const std::string& what) const;
-
   std::filesystem::path file_;
   std::unique_ptr<ImageReader> reader_;
 };

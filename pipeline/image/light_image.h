@@ -20,10 +20,10 @@ struct LightImage {
   double unit = 1;
 };
 
-// A file of any format OpenImageIO reads, by bands of rows or tiles.  Grey is spread to RGB,
-// further channels are dropped, and what is negative becomes 0.  Throws InputError naming the file
-// if it cannot be read to its end, is too large (over 32768 pixels a side), holds a pixel that is
-// not finite, or has negative values and none above 0.
+// A file of a format and size that InputImage takes, by bands of rows or tiles.  Grey is spread to
+// RGB, further channels are dropped, and what is negative becomes 0.  Throws as InputImage, and
+// InputError naming the file if it cannot be read to its end, holds a pixel that is not finite, or
+// has negative values and none above 0.
 LightImage read_light_image(const std::filesystem::path& file, PixelEncoding encoding);
 
 }  // namespace domefall

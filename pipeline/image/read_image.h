@@ -1,4 +1,4 @@
-// Sky maps from files of any format OpenImageIO reads.
+// Sky maps from pictures.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,8 @@
 namespace domefall {
 
 // Linear-light RGB.  Integer files (8 or 16 bits) are taken as sRGB-encoded, float files as linear;
-// grey is spread to RGB, further channels are dropped.  Throws InputError naming the file if it
-// cannot be read to its end, is too large (over 32768 pixels a side) or holds a pixel that is not
-// finite.
+// grey is spread to RGB, further channels are dropped.  Throws as InputImage, and InputError naming
+// the file if it cannot be read to its end or holds a pixel that is not finite.
 FloatImage read_image(const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -2,23 +2,30 @@
 
 #include <fitsio.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 namespace {
 
-constexpr int kLargestNside = 8192;
+constexpr int kLargestNside = 8192, kMostExtensions = 100;
+constexpr std::string_view kStart = "SIMPLE  =";
 // What a HEALPix file marks missing pixels with, to within its rounding.
 constexpr float kBad = -1.6375e30f, kBadWithin = 1e25f;
 
 class Fits {
  public:
-  explicit Fits(const std::filesystem::path& path) : path_(path) {
+  // CFITSIO would unpack a packed file into memory, however large, so it is shown FITS alone.
+  explicit Fits(const std::filesystem::path& path)
+      : path_(path), file_bytes_(RegularFile(path).size()) {
+    if (start_of_file(path, kStart.size()) != kStart) fail("this is not a FITS file");
     fits_open_diskfile(&file_, path.c_str(), READONLY, &status_);
     check("this is not a FITS file");
   }
@@ -37,15 +44,19 @@ class Fits {
 
   // Moves to the first binary table with a keyword NSIDE.
   void find_map() {
-    int count = 0;
-    fits_get_num_hdus(file_, &count, &status_);
-    for (int k = 1; k <= count; ++k) {
+    for (int k = 1; k <= kMostExtensions; ++k) {
       int type = 0;
       fits_movabs_hdu(file_, k, &type, &status_);
+      if (status_ == END_OF_FILE) {
+        status_ = 0;
+        fits_clear_errmsg();
+        fail("there is no HEALPix map in it (no table with a keyword NSIDE)");
+      }
       check("the file is damaged");
       if (type == BINARY_TBL && !text("NSIDE").empty()) return;
     }
-    fail("there is no HEALPix map in it (no table with a keyword NSIDE)");
+    fail("there is no HEALPix map among its first " + std::to_string(kMostExtensions) +
+         " extensions (no table with a keyword NSIDE)");
   }
 
   // Without quotes and spaces at the end; empty if there is no such keyword.
@@ -69,10 +80,14 @@ class Fits {
     fits_get_coltype(file_, number, &type, &repeat, &width, &status_);
     fits_get_num_rows(file_, &rows, &status_);
     check("column " + std::to_string(number));
-    if (type == TSTRING || type < 0 || repeat < 1 || rows < 1 ||
-        static_cast<std::size_t>(repeat) * static_cast<std::size_t>(rows) != count)
+    const bool whole = type != TSTRING && type >= 0 && repeat >= 1 && rows >= 1 &&
+                       static_cast<std::size_t>(repeat) <= count &&
+                       static_cast<std::size_t>(rows) <= count &&
+                       static_cast<std::size_t>(repeat) * static_cast<std::size_t>(rows) == count;
+    if (!whole)
       fail("column " + std::to_string(number) + " does not hold the " + std::to_string(count) +
            " numbers of a whole sky");
+    check_length();
     std::vector<float> values(count);
     float bad = std::numeric_limits<float>::quiet_NaN();
     int any = 0;
@@ -83,6 +98,22 @@ class Fits {
   }
 
  private:
+  // A header that states more than the file holds is found out before memory is taken.
+  void check_length() {
+    LONGLONG header = 0, data = 0, end = 0;
+    fits_get_hduaddrll(file_, &header, &data, &end, &status_);
+    LONGLONG row = 0, rows = 0;
+    fits_read_key(file_, TLONGLONG, "NAXIS1", &row, nullptr, &status_);
+    fits_read_key(file_, TLONGLONG, "NAXIS2", &rows, nullptr, &status_);
+    check("the size of the table");
+    const std::uint64_t left =
+        file_bytes_ - std::min(file_bytes_, static_cast<std::uint64_t>(data));
+    if (row < 1 || rows < 1 ||
+        static_cast<std::uint64_t>(rows) > left / static_cast<std::uint64_t>(row))
+      fail("the file is cut short: its table of " + std::to_string(rows) + " rows of " +
+           std::to_string(row) + " bytes is longer than the file");
+  }
+
   void check(const std::string& what) const {
     if (status_ == 0) return;
     std::array<char, FLEN_STATUS> reason{};
@@ -92,6 +123,7 @@ class Fits {
   }
 
   std::filesystem::path path_;
+  std::uint64_t file_bytes_;
   fitsfile* file_ = nullptr;
   int status_ = 0;
 };

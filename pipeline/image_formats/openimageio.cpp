@@ -2,16 +2,22 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "pipeline/image/image_formats.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/image_formats/healpix_fits.h"
+#include "pipeline/image_formats/picture_bounds.h"
+#include "pipeline/image_formats/picture_format.h"
 
 namespace domefall {
 namespace {
 
-constexpr int kBand = 64;  // rows read at once of a file without tiles
+constexpr int kBand = 64;                // rows read at once of a file without tiles
+constexpr std::size_t kStart = 1 << 20;  // bytes in which a header states the size
 
 SampleType sample_type(const OIIO::TypeDesc& type) {
   if (type == OIIO::TypeDesc::UINT16) return SampleType::kUint16;
@@ -25,10 +31,9 @@ class Reader : public ImageReader {
     const OIIO::ImageSpec& s = in_->spec();
     layout_ = {s.width,
                s.height,
-               s.depth,
                s.nchannels,
                sample_type(s.format),
-               s.tile_height > 0 ? s.tile_height : kBand,
+               std::min(s.tile_height > 0 ? s.tile_height : kBand, s.height),
                std::string(s.get_string_attribute("ImageDescription"))};
   }
 
@@ -123,9 +128,22 @@ class Writer : public ImageWriter {
 class LoadedFormats : public ImageFormats {
  public:
   std::unique_ptr<ImageReader> open(const std::filesystem::path& file) const override {
-    auto in = OIIO::ImageInput::open(file.string());
+    RegularFile opened(file);
+    std::string start(kStart, '\0');
+    start.resize(opened.read(start.data(), start.size()));
+    const std::string format(picture_format(start));
+    if (format.empty())
+      throw std::runtime_error(fmt::format("by its first bytes it is not {}", kPictureFormats));
+    if (const auto size = stated_size(format, start))
+      check_size(size->width, size->height, format, "", opened.size());
+    if (format == "openexr" && !exr_attributes_fit(start, opened.size()))
+      throw std::runtime_error("the file ends within its header, or the header is wrong");
+    auto in = OIIO::ImageInput::create(format);
     // An error that nobody takes is printed when the program ends.
     if (!in) throw std::runtime_error(OIIO::geterror());
+    OIIO::ImageSpec spec;
+    if (!in->open(file.string(), spec)) throw std::runtime_error(in->geterror());
+    check_picture(format, spec, opened.size());
     return std::make_unique<Reader>(std::move(in));
   }
 

@@ -11,7 +11,10 @@
 #include "pipeline/image/csv_file.h"
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/light_image.h"
 #include "pipeline/image/map_file.h"
+#include "pipeline/image/read_healpix.h"
+#include "pipeline/image/read_image.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
@@ -48,6 +51,9 @@ const std::pair<const char*, std::function<void(const fs::path&)>> kReaders[] = 
     {"mapped", [](const fs::path& file) { MappedFile{file}; }},
     {"table", [](const fs::path& file) { CsvFile{file}; }},
     {"digest", [](const fs::path& file) { Digest().add_file(file); }},
+    {"picture", [](const fs::path& file) { read_image(file); }},
+    {"large picture", [](const fs::path& file) { read_light_image(file, PixelEncoding::kOfFile); }},
+    {"HEALPix", [](const fs::path& file) { read_healpix(file, 1); }},
 };
 
 // Each of these would hang, but for the socket, which cannot be opened.
@@ -95,6 +101,7 @@ TEST_F(RegularFiles, ThatAreMissingMayBeThereElsewhereButNotWhereTheUserNamedThe
   const auto message = EndsWith("none: No such file or directory");
   EXPECT_THAT([&] { MappedFile{none}; }, ThrowsMessage<TemporaryError>(message));
   EXPECT_THAT([&] { Digest().add_file(none); }, ThrowsMessage<TemporaryError>(message));
+  EXPECT_THAT([&] { read_image(none); }, ThrowsMessage<TemporaryError>(message));
   EXPECT_THAT([&] { require_file(none); }, ThrowsMessage<InputError>(message));
   EXPECT_THROW(RegularFile(folder_ / std::string(300, 'x')), InputError);
   EXPECT_FALSE(is_readable_file(none));

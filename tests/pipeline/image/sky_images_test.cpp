@@ -2,6 +2,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <bit>
@@ -131,6 +132,42 @@ TEST_F(SkyImages, WhatIsNoWholeHealpixMapIsRefusedByName) {
   std::string wrong = whole;
   wrong.replace(wrong.find("NSIDE   = 2"), 11, "NSIDE   = 4");
   EXPECT_THAT(said(wrong, 1), HasSubstr("does not hold the 192 numbers"));
+  // A gzip file, which CFITSIO would unpack.
+  EXPECT_THAT(said("\x1f\x8b\x08", 1), HasSubstr("not a FITS file"));
+}
+
+// 3.2 GB of them, of which the file has three rows.
+TEST_F(SkyImages, AHealpixHeaderThatStatesMoreThanTheFileHoldsTakesNoMemory) {
+  std::string file = healpix_file("RING", {});
+  const auto put = [&file](const std::string& from, const std::string& to) {
+    file.replace(file.find(from), to.size(), to);
+  };
+  put("NSIDE   = 2", "NSIDE   = 8192");
+  put("NAXIS2  = 3", "NAXIS2  = 50331648");
+  const fs::path path = folder_ / "map.fits";
+  std::ofstream(path, std::ios::binary) << file;
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  EXPECT_THAT([&] { read_healpix(path, 1); },
+              testing::ThrowsMessage<InputError>(HasSubstr(
+                  "the file is cut short: its table of 50331648 rows of 128 bytes is longer")));
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 400000) << "kB";
+}
+
+TEST_F(SkyImages, AHealpixMapIsLookedForInAHundredExtensions) {
+  const std::string empty = block({card("XTENSION", "'IMAGE   '"), card("BITPIX", "8"),
+                                   card("NAXIS", "0"), card("PCOUNT", "0"), card("GCOUNT", "1")});
+  const std::string whole = healpix_file("RING", {});
+  const auto with = [&](int extensions) {
+    std::string file = whole.substr(0, kBlock);
+    for (int k = 0; k < extensions; ++k) file += empty;
+    std::ofstream(folder_ / "map.fits", std::ios::binary) << file + whole.substr(kBlock);
+    return folder_ / "map.fits";
+  };
+  EXPECT_EQ(read_healpix(with(98), 1).nside, 2);
+  EXPECT_THAT([&] { read_healpix(with(99), 1); },
+              testing::ThrowsMessage<InputError>(HasSubstr("among its first 100 extensions")));
 }
 
 void write_image(const fs::path& path, OIIO::ImageSpec spec, const std::vector<float>& values) {
