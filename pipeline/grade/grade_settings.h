@@ -10,6 +10,7 @@ namespace domefall {
 
 struct GradeSettings {
   std::filesystem::path config;  // of OpenColorIO
+  bool shipped = false;          // it is Domefall's own, and need not be tried before it is used
   std::string display;           // empty for the configuration's default
   std::string view;              // empty for the display's default
   // The ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.

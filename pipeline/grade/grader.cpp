@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/grade/config_check.h"
+#include "pipeline/grade/trial.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 
 namespace domefall {
 
@@ -72,10 +75,7 @@ void ignore_environment() {
     ocio::UnsetEnvVariable(name);
 }
 
-ocio::ConstConfigRcPtr read_config(const GradeSettings& settings) {
-  ignore_environment();
-  const std::string file = settings.config.string();
-  if (file.empty()) throw InputError("no OpenColorIO configuration is named");
+ocio::ConstConfigRcPtr read_config(const std::string& file) {
   try {
     return ocio::Config::CreateFromFile(file.c_str());
   } catch (const ocio::Exception& error) {
@@ -101,8 +101,8 @@ std::string chosen_display(const ocio::Config& config, const GradeSettings& sett
                   listed(config.getNumDisplays(), [&](int k) { return config.getDisplay(k); })));
 }
 
-std::string chosen_view(const ocio::Config& config, const GradeSettings& settings,
-                        const std::string& display) {
+std::string view_name(const ocio::Config& config, const GradeSettings& settings,
+                      const std::string& display) {
   if (settings.view.empty()) return config.getDefaultView(display.c_str());
   const int count = config.getNumViews(display.c_str());
   const auto at = [&](int k) { return config.getView(display.c_str(), k); };
@@ -138,30 +138,65 @@ void append_cdl(ocio::GroupTransform& group, const GradeSettings& settings) {
   group.appendTransform(space_change(ocio::ROLE_COLOR_TIMING, kWorkingSpaceName));
 }
 
-}  // namespace
+struct View {
+  ocio::ConstConfigRcPtr config;
+  std::string display, name;
+  ocio::ConstTransformRcPtr transform;  // from the working space, with the show's own CDL
+};
 
-Grader::Grader(const GradeSettings& settings) {
-  const auto config = read_config(settings);
-  display_ = chosen_display(*config, settings);
-  view_ = chosen_view(*config, settings, display_);
+View chosen_view(const ocio::ConstConfigRcPtr& config, const GradeSettings& settings) {
+  View chosen{config, chosen_display(*config, settings), {}, {}};
+  chosen.name = view_name(*config, settings, chosen.display);
   auto group = ocio::GroupTransform::Create();
   if (changes_anything(settings)) append_cdl(*group, settings);
   auto view = ocio::DisplayViewTransform::Create();
   view->setSrc(kWorkingSpaceName);
-  view->setDisplay(display_.c_str());
-  view->setView(view_.c_str());
+  view->setDisplay(chosen.display.c_str());
+  view->setView(chosen.name.c_str());
   group->appendTransform(view);
+  chosen.transform = group;
+  return chosen;
+}
+
+// Calls what OpenColorIO may refuse, and says of which view it speaks.
+template <class Step>
+void explained(const View& view, const std::string& file, Step step) {
   try {
-    const auto processor = config->getProcessor(group);
+    step();
+  } catch (const ocio::Exception& error) {
+    throw InputError(fmt::format("{}: the view '{}' of the display '{}' cannot be made from {}: {}",
+                                 file, view.name, view.display, kWorkingSpaceName, error.what()));
+  }
+}
+
+void check(const GradeSettings& settings) {
+  const std::string file = settings.config.string();
+  const auto config = read_config(file);
+  check_variables(*config, file);
+  check_files(*config, file);
+  const View view = chosen_view(config, settings);
+  explained(view, file,
+            [&] { check_values(*config, *config->getProcessor(view.transform), file); });
+}
+
+}  // namespace
+
+Grader::Grader(const GradeSettings& settings) {
+  const std::string file = settings.config.string();
+  if (file.empty()) throw InputError("no OpenColorIO configuration is named");
+  if (RegularFile(settings.config).size() == 0) throw InputError(file + ": the file is empty");
+  ignore_environment();
+  if (!settings.shipped) try_elsewhere(file, [&] { check(settings); });
+  const View view = chosen_view(read_config(file), settings);
+  display_ = view.display;
+  view_ = view.name;
+  explained(view, file, [&] {
+    const auto processor = view.config->getProcessor(view.transform);
     transform_id_ = processor->getCacheID();
     const auto cpu = processor->getOptimizedCPUProcessor(
         ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
     processor_ = std::make_shared<const Processor>(Processor{cpu, graded_black(*cpu)});
-  } catch (const ocio::Exception& error) {
-    throw InputError(fmt::format("{}: the view '{}' of the display '{}' cannot be made from {}: {}",
-                                 settings.config.string(), view_, display_, kWorkingSpaceName,
-                                 error.what()));
-  }
+  });
 }
 
 // The corners of a domemaster, a fifth of it, are black, and black is graded once: only the columns

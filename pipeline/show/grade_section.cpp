@@ -26,9 +26,11 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup) {
   const Section s = subsection(show, "grade", {"config", "display", "view", "cdl"});
   GradeSettings grade;
   grade.config = shipped_asset(kDomeConfig);
+  grade.shipped = true;
   if (const Item* config = s.find("config"))
     if (const auto name = read_text(*config))
-      if (const auto file = lookup.file(*config, *name)) grade.config = *file;
+      if (const auto file = lookup.file(*config, *name))
+        grade.config = *file, grade.shipped = false;
   if (const Item* display = s.find("display")) grade.display = read_text(*display).value_or("");
   if (const Item* view = s.find("view")) grade.view = read_text(*view).value_or("");
   const Section cdl = subsection(s, "cdl", {"slope", "offset", "power", "saturation"});

@@ -121,13 +121,13 @@ TEST(Grader, ListsWhatItKnowsWhenAskedForAnother) {
   EXPECT_THROW(Grader{settings}, InputError);
 }
 
-TEST(Grader, RefusesWhatIsNoConfigurationByName) {
+TEST(Grader, SaysWhichConfigurationIsMissing) {
   GradeSettings settings;
   settings.config = "/nonexistent/config.ocio";
   try {
     Grader grader(settings);
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const TemporaryError& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("/nonexistent/config.ocio: "));
   }
 }

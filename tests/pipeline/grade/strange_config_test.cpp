@@ -1,0 +1,182 @@
+// Configurations that crash OpenColorIO, make it wait for ever, or make of light what is no number.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <cstring>
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/grade/trial.h"
+#include "pipeline/image/errors.h"
+#include "tests/pipeline/image/test_folder.h"
+#include "tests/source_tree.h"
+
+namespace domefall {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::ThrowsMessage;
+
+class StrangeConfig : public TestFolder {
+ protected:
+  // A configuration whose only view is the space `out`, made from the reference by `transform`.
+  GradeSettings config(const std::string& transform, const std::string& more = "",
+                       const std::string& head = "search_path: luts\n") const {
+    GradeSettings settings;
+    settings.config = folder_ / "config.ocio";
+    put(settings.config, "ocio_profile_version: 2\n" + head +
+                             "roles: {default: ACEScg, scene_linear: ACEScg}\n"
+                             "displays: {Dome: [!<View> {name: Plain, colorspace: out}]}\n"
+                             "colorspaces:\n"
+                             "  - !<ColorSpace> {name: ACEScg}\n"
+                             "  - !<ColorSpace> {name: out, from_scene_reference: " +
+                             transform + "}\n" + more);
+    return settings;
+  }
+  void refused(const GradeSettings& settings, const std::string& what) const {
+    EXPECT_THAT([&] { Grader grader(settings); },
+                ThrowsMessage<InputError>(
+                    AllOf(StartsWith(settings.config.string() + ": "), HasSubstr(what))))
+        << contents(settings.config);
+  }
+  static std::string matrix(const std::string& first) {
+    return "!<MatrixTransform> {matrix: [" + first +
+           ", 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}";
+  }
+};
+
+TEST_F(StrangeConfig, ThatIsSoundIsTriedAndUsed) {
+  const Grader grader(config(matrix("0.5")));
+  HalfFrame frame(1, 1);
+  for (int c = 0; c < 3; ++c) frame.row(0)[c] = 0.5f;
+  EXPECT_NEAR(grader.grade(frame).row(0)[0], 16384, 1);
+}
+
+// It follows the circle until its stack is full.
+TEST_F(StrangeConfig, WhoseSpacesReferToThemselvesIsRefused) {
+  const std::string crash = "crashes the reader";
+  refused(config("!<ColorSpaceTransform> {src: ACEScg, dst: out}"), crash);
+  refused(
+      config("!<ColorSpaceTransform> {src: ACEScg, dst: other}",
+             "  - !<ColorSpace> {name: other, from_scene_reference: !<ColorSpaceTransform> {src: "
+             "ACEScg, dst: out}}\n"),
+      crash);
+  refused(config("!<LookTransform> {src: ACEScg, dst: ACEScg, looks: again}",
+                 "looks:\n  - !<Look> {name: again, process_space: out, transform: "
+                 "!<ColorSpaceTransform> {src: out, dst: ACEScg}}\n"),
+          crash);
+  refused(config("!<DisplayViewTransform> {src: ACEScg, display: Dome, view: Plain}"), crash);
+}
+
+// It puts them in their own place until its stack or an hour is full.
+TEST_F(StrangeConfig, WhoseVariablesReferToThemselvesIsRefused) {
+  const std::string file = "!<FileTransform> {src: \"${A}.cube\"}";
+  for (const char* variables :
+       {"{A: \"${A}x\"}", "{A: \"$A$A\"}", "{A: \"%B%\", B: \"${C}${C}\", C: \"$A$A\"}"})
+    refused(config(file, "", "environment: " + std::string(variables) + "\n"),
+            "the variable A refers to itself");
+  refused(config(file, "", "environment: {A: x, B: \"$A\"}\n"), "/x.cube'");
+}
+
+TEST_F(StrangeConfig, WhoseTableIsAPipeOrOfNoSizeIsRefused) {
+  std::filesystem::create_directory(folder_ / "luts");
+  ASSERT_EQ(mkfifo((folder_ / "luts/pipe.cube").c_str(), 0600), 0);
+  refused(config("!<FileTransform> {src: pipe.cube}"), "luts/pipe.cube: this is a pipe; only");
+  refused(config("!<GroupTransform> {children: [!<FileTransform> {src: pipe.cube}]}"), "is a pipe");
+  refused(config(matrix("1"),
+                 "looks:\n  - !<Look> {name: look, process_space: ACEScg, transform: "
+                 "!<FileTransform> {src: pipe.cube}}\n"),
+          "is a pipe");
+  std::filesystem::create_symlink("/proc/kmsg", folder_ / "luts/news.cube");
+  refused(config("!<FileTransform> {src: news.cube}"), "luts/news.cube: the file is empty");
+  refused(config("!<FileTransform> {src: none.cube}"), "none.cube' could not be located");
+}
+
+TEST_F(StrangeConfig, ThatMakesNoNumbersOfLightIsRefusedThoughALaterStepHidesIt) {
+  refused(config(matrix(".nan")),
+          "step 1 of 1 of the view makes (nan, 1, 1) of the pixel (1, 1, 1)");
+  refused(config(matrix(".inf")), "makes (inf, 1, 1)");
+  refused(config("!<GroupTransform> {children: [" + matrix(".nan") +
+                 ", !<RangeTransform> {min_in_value: 0, min_out_value: 0, max_in_value: 1, "
+                 "max_out_value: 1}]}"),
+          "makes (nan, 1, 1)");
+  refused(config("!<ExponentTransform> {value: [.nan, 1, 1, 1]}"), "makes (nan, ");
+}
+
+TEST_F(StrangeConfig, ThatIsNoFileOrEmptyIsRefusedAndOneThatIsMissingMayBeElsewhere) {
+  GradeSettings settings;
+  settings.config = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(settings.config.c_str(), 0600), 0);
+  for (const bool shipped : {false, true}) {
+    settings.shipped = shipped;
+    refused(settings, "this is a pipe");
+  }
+  settings.config = "/proc/kmsg";
+  refused(settings, "the file is empty");
+  settings.config = folder_ / "none";
+  EXPECT_THROW(Grader{settings}, TemporaryError);
+}
+
+// Each view of every display, as it would be tried if it were not ours.
+TEST_F(StrangeConfig, IsNoneOfTheViewsThatAreShipped) {
+  GradeSettings settings;
+  settings.config = source_file("shows/assets/dome.ocio");
+  for (const char* display :
+       {"Dome G2.2 Rec.709", "Dome G2.6 P3-D65", "sRGB - Display", "Rec.1886 Rec.709 - Display"})
+    for (const char* view : {"Dome", "ACES SDR", "Star log", "Un-tone-mapped", "Raw"}) {
+      settings.display = display, settings.view = view;
+      EXPECT_NO_THROW(Grader{settings}) << display << ", " << view;
+    }
+}
+
+TEST(Trial, LeavesThisProcessAsItWas) {
+  int here = 1;
+  try_elsewhere("file", [&] { here = 2; });
+  EXPECT_EQ(here, 1);
+}
+
+TEST(Trial, ThrowsWhatTheStepThrows) {
+  EXPECT_THAT([] { try_elsewhere("file", [] { throw InputError("wrong"); }); },
+              ThrowsMessage<InputError>("wrong"));
+  EXPECT_THAT([] { try_elsewhere("file", [] { throw TemporaryError("full"); }); },
+              ThrowsMessage<TemporaryError>("full"));
+  EXPECT_THAT([] { try_elsewhere("file", [] { throw std::runtime_error("odd"); }); },
+              ThrowsMessage<InputError>("odd"));
+  const std::string long_text(100000, 'x');
+  EXPECT_THAT([&] { try_elsewhere("file", [&] { throw InputError(long_text); }); },
+              ThrowsMessage<InputError>(long_text));
+}
+
+TEST(Trial, SurvivesWhatCrashesTakesTooMuchOrWaits) {
+  for (const int number : {SIGSEGV, SIGABRT, SIGKILL})
+    EXPECT_THAT([&] { try_elsewhere("file", [&] { std::raise(number); }); },
+                ThrowsMessage<InputError>(StartsWith("file: to read it crashes the reader (" +
+                                                     std::string(strsignal(number)) + ")")));
+  EXPECT_THAT([] { try_elsewhere("file", [] { _exit(0); }); },
+              ThrowsMessage<InputError>(HasSubstr("crashes the reader (it ended)")));
+  EXPECT_THAT(
+      [] {
+        volatile bool on = true;
+        try_elsewhere("file",
+                      [&] {
+                        while (on) continue;
+                      },
+                      {.cpu_seconds = 1});
+      },
+      ThrowsMessage<InputError>("file: to read it takes more than 1 s of processor time"));
+  EXPECT_THAT([] { try_elsewhere("file", [] { pause(); }, {.seconds = 1}); },
+              ThrowsMessage<TemporaryError>("file: to read it takes more than 1 s"));
+  EXPECT_THROW(try_elsewhere("file",
+                             [] {
+                               std::string large(std::size_t{3} << 30, 'x');
+                               if (large.back() != 'x') throw TemporaryError("never");
+                             },
+                             {.gibibytes = 1}),
+               InputError);
+}
+
+}  // namespace
+}  // namespace domefall
