@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <optional>
+#include <sstream>
 
 #include "pipeline/image/byte_order_mark.h"
 #include "pipeline/image/errors.h"
@@ -80,6 +82,55 @@ void add_syntax_error(const YAML::ParserException& error, const std::string& tex
     problems.add(at, "this is not valid YAML: " + error.msg);
 }
 
+// Keeps the place of a document's root.
+class Root : public YAML::EventHandler {
+ public:
+  TextPlace at() const { return {mark_.line, mark_.column}; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { begin(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { begin(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    begin(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    begin(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    begin(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void begin(const YAML::Mark& mark) {
+    if (!begun_) mark_ = mark;
+    begun_ = true;
+  }
+
+  bool begun_ = false;
+  YAML::Mark mark_;
+};
+
+// Whether there is a document; reports a second one.  yaml-cpp 0.7 makes documents without end of a
+// text that begins with a comma, all at one place, so that no more than two are asked for.
+bool check_documents(const std::string& text, Problems& problems) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  Root first, second;
+  if (!parser.HandleNextDocument(first)) return false;
+  if (!parser.HandleNextDocument(second)) return true;
+  const bool stuck = first.at().line == second.at().line && first.at().column == second.at().column;
+  problems.add(second.at(), stuck
+                                ? "this is not valid YAML: nothing can begin here"
+                                : "a show file holds one YAML document; a second one starts here");
+  return true;
+}
+
 }  // namespace
 
 std::string read_show_text(const std::filesystem::path& file) {
@@ -95,13 +146,11 @@ std::string read_show_text(const std::filesystem::path& file) {
 YAML::Node parse_yaml(const std::string& text, Problems& problems) {
   check_characters(text, problems);
   problems.raise();
+  const std::string ended = text + "\n# " + std::string(kEndOfShow) + "\n";
   try {
-    const auto documents = YAML::LoadAll(text + "\n# " + std::string(kEndOfShow) + "\n");
-    if (documents.size() > 1)
-      problems.add({documents[1].Mark().line, documents[1].Mark().column},
-                   "a show file holds one YAML document; a second one starts here");
+    const bool any = check_documents(ended, problems);
     problems.raise();
-    return documents.empty() ? YAML::Node(YAML::NodeType::Undefined) : documents[0];
+    return any ? YAML::Load(ended) : YAML::Node(YAML::NodeType::Undefined);
   } catch (const YAML::ParserException& error) {
     add_syntax_error(error, text, problems);
   } catch (const YAML::Exception& error) {

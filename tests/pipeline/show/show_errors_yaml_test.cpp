@@ -46,6 +46,8 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
        kShow + "---\n"
                "title: b\n",
        "4:1: a show file holds one YAML document; a second one starts here"},
+      // yaml-cpp makes documents of it without end.
+      {"ACommaFirst", ", timeline: []\n", "1:1: this is not valid YAML: nothing can begin here"},
       {"UndefinedAlias", "timeline: *shots\n",
        "1:11: this is not valid YAML: the referenced anchor is not defined"},
       {"CyclicAlias", "timeline: &t [*t]\n",
