@@ -1,0 +1,16 @@
+// Configurations of OpenColorIO.  They are tried in a process of their own, which may crash.
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/errors.h"
+#include "tests/fuzz/input_file.h"
+
+using namespace domefall;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  GradeSettings settings;
+  settings.config = input_file(text_of(data, size), "config.ocio");
+  try {
+    Grader grader(settings);
+  } catch (const InputError&) {
+  }
+  return 0;
+}

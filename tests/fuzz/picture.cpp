@@ -1,0 +1,19 @@
+// Pictures, by their header and, where they are small, by their pixels.
+#include "pipeline/image/errors.h"
+#include "pipeline/image/input_image.h"
+#include "pipeline/image/light_image.h"
+#include "tests/fuzz/input_file.h"
+
+using namespace domefall;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr int kMostPixels = 1 << 20;  // larger ones would take the time of many others
+  const auto file = input_file(text_of(data, size));
+  try {
+    const ImageLayout layout = InputImage(file).layout();
+    if (layout.width > kMostPixels / layout.height) return 0;
+    read_light_image(file, PixelEncoding::kOfFile);
+  } catch (const InputError&) {
+  }
+  return 0;
+}

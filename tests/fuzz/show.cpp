@@ -1,0 +1,17 @@
+// Show files, and the state of their first and last frames.
+#include "pipeline/image/errors.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/read_show.h"
+#include "tests/fuzz/input_file.h"
+
+using namespace domefall;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const Show show = read_show(input_file(text_of(data, size), "show.yaml"));
+    frame_state(show, 0);
+    frame_state(show, frame_count(show) - 1);
+  } catch (const InputError&) {
+  }
+  return 0;
+}
