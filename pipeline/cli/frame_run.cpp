@@ -15,10 +15,10 @@
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/grade/grader.h"
-#include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/image/temporary_file.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
 

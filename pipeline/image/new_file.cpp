@@ -1,6 +1,5 @@
 #include "pipeline/image/new_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,8 +8,6 @@
 
 namespace domefall {
 namespace {
-
-constexpr unsigned kNewFileMode = 0666;
 
 // Encoders write some bytes at a time; the system is asked for this many.
 constexpr std::size_t kPending = std::size_t{256} << 10;
@@ -28,22 +25,9 @@ void write_at(int file, const std::filesystem::path& path, std::string_view rest
 
 }  // namespace
 
-NewFile::NewFile(const std::filesystem::path& path)
-    : path_(path),
-      temporary_(temporary_for(path)),
-      file_(open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode)) {
-  // Failures are told under the name that the user knows.
-  if (file_ < 0) throw_file_error(path_, errno);
-}
-
-NewFile::~NewFile() {
-  close(file_);
-  if (!committed_) unlink(temporary_.c_str());
-}
-
 void NewFile::write_pending() noexcept {
   if (!error_) try {
-      write_at(file_, path_, pending_, written_to_);
+      write_at(file_.descriptor(), file_.path(), pending_, written_to_);
     } catch (...) {
       error_ = std::current_exception();
     }
@@ -75,9 +59,9 @@ void NewFile::commit() {
   write_pending();
   if (error_) std::rethrow_exception(error_);
   // Some file systems cannot flush and say so.
-  if (fsync(file_) != 0 && errno != EINVAL && errno != ENOTSUP) throw_file_error(path_, errno);
-  put_in_place(temporary_, path_);
-  committed_ = true;
+  if (fsync(file_.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP)
+    throw_file_error(file_.path(), errno);
+  file_.put_in_place();
 }
 
 }  // namespace domefall

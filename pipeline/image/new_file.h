@@ -9,20 +9,15 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/image/temporary_file.h"
+
 namespace domefall {
 
-// A file in the making that appears under its name when it is whole (atomic_file.h).
+// A file in the making that appears under its name when it is whole (temporary_file.h).
 class NewFile {
  public:
-  // Throws InputError for a folder that is missing or may not be written to, TemporaryError for a
-  // disk or a file server that fails.
-  explicit NewFile(const std::filesystem::path& path);
-  // Removes what was not committed.
-  ~NewFile();
-  NewFile(const NewFile&) = delete;
-  NewFile(NewFile&&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-  NewFile& operator=(NewFile&&) = delete;
+  // Throws as TemporaryFile does.
+  explicit NewFile(const std::filesystem::path& path) : file_(path) {}
 
   // Encoders that call these expect no exceptions: after an error, which commit() throws, what is
   // written goes nowhere.  Not for two threads at once.
@@ -38,12 +33,10 @@ class NewFile {
  private:
   void write_pending() noexcept;
 
-  std::filesystem::path path_, temporary_;
-  int file_;
+  TemporaryFile file_;
   std::string pending_;  // to be written at written_to_
   std::uint64_t written_to_ = 0, size_ = 0;
   std::exception_ptr error_;
-  bool committed_ = false;
 };
 
 }  // namespace domefall

@@ -4,15 +4,16 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "pipeline/image/temporary_file.h"
+
 namespace domefall {
 
 // A file in the making, zeroed, that appears under its name when it is whole.
 class NewMappedFile {
  public:
   // The disk's space is taken at once, so that a full disk is told here (TemporaryError) and not by
-  // a signal later.  Throws InputError for a folder that may not be written to.
+  // a signal later.  Throws as TemporaryFile does.
   NewMappedFile(const std::filesystem::path& path, std::size_t size);
-  // Removes what was not committed.
   ~NewMappedFile();
   NewMappedFile(const NewMappedFile&) = delete;
   NewMappedFile(NewMappedFile&&) = delete;
@@ -26,10 +27,9 @@ class NewMappedFile {
   void commit();
 
  private:
-  std::filesystem::path path_, temporary_;
+  TemporaryFile file_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
-  bool committed_ = false;
 };
 
 }  // namespace domefall

@@ -11,16 +11,6 @@
 namespace domefall {
 namespace {
 
-// This host as temporaries bear it.
-std::string host_in_names() {
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  std::string name(host);
-  for (char& c : name)
-    if (c == '.') c = '-';
-  return name;
-}
-
 using AtomicFile = TestFolder;
 
 TEST_F(AtomicFile, AppearsWholeAndLeavesNothingElse) {
@@ -60,36 +50,6 @@ TEST_F(AtomicFile, AWriteThatBreaksOffLeavesTheOldFileAndNoTemporary) {
   EXPECT_EQ(WEXITSTATUS(status), 75);
   EXPECT_EQ(contents(folder_ / "a.bin"), "old");
   EXPECT_EQ(file_count(), 1);
-}
-
-TEST_F(AtomicFile, SweepingTakesOnlyWhatTheDeadLeft) {
-  const std::string name = host_in_names();
-  const pid_t child = fork();
-  if (child == 0) _exit(0);
-  waitpid(child, nullptr, 0);  // a number that is in nobody's use now
-  const std::string dead = ".a_00001.exr." + name + "." + std::to_string(child) + ".1-0.tmp",
-                    living = ".a_00002.exr." + name + "." + std::to_string(getpid()) + ".1-0.tmp",
-                    foreign = ".a_00003.exr.elsewhere.1.1-0.tmp";
-  for (const std::string& file : {dead, living, foreign, std::string("a.tmp"), std::string(".b")})
-    put(folder_ / file, "x");
-  EXPECT_EQ(sweep_temporaries(folder_), 1);
-  EXPECT_FALSE(std::filesystem::exists(folder_ / dead));
-  EXPECT_EQ(file_count(), 4);
-  std::filesystem::last_write_time(
-      folder_ / foreign, std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
-  EXPECT_EQ(sweep_temporaries(folder_), 1);
-  EXPECT_EQ(sweep_temporaries(folder_ / "none"), 0);
-}
-
-TEST_F(AtomicFile, SweepingTakesWhatAZombieLeft) {
-  const std::string name = host_in_names();
-  const pid_t child = fork();
-  if (child == 0) _exit(0);
-  siginfo_t info;
-  waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);  // ended, not reaped
-  put(folder_ / (".a.exr." + name + "." + std::to_string(child) + ".1-0.tmp"), "x");
-  EXPECT_EQ(sweep_temporaries(folder_), 1);
-  waitpid(child, nullptr, 0);
 }
 
 }  // namespace

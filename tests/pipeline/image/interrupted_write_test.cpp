@@ -15,6 +15,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/image/temporary_file.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
@@ -132,9 +133,11 @@ TEST_F(InterruptedWrite, KilledLeavesAWholeFileAndATemporaryThatIsSwept) {
 
 TEST_F(InterruptedWrite, SweepingNeverLooksIntoFoldersBelow) {
   fs::create_directory(folder_ / "below");
-  put(folder_ / "below" / ".a.exr.elsewhere.1.1-0.tmp", "x");
-  fs::last_write_time(folder_ / "below" / ".a.exr.elsewhere.1.1-0.tmp",
-                      fs::file_time_type::clock::now() - std::chrono::hours(48));
+  in_a_child([this] {
+    const TemporaryFile file(folder_ / "below" / "a.exr");
+    _exit(0);  // as a kill: nothing is cleaned up
+    return 0;
+  });
   EXPECT_EQ(sweep_temporaries(folder_), 0);
   EXPECT_EQ(sweep_temporaries(folder_ / "below"), 1);
 }

@@ -1,0 +1,37 @@
+#include "pipeline/image/unfinished.h"
+
+#include <set>
+#include <system_error>
+
+namespace domefall {
+namespace {
+
+struct Unfinished {
+  std::mutex mutex;
+  std::set<std::filesystem::path> paths;
+};
+
+// It is never destroyed, since a signal may come while the program's other objects are.
+Unfinished& unfinished() {
+  static auto& all = *new Unfinished;
+  return all;
+}
+
+}  // namespace
+
+UnfinishedList::UnfinishedList() : held_(unfinished().mutex) {}
+
+void UnfinishedList::add(const std::filesystem::path& path) { unfinished().paths.insert(path); }
+
+void UnfinishedList::drop(const std::filesystem::path& path) { unfinished().paths.erase(path); }
+
+void remove_unfinished() noexcept {
+  Unfinished& all = unfinished();
+  all.mutex.lock();  // and never unlocked
+  for (const std::filesystem::path& path : all.paths) {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+}
+
+}  // namespace domefall
