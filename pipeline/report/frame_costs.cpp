@@ -10,7 +10,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
-#include "pipeline/report/scratch_folder.h"
+#include "pipeline/image/scratch_folder.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/sky/catalogue/star_file.h"
 

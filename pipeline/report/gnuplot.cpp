@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/report/scratch_folder.h"
+#include "pipeline/image/scratch_folder.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): only some libraries declare it
 

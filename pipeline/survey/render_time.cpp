@@ -1,18 +1,15 @@
 #include "pipeline/survey/render_time.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <future>
 
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/image/scratch_folder.h"
 #include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
@@ -28,27 +25,6 @@ std::array<int, 3> measured_widths(const Show& show) {
   const int large = std::min(columns(show.projection), kLarge);
   return {std::max(kSmallest, large / 4), std::max(kSmallest, large / 2), large};
 }
-
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() / fmt::format("domefall_check_{}", getpid())) {
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder(TemporaryFolder&&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-
-  std::filesystem::path file(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Seconds a frame takes by the clock, and of all processors together.  Other programs hardly change
 // the latter.
@@ -86,10 +62,10 @@ class Run {
  private:
   void write(const HalfFrame& frame) const {
     std::future<void> linear = std::async(
-        std::launch::async, [&] { write_frame(folder_.file("linear.exr"), frame, FrameInfo{}); });
+        std::launch::async, [&] { write_frame(folder_ / "linear.exr", frame, FrameInfo{}); });
     if (grader_)
       write_graded(
-          folder_.file(show_.graded_format == GradedFormat::kTiff ? "graded.tif" : "graded.png"),
+          folder_ / (show_.graded_format == GradedFormat::kTiff ? "graded.tif" : "graded.png"),
           grader_->grade(frame), GradedInfo{});
     linear.get();
   }
@@ -97,7 +73,7 @@ class Run {
   const Show& show_;
   Renderer& renderer_;
   const Grader* grader_;
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 }  // namespace

@@ -16,15 +16,15 @@ struct RenderTime {
 // pixels or a few seconds of small ones are rendered almost as soon as measured.
 bool is_worth_measuring(const Show& show);
 
-// Renders, grades and writes frames spread over the show, as domefall render does it but into the
-// system's temporary folder, at three reduced sizes, each twice as wide as the one before.  The
+// Renders, grades and writes frames spread over the show, as domefall render does it but into a
+// scratch folder, at three reduced sizes, each twice as wide as the one before.  The
 // processor time that a doubling adds is taken to grow by a constant factor from one doubling to
 // the next, which the three sizes give and which lies between 2 and 4.  The clock at the largest
 // size turns processor time into seconds on this machine under its present load.  `grader` is null
 // for a show without a grade.
 // Measured on orbits and falls with stars, on a machine full of other work (load 10 on 2
 // processors), the estimate was within 20 % at 4096 pixels and within 10 % at 1024 and 2048 as long
-// as that load kept still.  Throws InputError or TemporaryError where nothing can be written.
+// as that load kept still.  Throws TemporaryError where nothing can be written.
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader);
 
 }  // namespace domefall

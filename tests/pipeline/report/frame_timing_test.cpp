@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "pipeline/report/scratch_folder.h"
-
 namespace domefall {
 namespace {
 
@@ -49,17 +47,6 @@ TEST(TimedFrames, AreThoseThatTheRendererMakes) {
   EXPECT_GT(timed.seconds, 0);
   EXPECT_TRUE(std::isfinite(timed.seconds));
   EXPECT_GT(copy_seconds(timed.frame), 0);
-}
-
-TEST(ScratchFolder, IsThereForAsLongAsItLives) {
-  std::filesystem::path path;
-  {
-    const ScratchFolder folder, other;
-    path = folder / "";
-    EXPECT_TRUE(std::filesystem::is_directory(path));
-    EXPECT_NE(path, other / "");
-  }
-  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 }  // namespace
