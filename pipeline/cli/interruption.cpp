@@ -1,27 +1,71 @@
 #include "pipeline/cli/interruption.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/image/unfinished.h"
 
 namespace domefall {
 namespace {
 
-volatile std::sig_atomic_t caught = 0;
+std::atomic<bool> first_is_remembered{false};
+std::atomic<int> remembered{0};
+std::array<int, 2> told{-1, -1};  // a pipe, through which a handler may speak to a thread
 
-// Remembers a signal.  A second one finds the default action and ends the program at once.
-void remember(int signal) {
-  caught = signal;
-  std::signal(signal, SIG_DFL);
+void on_signal(int signal) {
+  int none = 0;
+  if (first_is_remembered && remembered.compare_exchange_strong(none, signal)) return;
+  const int error = errno;
+  const auto number = static_cast<unsigned char>(signal);
+  if (write(told[1], &number, 1) != 1) _exit(128 + signal);
+  errno = error;
+}
+
+// Little is allowed in a handler, and removing a folder is not.
+void end_when_told() {
+  unsigned char signal = 0;
+  while (read(told[0], &signal, 1) != 1) {
+  }
+  remove_unfinished();
+  std::fputs("stopped; what was not finished has been removed\n", stderr);
+  _exit(128 + signal);
 }
 
 }  // namespace
 
-void catch_interruptions() {
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+void leave_nothing_when_stopped() {
+  if (pipe2(told.data(), O_CLOEXEC) != 0)
+    throw TemporaryError("no pipe can be opened: " + std::generic_category().message(errno));
+  try {
+    std::thread(end_when_told).detach();
+  } catch (const std::system_error& error) {
+    throw TemporaryError("no thread can be started: " + error.code().message());
+  }
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
+void catch_interruptions() { first_is_remembered = true; }
+
 void stop_if_interrupted() {
-  if (caught != 0) throw Interrupted{caught};
+  if (const int signal = remembered) throw Interrupted{signal};
 }
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// Lets SIGINT and SIGTERM end a run between frames, so that nothing half-made stays behind.
+// Lets SIGINT, SIGTERM, SIGHUP and SIGXCPU end the program so that nothing half-made stays behind.
+// A SIGHUP that the program was started to ignore (nohup) stays ignored.
 #pragma once
 
 namespace domefall {
@@ -7,10 +8,15 @@ struct Interrupted {
   int signal;
 };
 
-// Remembers the two signals from now on.  Without this call they end the program at once.
+// From now on such a signal removes what is unfinished (unfinished.h) and ends the program at once,
+// with the code 128 + its number.  Throws TemporaryError where no thread can be started to do so.
+void leave_nothing_when_stopped();
+
+// From now on the first signal is only remembered, so that a run can end between frames.  A second
+// one acts as above.
 void catch_interruptions();
 
-// Throws Interrupted if a signal has come.
+// Throws Interrupted if a signal has been remembered.
 void stop_if_interrupted();
 
 }  // namespace domefall

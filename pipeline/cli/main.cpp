@@ -7,7 +7,12 @@
 //   128 + n  signal n has stopped it
 //   1        anything else
 
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -26,16 +31,39 @@ int report(const char* message, int code) {
   return code;
 }
 
+// A file must not get the number of a standard stream that the caller has closed: what is said there
+// would go into the file.
+void occupy_standard_streams() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    // An open takes the lowest free number.  What is printed on the second still fails.
+    if (fcntl(number, F_GETFD) < 0)
+      (void)!open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+bool reader_has_gone() {
+  pollfd out{STDOUT_FILENO, 0, 0};
+  return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
+}
+
 // Returns the code if all output has been written, since other programs may read it.
 int flushed(int code) {
+  errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  throw domefall::TemporaryError(std::string("standard output: ") + std::strerror(errno));
+  // `domefall states SHOW | head` ends as any program does that is told by the signal.
+  if (reader_has_gone()) return 128 + SIGPIPE;
+  throw domefall::TemporaryError(std::string("standard output: ") +
+                                 (errno ? std::strerror(errno) : "not all could be written"));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
+    occupy_standard_streams();
+    // They would end the program where it stands: a reader who has gone, a limit on a file's size.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    domefall::leave_nothing_when_stopped();
     return flushed(domefall::run_command_line(argc, argv));
   } catch (const domefall::Interrupted& stop) {
     return report("stopped; run the same command again to go on", 128 + stop.signal);
