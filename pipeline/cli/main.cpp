@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <system_error>
 
 #include "pipeline/cli/command_line.h"
 #include "pipeline/cli/interruption.h"
@@ -70,6 +71,9 @@ int main(int argc, char** argv) {
   } catch (const domefall::InputError& error) {
     return report(error.what(), domefall::kBadInput);
   } catch (const domefall::TemporaryError& error) {
+    return report(error.what(), kTryAgain);
+  } catch (const std::system_error& error) {
+    // Of the machine and the moment: threads that may not be started, a folder that is gone.
     return report(error.what(), kTryAgain);
   } catch (const std::bad_alloc&) {
     return report("out of memory: fewer --threads or a smaller --size may fit", kTryAgain);

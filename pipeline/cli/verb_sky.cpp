@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "pipeline/cli/input_file.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
@@ -51,6 +52,7 @@ void build(const BuildOptions& o) {
     throw InputError(
         fmt::format("--size {}: too coarse for a blur of {:f} degrees; at least {:.0f}", size,
                     o.blur_deg, std::ceil(60 / o.blur_deg)));
+  require_file(o.stars);
   refuse_overwriting(o.out, o.stars);
   const StarCatalogue catalogue = read_star_catalogue(o.stars, kEveryStar);
   const std::vector<FaintStar> stars = fainter_stars(catalogue, o.fainter_than);
@@ -99,6 +101,7 @@ void add_build(CLI::App& sky) {
 }
 
 void info(const std::string& path, bool verify) {
+  require_file(path);
   const SkyFile file = open_sky_file(path);
   const bool thermal = file.map.kind() == SkyMapKind::kThermal;
   fmt::print("kind         {}\n",
@@ -126,11 +129,13 @@ void add_info(CLI::App& sky) {
 // The stars to check with: those named or, where none are, the naked-eye stars that come with
 // Domefall.
 StarCatalogue check_stars(const std::string& file) {
+  if (!file.empty()) require_file(file);
   return read_star_catalogue(file.empty() ? shipped_asset(kNakedEyeStars).string() : file,
                              kEveryStar);
 }
 
 void check_map(const std::string& path, const std::string& stars) {
+  require_file(path);
   Orientation stated;
   if (is_sky_file(path)) stated = open_sky_file(path).origin.panorama.value_or(stated);
   const auto map = read_sky(path);
@@ -162,6 +167,7 @@ SkyImport import_of(const ImportOptions& o) {
   SkyImport import = o.import;
   import.image = o.image;
   import.out = o.out;
+  require_file(o.image);
   refuse_overwriting(o.out, o.image);
   check_size(import.size, kLargestFace);
   if (o.projection == "equirectangular") import.projection = SkyProjection::kEquirectangular;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pipeline/cli/input_file.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/star_page.h"
@@ -68,9 +69,13 @@ void say_result(const RawCatalogue& catalogue, const std::string& out) {
 
 void import(const Options& o) {
   const Paths inputs(o.inputs.begin(), o.inputs.end());
-  for (const std::filesystem::path& input : inputs) refuse_overwriting(o.out, input);
+  Paths all = inputs;
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
+    if (!input.empty()) all.emplace_back(input);
+  for (const std::filesystem::path& input : all) {
+    require_file(input);
     refuse_overwriting(o.out, input);
+  }
   const CatalogueFormat& format = format_of(o.format, inputs);
   if (o.format == "auto") say(fmt::format("taken as {}", format.title));
   ImportedCatalogue imported = format.import(inputs);
@@ -115,6 +120,7 @@ void add_info(CLI::App& stars) {
   verb->add_option("file", *file, ".stars file")->required();
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
   verb->callback([file, json] {
+    require_file(*file);
     const StarFile stars_file(*file);
     const std::string text = *json ? star_json(stars_file) : star_page(stars_file);
     std::fwrite(text.data(), 1, text.size(), stdout);

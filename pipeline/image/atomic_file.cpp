@@ -11,12 +11,7 @@ namespace domefall {
 void throw_file_error(const std::filesystem::path& path, int error) {
   const std::string what = path.string() + ": " + std::strerror(error);
   switch (error) {
-    case ENOENT:
-    case ENOTDIR:
     case EISDIR:
-    case EACCES:
-    case EPERM:
-    case EROFS:
     case ENAMETOOLONG:
     case ELOOP:
       throw InputError(what);

@@ -13,8 +13,11 @@ namespace domefall {
 // was.  Throws as TemporaryFile does.
 void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
-// The exception for a system call that failed on `path` with `error` (an errno), by what can be
-// done about it: TemporaryError where trying again later may help, InputError where it cannot.
+// Throws what a system call that failed on `path` with `error` (an errno) comes to, with both in the
+// message.  That is InputError where the path itself can never be right, because it is too long,
+// leads in a circle or names a folder.  Anything else can be another way on another machine or a
+// minute later (a disk that is full, a folder that is not mounted or may not be written to) and is
+// TemporaryError.
 [[noreturn]] void throw_file_error(const std::filesystem::path& path, int error);
 
 }  // namespace domefall

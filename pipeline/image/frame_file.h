@@ -32,8 +32,7 @@ struct FrameInfo {
 // The bytes are the same.
 void set_file_threads(int threads);
 
-// Writes a frame under its final name when it is complete (atomic_file.h).  Throws InputError for a
-// path that cannot be written, TemporaryError for a disk that is full or fails.
+// Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);
 
 // Reads back what write_frame wrote.  Throws InputError naming the file if it is missing, damaged

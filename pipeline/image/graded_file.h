@@ -28,8 +28,7 @@ void check_graded_name(const std::filesystem::path& path);
 // A graded frame in the making, whose rows come from the top: no whole one need be in memory.
 class GradedFile {
  public:
-  // Throws InputError for another extension or a path that cannot be written, TemporaryError for a
-  // disk that is full or fails.
+  // Throws InputError for another extension, and as TemporaryFile does.
   GradedFile(const std::filesystem::path& path, int width, int height, const GradedInfo& info);
   // Removes what was not finished.
   ~GradedFile();

@@ -99,8 +99,8 @@ exits 2 env PATH="$folder/empty" "$DOMEFALL" report --out none --quick
 says 'gnuplot-nox'
 [ ! -e none ] || fail "a report was begun that could not be drawn"
 
-# A folder that cannot be made.
+# A folder that cannot be made, here and now.
 touch occupied
-exits 2 "$DOMEFALL" report --out occupied/report --quick
+exits 75 "$DOMEFALL" report --out occupied/report --quick
 says '^occupied/report: '
 exits 2 "$DOMEFALL" report --quick

@@ -91,7 +91,7 @@ printf 'star,v_mag\nVega,0.1\nHIP 7,2\n' >nobody.csv
 refused "^nobody.csv:3: the catalogue has no star 'HIP 7'" d3-celestial "$rows/stars.json" \
   --names "$rows/starnames.json" --corrections nobody.csv
 refused 'no star is left' d3-celestial "$rows/stars.json" --faintest -20
-exits 2 "$DOMEFALL" stars import d3-celestial "$rows/stars.json" --out nowhere/none.stars
+exits 75 "$DOMEFALL" stars import d3-celestial "$rows/stars.json" --out nowhere/none.stars
 says '^nowhere/none.stars: '
 
 # Damaged, cut and foreign catalogues.

@@ -53,7 +53,7 @@ bool is_star_file(std::string_view bytes);
 class StarFile {
  public:
   // Throws InputError naming the file and the byte if it is no such file, not whole, damaged or of
-  // a newer version.
+  // a newer version, and as MappedFile does.
   explicit StarFile(const std::filesystem::path& file);
 
   std::size_t size() const { return stars_; }

@@ -20,11 +20,11 @@ TEST_F(AtomicFile, AppearsWholeAndLeavesNothingElse) {
   EXPECT_EQ(file_count(), 1);
 }
 
-TEST_F(AtomicFile, AMissingFolderIsTheUsersToMendAndNamed) {
+TEST_F(AtomicFile, AMissingFolderMayBeThereLaterAndIsNamed) {
   try {
     write_atomically(folder_ / "none" / "a.bin", "x");
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const TemporaryError& error) {
     EXPECT_EQ(error.what(), (folder_ / "none/a.bin").string() + ": No such file or directory");
   }
 }

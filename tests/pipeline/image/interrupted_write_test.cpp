@@ -86,14 +86,14 @@ TEST_F(InterruptedWrite, OnAFullDiskLeavesTheOldFileAndMayBeTriedAgain) {
   EXPECT_EQ(file_count(), 0) << "a file went to the folder below the mount";
 }
 
-TEST_F(InterruptedWrite, WithoutPermissionIsTheUsersToMend) {
+TEST_F(InterruptedWrite, WithoutPermissionMayBeTriedElsewhere) {
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
   const int result = in_a_child([this] {
     if (geteuid() == 0 && setuid(65534) != 0) return kCannotTry;  // root may write anywhere
     try {
       write_atomically(file(".exr"), "contents");
       return 1;
-    } catch (const InputError&) {
+    } catch (const TemporaryError&) {
       return 0;
     }
   });
@@ -149,9 +149,10 @@ TEST_F(InterruptedWrite, ANameOfTheLongestLengthHasRoomForItsTemporary) {
 }
 
 TEST(FileError, IsTemporaryWhereTryingAgainMayHelp) {
-  for (const int error : {ENOSPC, EDQUOT, EIO, ESTALE, ETIMEDOUT, EMFILE})
+  for (const int error : {ENOSPC, EDQUOT, EIO, ESTALE, ETIMEDOUT, EMFILE, ENOENT, ENOTDIR, EACCES,
+                          EPERM, EROFS, EFBIG, ENXIO, EBUSY, ENOMEM, ENOLCK})
     EXPECT_THROW(throw_file_error("/f", error), TemporaryError) << error;
-  for (const int error : {ENOENT, ENOTDIR, EACCES, EPERM, EROFS, ENAMETOOLONG})
+  for (const int error : {ENAMETOOLONG, EISDIR, ELOOP})
     EXPECT_THROW(throw_file_error("/f", error), InputError) << error;
 }
 

@@ -87,7 +87,7 @@ TEST_F(SkyFiles, AnAbandonedFileLeavesTheOldOneAndNothingElse) {
   EXPECT_EQ(sky_file_digest(path), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
   EXPECT_THROW(NewSkyFile(folder_ / "nowhere" / "map.sky", SkyMapKind::kColour, 1, 8, {}),
-               InputError);
+               TemporaryError);
 }
 
 TEST_F(SkyFiles, WhatIsWrongIsToldWithItsByte) {
