@@ -5,6 +5,7 @@
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
@@ -57,6 +58,7 @@ void preview(const Options& o) {
   check_graded_name(o.out);
   Show show = read_show(o.show);
   parse_frames(std::to_string(o.frame), frame_count(show));
+  OutputFile out(o.out);
   const Projection flat =
       resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
   FrameState state = frame_state(show, o.frame);
@@ -75,7 +77,8 @@ void preview(const Options& o) {
   info.display = grader.display();
   info.view = grader.view();
   info.software = kSoftware;
-  write_graded(o.out, grader.grade(frame), info);
+  write_graded(out.path(), grader.grade(frame), info);
+  out.finish();
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <system_error>
 
+#include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/atomic_file.h"
+#include "pipeline/image/temporary_file.h"
 #include "pipeline/report/gnuplot.h"
 #include "pipeline/report/paper_curves.h"
 #include "pipeline/report/report.h"
@@ -18,12 +20,13 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw_file_error(folder, error.value());
+  sweep_temporaries(folder);
 }
 
 void write_drawings(const std::vector<NamedPlot>& figures, const fs::path& folder) {
   make_folder(folder);
   for (const NamedPlot& figure : figures)
-    write_atomically(folder / (figure.name + ".svg"), draw(figure.plot));
+    write_output(folder / (figure.name + ".svg"), draw(figure.plot));
 }
 
 void report(const fs::path& out, bool quick, bool with_figures) {
@@ -36,16 +39,16 @@ void report(const fs::path& out, bool quick, bool with_figures) {
   }
   const Report measured = measure_report(
       quick, [](const std::string& what) { std::fprintf(stderr, "measuring %s\n", what.c_str()); });
-  write_atomically(out / "rays.csv", csv_of(measured.rays));
-  write_atomically(out / "frames.csv", csv_of(measured.frames));
-  write_atomically(out / "orbits.csv", csv_of(measured.orbits));
-  write_atomically(out / "costs.csv", csv_of(measured.costs));
-  write_atomically(out / "benchmark.csv", csv_of(measured.costs.benchmark));
+  write_output(out / "rays.csv", csv_of(measured.rays));
+  write_output(out / "frames.csv", csv_of(measured.frames));
+  write_output(out / "orbits.csv", csv_of(measured.orbits));
+  write_output(out / "costs.csv", csv_of(measured.costs));
+  write_output(out / "benchmark.csv", csv_of(measured.costs.benchmark));
   const std::vector<NamedPlot> plots = error_plots(measured);
   write_drawings(plots, out / "plots");
   write_drawings(cost_plots(measured.costs), out / "plots");
-  write_atomically(out / "accuracy.md", accuracy_page(measured, plots, figures));
-  write_atomically(out / "costs.md", costs_page(measured));
+  write_output(out / "accuracy.md", accuracy_page(measured, plots, figures));
+  write_output(out / "costs.md", costs_page(measured));
   std::fprintf(stderr, "%s\n", (out / "accuracy.md").c_str());
 }
 

@@ -54,6 +54,7 @@ void build(const BuildOptions& o) {
                     o.blur_deg, std::ceil(60 / o.blur_deg)));
   require_file(o.stars);
   refuse_overwriting(o.out, o.stars);
+  OutputFile out(o.out);
   const StarCatalogue catalogue = read_star_catalogue(o.stars, kEveryStar);
   const std::vector<FaintStar> stars = fainter_stars(catalogue, o.fainter_than);
   if (stars.empty())
@@ -67,10 +68,11 @@ void build(const BuildOptions& o) {
       "source: {}\n",
       stars.size(), o.fainter_than, o.blur_deg, o.smooth_to, o.gain,
       std::filesystem::path(o.stars).filename().string());
-  NewSkyFile file(o.out, SkyMapKind::kThermal, sky_unit(o.gain * light.greatest()), size,
+  NewSkyFile file(out.path(), SkyMapKind::kThermal, sky_unit(o.gain * light.greatest()), size,
                   {about, std::nullopt});
   light.write(file.pyramid(), o.gain);
   file.finish();
+  out.finish();
   double flux = 0;
   for (const FaintStar& s : stars) flux += s.flux;
   say(fmt::format("{} stars, {:.6g} W/m^2 of light; the map has {:.6g} W/m^2, times a gain of {:g}",
@@ -166,7 +168,6 @@ struct ImportOptions {
 SkyImport import_of(const ImportOptions& o) {
   SkyImport import = o.import;
   import.image = o.image;
-  import.out = o.out;
   require_file(o.image);
   refuse_overwriting(o.out, o.image);
   check_size(import.size, kLargestFace);
@@ -184,12 +185,15 @@ SkyImport import_of(const ImportOptions& o) {
 }
 
 void import_map(const ImportOptions& o) {
-  const SkyImport import = import_of(o);
+  SkyImport import = import_of(o);
+  OutputFile out(o.out);
+  import.out = out.path();
   const Orientation stated = import_sky(import);
   say(fmt::format("{}: {}", o.out, orientation_phrase(stated)));
   const StarCatalogue catalogue = check_stars(o.stars);
-  const SkyCheck check = check_orientation(open_sky_file(o.out).map, stated, catalogue);
+  const SkyCheck check = check_orientation(open_sky_file(out.path()).map, stated, catalogue);
   say((check.verdict == SkyVerdict::kOther ? "warning: " : "") + verdict_sentence(check));
+  out.finish();
 }
 
 void add_orientation(CLI::App& verb, ImportOptions& o) {

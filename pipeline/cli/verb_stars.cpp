@@ -76,6 +76,7 @@ void import(const Options& o) {
     require_file(input);
     refuse_overwriting(o.out, input);
   }
+  OutputFile out(o.out);
   const CatalogueFormat& format = format_of(o.format, inputs);
   if (o.format == "auto") say(fmt::format("taken as {}", format.title));
   ImportedCatalogue imported = format.import(inputs);
@@ -94,7 +95,8 @@ void import(const Options& o) {
       fmt::format("domefall " DOMEFALL_VERSION " stars import {}{}{}{}", format.name,
                   o.hipparcos.empty() ? "" : " --hipparcos", o.names.empty() ? "" : " --names",
                   o.corrections.empty() ? "" : " --corrections");
-  write_star_file(o.out, catalogue);
+  write_star_file(out.path(), catalogue);
+  out.finish();
   say_result(catalogue, o.out);
 }
 

@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/diagram/page.h"
-#include "pipeline/image/atomic_file.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
 #include "trajectories/equatorial.h"
@@ -16,7 +16,7 @@ namespace {
 void print_states(const std::string& file, const std::string& frames, const std::string& plot) {
   const Show show = read_show(file);
   const std::vector<int> chosen = parse_frames(frames, frame_count(show));
-  if (!plot.empty()) write_atomically(plot, show_page(show));
+  if (!plot.empty()) write_output(plot, show_page(show));
   std::puts(
       "# r and proper_time in M (proper_time in s without a hole); celerity (gamma v) against the "
       "tetrad along R,"
