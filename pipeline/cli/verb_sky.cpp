@@ -7,12 +7,12 @@
 #include <numbers>
 #include <string>
 
-#include "pipeline/cli/input_file.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/show/assets.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/make/import_sky.h"

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "pipeline/cli/input_file.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
 #include "pipeline/sky/catalogue/amend/hipparcos_repair.h"
 #include "pipeline/sky/catalogue/amend/star_corrections.h"
 #include "pipeline/sky/catalogue/amend/star_names.h"
@@ -73,7 +73,7 @@ void import(const Options& o) {
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
     if (!input.empty()) all.emplace_back(input);
   for (const std::filesystem::path& input : all) {
-    require_file(input);
+    if (!std::filesystem::is_directory(input)) require_file(input);
     refuse_overwriting(o.out, input);
   }
   OutputFile out(o.out);
