@@ -73,7 +73,8 @@ void import(const Options& o) {
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
     if (!input.empty()) all.emplace_back(input);
   for (const std::filesystem::path& input : all) {
-    if (!std::filesystem::is_directory(input)) require_file(input);
+    std::error_code error;  // a folder that cannot be looked at is told when it is read
+    if (!std::filesystem::is_directory(input, error)) require_file(input);
     refuse_overwriting(o.out, input);
   }
   OutputFile out(o.out);

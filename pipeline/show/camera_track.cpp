@@ -59,7 +59,7 @@ class Turn {
   // During a dissolve two are seen, and its own counts.
   int segment_then(double t) const {
     const auto s = static_cast<std::size_t>(segment_);
-    const double begin = segment_times(show_)[s];
+    const double begin = begin_of(show_, segment_);
     const bool own = t >= begin && t <= begin + show_.timeline[s].duration_s;
     return own ? segment_ : segment_at(show_, t);
   }

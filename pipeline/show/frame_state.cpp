@@ -45,7 +45,7 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
 FrameState state_at(const Show& show, int segment, int frame, double t) {
   FrameState state = state_in(show, segment, frame, t);
   const double dissolve = segment_of(show, segment).dissolve_s;
-  const double faded = t - segment_times(show)[static_cast<std::size_t>(segment)];
+  const double faded = t - begin_of(show, segment);
   if (segment == 0 || !(faded < dissolve)) return state;
   state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
   state.vanishing_part = 1 - smooth_step(faded / dissolve);
@@ -63,7 +63,7 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
   const double t = frame / show.frames_per_second;
   const double half = show.exposure.shutter / show.frames_per_second / 2;
   const int segment = segment_at(show, t);
-  const double begin = segment_times(show)[static_cast<std::size_t>(segment)];
+  const double begin = begin_of(show, segment);
   const double opened = std::max(t - half, begin),
                closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
   std::vector<FrameState> states;

@@ -14,15 +14,6 @@ double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
 // The integral from 0 to t of the rate a + (b - a) (3 t^2 - 2 t^3).
 double ramp(double a, double b, double t) { return t * (a + (b - a) * t * t * (1 - t / 2)); }
 
-// What one segment hands over to the next.
-struct Joint {
-  M33d axes;
-  double azimuth = 0;
-  DoubleDouble null_time{};
-  Tetrad tetrad = Tetrad::kRain;
-  double r = kFlatSpace;
-};
-
 // What must be added to the null time of a trajectory, so that it goes on from the joint.  Between
 // v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
 DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
@@ -37,6 +28,23 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
 
 OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
   return placed(point_at(s.trajectory, tau), s.placement);
+}
+
+// What the segment hands over where its observer is at `point`.
+Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
+  const OrbitPoint start = point_of(s, s.timing.tau_begin);
+  joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
+  joint.azimuth += point.azimuth - start.azimuth;
+  joint.null_time = point.null_time + null_offset(joint, start);
+  joint.tetrad = point.tetrad, joint.r = point.r;
+  return joint;
+}
+
+Joint joint_of(const Show& show, int segment) {
+  if (!show.joints.empty()) return show.joints[static_cast<std::size_t>(segment)];
+  Joint joint = first_joint(show, show.timeline.front());
+  for (int k = 0; k < segment; ++k) joint = joint_after(joint, segment_of(show, k));
+  return joint;
 }
 
 // From one time to another, in equal factors.
@@ -75,43 +83,61 @@ ProperTime proper_time_at(const Segment& s, double part) {
   return part_between(from, to, ramp(begins, ends, part), ramp(ends, begins, 1 - part));
 }
 
-ObserverState observer_at(const Show& show, int segment, double part) {
-  Joint joint{place_tetrad(show.hole_at, show.heading, 0)};
-  for (int k = 0;; ++k) {
-    const Segment& s = segment_of(show, k);
-    const OrbitPoint start = point_of(s, s.timing.tau_begin);
-    if (k == 0) joint.tetrad = start.tetrad, joint.null_time = 0;
-    const ProperTime tau = k == segment ? proper_time_at(s, part) : s.timing.tau_end;
-    const OrbitPoint point = point_of(s, tau);
-    joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
-    joint.azimuth += point.azimuth - start.azimuth;
-    joint.null_time = point.null_time + null_offset(joint, start);
-    joint.tetrad = point.tetrad, joint.r = point.r;
-    if (k < segment) continue;
-    ObserverState o;
-    o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
-    o.proper_time = double(tau);
-    o.celerity = point.celerity;
-    o.null_time = double(joint.null_time);
-    o.azimuth = joint.azimuth;
-    o.sky_from_tetrad = joint.axes;
-    return o;
+Joint first_joint(const Show& show, const Segment& first) {
+  Joint joint;
+  joint.axes = place_tetrad(show.hole_at, show.heading, 0);
+  joint.tetrad = point_of(first, first.timing.tau_begin).tetrad;
+  return joint;
+}
+
+Joint joint_after(const Joint& joint, const Segment& segment) {
+  return moved(joint, segment, point_of(segment, segment.timing.tau_end));
+}
+
+void join_segments(Show& show) {
+  const std::vector<double> times = segment_times(show);
+  show.joints.clear();
+  for (const Segment& segment : show.timeline) {
+    const std::size_t k = show.joints.size();
+    show.joints.push_back(k == 0 ? first_joint(show, segment)
+                                 : joint_after(show.joints.back(), show.timeline[k - 1]));
+    show.joints.back().begin_s = times[k];
   }
 }
 
+double begin_of(const Show& show, int segment) {
+  const auto k = static_cast<std::size_t>(segment);
+  return show.joints.empty() ? segment_times(show)[k] : show.joints[k].begin_s;
+}
+
+ObserverState observer_at(const Show& show, int segment, double part) {
+  const Segment& s = segment_of(show, segment);
+  const ProperTime tau = proper_time_at(s, part);
+  const OrbitPoint point = point_of(s, tau);
+  const Joint joint = moved(joint_of(show, segment), s, point);
+  ObserverState o;
+  o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
+  o.proper_time = double(tau);
+  o.celerity = point.celerity;
+  o.null_time = double(joint.null_time);
+  o.azimuth = joint.azimuth;
+  o.sky_from_tetrad = joint.axes;
+  return o;
+}
+
 int segment_at(const Show& show, double show_time_s) {
-  const std::vector<double> times = segment_times(show);
   const double t = show_time_s + kCutTolerance / show.frames_per_second;
-  int segment = 0;
-  while (segment + 1 < static_cast<int>(show.timeline.size()) &&
-         t >= times[static_cast<std::size_t>(segment) + 1])
-    ++segment;
-  return segment;
+  int begun = 0, later = static_cast<int>(show.timeline.size());
+  while (later - begun > 1) {
+    const int middle = begun + (later - begun) / 2;
+    (t >= begin_of(show, middle) ? begun : later) = middle;
+  }
+  return begun;
 }
 
 double part_at(const Show& show, int segment, double show_time_s) {
-  const double begin = segment_times(show)[static_cast<std::size_t>(segment)];
-  return std::clamp((show_time_s - begin) / segment_of(show, segment).duration_s, 0.0, 1.0);
+  return std::clamp((show_time_s - begin_of(show, segment)) / segment_of(show, segment).duration_s,
+                    0.0, 1.0);
 }
 
 }  // namespace domefall

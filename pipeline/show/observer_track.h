@@ -10,6 +10,17 @@ namespace domefall {
 // passed.  At both ends it is that of the segment's timing.
 ProperTime proper_time_at(const Segment& segment, double part);
 
+// What the first segment of a show sets out with, except for its instant, and what the segment
+// after `segment` takes over.
+Joint first_joint(const Show& show, const Segment& first);
+Joint joint_after(const Joint& joint, const Segment& segment);
+
+// Sets the joints of a show, so that a state costs the same in a show of any length.
+void join_segments(Show& show);
+
+// The show second at which a segment begins.
+double begin_of(const Show& show, int segment);
+
 // The observer's state when `part` of a segment, 0 to 1, has passed.  It has no camera yet:
 // tetrad_from_camera is the identity.  The axes on the sky, the azimuth and the null time run on
 // from segment to segment.

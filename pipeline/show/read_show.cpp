@@ -6,6 +6,7 @@
 #include "pipeline/show/effects_section.h"
 #include "pipeline/show/exposure_section.h"
 #include "pipeline/show/grade_section.h"
+#include "pipeline/show/observer_track.h"
 #include "pipeline/show/sky_section.h"
 #include "pipeline/show/stars_section.h"
 #include "pipeline/show/timeline_section.h"
@@ -76,6 +77,7 @@ Show read_show(const std::filesystem::path& file) {
   const Item root{node, start, "", &problems};
   read_sections(root, lookup, show);
   problems.raise();
+  join_segments(show);
   check_effects(root, show);
   problems.raise();
   follow_turns(show);

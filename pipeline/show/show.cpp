@@ -23,7 +23,9 @@ std::vector<double> segment_times(const Show& show) {
 }
 
 int frame_count(const Show& show) {
-  const double seconds = segment_times(show).back();
+  const double seconds = show.joints.empty()
+                             ? segment_times(show).back()
+                             : show.joints.back().begin_s + show.timeline.back().duration_s;
   return std::max(1, static_cast<int>(std::lround(seconds * show.frames_per_second)));
 }
 

@@ -153,6 +153,16 @@ struct Effects {
 
 enum class GradedFormat { kNone, kPng, kTiff };
 
+// What a segment takes over from those before it.
+struct Joint {
+  double begin_s = 0;  // the show second at which the segment begins
+  M33d axes;           // of the observer's tetrad on the sky
+  double azimuth = 0;
+  DoubleDouble null_time{};
+  Tetrad tetrad = Tetrad::kRain;
+  double r = kFlatSpace;
+};
+
 struct Show {
   std::filesystem::path file;
   std::string title;
@@ -165,6 +175,10 @@ struct Show {
   SkyDirection hole_at;
   double heading = 0;
   std::vector<Segment> timeline;
+  // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
+  // show that is put together otherwise has none, and each of its states follows the timeline from
+  // its start.  Whoever moves or alters a segment clears them.
+  std::vector<Joint> joints;
   PerSky<RegionSky> sky;  // that of region IV, the past singularity, has no stars and no redshift
   // The Julian year for whose places stars are drawn, if their catalogue knows their proper motion.
   double star_epoch = kCatalogueEpoch;

@@ -43,10 +43,10 @@ class TimelineReader {
  public:
   TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
                  Lookup& lookup)
-      : show_(show), camera_(std::move(camera)), keyframes_(std::move(keyframes)), lookup_(lookup) {
-    so_far_.hole_at = show.hole_at;
-    so_far_.heading = show.heading;
-  }
+      : show_(show),
+        camera_(std::move(camera)),
+        keyframes_(std::move(keyframes)),
+        lookup_(lookup) {}
 
   void read(const Item& item) {
     const Section section(
@@ -59,11 +59,12 @@ class TimelineReader {
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
     end_ = begin + segment.duration_s;
-    so_far_.timeline.push_back(std::move(segment));
+    joint_ = joint_after(segments_.empty() ? first_joint(show_, segment) : joint_, segment);
+    segments_.push_back(std::move(segment));
   }
 
   double end() const { return end_; }
-  std::vector<Segment> take() { return std::move(so_far_.timeline); }
+  std::vector<Segment> take() { return std::move(segments_); }
 
  private:
   // At most two segments are seen at a time, so that a dissolve begins after that of the segment
@@ -71,11 +72,11 @@ class TimelineReader {
   void read_dissolve(const Section& section, Segment& segment) const {
     const Item* item = section.find("dissolve_s");
     if (!item) return;
-    if (so_far_.timeline.empty()) {
+    if (segments_.empty()) {
       item->fail("needs a segment before this one, out of which the picture fades in");
       return;
     }
-    const Segment& before = so_far_.timeline.back();
+    const Segment& before = segments_.back();
     const double most = std::min(segment.duration_s, before.duration_s - before.dissolve_s);
     const auto dissolve = read_number(*item, Range{"seconds"}.at_least(0));
     if (!dissolve) return;
@@ -149,7 +150,7 @@ class TimelineReader {
     std::optional<TimedTrajectory> motion;
     const std::size_t reported = item.problems->count();
     Stage stage{show_.mass_solar, axes_before(), segment.duration_s, nullptr};
-    if (!so_far_.timeline.empty()) stage.before = &so_far_.timeline.back();
+    if (!segments_.empty()) stage.before = &segments_.back();
     if (!trajectory && !show_.mass_solar) {
       motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};
     } else {
@@ -165,7 +166,7 @@ class TimelineReader {
     }
     const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
     if (type) segment.type = type->node.Scalar();
-    if (segment.type == "continue") segment.type = so_far_.timeline.back().type;
+    if (segment.type == "continue") segment.type = segments_.back().type;
     segment.trajectory = motion->trajectory;
     segment.timing = motion->timing;
     segment.placement = motion->placement;
@@ -173,8 +174,7 @@ class TimelineReader {
   }
 
   M33d axes_before() const {
-    if (so_far_.timeline.empty()) return place_tetrad(show_.hole_at, show_.heading, 0);
-    return observer_at(so_far_, static_cast<int>(so_far_.timeline.size()) - 1, 1).sky_from_tetrad;
+    return segments_.empty() ? place_tetrad(show_.hole_at, show_.heading, 0) : joint_.axes;
   }
 
   static void check_targets(const Item& item, const Segment& segment, double begin) {
@@ -198,7 +198,8 @@ class TimelineReader {
   ShowCamera camera_;
   std::vector<Keyframe> keyframes_;
   Lookup& lookup_;
-  Show so_far_;  // the segments read, and the place of the hole
+  std::vector<Segment> segments_;  // that have been read
+  Joint joint_;                    // what the next one takes over
   double end_ = 0;
 };
 

@@ -162,7 +162,7 @@ class Holds {
 
   // A jump is not seen where the segment begins, nor where another segment or none is seen.
   void add(int segment, double at_s, const std::string& text) {
-    const double begin = segment_times(show_)[static_cast<std::size_t>(segment)];
+    const double begin = begin_of(show_, segment);
     const int frame = static_cast<int>(std::ceil(at_s * show_.frames_per_second - kCutTolerance));
     if (!(at_s > begin) || segment_at(show_, at_s) != segment || frame >= frame_count(show_))
       return;

@@ -226,6 +226,28 @@ TEST_F(Timelines, NullTimeRunsOnAcrossSegmentsAndFrames) {
   EXPECT_NEAR(observer_at(s, 2, 0).null_time, v, 1e-12);
 }
 
+// A show that is read hands each segment what following the timeline from its start would find.
+TEST_F(Timelines, JointsHoldWhatTheTimelineLeadsTo) {
+  const Show joined = show(
+      "  - {duration_s: 2, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 3, dissolve_s: 0.5, trajectory: {type: circular, r: 7, orbits: 1}}\n"
+      "  - {duration_s: 2, trajectory: {type: velocity, r: 9, against: outgoing, speed: 0}}\n"
+      "  - {duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 1}}\n");
+  ASSERT_EQ(joined.joints.size(), 4u);
+  Show followed = joined;
+  followed.joints.clear();
+  ASSERT_EQ(frame_count(joined), frame_count(followed));
+  for (int frame = 0; frame < frame_count(joined); ++frame) {
+    const FrameState a = frame_state(joined, frame), b = frame_state(followed, frame);
+    EXPECT_EQ(a.segment, b.segment);
+    EXPECT_EQ(a.vanishing_part, b.vanishing_part);
+    EXPECT_EQ(a.observer.r, b.observer.r);
+    EXPECT_EQ(a.observer.azimuth, b.observer.azimuth);
+    EXPECT_EQ(a.observer.null_time, b.observer.null_time);
+    EXPECT_EQ(a.observer.sky_from_tetrad, b.observer.sky_from_tetrad);
+  }
+}
+
 TEST_F(Timelines, SpeedsChangeEvenlyInRapidity) {
   const Show s = read(
       "timeline:\n  - {duration_s: 4, trajectory: {type: velocity, speed: [0, 0.8], direction: "
