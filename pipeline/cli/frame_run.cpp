@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -12,13 +11,15 @@
 #include <stdexcept>
 #include <thread>
 
+#include "pipeline/cli/frame_folder.h"
+#include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
-#include "pipeline/image/temporary_file.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
 
@@ -42,14 +43,25 @@ class Stopwatch {
 class Run {
  public:
   explicit Run(const FrameRun& run)
-      : run_(run),
-        grader_(grader_of(run.show)),
-        keys_(run.show, grader_ ? grader_->transform_id() : std::string()) {
-    name_ = run.show.file.stem().string();
-    set_file_threads(file_threads());
+      : run_(run), folder_(run.folder, run.show), grader_(grader_of(run.show)) {
+    keys_.emplace(run.show, grade_id());
     catch_interruptions();
-    make_folder(run.folder / "linear");
-    if (grades()) make_folder(run.folder / "graded");
+  }
+
+  // Says what the run will do with what is there.  Throws InputError if it may not.
+  void survey() {
+    const FrameSurvey found = survey_frames(folder_, run_.show, *keys_, run_.frames, run_.render);
+    if (!run_.replace) {
+      refuse_to_replace(found, folder_);
+      folder_.check_owner();
+    }
+    std::fputs((describe_work(found) + describe_strangers(folder_)).c_str(), stderr);
+    if (run_.dry && !found.to_make.empty()) fmt::print("{}\n", as_ranges(found.to_make));
+  }
+
+  void prepare() {
+    set_file_threads(file_threads());
+    folder_.prepare();
   }
 
   void all() {
@@ -60,31 +72,39 @@ class Run {
     const bool large =
         std::int64_t{columns(run_.show.projection)} * rows(run_.show.projection) > kMostPixelsOfTwo;
     std::future<void> writing;
+    const auto finish = [&] {
+      if (!writing.valid()) return;
+      writing.get();
+      if (progress.made_count() == 0) folder_.write_record();
+      progress.made();
+    };
     auto frame = std::make_shared<HalfFrame>(), written = std::make_shared<HalfFrame>();
     for (const int number : run_.frames) {
       stop_if_interrupted();
       const FrameState state = frame_state(run_.show, number);
-      const std::string key = keys_.scene(state);
-      const bool linear_good = is_linear_good(state, key);
-      const bool graded_good = is_graded_good(state, key);
+      const std::string key = keys_->scene(state);
+      const bool linear_good = is_good(folder_.linear(number), key, run_.render);
+      const bool graded_good =
+          !grader_ || is_good(folder_.graded(number), keys_->graded(key), true);
       if (linear_good && graded_good) {
         progress.skipped();
         continue;
       }
       if (linear_good)
-        *frame = read_frame(linear_path(number)).first;
+        *frame = read_frame(folder_.linear(number)).first;
       else
         render(state, *frame);
-      if (writing.valid()) writing.get(), progress.made();
+      finish();
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
         write(state, key, *frame, !linear_good, !graded_good);
       });
       if (large)
-        writing.get(), progress.made();
+        finish();
       else
         std::swap(frame, written);
     }
-    if (writing.valid()) writing.get(), progress.made();
+    finish();
+    if (progress.made_count() == 0) folder_.write_record();
     std::fprintf(stderr, "%zu frames made, %zu already there, in %.1f s: %s\n",
                  progress.made_count(), progress.skipped_count(), progress.seconds(),
                  run_.folder.c_str());
@@ -96,39 +116,22 @@ class Run {
     return Grader(show.grade);
   }
 
-  static void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw InputError(folder.string() + ": the folder cannot be made: " + error.message());
-    sweep_temporaries(folder);
-  }
+  std::string grade_id() const { return grader_ ? grader_->transform_id() : std::string(); }
 
-  bool grades() const { return run_.show.graded_format != GradedFormat::kNone; }
-
-  std::filesystem::path path(const char* folder, int frame, const char* extension) const {
-    return run_.folder / folder / fmt::format("{}_{:05d}.{}", name_, frame, extension);
-  }
-  std::filesystem::path linear_path(int frame) const { return path("linear", frame, "exr"); }
-  std::filesystem::path graded_path(int frame) const {
-    return path("graded", frame, run_.show.graded_format == GradedFormat::kTiff ? "tif" : "png");
-  }
-
-  bool is_linear_good(const FrameState& state, const std::string& key) const {
-    return examine_frame(linear_path(state.frame), key, columns(state.projection),
-                         rows(state.projection)) == FrameCondition::kGood;
-  }
-
-  bool is_graded_good(const FrameState& state, const std::string& key) const {
-    return !grades() ||
-           examine_graded(graded_path(state.frame), keys_.graded(key), columns(state.projection),
-                          rows(state.projection)) == FrameCondition::kGood;
+  bool is_good(const std::filesystem::path& file, const std::string& key, bool replaces) const {
+    const WantedFrame wanted = folder_.wanted(key);
+    const FrameCondition condition = examine_frame(file, wanted);
+    // Another run may have put it there since the survey.
+    if (condition == FrameCondition::kOther && replaces && !run_.replace)
+      throw InputError(fmt::format("{}: a good frame, but another one than this run makes ({})",
+                                   file.string(), describe_difference(file, wanted)));
+    return condition == FrameCondition::kGood;
   }
 
   void render(const FrameState& state, HalfFrame& frame) {
     if (!run_.render)
       throw InputError(
-          linear_path(state.frame).string() +
+          folder_.linear(state.frame).string() +
           ": the frame is missing, damaged or of another version of the show; render it first");
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
@@ -156,7 +159,7 @@ class Run {
   FrameInfo info(const FrameState& state, const std::string& key) const {
     FrameInfo info;
     info.title = run_.show.title;
-    info.show = keys_.show();
+    info.show = keys_->show();
     info.key = key;
     info.frame = state.frame;
     info.region = region_name(state.observer.region);
@@ -177,12 +180,12 @@ class Run {
     if (linear)
       other = std::async(std::launch::async, [&] {
         const Stopwatch watch;
-        write_frame(linear_path(state.frame), frame, info(state, key));
+        write_frame(folder_.linear(state.frame), frame, info(state, key));
         linear_s = watch.seconds();
       });
     if (graded) {
       const Stopwatch watch;
-      grade_s = write_graded_frame(graded_path(state.frame), frame, graded_info(state, key));
+      grade_s = write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
       graded_s = watch.seconds();
     }
     if (other.valid()) other.get();
@@ -233,12 +236,13 @@ class Run {
 
   GradedInfo graded_info(const FrameState& state, const std::string& key) const {
     GradedInfo info;
-    info.key = keys_.graded(key);
+    info.key = keys_->graded(key);
     info.title = run_.show.title;
     info.frame = state.frame;
     info.display = grader_->display();
     info.view = grader_->view();
     info.software = kSoftware;
+    info.projection = projection_name(state.projection);
     return info;
   }
 
@@ -248,49 +252,20 @@ class Run {
   }
 
   const FrameRun& run_;
+  FrameFolder folder_;
   std::optional<Grader> grader_;
-  FrameKeys keys_;
+  std::optional<FrameKeys> keys_;
   std::optional<Renderer> renderer_;
-  std::string name_;
 };
-
-constexpr int kSmallest = 16, kLargest = 16384;
-
-// The number that a text is; -1 if it is no whole number.
-int whole_number(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : -1;
-}
-
-bool in_range(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
 }  // namespace
 
-void run_frames(const FrameRun& run) { Run(run).all(); }
-
-Projection resized(const Projection& projection, const std::string& size) {
-  if (size.empty()) return projection;
-  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
-    const std::size_t cross = std::min(size.find('x'), size.size());
-    const int width = whole_number(std::string_view(size).substr(0, cross));
-    const int height =
-        whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
-    if (!in_range(width) || !in_range(height))
-      throw InputError("--size " + size +
-                       ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
-    return Stereographic{width, height, flat->fov};
-  }
-  int pixels = whole_number(size);
-  if (size.ends_with('k')) {
-    const int thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
-    if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
-      pixels = thousands * 1024;
-  }
-  if (!in_range(pixels))
-    throw InputError("--size " + size +
-                     ": a dome takes 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384");
-  return Domemaster{pixels};
+void run_frames(const FrameRun& run) {
+  Run made(run);
+  made.survey();
+  if (run.dry) return;
+  made.prepare();
+  made.all();
 }
 
 }  // namespace domefall

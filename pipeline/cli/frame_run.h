@@ -1,5 +1,6 @@
 // A run over the frames of a show.  It makes what is missing, damaged or of another version of the
-// show, and leaves alone what is good.
+// show, leaves alone what is good, and replaces good frames of another size, show or kind only if
+// that is asked for.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +20,11 @@ struct FrameRun {
   int threads = 0;               // 0 stands for one per processor
   bool explain = false;          // prints each frame's plan and what its stages cost
   bool render = true;            // false for a run that only grades frames that are there
+  bool replace = false;          // good frames of another size, show or kind too
+  bool dry = false;              // only prints the frames that it would make, judged by their heads
 };
 
 // Makes the frames.  Throws InputError, TemporaryError or Interrupted; frames finished before stay.
 void run_frames(const FrameRun& run);
-
-// A projection with the size that --size gives: 1k, 2k, 4k, 8k or pixels for a dome, and
-// WIDTHxHEIGHT for a flat image.  An empty text leaves it as it is.  Throws InputError for any
-// other text.
-Projection resized(const Projection& projection, const std::string& size);
 
 }  // namespace domefall

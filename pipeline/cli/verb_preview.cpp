@@ -5,6 +5,7 @@
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
@@ -77,6 +78,7 @@ void preview(const Options& o) {
   info.display = grader.display();
   info.view = grader.view();
   info.software = kSoftware;
+  info.projection = projection_name(state.projection);
   write_graded(out.path(), grader.grade(frame), info);
   out.finish();
 }

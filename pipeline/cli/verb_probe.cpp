@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/render/rays/view_tracer.h"

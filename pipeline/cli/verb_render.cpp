@@ -2,6 +2,7 @@
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/show/read_show.h"
 
@@ -11,7 +12,7 @@ namespace {
 struct Options {
   std::string show, frames, size, out;
   int threads = 0;
-  bool explain = false;
+  bool explain = false, replace = false, dry = false;
 };
 
 // Does the work of render and of grade, which go over the same frames and put them in the same
@@ -22,8 +23,8 @@ void run(const Options& o, bool render) {
   const std::filesystem::path folder = o.out.empty()
                                            ? std::filesystem::path("out") / show.file.stem()
                                            : std::filesystem::path(o.out);
-  run_frames(
-      {show, parse_frames(o.frames, frame_count(show)), folder, o.threads, o.explain, render});
+  run_frames({show, parse_frames(o.frames, frame_count(show)), folder, o.threads, o.explain, render,
+              o.replace, o.dry});
 }
 
 void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
@@ -33,6 +34,7 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
   verb.add_option("--size", o->size,
                   "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture");
   verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME");
+  verb.add_flag("--replace", o->replace, "replace frames of another size, show or kind");
 }
 
 }  // namespace
@@ -44,6 +46,7 @@ void add_render(CLI::App& app) {
   add_frame_options(*verb, o);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(CLI::Range(0, 1024));
   verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
+  verb->add_flag("--dry-run", o->dry, "only print which frames would be made");
   verb->callback([o] { run(*o, true); });
 }
 

@@ -23,11 +23,10 @@ struct Digest::State {
 Digest::Digest() : state_(std::make_unique<State>()) {}
 Digest::~Digest() = default;
 
-Digest& Digest::add(std::string_view text) { return add_length(text.size()).add_piece(text); }
-
-Digest& Digest::add_length(std::uint64_t length) {
+Digest& Digest::add(std::string_view text) {
+  const std::uint64_t length = text.size();
   XXH3_128bits_update(state_->xxh, &length, sizeof length);
-  return *this;
+  return add_piece(text);
 }
 
 Digest& Digest::add_piece(std::string_view piece) {

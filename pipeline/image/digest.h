@@ -21,9 +21,7 @@ class Digest {
 
   // Each value is preceded by its length, so that neighbours cannot run into each other.
   Digest& add(std::string_view text);
-  // The same of a text that comes in pieces: its length first, then all of it.
-  Digest& add_length(std::uint64_t length);
-  Digest& add_piece(std::string_view piece);
+  Digest& add_piece(std::string_view piece);            // of one long text: no length
   Digest& add(double value);                            // by its bits
   Digest& add_file(const std::filesystem::path& file);  // its contents; throws as RegularFile
 

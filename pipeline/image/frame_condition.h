@@ -1,13 +1,43 @@
-// Whether a frame on the disk can be kept.
+// Whether a frame on the disk can be kept, and whether it may be made again.
 #pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "pipeline/image/frame_head.h"
 
 namespace domefall {
 
 enum class FrameCondition {
   kMissing,  // there is no such file
-  kDamaged,  // it cannot be read to its end, or its pixels are not those that were written
-  kStale,    // whole, but of another key, size or kind: another version of the show, say
+  kDamaged,  // it is no image, or not as it was written
+  kOther,  // a frame of another size, show or projection, or an image of another format or program
+  kOlder,  // of the same show, but of another version of it, or written without a digest
   kGood,
 };
+
+// The frame that a run would write.
+struct WantedFrame {
+  std::string key;         // digest of everything that decides the frame
+  std::string title;       // of the show
+  std::string projection;  // by its name
+  int width = 0, height = 0;
+};
+
+// What a file says that it is; only its beginning is read.  Of a name that ends in .exr, .png, .tif
+// or .tiff that format is wanted.  Throws as FileBytes::open and FileBytes::at.
+FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted);
+
+// Whether the file has a digest and the bytes that it was taken of, all of which are read.  False if
+// it is missing.  Throws as above.
+bool is_whole(const std::filesystem::path& path);
+
+// The claimed condition, held against the whole file where that is kGood or kOther.  An image without
+// a digest, of which nobody can tell, is taken to be whole.  Throws as above.
+FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted);
+
+// What makes a frame another one than is wanted, for people: "1024 x 1024 pixels".  Throws as above.
+std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted);
 
 }  // namespace domefall

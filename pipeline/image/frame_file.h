@@ -1,9 +1,9 @@
 // Rendered frames on the disk: scene-linear OpenEXR, half floats, channels R, G, B, lossless ZIP.
 //
 // The header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which
-// show this is (the fields of FrameInfo) and which pixels were written (their xxHash), but neither
-// when nor where: the same frame has the same bytes, whatever the machine and the number of
-// threads.
+// show this is (the fields of FrameInfo) and what the digest of the file is (frame_seal.h), but
+// neither when nor where it was made: the same frame has the same bytes, whatever the machine and
+// the number of threads.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/image/frame_condition.h"
 
 namespace domefall {
 
@@ -35,13 +34,9 @@ void set_file_threads(int threads);
 // Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);
 
-// Reads back what write_frame wrote.  Throws InputError naming the file if it is missing, damaged
-// or was not written by write_frame.
+// Reads back what write_frame wrote.  Nothing is decoded before the digest of the file is right.
+// Throws InputError naming the file if it is missing, damaged or was not written by write_frame, and
+// as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);
-
-// Decodes the whole frame and compares its pixels with the hash in its header, since a header alone
-// opens after any truncation, and a flipped bit in the pixels is seen nowhere else.
-FrameCondition examine_frame(const std::filesystem::path& path, const std::string& key, int width,
-                             int height);
 
 }  // namespace domefall

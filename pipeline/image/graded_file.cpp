@@ -1,44 +1,39 @@
 #include "pipeline/image/graded_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 
-#include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_head.h"
+#include "pipeline/image/frame_seal.h"
 #include "pipeline/image/image_formats.h"
-#include "pipeline/image/late_digest.h"
+#include "pipeline/image/new_file.h"
 
 namespace domefall {
 namespace {
 
-std::string_view bytes_of(const unsigned short* rgb, std::size_t count) {
-  return {reinterpret_cast<const char*>(rgb), count * sizeof(unsigned short)};
-}
-
-std::string digest_of(const GradedFrame& frame) {
-  return Digest().add(bytes_of(frame.pixels.data(), frame.pixels.size())).hex();
-}
-
-// One line for each field; a line break in a title would make two of one.
+// One line for each field.
 std::string description_of(const GradedInfo& info) {
-  std::string title = info.title;
-  for (char& c : title)
-    if (c == '\n' || c == '\r') c = ' ';
-  return "show: " + title + "\nframe: " + std::to_string(info.frame) +
-         "\ndisplay: " + info.display + "\nview: " + info.view + "\nsoftware: " + info.software +
-         "\nkey: " + info.key + LateDigest::line() + "\n";
+  return fmt::format("{}{}\nframe: {}\n{}{}\ndisplay: {}\nview: {}\nsoftware: {}\n{}{}\n{}{}\n",
+                     kTitleLine, one_line(info.title), info.frame, kProjectionLine, info.projection,
+                     one_line(info.display), one_line(info.view), info.software, kKeyLine, info.key,
+                     kDigestLine, kBlankDigest);
 }
 
-std::map<std::string, std::string> lines_of(const std::string& description) {
-  std::map<std::string, std::string> lines;
-  std::istringstream in(description);
-  for (std::string line; std::getline(in, line);)
-    if (const auto colon = line.find(": "); colon != std::string::npos)
-      lines[line.substr(0, colon)] = line.substr(colon + 2);
-  return lines;
-}
+// The file as an encoder sees it.
+class Sink : public ImageSink {
+ public:
+  explicit Sink(NewFile& file) : file_(file) {}
+  void write(std::string_view piece) override { file_.write(piece); }
+  void seek(std::uint64_t position) override { file_.seek(position); }
+  std::uint64_t position() const override { return file_.position(); }
+  std::uint64_t size() const override { return file_.size(); }
+
+ private:
+  NewFile& file_;
+};
 
 }  // namespace
 
@@ -51,13 +46,10 @@ void check_graded_name(const std::filesystem::path& path) {
 struct GradedFile::State {
   std::filesystem::path path;
   NewFile file;
-  LateDigest sink;
+  Sink sink;
   std::unique_ptr<ImageWriter> writer;
-  Digest digest;
-  std::size_t row_values;
 
-  State(const std::filesystem::path& p, int width)
-      : path(p), file(p), sink(file), row_values(3 * static_cast<std::size_t>(width)) {}
+  explicit State(const std::filesystem::path& p) : path(p), file(p), sink(file) {}
 
   // Puts the file's name before the encoder's reason.
   template <class Step>
@@ -74,24 +66,22 @@ GradedFile::GradedFile(const std::filesystem::path& path, int width, int height,
                        const GradedInfo& info) {
   check_graded_name(path);
   const ImageFormats& formats = image_formats();
-  state_ = std::make_unique<State>(path, width);
+  state_ = std::make_unique<State>(path);
   State& s = *state_;
   s.encode([&] { s.writer = formats.create(path, s.sink, width, height, description_of(info)); });
-  s.digest.add_length(sizeof(unsigned short) * s.row_values * static_cast<std::size_t>(height));
 }
 
 GradedFile::~GradedFile() = default;
 
 void GradedFile::add(const unsigned short* rgb, int count) {
   State& s = *state_;
-  s.digest.add_piece(bytes_of(rgb, s.row_values * static_cast<std::size_t>(count)));
   s.encode([&] { s.writer->write(rgb, count); });
 }
 
 void GradedFile::finish() {
   State& s = *state_;
   s.encode([&] { s.writer->close(); });
-  s.sink.fill_in(s.digest.hex());
+  seal_frame(s.file);
   s.file.commit();
 }
 
@@ -101,27 +91,6 @@ void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
   for (int row = 0; row < frame.height; row += GradedFile::kRows)
     file.add(frame.row(row), std::min(GradedFile::kRows, frame.height - row));
   file.finish();
-}
-
-FrameCondition examine_graded(const std::filesystem::path& path, const std::string& key, int width,
-                              int height) {
-  if (!std::filesystem::exists(path)) return FrameCondition::kMissing;
-  const ImageFormats& formats = image_formats();
-  try {
-    const auto in = formats.open(path);
-    const ImageLayout& layout = in->layout();
-    const auto lines = lines_of(layout.description);
-    if (!lines.contains("key") || !lines.contains("pixels")) return FrameCondition::kDamaged;
-    if (lines.at("key") != key || layout.width != width || layout.height != height ||
-        layout.channels != 3 || layout.samples != SampleType::kUint16)
-      return FrameCondition::kStale;
-    GradedFrame frame(width, height);
-    in->read(frame.pixels.data());
-    return digest_of(frame) == lines.at("pixels") ? FrameCondition::kGood
-                                                  : FrameCondition::kDamaged;
-  } catch (const std::runtime_error&) {
-    return FrameCondition::kDamaged;
-  }
 }
 
 }  // namespace domefall

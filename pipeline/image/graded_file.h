@@ -1,8 +1,8 @@
 // Graded frames on the disk, for projectors and encoders: 16-bit RGB, PNG or TIFF by the path's
 // extension (.png; .tif, .tiff).
 //
-// Lines of the file's description ("name: value") carry the fields of GradedInfo and an xxHash of
-// the pixels.  The same frame has the same bytes wherever and whenever it is written.
+// Lines of the file's description ("name: value") carry the fields of GradedInfo and the digest of
+// the file (frame_seal.h).  The same frame has the same bytes wherever and whenever it is written.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,6 @@
 #include <string>
 
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/image/frame_condition.h"
 
 namespace domefall {
 
@@ -20,6 +19,7 @@ struct GradedInfo {
   int frame = 0;
   std::string display, view;  // of the OpenColorIO configuration
   std::string software;
+  std::string projection;
 };
 
 // Throws InputError for a name that is neither PNG nor TIFF by its extension.
@@ -53,10 +53,5 @@ class GradedFile {
 // A frame that is whole, at once.  Throws as GradedFile.
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info);
-
-// Decodes the whole frame and compares its pixels with the hash in its description: OpenImageIO 2.4
-// says nothing of a truncated TIFF.
-FrameCondition examine_graded(const std::filesystem::path& path, const std::string& key, int width,
-                              int height);
 
 }  // namespace domefall

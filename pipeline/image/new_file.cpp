@@ -55,6 +55,11 @@ void NewFile::seek(std::uint64_t position) noexcept {
   written_to_ = position;
 }
 
+int NewFile::flush() noexcept {
+  write_pending();
+  return file_.descriptor();
+}
+
 void NewFile::commit() {
   write_pending();
   if (error_) std::rethrow_exception(error_);

@@ -27,6 +27,9 @@ class NewFile {
   std::uint64_t size() const { return std::max(size_, position()); }
   bool failed() const { return error_ != nullptr; }
 
+  // Hands all that was written to the system, and returns the descriptor by which it can be read.
+  int flush() noexcept;
+
   // Flushes the file to the disk and gives it its name, once.  Throws as the constructor.
   void commit();
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "tests/pipeline/image/test_folder.h"
@@ -52,7 +53,8 @@ TEST_F(OtherProgram, ReadsTheColoursOfAFrame) {
 }
 
 TEST_F(OtherProgram, ReadsHowAFrameWasGraded) {
-  const GradedInfo info{"abc", "Plongée", 42, "Dome G2.2 Rec.709", "Dome", "Domefall 0.1.0"};
+  const GradedInfo info{"abc",  "Plongée",        42,          "Dome G2.2 Rec.709",
+                        "Dome", "Domefall 0.1.0", "domemaster"};
   for (const char* name : {"g.png", "g.tif"}) {
     write_graded(folder_ / name, gradient<GradedFrame>(), info);
     const auto in = OIIO::ImageInput::open((folder_ / name).string());
@@ -84,17 +86,19 @@ TEST_F(OtherProgram, LeavesNoTraceOfItsThreadsOrItsClock) {
         << kind;
 }
 
-// Of the right size and whole, but with no key: not ours to keep.
-TEST_F(OtherProgram, WritesNoFrameThatWeWouldKeep) {
+// Of the right size and whole, but with no key: neither ours to keep nor ours to replace.
+TEST_F(OtherProgram, WritesNoFrameThatWeWouldKeepOrReplace) {
   const auto half = gradient<HalfFrame>();
   const auto exr = theirs("f.exr", OIIO::TypeDesc::HALF, half.pixels.data());
-  EXPECT_EQ(examine_frame(exr, "", kWidth, kHeight), FrameCondition::kDamaged);
+  const WantedFrame wanted{"", "", "", kWidth, kHeight};
+  EXPECT_EQ(examine_frame(exr, wanted), FrameCondition::kOther);
   EXPECT_THAT([&] { read_frame(exr); },
               testing::ThrowsMessage<InputError>(HasSubstr(exr.string())));
   const auto words = gradient<GradedFrame>();
   for (const char* name : {"g.png", "g.tif"}) {
     const auto file = theirs(name, OIIO::TypeDesc::UINT16, words.pixels.data());
-    EXPECT_EQ(examine_graded(file, "", kWidth, kHeight), FrameCondition::kDamaged) << name;
+    EXPECT_EQ(examine_frame(file, wanted), FrameCondition::kOther) << name;
+    EXPECT_EQ(describe_difference(file, wanted), "an image that is not Domefall's") << name;
   }
 }
 
@@ -103,8 +107,10 @@ TEST_F(OtherProgram, SeesOnlyTheKeyWeMeantWhateverTheTitle) {
   info.title = "x\nkey: 00\rkey: 11";
   info.key = "22";
   write_graded(folder_ / "g.tif", gradient<GradedFrame>(), info);
-  EXPECT_EQ(examine_graded(folder_ / "g.tif", "22", kWidth, kHeight), FrameCondition::kGood);
-  EXPECT_EQ(examine_graded(folder_ / "g.tif", "00", kWidth, kHeight), FrameCondition::kStale);
+  WantedFrame wanted{"22", info.title, "", kWidth, kHeight};
+  EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kGood);
+  wanted.key = "00";
+  EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kOlder);
 }
 
 }  // namespace

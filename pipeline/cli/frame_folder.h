@@ -1,0 +1,53 @@
+// The folder of a show's frames: where each frame lies, and the record that says whose frames they
+// are.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pipeline/image/frame_condition.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+class FrameFolder {
+ public:
+  // The show, as large as it is rendered, must outlive this.
+  FrameFolder(std::filesystem::path folder, const Show& show);
+
+  const std::filesystem::path& path() const { return folder_; }
+  std::filesystem::path linear(int frame) const;  // linear/NAME_00000.exr
+  std::filesystem::path graded(int frame) const;  // graded/NAME_00000.png or .tif
+  bool has_graded() const { return show_.graded_format != GradedFormat::kNone; }
+
+  // The frame with this key as the folder is to hold it.
+  WantedFrame wanted(std::string key) const;
+
+  // Throws InputError if the record is of frames of another title, size or projection and some are
+  // there.  A folder without a record, or with one that cannot be understood, is nobody's.
+  void check_owner() const;
+
+  // Files beside the frames that are not this show's, sorted and below the folder: beyond its end,
+  // of another name or kind.  Hidden ones are none.
+  std::vector<std::filesystem::path> strangers() const;
+
+  // Makes the folders and removes what dead writers left.  Throws InputError where the path leads
+  // through a file, else TemporaryError.
+  void prepare() const;
+
+  // Writes the record, to which a folder has a right once a frame is there.  It depends on the show
+  // and its size alone, so that any number of workers may do this at once.
+  void write_record() const;
+
+ private:
+  std::filesystem::path record_path() const;
+  std::string record() const;
+  int frames_there() const;
+
+  std::filesystem::path folder_;
+  const Show& show_;
+  std::string name_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,15 @@
+// The option --size.
+#pragma once
+
+#include <string>
+
+#include "projections/projection.h"
+
+namespace domefall {
+
+// A projection with the size that --size gives: 1k, 2k, 4k, 8k or pixels for a dome, and
+// WIDTHxHEIGHT for a flat image.  An empty text leaves it as it is.  Throws InputError for any
+// other text.
+Projection resized(const Projection& projection, const std::string& size);
+
+}  // namespace domefall

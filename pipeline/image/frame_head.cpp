@@ -1,0 +1,288 @@
+#include "pipeline/image/frame_head.h"
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <map>
+#include <string_view>
+
+namespace domefall {
+namespace {
+
+constexpr std::string_view kExrStart = "\x76\x2f\x31\x01", kPngStart = "\x89PNG\r\n\x1a\n",
+                           kTiffLittle{"II*\0", 4}, kTiffBig{"MM\0*", 4};
+
+// Frames of earlier versions had a digest of their pixels alone.
+constexpr const char* kFormerExrDigest = "pixelDigest";
+constexpr std::string_view kFormerDigestLine = "pixels: ";
+
+void check_digest(const FrameHead& head, bool has_former_digest) {
+  if (head.ours && head.digest.empty() && !has_former_digest)
+    throw DamagedFile("its digest is gone");
+}
+
+// ---- the description of a PNG or TIFF: lines of "name: value" ----
+
+// Where the line's value begins, or npos.
+std::size_t value_of(std::string_view text, std::string_view line) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    if (text.substr(begin).starts_with(line)) return begin + line.size();
+    const auto end = text.find('\n', begin);
+    if (end == std::string_view::npos) break;
+    begin = end + 1;
+  }
+  return std::string_view::npos;
+}
+
+void take_description(std::string_view text, std::uint64_t at, FrameHead& head) {
+  const auto take = [&](std::string_view line, std::string& value) {
+    const auto begin = value_of(text, line);
+    if (begin == std::string_view::npos) return begin;
+    value = text.substr(begin, text.find('\n', begin) - begin);
+    return begin;
+  };
+  take(kTitleLine, head.title);
+  take(kProjectionLine, head.projection);
+  const bool key = take(kKeyLine, head.key) != std::string_view::npos;
+  const auto digest = take(kDigestLine, head.digest);
+  if (digest != std::string_view::npos) head.digest_at = at + digest;
+  head.ours =
+      key || !head.digest.empty() || value_of(text, kSoftwareLine) != std::string_view::npos;
+  check_digest(head, value_of(text, kFormerDigestLine) != std::string_view::npos);
+}
+
+// ---- OpenEXR: "OpenEXR File Layout", Header ----
+
+struct Attribute {
+  std::string type;
+  std::uint64_t at, size;
+};
+
+// A text that a zero ends, and moves `at` behind the zero.
+std::string take_name(const FileBytes& file, std::uint64_t& at) {
+  constexpr std::uint64_t kLongest = 256;  // with the zero
+  const std::string bytes = file.at(at, std::min(kLongest, file.size() - at));
+  const auto end = bytes.find('\0');
+  if (end == std::string::npos) throw DamagedFile("a name in its header does not end");
+  at += end + 1;
+  return bytes.substr(0, end);
+}
+
+std::map<std::string, Attribute> read_attributes(const FileBytes& file, std::uint64_t& at) {
+  constexpr std::size_t kMostAttributes = 1000;
+  std::map<std::string, Attribute> attributes;
+  for (;;) {
+    const std::string name = take_name(file, at);
+    if (name.empty()) return attributes;
+    std::string type = take_name(file, at);
+    const auto size = little_endian<std::uint32_t>(file.at(at, sizeof(std::uint32_t)));
+    at += sizeof size;
+    if (size > file.size() - at) throw DamagedFile("an attribute goes beyond its end");
+    attributes[name] = {std::move(type), at, size};
+    at += size;
+    if (attributes.size() > kMostAttributes) throw DamagedFile("its header does not end");
+  }
+}
+
+// Every part of the image has its place within the file; a header that promises more than there is
+// has a table that leads out of it.
+void check_exr_table(const FileBytes& file, std::uint64_t table, std::int64_t height,
+                     std::int64_t rows_per_part) {
+  constexpr std::uint64_t kPlace = sizeof(std::uint64_t), kPiece = 8192;
+  const auto parts = static_cast<std::uint64_t>((height + rows_per_part - 1) / rows_per_part);
+  for (std::uint64_t first = 0; first < parts; first += kPiece) {
+    const std::uint64_t count = std::min(kPiece, parts - first);
+    const std::string places = file.at(table + kPlace * first, kPlace * count);
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const auto place = little_endian<std::uint64_t>(std::string_view(places).substr(kPlace * k));
+      if (place < table + kPlace * parts || place >= file.size())
+        throw DamagedFile("a part of its image is missing");
+    }
+  }
+}
+
+// Rows in one part, by the number of the compression.
+std::int64_t rows_per_part(unsigned char compression) {
+  constexpr unsigned char kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 0};
+  if (compression >= sizeof kRows) throw DamagedFile("its compression is unknown");
+  return kRows[compression] == 0 ? 256 : kRows[compression];
+}
+
+FrameHead read_exr_head(const FileBytes& file) {
+  constexpr std::uint32_t kScanLines = 2;  // the version, and no flag of tiles or of several parts
+  const auto version = little_endian<std::uint32_t>(file.at(kExrStart.size(), 4));
+  std::uint64_t at = kExrStart.size() + sizeof version;
+  const auto attributes = read_attributes(file, at);
+  const auto value = [&](const char* name, std::uint64_t size) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end() || found->second.size != size)
+      throw DamagedFile(std::string("its header has no ") + name);
+    return file.at(found->second.at, size);
+  };
+  FrameHead head;
+  head.format = FrameFormat::kExr;
+  const std::string window = value("dataWindow", 16);
+  const auto edge = [&window](std::size_t k) -> std::int64_t {
+    return static_cast<std::int32_t>(
+        little_endian<std::uint32_t>(std::string_view(window).substr(4 * k)));
+  };
+  head.width = edge(2) - edge(0) + 1;
+  head.height = edge(3) - edge(1) + 1;
+  if (head.width < 1 || head.height < 1) throw DamagedFile("its size makes no sense");
+  const auto text = [&](const char* name, std::string& into) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end() || found->second.type != "string") return false;
+    into = file.at(found->second.at, found->second.size);
+    return true;
+  };
+  text(kExrTitle, head.title);
+  text(kExrProjection, head.projection);
+  const bool key = text(kExrKey, head.key), digest = text(kExrDigest, head.digest);
+  if (digest) head.digest_at = attributes.at(kExrDigest).at;
+  head.ours = key || digest || attributes.contains(kExrTitle);
+  check_digest(head, attributes.contains(kFormerExrDigest));
+  if (version == kScanLines)
+    check_exr_table(file, at, head.height,
+                    rows_per_part(static_cast<unsigned char>(value("compression", 1)[0])));
+  return head;
+}
+
+// ---- PNG: the specification, 5.3: length of the data, name, data, CRC-32 of name and data ----
+
+void take_size(std::string_view data, FrameHead& head) {
+  head.width = big_endian<std::uint32_t>(data);
+  head.height = big_endian<std::uint32_t>(data.substr(4));
+}
+
+// All chunks before the pixels are held against their checksums.
+FrameHead read_png_head(const FileBytes& file) {
+  constexpr std::uint64_t kNumber = 4, kHeader = 13;
+  constexpr std::string_view kKeyword{"tEXtDescription\0", 16};
+  FrameHead head;
+  head.format = FrameFormat::kPng;
+  for (std::uint64_t chunk = kPngStart.size();;) {
+    const std::uint64_t name = chunk + kNumber;
+    const auto length = big_endian<std::uint32_t>(file.at(chunk, kNumber));
+    const std::string kind = file.at(name, kNumber);
+    const bool first = chunk == kPngStart.size();
+    if (first != (kind == "IHDR") || (first && length != kHeader))
+      throw DamagedFile("its first chunk is not that of a PNG");
+    if (kind == "IDAT" || kind == "IEND") return head;
+    const std::string data = file.at(name, kNumber + std::uint64_t{length});
+    const std::uint64_t end = name + data.size();
+    if (png_checksum(data) != file.at(end, kNumber))
+      throw DamagedFile("the checksum of a chunk is off");
+    if (first) take_size(std::string_view(data).substr(kNumber), head);
+    if (data.starts_with(kKeyword)) {
+      take_description(std::string_view(data).substr(kKeyword.size()), name + kKeyword.size(),
+                       head);
+      head.chunk_at = name, head.checksum_at = end;
+    }
+    chunk = end + kNumber;
+  }
+}
+
+// ---- TIFF 6.0, section 2 ----
+
+class TiffDirectory {
+ public:
+  TiffDirectory(const FileBytes& file, bool big) : file_(file), big_(big) {
+    constexpr std::uint64_t kEntry = 12, kPlace = 4, kCount = 2;
+    const std::uint64_t at = number<std::uint32_t>(file_.at(kPlace, 4));
+    const auto count = number<std::uint16_t>(file_.at(at, kCount));
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const std::string entry = file_.at(at + kCount + k * kEntry, kEntry);
+      const auto field = [&entry](std::size_t from) {
+        return std::string_view(entry).substr(from);
+      };
+      // The first of a kind counts, so that a wrong number of entries does no harm.
+      entries_.try_emplace(number<std::uint16_t>(field(0)),
+                           Entry{number<std::uint16_t>(field(2)), number<std::uint32_t>(field(4)),
+                                 at + kCount + k * kEntry + 8});
+    }
+  }
+
+  std::int64_t size(std::uint16_t tag) const {
+    constexpr std::uint16_t kShort = 3;
+    const auto found = entries_.find(tag);
+    if (found == entries_.end()) throw DamagedFile("its header has no size");
+    const std::string value = file_.at(found->second.at, 4);
+    return found->second.type == kShort ? number<std::uint16_t>(value)
+                                        : number<std::uint32_t>(value);
+  }
+
+  // Where the text stands; nothing if there is none.  Shorter ones than ours stand elsewhere.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> text(std::uint16_t tag) const {
+    constexpr std::uint16_t kAscii = 2;
+    const auto found = entries_.find(tag);
+    if (found == entries_.end() || found->second.type != kAscii || found->second.count <= 4)
+      return std::nullopt;
+    return std::pair<std::uint64_t, std::uint64_t>(
+        number<std::uint32_t>(file_.at(found->second.at, 4)), found->second.count);
+  }
+
+ private:
+  struct Entry {
+    std::uint16_t type;
+    std::uint32_t count;
+    std::uint64_t at;  // of the value, or of its place
+  };
+  template <class Number>
+  Number number(std::string_view bytes) const {
+    return big_ ? big_endian<Number>(bytes) : little_endian<Number>(bytes);
+  }
+
+  const FileBytes& file_;
+  bool big_;
+  std::map<std::uint16_t, Entry> entries_;
+};
+
+// Whether the file holds a description of ours, which a damaged directory no longer leads to.
+bool holds_our_lines(const FileBytes& file) {
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
+  for (std::uint64_t at = 0; at < file.size(); at += kBlock) {
+    const std::uint64_t count = std::min(kBlock + kSoftwareLine.size(), file.size() - at);
+    if (file.at(at, count).find(kSoftwareLine) != std::string::npos) return true;
+  }
+  return false;
+}
+
+FrameHead read_tiff_head(const FileBytes& file, bool big) {
+  constexpr std::uint16_t kWidth = 256, kHeight = 257, kDescription = 270;
+  FrameHead head;
+  head.format = FrameFormat::kTiff;
+  const TiffDirectory directory(file, big);
+  head.width = directory.size(kWidth);
+  head.height = directory.size(kHeight);
+  if (const auto text = directory.text(kDescription))
+    take_description(file.at(text->first, text->second), text->first, head);
+  if (!head.ours && holds_our_lines(file)) throw DamagedFile("its directory is broken");
+  return head;
+}
+
+}  // namespace
+
+std::string png_checksum(std::string_view name_and_data) {
+  boost::crc_32_type checksum;
+  checksum.process_bytes(name_and_data.data(), name_and_data.size());
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(checksum.checksum() >> shift & 0xff);
+  return bytes;
+}
+
+std::string one_line(std::string title) {
+  std::replace_if(
+      title.begin(), title.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return title;
+}
+
+std::optional<FrameHead> read_frame_head(const FileBytes& file) {
+  const std::string start = file.at(0, std::min<std::uint64_t>(file.size(), kPngStart.size()));
+  if (start.starts_with(kExrStart)) return read_exr_head(file);
+  if (start == kPngStart) return read_png_head(file);
+  if (start.starts_with(kTiffLittle)) return read_tiff_head(file, false);
+  if (start.starts_with(kTiffBig)) return read_tiff_head(file, true);
+  return std::nullopt;
+}
+
+}  // namespace domefall

@@ -1,0 +1,47 @@
+// What the file of a frame says of itself: its size and the fields that Domefall wrote.  They are
+// read from the bytes, within bounds and without a decoder, since decoders ask for as much memory
+// as a damaged header tells them to.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pipeline/image/file_bytes.h"
+
+namespace domefall {
+
+enum class FrameFormat { kExr, kPng, kTiff };
+
+struct FrameHead {
+  FrameFormat format{};
+  std::int64_t width = 0, height = 0;  // as the file says, whatever its format allows
+
+  // Whether any field is Domefall's.  The texts of those that are missing are empty.
+  bool ours = false;
+  std::string title, projection, key;
+  std::string digest;  // of the whole file (frame_seal.h); earlier versions wrote none
+
+  // Where the digest's digits stand and, in a PNG, the chunk that holds them: from its name to its
+  // checksum.  They are bytes from the file's beginning.
+  std::uint64_t digest_at = 0, chunk_at = 0, checksum_at = 0;
+};
+
+// Nothing if the file begins neither as EXR nor as PNG or TIFF.  Throws DamagedFile where what
+// stands before the pixels is broken off or does not fit together, and as FileBytes::at.
+std::optional<FrameHead> read_frame_head(const FileBytes& file);
+
+// The CRC-32 of a PNG's chunk, big-endian as it stands in the file.
+std::string png_checksum(std::string_view name_and_data);
+
+// A title as it stands in a description, where each line is a field.
+std::string one_line(std::string title);
+
+// The names of fields: of attributes in an EXR, of lines in the description of a PNG or TIFF.
+inline constexpr const char *kExrTitle = "showTitle", *kExrProjection = "projection",
+                            *kExrKey = "frameKey", *kExrDigest = "fileDigest";
+inline constexpr std::string_view kTitleLine = "show: ", kProjectionLine = "projection: ",
+                                  kKeyLine = "key: ", kDigestLine = "digest: ",
+                                  kSoftwareLine = "software: Domefall";
+
+}  // namespace domefall

@@ -1,0 +1,208 @@
+// What a file among the frames is taken for, and that no damage to it goes unseen.
+
+#include "pipeline/image/frame_condition.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cstring>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/image/frame_file.h"
+#include "pipeline/image/graded_file.h"
+#include "tests/pipeline/image/test_folder.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kWidth = 5, kHeight = 3;
+constexpr std::array kNames{"f.exr", "f.png", "f.tif"};
+
+WantedFrame wanted_frame() {
+  return {"0123456789abcdef0123456789abcdef", "A fall", "domemaster", kWidth, kHeight};
+}
+
+class FrameConditions : public TestFolder {
+ protected:
+  // A frame of that key, title, projection and size under that name.
+  fs::path made(const char* name, const WantedFrame& w = wanted_frame()) const {
+    const fs::path path = folder_ / name;
+    if (path.extension() == ".exr") {
+      FrameInfo info;
+      info.key = w.key, info.title = w.title, info.projection = w.projection;
+      info.region = "I", info.software = "Domefall 0.1.0";
+      write_frame(path, filled<HalfFrame>(w), info);
+    } else {
+      write_graded(path, filled<GradedFrame>(w),
+                   {w.key, w.title, 7, "Wall", "Wall", "Domefall 0.1.0", w.projection});
+    }
+    return path;
+  }
+
+  static FrameCondition condition(const fs::path& path) {
+    return examine_frame(path, wanted_frame());
+  }
+
+ private:
+  template <class Frame>
+  static Frame filled(const WantedFrame& w) {
+    Frame frame(w.width, w.height);
+    for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+      frame.pixels[k] = static_cast<unsigned short>(k * 7919 % 31744);
+    return frame;
+  }
+};
+
+// A frame with a changed key is one of another version, and is made again as a damaged one is.
+bool is_made_again(FrameCondition condition) {
+  return condition == FrameCondition::kDamaged || condition == FrameCondition::kOlder;
+}
+
+TEST_F(FrameConditions, KnowEveryFlippedBit) {
+  for (const char* name : kNames) {
+    const fs::path path = made(name);
+    ASSERT_EQ(condition(path), FrameCondition::kGood);
+    const std::string whole = contents(path);
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const auto set = [&file](std::size_t at, char byte) {
+      file.seekp(static_cast<std::streamoff>(at)).put(byte).flush();
+    };
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      for (int bit = 0; bit < 8; ++bit) {
+        set(at, static_cast<char>(whole[at] ^ 1 << bit));
+        EXPECT_TRUE(is_made_again(condition(path))) << name << ", byte " << at << ", bit " << bit;
+      }
+      set(at, whole[at]);
+    }
+    EXPECT_EQ(condition(path), FrameCondition::kGood);
+  }
+}
+
+TEST_F(FrameConditions, KnowEveryCutAndEveryThingAdded) {
+  for (const char* name : kNames) {
+    const fs::path path = made(name);
+    const std::string whole = contents(path);
+    for (std::size_t length = whole.size(); length-- > 0;) {
+      fs::resize_file(path, length);
+      EXPECT_EQ(condition(path), FrameCondition::kDamaged) << name << ", cut at " << length;
+      EXPECT_FALSE(is_whole(path));
+    }
+    for (const std::string& more : {std::string(1, '\0'), std::string("x"), whole}) {
+      put(path, whole + more);
+      EXPECT_EQ(condition(path), FrameCondition::kDamaged) << name << " and " << more.size();
+    }
+  }
+}
+
+TEST_F(FrameConditions, TellAFrameOfAnotherSizeShowOrProjectionFromAnOlderOne) {
+  const auto other = [](auto change) {
+    WantedFrame w = wanted_frame();
+    w.key = "ffffffffffffffffffffffffffffffff";
+    change(w);
+    return w;
+  };
+  for (const char* name : kNames) {
+    EXPECT_EQ(condition(made(name, other([](auto&) {}))), FrameCondition::kOlder) << name;
+    for (const auto& [frame, what] : {
+             std::pair(other([](auto& w) { w.width = 9; }), "9 x 3 pixels"),
+             std::pair(other([](auto& w) { w.title = "A rise"; }), "of the show 'A rise'"),
+             std::pair(other([](auto& w) { w.projection = "flat"; }), "of the projection flat"),
+         }) {
+      const fs::path path = made(name, frame);
+      EXPECT_EQ(condition(path), FrameCondition::kOther) << name;
+      EXPECT_EQ(claimed_condition(path, wanted_frame()), FrameCondition::kOther) << name;
+      EXPECT_EQ(describe_difference(path, wanted_frame()), what) << name;
+      // A damaged one is nobody's loss.
+      put(path, contents(path) + "x");
+      EXPECT_EQ(condition(path), FrameCondition::kDamaged) << name;
+    }
+    EXPECT_EQ(condition(folder_ / "none.exr"), FrameCondition::kMissing);
+  }
+}
+
+TEST_F(FrameConditions, KnowAFormatBehindAnothersName) {
+  for (const auto& [from, to] :
+       {std::pair("f.exr", "g.png"), std::pair("f.png", "g.tif"), std::pair("f.tif", "g.exr")}) {
+    fs::copy_file(made(from), folder_ / to);
+    EXPECT_EQ(condition(folder_ / to), FrameCondition::kOther) << to;
+  }
+  put(folder_ / "f.exr", "no image");
+  put(folder_ / "f.png", "");
+  EXPECT_EQ(condition(folder_ / "f.exr"), FrameCondition::kDamaged);
+  EXPECT_EQ(condition(folder_ / "f.png"), FrameCondition::kDamaged);
+}
+
+// The header that a decoder would ask for 21 GB for.
+TEST_F(FrameConditions, TakeALyingHeaderForDamaged) {
+  const fs::path path = made("f.exr");
+  std::string lying = contents(path);
+  const std::int32_t last = 59'999;
+  for (const char* window : {"dataWindow", "displayWindow"})
+    for (const std::size_t edge : {8U, 12U}) {
+      const std::size_t at = lying.find(window) + std::strlen(window) + sizeof "box2i" + 5 + edge;
+      std::memcpy(&lying[at], &last, sizeof last);
+    }
+  put(path, lying);
+  EXPECT_EQ(condition(path), FrameCondition::kDamaged);
+  EXPECT_THROW(read_frame(path), InputError);
+  // Nor does it become another program's by losing what is ours.
+  for (const char* field : {"frameKey", "fileDigest", "showTitle"})
+    lying.replace(lying.find(field), 2, "zz");
+  put(path, lying);
+  EXPECT_EQ(condition(path), FrameCondition::kDamaged);
+}
+
+// Earlier versions of Domefall wrote a digest of the pixels alone.
+TEST_F(FrameConditions, TakeAFrameWithTheDigestOfItsPixelsForAnOlderOne) {
+  for (const char* name : kNames) {
+    const fs::path path = made(name);
+    std::string older = contents(path);
+    if (path.extension() == ".exr") {
+      older.replace(older.find("fileDigest"), 10, "pixelDigest");
+      older.replace(older.find("observerRegion"), 14, "observerPlace");  // for the same length
+    } else {
+      older.replace(older.find("\ndigest"), 7, "\npixels");
+    }
+    if (path.extension() == ".png") {  // whose chunk has a checksum
+      const std::size_t chunk = older.find("tEXt"), end = older.find("IDAT") - 8;
+      older.replace(end, 4, png_checksum(older.substr(chunk, end - chunk)));
+    }
+    put(path, older);
+    EXPECT_EQ(condition(path), FrameCondition::kOlder) << name;
+    WantedFrame larger = wanted_frame();
+    larger.width = 9;
+    EXPECT_EQ(examine_frame(path, larger), FrameCondition::kOther) << name;
+    EXPECT_FALSE(is_whole(path));
+  }
+}
+
+// None of them is opened, replaced or waited for.
+TEST_F(FrameConditions, RefuseWhatIsNoFile) {
+  const fs::path path = folder_ / "f.exr";
+  const auto refused = [&](const std::string& why) {
+    for (const auto examine : {&examine_frame, &claimed_condition})
+      EXPECT_THAT([&] { examine(path, wanted_frame()); },
+                  testing::ThrowsMessage<InputError>(HasSubstr(path.string() + ": " + why)));
+    fs::remove(path);
+  };
+  fs::create_directory(path);
+  refused("this is a folder");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  refused("this is a pipe");
+  fs::create_symlink("/dev/null", path);
+  refused("this is a device");
+  fs::create_symlink(path, path);
+  refused("Too many levels of symbolic links");
+  fs::create_symlink(folder_ / "elsewhere.exr", path);
+  EXPECT_THAT([&] { condition(path); },
+              testing::ThrowsMessage<TemporaryError>(HasSubstr("leads nowhere")));
+  fs::rename(made("g.exr"), folder_ / "elsewhere.exr");
+  EXPECT_EQ(condition(path), FrameCondition::kGood);
+}
+
+}  // namespace
+}  // namespace domefall
