@@ -93,7 +93,7 @@ class Run {
       if (linear_good)
         *frame = read_frame(folder_.linear(number)).first;
       else
-        render(state, *frame);
+        render_as_keyed(state, *frame);
       finish();
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
         write(state, key, *frame, !linear_good, !graded_good);
@@ -126,6 +126,32 @@ class Run {
       throw InputError(fmt::format("{}: a good frame, but another one than this run makes ({})",
                                    file.string(), describe_difference(file, wanted)));
     return condition == FrameCondition::kGood;
+  }
+
+  // The keys hold digests of the assets as they were when the run began, and the renderer reads them
+  // later.  So a frame counts only if nothing has touched them until it was rendered.
+  void render_as_keyed(const FrameState& state, HalfFrame& frame) {
+    for (;;) {
+      render(state, frame);
+      const auto touched = keys_->touched_asset();
+      if (!touched) return;
+      if (!assets_are_the_same())
+        throw TemporaryError(touched->string() +
+                             ": the file was changed while the run was reading it; run again");
+      renderer_.reset();
+    }
+  }
+
+  // Takes the digests of the assets again, and keeps the new keys if they are those of before.
+  bool assets_are_the_same() {
+    try {
+      FrameKeys now(run_.show, grade_id());
+      if (!now.same_assets(*keys_)) return false;
+      keys_.emplace(std::move(now));
+      return true;
+    } catch (const InputError&) {  // one is gone
+      return false;
+    }
   }
 
   void render(const FrameState& state, HalfFrame& frame) {

@@ -13,21 +13,6 @@ namespace {
 // It is raised with every change that alters a pixel, so that older frames are made again.
 constexpr int kPixelVersion = 5;
 
-void add_sky(Digest& digest, const RegionSky& sky) {
-  digest.add(static_cast<double>(sky.background.index()));
-  if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background))
-    digest.add(sky_digest(panorama->image));
-  if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
-  digest.add(sky.stars ? "stars" : "no stars");
-  if (!sky.stars) return;
-  // The header of a binary catalogue has a digest of its content, so that the rest need not be
-  // read.
-  if (const auto print = star_file_fingerprint(sky.stars->catalogue))
-    digest.add(*print);
-  else
-    digest.add_file(sky.stars->catalogue);
-}
-
 // Components of unit vectors are rounded to 1e-12, since one that is 0 on one processor may be
 // 1e-17 on another.
 constexpr double kUnitSteps = 1e12;
@@ -77,6 +62,28 @@ double steady(double value) {
   return std::isfinite(high) ? high : value;
 }
 
+// The stamp is taken first: a change after it is seen by touched_asset().
+void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
+  const auto stamp = [this](const std::filesystem::path& file) {
+    assets_.emplace_back(file, FileStamp(file));
+  };
+  digest.add(static_cast<double>(sky.background.index()));
+  if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background)) {
+    stamp(panorama->image);
+    digest.add(sky_digest(panorama->image));
+  }
+  if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
+  digest.add(sky.stars ? "stars" : "no stars");
+  if (!sky.stars) return;
+  stamp(sky.stars->catalogue);
+  // The header of a binary catalogue has a digest of its content, so that the rest need not be
+  // read.
+  if (const auto print = star_file_fingerprint(sky.stars->catalogue))
+    digest.add(*print);
+  else
+    digest.add_file(sky.stars->catalogue);
+}
+
 FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
   Digest common;
   common.add(DOMEFALL_VERSION).add(kPixelVersion).add(show.title).add(show.frames_per_second);
@@ -94,6 +101,16 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   Digest four;
   add_sky(four, show.sky[SkyRegion::kIV]);
   sky_four_ = four.hex();
+}
+
+std::optional<std::filesystem::path> FrameKeys::touched_asset() const {
+  for (const auto& [file, stamp] : assets_)
+    if (FileStamp(file) != stamp) return file;
+  return std::nullopt;
+}
+
+bool FrameKeys::same_assets(const FrameKeys& other) const {
+  return common_ == other.common_ && sky_three_ == other.sky_three_ && sky_four_ == other.sky_four_;
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {

@@ -2,8 +2,14 @@
 // change to one segment of a show leaves the frames of the others valid.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "pipeline/image/digest.h"
+#include "pipeline/render/file_stamp.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -14,10 +20,16 @@ double steady(double value);
 
 class FrameKeys {
  public:
-  // Reads the show's assets once.  The show must outlive the keys.  `grade` names the grading of
+  // Reads the show's assets once, for their digests.  The show must outlive the keys.  `grade` names the grading of
   // frames (Grader::transform_id) and is empty where frames are not graded.  Throws InputError if
   // an asset cannot be read.
   explicit FrameKeys(const Show& show, std::string grade = {});
+
+  // An asset that something has touched since its digest was taken, though perhaps without another
+  // content; nothing if there is none.  What was rendered meanwhile may not be of these keys.
+  std::optional<std::filesystem::path> touched_asset() const;
+  // Whether two sets of keys of one show saw assets of the same content.
+  bool same_assets(const FrameKeys& other) const;
 
   // The digest of what all frames share, which is neither in the timeline nor a sky that only some
   // of them see.
@@ -28,6 +40,7 @@ class FrameKeys {
   std::string graded(const std::string& scene_key) const;
 
  private:
+  void add_sky(Digest& digest, const RegionSky& sky);
   // The key of what is seen at one instant.
   std::string instant(const FrameState& state) const;
 
@@ -36,6 +49,7 @@ class FrameKeys {
   std::string sky_three_, sky_four_;  // they enter the keys of frames that can see these skies
   bool rings_ = false;                // whether region IV is lit by rings, which depend on time
   std::string grade_;
+  std::vector<std::pair<std::filesystem::path, FileStamp>> assets_;
 };
 
 }  // namespace domefall

@@ -1,0 +1,17 @@
+#include "pipeline/render/file_stamp.h"
+
+#include <sys/stat.h>
+
+namespace domefall {
+
+FileStamp::FileStamp(const std::filesystem::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return;
+  device = status.st_dev;
+  number = status.st_ino;
+  size = static_cast<std::uint64_t>(status.st_size);
+  written_s = status.st_mtim.tv_sec, written_ns = status.st_mtim.tv_nsec;
+  changed_s = status.st_ctim.tv_sec, changed_ns = status.st_ctim.tv_nsec;
+}
+
+}  // namespace domefall
