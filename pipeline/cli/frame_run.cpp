@@ -22,6 +22,7 @@
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
+#include "pipeline/render/thread_limit.h"
 
 namespace domefall {
 namespace {
@@ -60,6 +61,7 @@ class Run {
   }
 
   void prepare() {
+    require_threads(file_threads());
     set_file_threads(file_threads());
     folder_.prepare();
   }

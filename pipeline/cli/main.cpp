@@ -22,6 +22,7 @@
 #include "pipeline/cli/command_line.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/render/thread_limit.h"
 
 namespace {
 
@@ -59,6 +60,7 @@ int flushed(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  domefall::end_in_words_without_threads();
   try {
     occupy_standard_streams();
     // They would end the program where it stands: a reader who has gone, a limit on a file's size.
@@ -74,7 +76,10 @@ int main(int argc, char** argv) {
     return report(error.what(), kTryAgain);
   } catch (const std::system_error& error) {
     // Of the machine and the moment: threads that may not be started, a folder that is gone.
-    return report(error.what(), kTryAgain);
+    if (error.code() != std::errc::resource_unavailable_try_again)
+      return report(error.what(), kTryAgain);
+    return report("no more threads can be started: raise the limit, or take fewer --threads",
+                  kTryAgain);
   } catch (const std::bad_alloc&) {
     return report("out of memory: fewer --threads or a smaller --size may fit", kTryAgain);
   } catch (const std::exception& error) {

@@ -13,6 +13,7 @@
 #include "pipeline/render/frame_stars.h"
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
+#include "pipeline/render/thread_limit.h"
 
 namespace domefall {
 namespace {
@@ -67,6 +68,7 @@ Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, in
     throw InputError(
         fmt::format("anti-aliasing takes 1 to {} samples along each axis of a pixel, got {}",
                     kMostSamples, anti_aliasing.samples));
+  require_threads(memory_->arena.max_concurrency());
   memory_->arena.initialize();
 }
 

@@ -17,7 +17,8 @@ class Renderer {
   // `threads` is the number of threads, at most one for each processor, or 0 for that many.  The
   // show must outlive the renderer.  Maps are loaded without levels that have more than
   // `largest_face` texels along an edge (read_sky).  Throws InputError unless
-  // 1 <= anti_aliasing.samples <= kMostSamples.
+  // 1 <= anti_aliasing.samples <= kMostSamples, and TemporaryError where so many threads cannot be
+  // started.
   explicit Renderer(const Show& show, int threads = 0, AntiAliasing anti_aliasing = {},
                     int largest_face = kLargestFace);
   ~Renderer();

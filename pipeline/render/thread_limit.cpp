@@ -1,0 +1,73 @@
+#include "pipeline/render/thread_limit.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kTryAgain = 75;
+
+// How many of `count` threads can live at the same time.
+int threads_to_be_had(int count) {
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(count));
+  try {
+    while (static_cast<int>(threads.size()) < count)
+      threads.emplace_back([ended] { ended.wait(); });
+  } catch (const std::system_error&) {
+  }
+  end.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return static_cast<int>(threads.size());
+}
+
+// Those of the pools of OpenEXR, OpenImageIO and TBB, those that grade, and those that do one thing
+// beside another.
+int most_threads(int threads) {
+  constexpr int kSideBySide = 4;
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return std::max(threads, processors) + processors + std::min(threads, processors) + threads +
+         kSideBySide;
+}
+
+[[noreturn]] void terminate() {
+  if (threads_to_be_had(1) == 0) {
+    std::fputs("no thread can be started: a limit on threads or processes (ulimit -u, pids.max)\n",
+               stderr);
+    _exit(kTryAgain);
+  }
+  std::abort();
+}
+
+}  // namespace
+
+void require_threads(int threads) {
+  static const int count = most_threads(threads);
+  static const int there = threads_to_be_had(count);
+  if (there < count)
+    throw TemporaryError(fmt::format(
+        "{} more threads can be started, and this run starts {}: a limit on threads or processes "
+        "(ulimit -u, pids.max). Raise it, or take fewer --threads",
+        there, count));
+}
+
+void end_in_words_without_threads() {
+  static const std::terminate_handler before = std::set_terminate(terminate);
+  (void)before;
+}
+
+}  // namespace domefall
