@@ -31,14 +31,33 @@ def find_domefall():
     return os.path.abspath(found)
 
 
-def ask(domefall, *arguments):
-    """What a verb of domefall prints; if it fails, this program ends with its message and code."""
-    answer = subprocess.run([domefall, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            text=True, check=False)
+def run(domefall, *arguments):
+    """What a verb of domefall prints, and what it says; if it fails, this program ends with its
+    message and code."""
+    try:
+        answer = subprocess.run([domefall, *arguments], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, check=False)
+    except OSError as error:
+        stop(f"domefall cannot be started: {error}", TRY_AGAIN)
     if answer.returncode != 0:
         code = answer.returncode if answer.returncode > 0 else TRY_AGAIN
         stop((answer.stderr or answer.stdout).rstrip(), code)
-    return answer.stdout
+    return answer.stdout, answer.stderr
+
+
+def ask(domefall, *arguments):
+    return run(domefall, *arguments)[0]
+
+
+def still_to_make(domefall, show, frames, out, options):
+    """The frames, of those that `frames` names, that a run with these options would make, by what the
+    beginnings of their files say. Passes on what domefall says of the folder, such as how many
+    frames an edit of the show costs. If the run would be refused, this program ends."""
+    ranges, talk = run(domefall, "render", show, "--out", out, "--dry-run", *options,
+                       *(["--frames", frames] if frames else []))
+    if talk:
+        say(talk.rstrip())
+    return from_ranges(ranges.strip())
 
 
 def frames_of(domefall, show, frames):
@@ -59,6 +78,15 @@ def as_ranges(frames):
         else:
             ranges.append([number, number])
     return ",".join(str(a) if a == b else f"{a}-{b}" for a, b in ranges)
+
+
+def from_ranges(text):
+    """The numbers that as_ranges wrote."""
+    numbers = []
+    for part in filter(None, text.split(",")):
+        first, _, last = part.partition("-")
+        numbers += range(int(first), int(last or first) + 1)
+    return numbers
 
 
 def chunks_of(frames, size):

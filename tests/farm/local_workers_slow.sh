@@ -118,9 +118,55 @@ a_wrong_input_is_not_tried_again() {
   expect 2 frames.log "${launch[@]}" --out wrong.d --frames 0-40
 }
 
+what_is_anothers_is_refused_before_a_worker_starts() {
+  expect 0 small.log "${launch[@]}" --out small --frames 0-3 --size 32
+  made small >small.made
+  expect 2 refused.log "${launch[@]}" --out small --frames 0-7
+  says refused.log "small: 4 good frames of another size, show or kind would be replaced"
+  says_not refused.log "exit code"
+  made small | cmp - small.made || fail "frames were replaced unasked"
+  expect 0 replaced.log "${launch[@]}" --out small --frames 0-7 --replace
+  same_frames single small 8 || fail "the frames differ"
+}
+
+# The chunks that begin after the edit are of another version than those before.
+a_show_edited_during_the_run_is_noticed() {
+  cp fall.yaml kept.yaml
+  "${launch[@]}" --out edited --chunk 4 >edited.log 2>&1 &
+  until_ok 20 at_least edited 4 || fail "no frames"
+  sed -i 's/from_r: 30/from_r: 31/' fall.yaml
+  code=0
+  wait $! || code=$?
+  [[ $code == 75 ]] || fail "a show was edited, and the exit code is $code"
+  says edited.log "the show or its assets were changed during the run: "
+  says_not edited.log "frames are there"
+  mv kept.yaml fall.yaml
+  expect 0 mended.log "${launch[@]}" --out edited --chunk 4
+  grep -qE '^segments? 0( and 1)?: [0-9]+ frames will be made again$' mended.log ||
+    fail "what is made again is not told: $(cat mended.log)"
+  same_frames single edited 40 || fail "the frames differ"
+}
+
+# A program that is not there for a moment, as on a file server that pauses.
+a_worker_that_cannot_be_started_is_tried_again() {
+  cat >coming <<SCRIPT
+#!/bin/bash
+[[ \$1 != render || "\$*" == *--dry-run* || -e began ]] || { touch began && mv coming gone; }
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x coming
+  DOMEFALL=./coming "${launch[@]}" --out coming.d --frames 0-5 --chunk 2 --workers 1 >coming.log 2>&1 &
+  until_ok 60 grep -q "a worker cannot be started: " coming.log || fail "all workers were started"
+  mv gone coming
+  wait $! || fail "the launcher: exit code $?: $(cat coming.log)"
+  same_frames single coming.d 6 || fail "the frames differ"
+}
+
 for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and_joined \
   a_killed_worker_loses_nothing a_stopped_run_and_a_killed_one_are_taken_up \
-  a_full_disk_is_tried_again a_wrong_input_is_not_tried_again; do
+  a_full_disk_is_tried_again a_wrong_input_is_not_tried_again \
+  what_is_anothers_is_refused_before_a_worker_starts a_show_edited_during_the_run_is_noticed \
+  a_worker_that_cannot_be_started_is_tried_again; do
   $claim
   pass "$claim"
 done

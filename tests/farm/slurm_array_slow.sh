@@ -54,6 +54,16 @@ more_tasks_than_slurm_allows_are_refused() {
   [[ -z $(squeue -h -t all) ]] || fail "it was submitted"
 }
 
+what_is_anothers_is_refused_before_it_is_submitted() {
+  local code=0
+  "${launch[@]}" --out single --size 32 >others.log 2>&1 || code=$?
+  [[ $code == 2 ]] || fail "frames of another size: exit code $code, not 2"
+  says others.log "single: 40 good frames of another size, show or kind would be replaced"
+  [[ -z $(squeue -h -t all) ]] || fail "it was submitted"
+  "${launch[@]}" --out wrong_size --size 5 >size.log 2>&1 || code=$?
+  [[ $code == 2 && ! -e wrong_size ]] || fail "a wrong size was submitted"
+}
+
 # In two parts, so that the other array runs while this one waits for its second try.
 begin_torn() {
   local worker
@@ -125,9 +135,16 @@ a_dead_task_and_a_cancelled_one_are_made_up_for() {
   still_made dead.made dead || fail "frames were made twice"
 }
 
+# A program that is given another size on the nodes than where the show is submitted.
 a_wrong_input_on_a_node_stops_the_array() {
   local code=0 job
-  "${launch[@]}" --out small --chunk 2 --size 5 --wait >small.job 2>small.log || code=$?
+  cat >smaller <<SCRIPT
+#!/bin/bash
+[[ -n \$SLURM_JOB_ID && \$1 == render ]] && set -- "\$@" --size 5
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x smaller
+  DOMEFALL=./smaller "${launch[@]}" --out small --chunk 2 --wait >small.job 2>small.log || code=$?
   job=$(cat small.job)
   [[ $code == 2 ]] || fail "a wrong size: exit code $code, not 2"
   says small.log "missing: frames 0-39 (40 of 40)"
@@ -143,6 +160,8 @@ a_wrong_show_is_not_submitted
 pass a_wrong_show_is_not_submitted
 more_tasks_than_slurm_allows_are_refused
 pass more_tasks_than_slurm_allows_are_refused
+what_is_anothers_is_refused_before_it_is_submitted
+pass what_is_anothers_is_refused_before_it_is_submitted
 begin_torn
 begin_full
 for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
