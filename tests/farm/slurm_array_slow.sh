@@ -118,6 +118,25 @@ SCRIPT
   [[ $(frames_in other) == 0 ]] || fail "frames of another version"
 }
 
+# Its tasks end at once, so that it is mostly idle and would be given every one of them again.
+a_bad_node_is_left_out_and_the_others_go_on() {
+  local job bad
+  bad=$(sinfo -h -N -o %N | sort -u | head -1)
+  write_full_disk_program narrow never
+  cat >uneven <<SCRIPT
+#!/bin/bash
+[[ \$SLURMD_NODENAME != $bad || \$1 != render ]] || exec $scratch/narrow "\$@"
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x uneven
+  job=$(DOMEFALL=./uneven "${launch[@]}" --out uneven.d --frames 0-19 --chunk 5 --retries 1)
+  wait_for "$job" uneven.d
+  tasks "$job" >uneven.tasks
+  [[ $(grep -c COMPLETED uneven.tasks) == 4 ]] || fail "$(cat uneven.tasks "uneven.d/log/"*)"
+  grep -qE 'COMPLETED +1' uneven.tasks || fail "no task was given to the bad node"
+  same_frames single uneven.d 20 || fail "the frames differ"
+}
+
 a_dead_task_and_a_cancelled_one_are_made_up_for() {
   local job worker
   job=$("${launch[@]}" --out dead --chunk 20)
@@ -166,6 +185,7 @@ begin_torn
 begin_full
 for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
   a_full_disk_is_tried_again_but_not_for_ever a_node_with_another_version_makes_nothing \
+  a_bad_node_is_left_out_and_the_others_go_on \
   a_dead_task_and_a_cancelled_one_are_made_up_for a_wrong_input_on_a_node_stops_the_array; do
   $claim
   pass "$claim"
