@@ -104,18 +104,18 @@ void add_build(CLI::App& sky) {
 
 void info(const std::string& path, bool verify) {
   require_file(path);
-  const SkyFile file = open_sky_file(path);
-  const bool thermal = file.map.kind() == SkyMapKind::kThermal;
+  const SkyFile file(path);
+  const bool thermal = file.map().kind() == SkyMapKind::kThermal;
   fmt::print("kind         {}\n",
              thermal ? "thermal: radiance and temperature" : "colour: working-space RGB");
-  fmt::print("unit         {:.9g} {}\n", file.map.unit(), thermal ? "W/m^2/sr" : "cd/m^2");
-  fmt::print("faces        6 of {0} x {0}, {1} levels, {2:.1f} MB\n", file.map.levels()[0].size,
-             file.map.levels().size(), static_cast<double>(file.map.bytes()) / 1e6);
+  fmt::print("unit         {:.9g} {}\n", file.map().unit(), thermal ? "W/m^2/sr" : "cd/m^2");
+  fmt::print("faces        6 of {0} x {0}, {1} levels, {2:.1f} MB\n", file.map().levels()[0].size,
+             file.map().levels().size(), static_cast<double>(file.map().bytes()) / 1e6);
   fmt::print("picture      {}\n",
-             file.origin.panorama ? orientation_phrase(*file.origin.panorama) : "none");
-  fmt::print("{}", file.origin.text);
+             file.origin().panorama ? orientation_phrase(*file.origin().panorama) : "none");
+  fmt::print("{}", file.origin().text);
   if (!verify) return;
-  verify_sky_file(path);
+  file.verify();
   fmt::print("verified     every face is as it was written\n");
 }
 
@@ -139,7 +139,7 @@ StarCatalogue check_stars(const std::string& file) {
 void check_map(const std::string& path, const std::string& stars) {
   require_file(path);
   Orientation stated;
-  if (is_sky_file(path)) stated = open_sky_file(path).origin.panorama.value_or(stated);
+  if (is_sky_file(path)) stated = SkyFile(path).origin().panorama.value_or(stated);
   const auto map = read_sky(path);
   const StarCatalogue catalogue = check_stars(stars);
   const SkyCheck check = check_orientation(*map, stated, catalogue);
@@ -191,7 +191,7 @@ void import_map(const ImportOptions& o) {
   const Orientation stated = import_sky(import);
   say(fmt::format("{}: {}", o.out, orientation_phrase(stated)));
   const StarCatalogue catalogue = check_stars(o.stars);
-  const SkyCheck check = check_orientation(open_sky_file(out.path()).map, stated, catalogue);
+  const SkyCheck check = check_orientation(SkyFile(out.path()).map(), stated, catalogue);
   say((check.verdict == SkyVerdict::kOther ? "warning: " : "") + verdict_sentence(check));
   out.finish();
 }

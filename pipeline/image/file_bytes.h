@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/image/regular_file.h"
+
 namespace domefall {
 
 // What was read makes no sense as what it should be: the file is damaged, or of another kind.
@@ -19,15 +21,12 @@ class FileBytes {
  public:
   // A file that is open already, and stays so for as long as this lives.
   FileBytes(int descriptor, std::filesystem::path name);
-  ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes(FileBytes&&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
   FileBytes& operator=(FileBytes&&) = delete;
 
-  // Opens a regular file; null if nothing has that name.  Throws InputError for a folder, a pipe, a
-  // device and a link that leads in a circle, and TemporaryError for a link that leads nowhere and a
-  // file that may not be read, which another machine or the next minute may mend.
+  // Opens a regular file; null if nothing has that name.  Throws as RegularFile.
   static std::unique_ptr<FileBytes> open(const std::filesystem::path& path);
 
   std::uint64_t size() const { return size_; }
@@ -38,13 +37,14 @@ class FileBytes {
   static constexpr std::uint64_t kMost = std::uint64_t{16} << 20;
 
  private:
+  FileBytes(std::unique_ptr<const RegularFile> file, std::filesystem::path name);
   std::string read(std::uint64_t position, std::uint64_t count) const;
 
   std::filesystem::path name_;
   int descriptor_;
-  bool owned_ = false;
   std::uint64_t size_ = 0;
-  std::string start_;  // the first bytes, of which most are asked for
+  std::unique_ptr<const RegularFile> opened_;  // what open() has opened
+  std::string start_;                          // the first bytes, of which most are asked for
 };
 
 // A whole number of sizeof(Number) bytes at the front of `bytes`.

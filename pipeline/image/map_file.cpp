@@ -24,18 +24,4 @@ MappedFile::~MappedFile() {
   if (data_) munmap(const_cast<char*>(data_), size_);
 }
 
-bool is_cut_short(const std::filesystem::path& file, std::string_view extension,
-                  std::size_t header_bytes) {
-  std::error_code error;
-  return file.extension() == extension && std::filesystem::is_regular_file(file, error) &&
-         std::filesystem::file_size(file, error) < header_bytes && !error;
-}
-
-void fail_cut_short(const std::filesystem::path& file, std::string_view extension,
-                    std::size_t bytes, std::size_t header_bytes) {
-  throw InputError(file.string() + ": not a " + std::string(extension) +
-                   " file: shorter than its header (" + std::to_string(bytes) +
-                   " bytes instead of " + std::to_string(header_bytes) + " and more)");
-}
-
 }  // namespace domefall

@@ -30,12 +30,4 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-// A regular file with this extension (".stars") that is shorter than its header: the file is told
-// to be so, and not taken for one of another kind.
-bool is_cut_short(const std::filesystem::path& file, std::string_view extension,
-                  std::size_t header_bytes);
-// Throws InputError naming the file.
-[[noreturn]] void fail_cut_short(const std::filesystem::path& file, std::string_view extension,
-                                 std::size_t bytes, std::size_t header_bytes);
-
 }  // namespace domefall

@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// As throw_file_error(), which the library of image formats does not have.
 [[noreturn]] void fail_to_open(const fs::path& path, int error) {
   const std::string what = path.string() + ": " + std::strerror(error);
-  if (error == ENAMETOOLONG || error == ELOOP || error == ENOTDIR) throw InputError(what);
+  if (error == ENAMETOOLONG || error == ELOOP) throw InputError(what);
   throw TemporaryError(what);
 }
 
@@ -38,7 +39,12 @@ void check_regular(const fs::path& path, const struct stat& status) {
 
 RegularFile::RegularFile(const fs::path& path) : path_(path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) fail_to_open(path, errno);
+  if (stat(path.c_str(), &status) != 0) {
+    const int error = errno;
+    if (error == ENOENT && lstat(path.c_str(), &status) == 0)
+      throw TemporaryError(path.string() + ": a link that leads nowhere");
+    fail_to_open(path, error);
+  }
   check_regular(path, status);
   // Without waiting, since the file may have become a pipe meanwhile.
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -57,17 +63,23 @@ RegularFile::~RegularFile() { close(descriptor_); }
 
 std::size_t RegularFile::read(char* bytes, std::size_t count) {
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - position_));
+  const std::size_t done = read_at(descriptor_, path_, position_, bytes, count);
+  position_ += done;
+  return done;
+}
+
+std::size_t read_at(int descriptor, const fs::path& path, std::uint64_t position, char* bytes,
+                    std::size_t count) {
   std::size_t done = 0;
   while (done < count) {
     const ssize_t got =
-        pread(descriptor_, bytes + done, count - done, static_cast<off_t>(position_ + done));
+        pread(descriptor, bytes + done, count - done, static_cast<off_t>(position + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0)
-      throw TemporaryError(path_.string() + ": reading broke off: " + std::strerror(errno));
-    if (got == 0) break;  // another program has shortened it
+      throw TemporaryError(path.string() + ": reading broke off: " + std::strerror(errno));
+    if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
-  position_ += done;
   return done;
 }
 
@@ -88,6 +100,13 @@ std::string start_of_file(const fs::path& path, std::size_t count) {
   return bytes;
 }
 
+bool is_of_format(const fs::path& path, std::string_view first_bytes, std::string_view extension,
+                  std::size_t header_bytes) {
+  const std::string start = start_of_file(path, header_bytes);
+  return start.starts_with(first_bytes) ||
+         (start.size() < header_bytes && path.extension() == extension);
+}
+
 bool is_readable_file(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) && access(path.c_str(), R_OK) == 0;
@@ -98,7 +117,7 @@ const fs::path& require_file(const fs::path& path) {
   const bool found = stat(path.c_str(), &status) == 0;
   if (found) check_regular(path, status);
   if (found && access(path.c_str(), R_OK) == 0) return path;
-  if (errno == ENOENT || errno == EACCES)
+  if (errno == ENOENT || errno == EACCES || errno == ENOTDIR)
     throw InputError(path.string() + ": " + std::strerror(errno));
   fail_to_open(path, errno);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace domefall {
 
@@ -15,8 +16,8 @@ namespace domefall {
 class RegularFile {
  public:
   // Throws InputError for what is no regular file and for a name that no machine can open,
-  // TemporaryError for a file that is missing or may not be read, which another machine may have.
-  // Both name the file.
+  // TemporaryError for a file that is missing or may not be read and for a link that leads nowhere,
+  // which another machine may have.  Both name the file.
   explicit RegularFile(const std::filesystem::path& path);
   ~RegularFile();
   RegularFile(const RegularFile&) = delete;
@@ -37,11 +38,22 @@ class RegularFile {
   std::uint64_t size_ = 0, position_ = 0;
 };
 
+// Reads bytes of an open file from `position` on, and returns how many there were: fewer than
+// `count` at its end.  Throws TemporaryError, naming `path`, where the system fails.
+std::size_t read_at(int descriptor, const std::filesystem::path& path, std::uint64_t position,
+                    char* bytes, std::size_t count);
+
 // The whole of a file.  Throws as RegularFile, and InputError if it has more than `most` bytes.
 std::string read_file(const std::filesystem::path& path, std::uint64_t most);
 
 // A file's first bytes, at most `count`.  Throws as RegularFile.
 std::string start_of_file(const std::filesystem::path& path, std::size_t count);
+
+// Whether a file is of a binary format: by its first bytes or, where it is shorter than the
+// format's header, by its extension (".sky"), so that it is said to be cut short and not taken for
+// a file of another kind.  Throws as RegularFile.
+bool is_of_format(const std::filesystem::path& path, std::string_view first_bytes,
+                  std::string_view extension, std::size_t header_bytes);
 
 // Whether a regular file is there and may be read.  It is not opened.
 bool is_readable_file(const std::filesystem::path& path);

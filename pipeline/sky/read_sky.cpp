@@ -9,7 +9,6 @@
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
-#include "pipeline/image/regular_file.h"
 #include "pipeline/image/some_light.h"
 #include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
@@ -36,15 +35,15 @@ constexpr std::uint64_t kReadWhole = std::uint64_t{256} << 20;
 
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
-    SkyFile opened = open_sky_file(file);
-    if (RegularFile(file).size() <= kReadWhole) verify_sky_file(file);
-    return std::make_shared<const SkyMap>(opened.map.without_levels_above(largest_face));
+    const SkyFile opened(file);
+    if (opened.bytes() <= kReadWhole) opened.verify();
+    return std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face));
   }
   return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));
 }
 
 std::string sky_digest(const std::filesystem::path& file) {
-  if (is_sky_file(file)) return "sky " + sky_file_digest(file);
+  if (is_sky_file(file)) return "sky " + SkyFile(file).digest();
   return Digest().add_file(file).hex();
 }
 

@@ -34,8 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto path = input_file(repaired(std::string(text_of(data, size))), "input.sky");
   try {
     if (!is_sky_file(path)) return 0;
-    const SkyFile file = open_sky_file(path);
-    verify_sky_file(path);
+    SkyFile(path).verify();
   } catch (const InputError&) {
   }
   return 0;

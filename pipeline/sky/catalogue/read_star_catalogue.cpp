@@ -56,8 +56,8 @@ StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude
 }
 
 bool begins_as_star_file(const std::filesystem::path& file) {
-  if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader))) return true;
-  return is_star_file(start_of_file(file, kStarMagic.size()));
+  return is_of_format(file, {kStarMagic.data(), kStarMagic.size()}, kStarExtension,
+                      sizeof(StarFileHeader));
 }
 
 }  // namespace

@@ -133,9 +133,11 @@ std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint6
 
 StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
   const std::string_view bytes = file_.bytes();
-  if (is_cut_short(file, kStarExtension, sizeof(StarFileHeader)) ||
-      (is_star_file(bytes) && bytes.size() < sizeof(StarFileHeader)))
-    fail_cut_short(file, kStarExtension, bytes.size(), sizeof(StarFileHeader));
+  if (bytes.size() < sizeof(StarFileHeader) &&
+      (is_star_file(bytes) || file.extension() == kStarExtension))
+    throw InputError(fmt::format(
+        "{}: not a .stars file: shorter than its header ({} bytes instead of {} and more)",
+        file.string(), bytes.size(), sizeof(StarFileHeader)));
   if (!is_star_file(bytes)) fail(0, "this is no star catalogue (.stars)");
   const auto head = at<StarFileHeader>(bytes, 0);
   if (head.byte_order != kByteOrder)

@@ -105,7 +105,10 @@ std::optional<Orientation> panorama_of(const Header& h) {
 // Reads the fixed part and checks what holds for any map.
 Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
-  if (file.size() < sizeof h) fail_cut_short(path, kExtension, file.size(), sizeof h);
+  if (file.size() < sizeof h)
+    throw InputError(fmt::format(
+        "{}: not a .sky file: shorter than its header ({} bytes instead of {} and more)",
+        path.string(), file.size(), sizeof h));
   std::memcpy(&h, file.data(), sizeof h);
   if (h.magic != kMagic) fail(path, 0, "this is not a .sky file");
   if (h.version != kVersion)
@@ -151,25 +154,6 @@ std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const He
   }
   if (offset != h.file_bytes) fail(path, offsetof(Header, file_bytes), "the levels do not add up");
   return entries;
-}
-
-struct OpenFile {
-  std::shared_ptr<const MappedFile> file;
-  Header header;
-  std::vector<LevelEntry> entries;
-};
-
-OpenFile open_file(const std::filesystem::path& path) {
-  OpenFile open{std::make_shared<const MappedFile>(path), {}, {}};
-  open.header = read_header(path, open.file->bytes());
-  check_sense(path, open.header);
-  open.entries = read_entries(path, open.header, open.file->bytes());
-  return open;
-}
-
-SkyLevel level_of(const OpenFile& open, const LevelEntry& e) {
-  return {static_cast<int>(e.size),
-          reinterpret_cast<const SkyTexel*>(open.file->bytes().data() + e.offset)};
 }
 
 Header header_of(const SkyMap& map, const SkyOrigin& origin) {
@@ -223,34 +207,57 @@ void NewSkyFile::finish() {
 }
 
 bool is_sky_file(const std::filesystem::path& path) {
-  if (is_cut_short(path, kExtension, sizeof(Header))) return true;
-  return start_of_file(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
+  return is_of_format(path, {kMagic.data(), kMagic.size()}, kExtension, sizeof(Header));
 }
 
-SkyFile open_sky_file(const std::filesystem::path& path) {
-  const OpenFile open = open_file(path);
-  std::vector<SkyLevel> levels;
-  levels.reserve(open.entries.size());
-  for (const LevelEntry& e : open.entries) levels.push_back(level_of(open, e));
-  const std::string_view text = open.file->bytes().substr(
-      sizeof(Header) + open.entries.size() * sizeof(LevelEntry), open.header.text_bytes);
-  return {SkyMap(static_cast<SkyMapKind>(open.header.kind), open.header.unit, std::move(levels),
-                 open.file),
-          {std::string(text), panorama_of(open.header)}};
+struct SkyFile::Opened {
+  std::shared_ptr<const MappedFile> file;
+  Header header;
+  std::vector<LevelEntry> entries;
+
+  explicit Opened(const std::filesystem::path& path)
+      : file(std::make_shared<const MappedFile>(path)), header(read_header(path, file->bytes())) {
+    check_sense(path, header);
+    entries = read_entries(path, header, file->bytes());
+  }
+
+  std::vector<SkyLevel> levels() const {
+    std::vector<SkyLevel> levels;
+    levels.reserve(entries.size());
+    for (const LevelEntry& e : entries)
+      levels.push_back({static_cast<int>(e.size),
+                        reinterpret_cast<const SkyTexel*>(file->bytes().data() + e.offset)});
+    return levels;
+  }
+  std::string text() const {
+    return std::string(file->bytes().substr(sizeof(Header) + entries.size() * sizeof(LevelEntry),
+                                            header.text_bytes));
+  }
+};
+
+SkyFile::SkyFile(const std::filesystem::path& path) : SkyFile(Opened(path)) {}
+
+SkyFile::SkyFile(const Opened& opened)
+    : path_(opened.file->path()),
+      bytes_(opened.file->bytes()),
+      checksum_(opened.header.checksum),
+      map_(static_cast<SkyMapKind>(opened.header.kind), opened.header.unit, opened.levels(),
+           opened.file),
+      origin_{opened.text(), panorama_of(opened.header)} {
+  face_checksums_.reserve(opened.entries.size());
+  for (const LevelEntry& e : opened.entries) face_checksums_.push_back(e.checksum);
 }
 
-std::string sky_file_digest(const std::filesystem::path& path) {
-  return fmt::format("{:016x}", open_file(path).header.checksum);
-}
+std::string SkyFile::digest() const { return fmt::format("{:016x}", checksum_); }
 
-void verify_sky_file(const std::filesystem::path& path) {
-  const OpenFile open = open_file(path);
-  for (const LevelEntry& e : open.entries)
+void SkyFile::verify() const {
+  for (std::size_t k = 0; k < face_checksums_.size(); ++k)
     for (int face = 0; face < 6; ++face) {
-      const SkyLevel level = level_of(open, e);
-      if (face_checksum(level, face) == e.checksum[static_cast<std::size_t>(face)]) continue;
+      const SkyLevel& level = map_.levels()[k];
+      if (face_checksum(level, face) == face_checksums_[k][static_cast<std::size_t>(face)])
+        continue;
       const auto* start = reinterpret_cast<const char*>(level.face(face));
-      fail(path, static_cast<std::size_t>(start - open.file->bytes().data()),
+      fail(path_, static_cast<std::size_t>(start - bytes_.data()),
            fmt::format("face {} of the level of size {} is damaged: its checksum is off", face,
                        level.size));
     }

@@ -15,10 +15,14 @@
 // Checksums are XXH3, 64 bits.  That of the header is taken with 0 in its own place.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "pipeline/image/new_mapped_file.h"
 #include "pipeline/sky/maps/orientation.h"
@@ -52,24 +56,39 @@ class NewSkyFile {
   SkyPyramid pyramid_;
 };
 
-// Returns whether the file is a .sky file by how it begins or, if it is shorter than a header, by
-// its name.  False if it cannot be read.
+// Whether a file is a .sky file (is_of_format).
 bool is_sky_file(const std::filesystem::path& path);
 
-struct SkyFile {
-  SkyMap map;  // the file stays mapped as long as this or a copy of it lives
-  SkyOrigin origin;
+// A .sky file that is open.
+class SkyFile {
+ public:
+  // Checks the header and the length of the file.  Throws InputError with file and byte for a file
+  // that is no .sky file, damaged, cut short or of a newer version, and else as MappedFile.
+  explicit SkyFile(const std::filesystem::path& path);
+
+  // The file stays mapped as long as this or a copy of it lives.
+  const SkyMap& map() const { return map_; }
+  const SkyOrigin& origin() const { return origin_; }
+  std::uint64_t bytes() const { return bytes_.size(); }
+
+  // The checksum in the header, as digits.  It covers the checksums of the faces, so it stands for
+  // the whole file in the keys of frames.
+  std::string digest() const;
+
+  // Reads the whole file.  Throws InputError with file and byte of the first face whose checksum is
+  // off.
+  void verify() const;
+
+ private:
+  struct Opened;
+  explicit SkyFile(const Opened& opened);
+
+  std::filesystem::path path_;
+  std::string_view bytes_;  // that the map keeps alive
+  std::uint64_t checksum_;
+  std::vector<std::array<std::uint64_t, 6>> face_checksums_;  // of each level
+  SkyMap map_;
+  SkyOrigin origin_;
 };
-// Checks the header and the length of the file.  Throws InputError with file and byte for a file
-// that is no .sky file, damaged, cut short or of a newer version.
-SkyFile open_sky_file(const std::filesystem::path& path);
-
-// Returns the checksum in the header, as digits.  It covers the checksums of the faces, so it
-// stands for the whole file in the keys of frames.
-std::string sky_file_digest(const std::filesystem::path& path);
-
-// Reads the whole file.  Throws InputError with file and byte of the first face whose checksum is
-// off.
-void verify_sky_file(const std::filesystem::path& path);
 
 }  // namespace domefall

@@ -175,7 +175,7 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
 // The interpolated rays are compared too, whose differences half floats could hide.
 TEST_P(SimdFrames, InterpolatesTheSameRays) {
   for (const PanoramaSky& sky : {colour_sky(), thermal_sky()}) {
-    const SkyMap map = open_sky_file(sky.image).map;
+    const SkyMap map = SkyFile(sky.image).map();
     for (const Trajectory& trajectory :
          {Trajectory(StaticObserver{7}), Trajectory(RadialInfall{1.2}),
           Trajectory(StaticObserver{}), Trajectory(StaticObserver{1e4}),

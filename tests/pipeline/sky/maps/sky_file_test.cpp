@@ -44,8 +44,8 @@ class SkyFiles : public testing::Test {
     damage(contents);
     std::ofstream(path, std::ios::binary) << contents;
     try {
-      open_sky_file(path);
-      if (verify) verify_sky_file(path);
+      const SkyFile file(path);
+      if (verify) file.verify();
     } catch (const InputError& error) {
       EXPECT_TRUE(std::string(error.what()).starts_with(path.string() + ": ")) << error.what();
       return error.what();
@@ -60,17 +60,17 @@ class SkyFiles : public testing::Test {
 TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
   const fs::path path = folder_ / "map.sky";
   write(path, 32);
-  const SkyFile file = open_sky_file(path);
-  EXPECT_EQ(file.map.kind(), SkyMapKind::kColour);
-  EXPECT_EQ(file.map.unit(), 0x1p-20);
-  EXPECT_EQ(file.map.levels().size(), 6u);
-  EXPECT_EQ(file.origin.text, "source: a test\nlicence: none\n");
-  EXPECT_EQ(file.origin.panorama, (Orientation{SkyFrame::kGalactic, true, false, 266.5}));
-  for (const SkyLevel& level : file.map.levels())
+  const SkyFile file(path);
+  EXPECT_EQ(file.map().kind(), SkyMapKind::kColour);
+  EXPECT_EQ(file.map().unit(), 0x1p-20);
+  EXPECT_EQ(file.map().levels().size(), 6u);
+  EXPECT_EQ(file.origin().text, "source: a test\nlicence: none\n");
+  EXPECT_EQ(file.origin().panorama, (Orientation{SkyFrame::kGalactic, true, false, 266.5}));
+  for (const SkyLevel& level : file.map().levels())
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(level.texels) % 4096, 0u);
   for (const V3d& d : {V3d(0, 0, 1), V3d(1, 0, 0), V3d(-0.6, 0, -0.8)})
-    EXPECT_NEAR(file.map.sample(d, 0).r, (2 + d.z) * 0x1p-20, 2e-3 * 0x1p-20);
-  EXPECT_NO_THROW(verify_sky_file(path));
+    EXPECT_NEAR(file.map().sample(d, 0).r, (2 + d.z) * 0x1p-20, 2e-3 * 0x1p-20);
+  EXPECT_NO_THROW(file.verify());
   EXPECT_NEAR(read_sky(path)->sample({0, 0, 1}, 0).r, 3 * 0x1p-20, 2e-3 * 0x1p-20);
   const auto coarse = read_sky(path, 9);
   ASSERT_EQ(coarse->levels().size(), 4u);
@@ -82,9 +82,9 @@ TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
 TEST_F(SkyFiles, AnAbandonedFileLeavesTheOldOneAndNothingElse) {
   const fs::path path = folder_ / "map.sky";
   write(path, 4);
-  const std::string before = sky_file_digest(path);
+  const std::string before = SkyFile(path).digest();
   { const NewSkyFile unfinished(path, SkyMapKind::kColour, 1, 8, {}); }
-  EXPECT_EQ(sky_file_digest(path), before);
+  EXPECT_EQ(SkyFile(path).digest(), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
   EXPECT_THROW(NewSkyFile(folder_ / "nowhere" / "map.sky", SkyMapKind::kColour, 1, 8, {}),
                TemporaryError);
@@ -125,13 +125,13 @@ long resident(const fs::path& path) {
 TEST_F(SkyFiles, AMapIsMappedAndNotRead) {
   const fs::path path = folder_ / "large.sky";
   { NewSkyFile(path, SkyMapKind::kColour, 1, 1024, {}).finish(); }
-  const SkyFile file = open_sky_file(path);
-  ASSERT_GT(file.map.bytes(), 66'000'000u);
+  const SkyFile file(path);
+  ASSERT_GT(file.map().bytes(), 66'000'000u);
   ASSERT_GE(resident(path), 0);
   // A small cap is sampled finely, and the whole sky coarsely.
   for (int k = 0; k < 1000; ++k) {
-    file.map.sample({1, 1e-4 * k, 0.01 * (k % 10)}, 0);
-    file.map.sample({std::cos(k), std::sin(k), std::sin(7.0 * k)}, 0.2);
+    file.map().sample({1, 1e-4 * k, 0.01 * (k % 10)}, 0);
+    file.map().sample({std::cos(k), std::sin(k), std::sin(7.0 * k)}, 0.2);
   }
   EXPECT_LT(resident(path), 6000) << "KiB of 87,000";
 }
