@@ -7,18 +7,18 @@
 
 namespace domefall {
 
-// Throws InputError, which begins with `name`, if a variable of the configuration's context, or of the
-// environment where the configuration declares none, refers to itself, since OpenColorIO would put it
-// in its own place for ever.
+// Throws InputError, which begins with `name`, if a variable of the configuration's context, or of
+// the environment where the configuration declares none, refers to itself, since OpenColorIO would
+// put it in its own place for ever.
 void check_variables(const OCIO_NAMESPACE::Config& config, const std::string& name);
 
-// Throws InputError, which begins with `name`, if a file that the configuration names is there and is
-// empty or no regular file, since OpenColorIO would wait for a pipe.
+// Throws InputError, which begins with `name`, if a file that the configuration names is there and
+// is empty or no regular file, since OpenColorIO would wait for a pipe.
 void check_files(const OCIO_NAMESPACE::Config& config, const std::string& name);
 
 // Sends pixels through each step of the processor by itself, in floats, since a later step may hide
-// what is no number by clamping it.  Throws InputError, which begins with `name`, if a pixel of up to
-// 1024 becomes infinite or one of up to the largest half no number.
+// what is no number by clamping it.  Throws InputError, which begins with `name`, if a pixel of up
+// to 1024 becomes infinite or one of up to the largest half no number.
 void check_values(const OCIO_NAMESPACE::Config& config, const OCIO_NAMESPACE::Processor& processor,
                   const std::string& name);
 

@@ -161,11 +161,16 @@ View chosen_view(const ocio::ConstConfigRcPtr& config, const GradeSettings& sett
 // Calls what OpenColorIO may refuse, and says of which view it speaks.
 template <class Step>
 void explained(const View& view, const std::string& file, Step step) {
+  const auto message = [&](const ocio::Exception& error) {
+    return fmt::format("{}: the view '{}' of the display '{}' cannot be made from {}: {}", file,
+                       view.name, view.display, kWorkingSpaceName, error.what());
+  };
   try {
     step();
+  } catch (const ocio::ExceptionMissingFile& error) {
+    throw TemporaryError(message(error));
   } catch (const ocio::Exception& error) {
-    throw InputError(fmt::format("{}: the view '{}' of the display '{}' cannot be made from {}: {}",
-                                 file, view.name, view.display, kWorkingSpaceName, error.what()));
+    throw InputError(message(error));
   }
 }
 

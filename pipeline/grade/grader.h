@@ -22,9 +22,9 @@ class Grader {
   // A configuration that is not the shipped one is first read in a process of its own (trial.h),
   // which takes 4 ms: OpenColorIO follows a space that refers to itself until its stack is full.
   //
-  // Throws InputError if the configuration is not named or cannot be used, if it makes of light what
-  // is no number, and if it does not have the display or the view, with a list of those that it has.
-  // Throws TemporaryError if it is missing.
+  // Throws InputError if the configuration is not named or cannot be used, if it makes of light
+  // what is no number, and if it does not have the display or the view, with a list of those that
+  // it has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
   // Grades the rows y0 <= y < y1 into out[y1 - y0][width][3].  Any split into rows gives the same

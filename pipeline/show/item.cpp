@@ -71,6 +71,10 @@ void Item::fail(const std::string& what) const {
   problems->add(at, (path.empty() ? "the show" : path) + " " + what);
 }
 
+void Item::miss_file(const std::string& what) const {
+  problems->add_missing_file(at, (path.empty() ? "the show" : path) + " " + what);
+}
+
 std::string kind_of(const Item& item) {
   if (item.node.IsMap()) return "a map";
   if (item.node.IsSequence()) return "a list";

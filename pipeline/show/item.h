@@ -27,6 +27,8 @@ struct Item {
 
   // Reports "PATH what" at the place of the value.
   void fail(const std::string& what) const;
+  // Reports the same of a file that is missing or cannot be read.
+  void miss_file(const std::string& what) const;
 };
 
 // Bounds of a number.  A message names only the bound that is broken, with its unit and, for a

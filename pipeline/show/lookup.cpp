@@ -22,21 +22,23 @@ std::optional<fs::path> Lookup::find(const std::string& name) const {
 std::optional<fs::path> Lookup::file(const Item& item, const std::string& name) const {
   if (auto found = find(name)) return found;
   const fs::path beside = folder_ / name;
+  const std::string named = "names the file '" + shown(name) + "', ";
   std::error_code error;
-  const bool folder = fs::is_directory(beside, error), regular = fs::is_regular_file(beside, error);
-  const bool there = fs::exists(beside, error);
-  item.fail("names the file '" + shown(name) + "', " +
-            (folder    ? "which is a folder"
-             : regular ? "which cannot be read"
-             : there   ? "which is no regular file"
-                       : "which is neither beside the show nor in the working folder"));
+  if (fs::is_directory(beside, error))
+    item.fail(named + "which is a folder");
+  else if (fs::is_regular_file(beside, error))
+    item.miss_file(named + "which cannot be read");
+  else if (fs::exists(beside, error))
+    item.fail(named + "which is no regular file");
+  else
+    item.miss_file(named + "which is neither beside the show nor in the working folder");
   return std::nullopt;
 }
 
 std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name) const {
   fs::path file = shipped_asset(name);
   if (is_readable_file(file)) return file;
-  item.fail("needs Domefall's own file " + std::string(name) + ", which is missing from " +
+  item.miss_file("needs Domefall's own file " + std::string(name) + ", which is missing from " +
             assets_folder().string() + " (the variable DOMEFALL_ASSETS can name another folder)");
   return std::nullopt;
 }

@@ -17,7 +17,8 @@ class Lookup {
 
   // A regular, readable file of that name beside the show or, failing that, in the working folder.
   std::optional<std::filesystem::path> find(const std::string& name) const;
-  // The same; reports a file that is not found.
+  // The same; reports a file that is not found, which another machine may have, and what can be no
+  // file of a show.
   std::optional<std::filesystem::path> file(const Item& item, const std::string& name) const;
   // One of the files that come with Domefall.  Reports one that is missing at `item`, which needs
   // it.

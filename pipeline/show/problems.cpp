@@ -24,7 +24,14 @@ Problems::Problems(std::string file, std::string text) : file_(std::move(file)) 
   if (lines_.empty()) lines_.emplace_back();
 }
 
-void Problems::add(TextPlace at, const std::string& what) { problems_.push_back({at, what}); }
+void Problems::add(TextPlace at, const std::string& what) {
+  problems_.push_back({at, what});
+  mistaken_ = true;
+}
+
+void Problems::add_missing_file(TextPlace at, const std::string& what) {
+  problems_.push_back({at, what});
+}
 
 std::string Problems::place(TextPlace at) const {
   // yaml-cpp places what it misses at the end of the file beyond the last line.
@@ -48,6 +55,7 @@ void Problems::raise() const {
     message.append(k > 0 ? "\n" : "").append(place(sorted[k].at)).append(sorted[k].what);
   if (sorted.size() > kMostListed)
     message += fmt::format("\n{}: and {} more", file_, sorted.size() - kMostListed);
+  if (!mistaken_) throw TemporaryError(message);
   throw InputError(message);
 }
 

@@ -17,13 +17,16 @@ class Problems {
   // `file` is the name that the user gave, and `text` the file's content.
   Problems(std::string file, std::string text);
 
+  // A mistake of the show's author.
   void add(TextPlace at, const std::string& what);
+  // A file that is missing or cannot be read, though another machine may have it.
+  void add_missing_file(TextPlace at, const std::string& what);
 
   std::size_t count() const { return problems_.size(); }
 
   // Throws InputError if there are problems, with one line for each (at most 100) in the order of
   // the file: "FILE:LINE:COLUMN: what".  Lines and columns are counted from 1, the column in
-  // characters, as editors do.
+  // characters, as editors do.  If all of them are missing files, it throws TemporaryError instead.
   void raise() const;
 
  private:
@@ -36,6 +39,7 @@ class Problems {
   std::string file_;
   std::vector<std::string> lines_;
   std::vector<Problem> problems_;
+  bool mistaken_ = false;  // whether one of them is a mistake
 };
 
 // A piece of the user's text for a message.  It is cut after 40 characters, and control characters

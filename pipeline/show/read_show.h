@@ -12,7 +12,8 @@ namespace domefall {
 // but are not opened, except that a star's name needs the naked-eye catalogue.
 // Throws InputError with a line for each mistake (at most 100), in the order of the file, such as
 //   shows/infall.yaml:4:12: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3
-// and TemporaryError if reading breaks off.
+// and TemporaryError with the same lines if all that is wrong is that files are missing or cannot
+// be read, or if reading breaks off.
 Show read_show(const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -10,8 +10,8 @@
 
 namespace domefall {
 
-// The file's bytes without a byte order mark.  Throws as require_file and RegularFile, and InputError
-// if it exceeds 1 MiB.
+// The file's bytes without a byte order mark.  Throws as require_file and RegularFile, and
+// InputError if it exceeds 1 MiB.
 std::string read_show_text(const std::filesystem::path& file);
 
 // The words of a comment that is appended before parsing.  yaml-cpp 0.7 lets the end of the file

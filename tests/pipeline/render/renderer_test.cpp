@@ -68,7 +68,7 @@ TEST(Renderer, ReadsNoFileThatAFrameDoesNotShow) {
   show.sky[SkyRegion::kI].stars = StarField{"no/such/catalogue.csv", 6.5};
   show.sky[SkyRegion::kIII].background = PanoramaSky{"no/such/panorama.exr"};
   show.sky[SkyRegion::kIII].stars = StarField{"nor/this.csv", 6.5};
-  EXPECT_THROW(Renderer(show, 1).render(frame_state(show, 0)), InputError);
+  EXPECT_THROW(Renderer(show, 1).render(frame_state(show, 0)), TemporaryError);
   show.sky[SkyRegion::kI].star_gain = 0;
   StageTimes times;
   EXPECT_NO_THROW(Renderer(show, 1).render(frame_state(show, 0), &times));

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "pipeline/image/errors.h"
@@ -39,11 +40,11 @@ class ShowFile : public TestFolder {
 
   Show read(const std::string& yaml) { return read_show(write("show.yaml", yaml)); }
 
-  // The message of the error that reading it throws, without the folder; empty if it throws none.
+  // The message of the error, of either kind, that reading it throws, without the folder; empty if it throws none.
   std::string complaint(const std::string& yaml) {
     try {
       read(yaml);
-    } catch (const InputError& error) {
+    } catch (const std::runtime_error& error) {
       std::string message = error.what();
       const std::string folder = folder_.string() + "/";
       for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
