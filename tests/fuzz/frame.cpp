@@ -1,0 +1,19 @@
+// Frames that a run finds in its folder: what they say of themselves, and their pixels.
+#include "pipeline/image/errors.h"
+#include "pipeline/image/frame_condition.h"
+#include "pipeline/image/frame_file.h"
+#include "tests/fuzz/input_file.h"
+
+using namespace domefall;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = input_file(text_of(data, size), "input.exr");
+  const WantedFrame wanted{"key", "title", "domemaster", 16, 16};
+  try {
+    examine_frame(file, wanted);
+    describe_difference(file, wanted);
+    read_frame(file);
+  } catch (const InputError&) {
+  }
+  return 0;
+}
