@@ -1,8 +1,9 @@
 #include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_size.h"
 
 #include <gmock/gmock.h>
 
-#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_size.h"
 #include "pipeline/image/errors.h"
 
 namespace domefall {
