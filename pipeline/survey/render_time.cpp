@@ -19,7 +19,7 @@ namespace {
 // it.
 constexpr int kLarge = 1024, kSmallest = 16;
 constexpr int kFrames = 3;  // measured at each size
-constexpr double kWorth = 0.02;
+constexpr double kWorth = 0.05;
 
 std::array<int, 3> measured_widths(const Show& show) {
   const int large = std::min(columns(show.projection), kLarge);

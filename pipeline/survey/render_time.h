@@ -12,7 +12,7 @@ struct RenderTime {
   int threads = 0;
 };
 
-// Whether the estimate renders less than a fiftieth of the show's pixels.  A single frame of 4096
+// Whether the estimate renders less than a twentieth of the show's pixels.  A single frame of 4096
 // pixels or a few seconds of small ones are rendered almost as soon as measured.
 bool is_worth_measuring(const Show& show);
 
