@@ -17,8 +17,8 @@ namespace domefall {
 class CsvFile {
  public:
   // Reads the whole file and its header.  Throws InputError where the file cannot be read, is empty
-  // or larger than 4 GiB, or has no column of a name in `needed`, and TemporaryError where the system
-  // fails.
+  // or larger than 4 GiB, or has no column of a name in `needed`, and TemporaryError where the
+  // system fails.
   explicit CsvFile(const std::filesystem::path& file,
                    const std::vector<std::string_view>& needed = {});
   // A table without a header line: `columns` are the names, `separator` stands for the comma.

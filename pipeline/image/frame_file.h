@@ -35,8 +35,8 @@ void set_file_threads(int threads);
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);
 
 // Reads back what write_frame wrote.  Nothing is decoded before the digest of the file is right.
-// Throws InputError naming the file if it is missing, damaged or was not written by write_frame, and
-// as FileBytes::open.
+// Throws InputError naming the file if it is missing, damaged or was not written by write_frame,
+// and as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);
 
 }  // namespace domefall

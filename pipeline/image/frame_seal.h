@@ -1,6 +1,7 @@
-// The digest of a whole frame file, which stands in the file itself: in a text that Domefall writes,
-// whose place is kept while the file is encoded and filled in at the end.  So a file that was cut
-// short, added to or changed in any bit is known for damaged, whatever the decoders say of it.
+// The digest of a whole frame file, which stands in the file itself: in a text that Domefall
+// writes, whose place is kept while the file is encoded and filled in at the end.  So a file that
+// was cut short, added to or changed in any bit is known for damaged, whatever the decoders say of
+// it.
 #pragma once
 
 #include <string>

@@ -15,8 +15,9 @@ struct HealpixFile {
 };
 
 // Of the first binary table that is a HEALPix map of the whole sky, within the first 100
-// extensions, column `column` (from 1), of floats or integers, a pixel or many a row.  NSIDE is 8192
-// at most.  Throws as RegularFile, and InputError naming the file for anything that is wrong in it.
+// extensions, column `column` (from 1), of floats or integers, a pixel or many a row.  NSIDE is
+// 8192 at most.  Throws as RegularFile, and InputError naming the file for anything that is wrong
+// in it.
 HealpixFile read_healpix(const std::filesystem::path& path, int column);
 
 }  // namespace domefall

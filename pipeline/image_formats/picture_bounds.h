@@ -13,14 +13,14 @@ inline constexpr int kLargestSide = 32768;
 inline constexpr std::uint64_t kMostPixels = std::uint64_t{32768} * 16384;
 inline constexpr int kMostChannels = 64;
 
-// Throws std::runtime_error with the bound that a size exceeds, or if a file of so many bytes cannot
-// hold so many pixels, however well they are packed.  `packing` is what OpenImageIO calls the
-// compression; it counts in TIFF and OpenEXR, which have several.
+// Throws std::runtime_error with the bound that a size exceeds, or if a file of so many bytes
+// cannot hold so many pixels, however well they are packed.  `packing` is what OpenImageIO calls
+// the compression; it counts in TIFF and OpenEXR, which have several.
 void check_size(std::int64_t width, std::int64_t height, std::string_view format,
                 std::string_view packing, std::uint64_t file_bytes);
 
-// All that an opened picture says of itself: its size, its channels and how it is stored.  Throws as
-// above.
+// All that an opened picture says of itself: its size, its channels and how it is stored.  Throws
+// as above.
 void check_picture(std::string_view format, const OIIO::ImageSpec& spec, std::uint64_t file_bytes);
 
 }  // namespace domefall

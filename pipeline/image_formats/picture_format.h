@@ -24,12 +24,12 @@ struct PictureSize {
 };
 
 // The size that the header of a JPEG or WebP states; OpenImageIO's readers of these two take memory
-// for the whole picture as soon as they open it.  `start` are the file's first bytes, 1 MiB if there
-// are so many.  Nothing if they hold no size.
+// for the whole picture as soon as they open it.  `start` are the file's first bytes, 1 MiB if
+// there are so many.  Nothing if they hold no size.
 std::optional<PictureSize> stated_size(std::string_view format, std::string_view start);
 
-// Whether the attributes in the header of an OpenEXR file, as far as `start` shows them, are within a
-// file of so many bytes.  OpenEXR takes memory for an attribute before it reads it.
+// Whether the attributes in the header of an OpenEXR file, as far as `start` shows them, are within
+// a file of so many bytes.  OpenEXR takes memory for an attribute before it reads it.
 bool exr_attributes_fit(std::string_view start, std::uint64_t file_bytes);
 
 }  // namespace domefall

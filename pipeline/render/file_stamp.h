@@ -8,8 +8,8 @@ namespace domefall {
 
 // Two stamps of a path differ if anything has written to the file, replaced or renamed it, or
 // changed its rights in between, even if it was put back: the system sets the time of the last
-// change of state, and no program can.  A path without a file has a stamp of its own.  Changes within
-// a few milliseconds of each other, the grain of the system's clock, may bear one stamp.
+// change of state, and no program can.  A path without a file has a stamp of its own.  Changes
+// within a few milliseconds of each other, the grain of the system's clock, may bear one stamp.
 struct FileStamp {
   explicit FileStamp(const std::filesystem::path& file);
   bool operator==(const FileStamp&) const = default;

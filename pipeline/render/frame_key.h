@@ -20,9 +20,9 @@ double steady(double value);
 
 class FrameKeys {
  public:
-  // Reads the show's assets once, for their digests.  The show must outlive the keys.  `grade` names the grading of
-  // frames (Grader::transform_id) and is empty where frames are not graded.  Throws InputError if
-  // an asset cannot be read.
+  // Reads the show's assets once, for their digests.  The show must outlive the keys.  `grade`
+  // names the grading of frames (Grader::transform_id) and is empty where frames are not graded.
+  // Throws InputError if an asset cannot be read.
   explicit FrameKeys(const Show& show, std::string grade = {});
 
   // An asset that something has touched since its digest was taken, though perhaps without another

@@ -25,8 +25,9 @@ inline constexpr double kFadeMagnitudes = 0.5;
 // radius of the smallest blob.  Its image is an arc or a ring (einstein_rings.h).
 //
 // Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
-// (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis, of
-// high orders and of frames without some effect are found one star at a time in star_image_finder.cpp.
+// (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis,
+// of high orders and of frames without some effect are found one star at a time in
+// star_image_finder.cpp.
 class StarImageFinder {
  public:
   // The scene must outlive this object.
