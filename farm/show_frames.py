@@ -31,9 +31,9 @@ def find_domefall():
     return os.path.abspath(found)
 
 
-def run(domefall, *arguments):
+def run(domefall, *arguments, if_refused=BAD_INPUT):
     """What a verb of domefall prints, and what it says; if it fails, this program ends with its
-    message and code."""
+    message and code, or with `if_refused` in the place of 2."""
     try:
         answer = subprocess.run([domefall, *arguments], stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True, check=False)
@@ -41,6 +41,7 @@ def run(domefall, *arguments):
         stop(f"domefall cannot be started: {error}", TRY_AGAIN)
     if answer.returncode != 0:
         code = answer.returncode if answer.returncode > 0 else TRY_AGAIN
+        code = if_refused if code == BAD_INPUT else code
         stop((answer.stderr or answer.stdout).rstrip(), code)
     return answer.stdout, answer.stderr
 
@@ -49,12 +50,13 @@ def ask(domefall, *arguments):
     return run(domefall, *arguments)[0]
 
 
-def still_to_make(domefall, show, frames, out, options):
+def still_to_make(domefall, show, frames, out, options, if_refused=BAD_INPUT):
     """The frames, of those that `frames` names, that a run with these options would make, by what the
     beginnings of their files say. Passes on what domefall says of the folder, such as how many
-    frames an edit of the show costs. If the run would be refused, this program ends."""
+    frames an edit of the show costs. If the run would be refused, this program ends with
+    `if_refused`: 2, or 75 where the show was good before and may be so again."""
     ranges, talk = run(domefall, "render", show, "--out", out, "--dry-run", *options,
-                       *(["--frames", frames] if frames else []))
+                       *(["--frames", frames] if frames else []), if_refused=if_refused)
     if talk:
         say(talk.rstrip())
     return from_ranges(ranges.strip())

@@ -147,6 +147,65 @@ a_show_edited_during_the_run_is_noticed() {
   same_frames single edited 40 || fail "the frames differ"
 }
 
+# Others rename the folder of the show, or write the show anew, while chunks begin.
+a_show_that_is_away_or_half_written_is_waited_for() {
+  mkdir shows
+  cp fall.yaml shows/fall.yaml
+  "$farm/render-local" shows/fall.yaml --workers 2 --threads 2 --out away --frames 0-7 --chunk 1 \
+    >away.log 2>&1 &
+  until_ok 20 at_least away 2 || fail "no frames"
+  mv shows gone
+  until_ok 20 grep -q "^shows/fall.yaml: away for now" away.log || fail "it is not missed"
+  mv gone shows
+  until_ok 20 at_least away 5 || fail "it is not taken up again"
+  head -c 150 fall.yaml >half && mv half shows/fall.yaml
+  until_ok 20 grep -q "exit code 2" away.log || fail "the half show is not noticed"
+  cp fall.yaml whole && mv whole shows/fall.yaml
+  wait $! || fail "the launcher: exit code $?: $(cat away.log)"
+  same_frames single away 8 || fail "the frames differ"
+}
+
+# The worker begins while the show is there and reads it while it is not: the program, in its place,
+# renames it before and leaves it away for a second.
+a_show_that_vanishes_under_a_worker_is_waited_for() {
+  cat >vanishing <<SCRIPT
+#!/bin/bash
+if [[ \$1 == render && "\$*" != *--dry-run* && ! -e vanished ]]; then
+  touch vanished && mv away.yaml gone.yaml && { sleep 1 && mv gone.yaml away.yaml; } &
+  until [[ ! -e away.yaml ]]; do sleep 0.02; done
+fi
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x vanishing
+  cp fall.yaml away.yaml
+  DOMEFALL=./vanishing expect 0 vanished.log "$farm/render-local" away.yaml --out vanished.d \
+    --frames 0-3 --workers 1 --chunk 2
+  says vanished.log "away.yaml: No such file or directory"
+  says vanished.log "away.yaml: away for now"
+
+  mkdir never
+  cp fall.yaml never
+  "$farm/render-local" never/fall.yaml --out never.d --workers 1 --chunk 1 --retries 1 >never.log 2>&1 &
+  until_ok 20 at_least never.d 2 || fail "no frames"
+  rm never/fall.yaml
+  code=0
+  wait $! || code=$?
+  [[ $code == 75 ]] || fail "a show that is gone: exit code $code, not 75: $(cat never.log)"
+  says never.log "never/fall.yaml: still away after 1 s; given up"
+}
+
+a_show_that_is_made_wrong_ends_the_run() {
+  mkdir turned
+  cp fall.yaml turned
+  "$farm/render-local" turned/fall.yaml --out turned.d --workers 1 --chunk 1 >turned.log 2>&1 &
+  until_ok 20 at_least turned.d 2 || fail "no frames"
+  sed -i 's/from_r: 4/from_r: -4/' turned/fall.yaml
+  code=0
+  wait $! || code=$?
+  [[ $code == 2 ]] || fail "a show that was made wrong: exit code $code, not 2: $(cat turned.log)"
+  [[ $(grep -c "exit code 2" turned.log) == 3 ]] || fail "not tried 3 times: $(cat turned.log)"
+}
+
 # A program that is not there for a moment, as on a file server that pauses.
 a_worker_that_cannot_be_started_is_tried_again() {
   cat >coming <<SCRIPT
@@ -166,6 +225,8 @@ for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and
   a_killed_worker_loses_nothing a_stopped_run_and_a_killed_one_are_taken_up \
   a_full_disk_is_tried_again a_wrong_input_is_not_tried_again \
   what_is_anothers_is_refused_before_a_worker_starts a_show_edited_during_the_run_is_noticed \
+  a_show_that_is_away_or_half_written_is_waited_for \
+  a_show_that_vanishes_under_a_worker_is_waited_for a_show_that_is_made_wrong_ends_the_run \
   a_worker_that_cannot_be_started_is_tried_again; do
   $claim
   pass "$claim"
