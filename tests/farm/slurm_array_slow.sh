@@ -118,6 +118,31 @@ SCRIPT
   [[ $(frames_in other) == 0 ]] || fail "frames of another version"
 }
 
+# The show vanishes between the look that the task takes at it and the worker's own.
+a_show_that_vanishes_under_a_task_is_tried_again() {
+  local job log
+  mkdir lost
+  cp fall.yaml lost/fall.yaml
+  cat >losing <<SCRIPT
+#!/bin/bash
+if [[ -n \$SLURM_JOB_ID && \$1 == render && ! -e $scratch/lost.done ]]; then
+  touch $scratch/lost.done
+  mv $scratch/lost/fall.yaml $scratch/found.yaml
+fi
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x losing
+  job=$(DOMEFALL=./losing "$farm/render-slurm" lost/fall.yaml --cpus 1 --out lost.d --frames 0-3)
+  log=lost.d/log/render_${job}_0.log
+  until_ok 40 grep -q "back to the queue" "$log" || fail "not tried again: $(cat "$log")"
+  mv found.yaml lost/fall.yaml
+  wait_for "$job" lost.d
+  has_tasks "$job" lost.d "0 COMPLETED 1"
+  says "$log" "fall.yaml: No such file or directory"
+  says "$log" "this node does not see $scratch/lost/fall.yaml"
+  same_frames single lost.d 4 || fail "the frames differ"
+}
+
 # Its tasks end at once, so that it is mostly idle and would be given every one of them again.
 a_bad_node_is_left_out_and_the_others_go_on() {
   local job bad
@@ -167,7 +192,8 @@ SCRIPT
   job=$(cat small.job)
   [[ $code == 2 ]] || fail "a wrong size: exit code $code, not 2"
   says small.log "missing: frames 0-39 (40 of 40)"
-  says "small/log/render_${job}_0.log" "--size 5:"
+  [[ $(grep -cF -e "--size 5:" "small/log/render_${job}_0.log") == 3 ]] ||
+    fail "not refused 3 times: $(cat "small/log/render_${job}_0.log")"
   tasks "$job" >small.tasks
   awk '$3 != 0' small.tasks | cmp - /dev/null || fail "a wrong input was tried again"
   # Those that ran when the first failed do too; the others never begin.
@@ -185,6 +211,7 @@ begin_torn
 begin_full
 for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
   a_full_disk_is_tried_again_but_not_for_ever a_node_with_another_version_makes_nothing \
+  a_show_that_vanishes_under_a_task_is_tried_again \
   a_bad_node_is_left_out_and_the_others_go_on \
   a_dead_task_and_a_cancelled_one_are_made_up_for a_wrong_input_on_a_node_stops_the_array; do
   $claim
