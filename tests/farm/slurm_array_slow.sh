@@ -162,6 +162,25 @@ SCRIPT
   same_frames single uneven.d 20 || fail "the frames differ"
 }
 
+# The last task of an array has the job id of the array itself.
+the_last_task_is_requeued_without_the_others() {
+  local job
+  cat >once <<SCRIPT
+#!/bin/bash
+if [[ \$1 == render && " \$* " == *" 20-39 "* && ! -e $scratch/once.done ]]; then
+  until [[ -e $scratch/last.d/linear/fall_00002.exr ]]; do sleep 0.05; done
+  touch $scratch/once.done
+  exit 75
+fi
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x once
+  job=$(DOMEFALL=./once "${launch[@]}" --out last.d --chunk 20)
+  wait_for "$job" last.d
+  has_tasks "$job" last.d "0 COMPLETED 0" "1 COMPLETED 1"
+  same_frames single last.d 40 || fail "the frames differ"
+}
+
 a_dead_task_and_a_cancelled_one_are_made_up_for() {
   local job worker
   job=$("${launch[@]}" --out dead --chunk 20)
@@ -212,7 +231,7 @@ begin_full
 for claim in a_killed_worker_and_a_short_time_limit_lose_nothing \
   a_full_disk_is_tried_again_but_not_for_ever a_node_with_another_version_makes_nothing \
   a_show_that_vanishes_under_a_task_is_tried_again \
-  a_bad_node_is_left_out_and_the_others_go_on \
+  the_last_task_is_requeued_without_the_others a_bad_node_is_left_out_and_the_others_go_on \
   a_dead_task_and_a_cancelled_one_are_made_up_for a_wrong_input_on_a_node_stops_the_array; do
   $claim
   pass "$claim"
