@@ -71,6 +71,16 @@ def frames_of(domefall, show, frames):
     return [int(cell) for cell in first_column if cell.isdigit()]
 
 
+def make_folder(path):
+    """Makes a folder, and those above it, before anything is begun in it."""
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        never = isinstance(error, (NotADirectoryError, FileExistsError))
+        stop(f"{path}: the folder cannot be made: {error.strerror}",
+             BAD_INPUT if never else TRY_AGAIN)
+
+
 def as_ranges(frames):
     """Sorted numbers as domefall writes them: 0-9,12."""
     ranges = []

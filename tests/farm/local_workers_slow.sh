@@ -194,6 +194,26 @@ SCRIPT
   says never.log "never/fall.yaml: still away after 1 s; given up"
 }
 
+a_folder_that_is_away_is_not_made_anew() {
+  "${launch[@]}" --out moved --frames 0-7 --chunk 1 >moved.log 2>&1 &
+  until_ok 20 at_least moved 2 || fail "no frames"
+  mv moved elsewhere.d
+  until_ok 20 grep -q "^moved: away for now" moved.log || fail "the folder is not missed"
+  # Longer than the pause before a second try, while the workers that had begun have ended.
+  until_ok 20 no_workers || fail "the workers do not end"
+  sleep 1.5
+  [[ ! -e moved ]] || fail "another folder was made: $(cat moved.log)"
+  mv elsewhere.d moved
+  wait $! || fail "the launcher: exit code $?: $(cat moved.log)"
+  [[ ! -e moved/elsewhere.d ]] || fail "the folder came back into another one"
+  same_frames single moved 8 || fail "the frames differ"
+
+  touch file
+  expect 2 file.log "${launch[@]}" --out file --frames 0
+  says file.log "file: the folder cannot be made: File exists"
+}
+no_workers() { [[ -z $(workers) ]]; }
+
 a_show_that_is_made_wrong_ends_the_run() {
   mkdir turned
   cp fall.yaml turned
@@ -227,6 +247,7 @@ for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and
   what_is_anothers_is_refused_before_a_worker_starts a_show_edited_during_the_run_is_noticed \
   a_show_that_is_away_or_half_written_is_waited_for \
   a_show_that_vanishes_under_a_worker_is_waited_for a_show_that_is_made_wrong_ends_the_run \
+  a_folder_that_is_away_is_not_made_anew \
   a_worker_that_cannot_be_started_is_tried_again; do
   $claim
   pass "$claim"
