@@ -52,7 +52,6 @@ a_killed_worker_loses_nothing() {
   "${launch[@]}" --out killed --chunk 20 >killed.log 2>&1 &
   until_ok 20 at_least killed 6 || fail "no frames"
   worker=$(workers 0-19)
-  kill -STOP "$worker"
   made killed >killed.made
   kill -KILL "$worker"
   wait $! || fail "the launcher: exit code $?"
@@ -226,6 +225,37 @@ a_show_that_is_made_wrong_ends_the_run() {
   [[ $(grep -c "exit code 2" turned.log) == 3 ]] || fail "not tried 3 times: $(cat turned.log)"
 }
 
+a_stopped_worker_is_continued_and_then_killed() {
+  local worker
+  "${launch[@]}" --out halted --workers 1 --chunk 40 >halted.log 2>&1 &
+  until_ok 20 at_least halted 2 || fail "no frames"
+  worker=$(workers)
+  kill -STOP "$worker"
+  until_ok 20 grep -q "process $worker was stopped; continued" halted.log || fail "not continued"
+  until_ok 20 at_least halted $(($(frames_in halted) + 2)) || fail "it does not go on"
+  kill -STOP "$worker"
+  until_ok 20 grep -q "frames 0-39: killed by SIGKILL" halted.log || fail "it is not killed"
+  wait $! || fail "the launcher: exit code $?: $(cat halted.log)"
+  says halted.log "process $worker was stopped; killed"
+  same_frames single halted 40 || fail "the frames differ"
+}
+
+# The launcher is stopped first, so that it is the signal that continues the worker.
+a_stopped_worker_does_not_outlive_the_end_of_the_run() {
+  local code=0 launcher
+  "${launch[@]}" --out frozen --workers 1 --chunk 40 >frozen.log 2>&1 &
+  launcher=$!
+  until_ok 20 at_least frozen 2 || fail "no frames"
+  kill -STOP "$launcher" "$(workers)"
+  kill -TERM "$launcher"
+  kill -CONT "$launcher"
+  until_ok 20 grep -q "missing: frames" frozen.log || fail "SIGTERM does not end the run"
+  wait "$launcher" || code=$?
+  [[ $code == 143 ]] || fail "stopped by SIGTERM: exit code $code, not 143: $(cat frozen.log)"
+  (($(frames_in frozen) < 40)) || fail "the worker was not told to stop"
+  [[ -z $(workers) ]] || fail "the worker outlives its launcher"
+}
+
 # A program that is not there for a moment, as on a file server that pauses.
 a_worker_that_cannot_be_started_is_tried_again() {
   cat >coming <<SCRIPT
@@ -247,7 +277,8 @@ for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and
   what_is_anothers_is_refused_before_a_worker_starts a_show_edited_during_the_run_is_noticed \
   a_show_that_is_away_or_half_written_is_waited_for \
   a_show_that_vanishes_under_a_worker_is_waited_for a_show_that_is_made_wrong_ends_the_run \
-  a_folder_that_is_away_is_not_made_anew \
+  a_folder_that_is_away_is_not_made_anew a_stopped_worker_is_continued_and_then_killed \
+  a_stopped_worker_does_not_outlive_the_end_of_the_run \
   a_worker_that_cannot_be_started_is_tried_again; do
   $claim
   pass "$claim"
