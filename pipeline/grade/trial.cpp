@@ -43,11 +43,25 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-void confine(const TrialBounds& bounds) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // An interrupted run goes on until the trial is over; a crash is told by the parent.
+// The handlers of this process would speak to its threads, which the copy has not, or through its
+// pipes to this process itself.
+void forget_handlers() {
+  for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+    std::signal(number, SIG_DFL);
+  // A terminal interrupts both, and it is this process that decides what becomes of the run.
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_IGN);
-  for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(number, SIG_DFL);
+}
+
+void close_all_but(int kept) {
+  const auto number = static_cast<unsigned>(kept);
+  close_range(STDERR_FILENO + 1, number - 1, 0);
+  close_range(number + 1, ~0U, 0);
+}
+
+void confine(int to, const TrialBounds& bounds) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  forget_handlers();
+  close_all_but(to);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(bounds.cpu_seconds));
   limit(RLIMIT_AS, address_space() + (static_cast<rlim_t>(bounds.gibibytes) << 30));
@@ -71,7 +85,10 @@ std::string outcome_of(const std::function<void()>& step) {
 
 [[noreturn]] void be_the_copy(int to, const std::function<void()>& step,
                               const TrialBounds& bounds) {
-  confine(bounds);
+  confine(to, bounds);
+  sigset_t none;
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &none, nullptr);
   const std::string outcome = outcome_of(step);
   for (std::size_t done = 0; done < outcome.size();) {
     const ssize_t written = write(to, outcome.data() + done, outcome.size() - done);
@@ -79,6 +96,19 @@ std::string outcome_of(const std::function<void()>& step) {
     done += static_cast<std::size_t>(written);
   }
   _exit(0);
+}
+
+// No signal reaches the copy while it still has the handlers of this process.
+pid_t copy_without_signals(int to, const std::function<void()>& step, const TrialBounds& bounds) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t copy = fork();
+  if (copy == 0) be_the_copy(to, step, bounds);
+  const int error = errno;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  errno = error;
+  return copy;
 }
 
 // Whatever the copy writes until it ends, and whether it ended in time.
@@ -122,8 +152,7 @@ void try_elsewhere(const std::string& name, const std::function<void()>& step,
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     throw TemporaryError(name + ": no pipe can be made: " + std::strerror(errno));
-  const pid_t copy = fork();
-  if (copy == 0) be_the_copy(ends[1], step, bounds);
+  const pid_t copy = copy_without_signals(ends[1], step, bounds);
   const int error = errno;
   close(ends[1]);
   if (copy < 0) {

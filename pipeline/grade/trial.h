@@ -11,9 +11,10 @@ struct TrialBounds {
   int cpu_seconds = 5, seconds = 30, gibibytes = 4;
 };
 
-// Calls `step` in a copy of this process, which has these bounds, writes nothing to the terminal, and
-// is gone when this function returns.  What `step` changes is changed in the copy alone.  The copy
-// has one thread; `step` may need no lock that another thread of this process may hold.
+// Calls `step` in a copy of this process, which has these bounds, writes nothing to the terminal,
+// and is gone when this function returns.  What `step` changes is changed in the copy alone.  The
+// copy has one thread, no handlers of signals and no files of this process; `step` may need no lock
+// that another thread of this process may hold.
 //
 // Throws InputError or TemporaryError as `step` does.  Throws InputError, which begins with `name`,
 // if the copy crashes or takes more processor time or memory than these bounds, and TemporaryError if
