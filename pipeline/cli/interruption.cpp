@@ -1,14 +1,15 @@
 #include "pipeline/cli/interruption.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -18,11 +19,12 @@
 namespace domefall {
 namespace {
 
-std::atomic<bool> first_is_remembered{false};
+std::atomic<bool> first_is_remembered{false}, nothing_is_unfinished{false};
 std::atomic<int> remembered{0};
 std::array<int, 2> told{-1, -1};  // a pipe, through which a handler may speak to a thread
 
 void on_signal(int signal) {
+  if (nothing_is_unfinished) _exit(128 + signal);
   int none = 0;
   if (first_is_remembered && remembered.compare_exchange_strong(none, signal)) return;
   const int error = errno;
@@ -31,13 +33,22 @@ void on_signal(int signal) {
   errno = error;
 }
 
+// Says it only where it can be said at once: a pipe may be full that nobody reads, and a thread that
+// waits for it holds the lock of the stream.
+void say(std::string_view line) {
+  pollfd out{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&out, 1, 0) > 0 && (out.revents & POLLOUT) != 0)
+    (void)!write(STDERR_FILENO, line.data(), line.size());
+}
+
 // Little is allowed in a handler, and removing a folder is not.
 void end_when_told() {
   unsigned char signal = 0;
   while (read(told[0], &signal, 1) != 1) {
   }
   remove_unfinished();
-  std::fputs("stopped; what was not finished has been removed\n", stderr);
+  nothing_is_unfinished = true;
+  say("stopped; what was not finished has been removed\n");
   _exit(128 + signal);
 }
 
