@@ -1,5 +1,5 @@
 // Lets SIGINT, SIGTERM, SIGHUP and SIGXCPU end the program so that nothing half-made stays behind.
-// A SIGHUP that the program was started to ignore (nohup) stays ignored.
+// One that the program was started to ignore (nohup, a job in the background) stays ignored.
 #pragma once
 
 namespace domefall {

@@ -18,6 +18,8 @@ DOMEFALL, STARS = os.environ['DOMEFALL'], os.environ['DOMEFALL_SOURCE'] + '/show
 KILL, TERM, INT, HUP = signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP
 SIGNALS = [[KILL], [TERM], [KILL], [INT], [KILL], [HUP], [KILL], [TERM, TERM]]
 chance = random.Random(13)
+# Of a job in the background, signals to interrupt it are ignored by what it starts, too.
+signal.signal(INT, signal.default_int_handler)
 
 def write_panorama(path, width=64, height=32):
     rows = b''.join(b'\0' + bytes(x * y % 251 for x in range(width) for _ in 'rgb') for y in range(height))
@@ -146,12 +148,15 @@ assert sum(count > 0 for count in middle) >= 4, 'too few kills came in the middl
 END
 python3 killed_writers.py || fail "see above"
 
-# What nohup protects from a terminal that is closed goes on.
-(
-  trap '' HUP
-  exec "$DOMEFALL" render tiny.yaml --frames 0-9 --out protected 2>stderr
-) &
-until [ -e protected/linear ]; do kill -0 $! || fail "$(cat stderr)"; done
-kill -HUP $!
-wait $! || fail "nohup does not protect: $(cat stderr)"
-says '^10 frames made'
+# What nohup protects from a terminal that is closed goes on, and so does what a script protects from its
+# interruption.
+for ignored in HUP INT TERM; do
+  (
+    trap '' $ignored
+    exec "$DOMEFALL" render tiny.yaml --frames 0-9 --out protected$ignored 2>stderr
+  ) &
+  until [ -e protected$ignored/linear ]; do kill -0 $! || fail "$(cat stderr)"; done
+  kill -$ignored $!
+  wait $! || fail "a program that is to ignore $ignored does not: $(cat stderr)"
+  says '^10 frames made'
+done
