@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
-#include <stdexcept>
+#include <string>
+
+#include "pipeline/image/errors.h"
 
 namespace domefall {
 namespace {
@@ -11,7 +13,7 @@ constexpr const char *kLibrary = "libdomefall_image_formats.so", *kEntry = "dome
 
 [[noreturn]] void fail() {
   const char* reason = dlerror();
-  throw std::runtime_error(
+  throw TemporaryError(
       std::string("the part of this program that reads and writes images cannot be loaded: ") +
       (reason ? reason : kLibrary));
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 
 #include "pipeline/image/errors.h"
 
@@ -17,6 +18,8 @@ auto named(const std::filesystem::path& file, const char* what, Step step) {
     throw;
   } catch (const TemporaryError&) {
     throw;
+  } catch (const std::system_error& error) {  // of threads that it may not start
+    throw TemporaryError(file.string() + ": " + what + ": " + error.what());
   } catch (const std::runtime_error& error) {
     throw InputError(file.string() + ": " + what + ": " + error.what());
   }

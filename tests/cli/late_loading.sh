@@ -31,7 +31,7 @@ exits 0 "$installed" render show.yaml --frames 3 --out installed_frames
 same_frames built installed_frames
 
 find installed -name 'libdomefall_image_formats.so' -delete
-exits 1 "$installed" render show.yaml --frames 4 --out incomplete
+exits 75 "$installed" render show.yaml --frames 4 --out incomplete
 says 'reads and writes images cannot be loaded: libdomefall_image_formats\.so: '
 [ -z "$(find incomplete -name '*.png')" ] || fail "a PNG was written all the same"
 exits 0 "$installed" render linear.yaml --frames 3 --out installed_linear
