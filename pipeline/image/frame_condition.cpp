@@ -58,9 +58,17 @@ bool has_right_digest(const FileBytes& file, const FrameHead& head) {
   }
 }
 
-FrameCondition claimed_condition(const std::filesystem::path& path,
+FrameCondition headless_condition(const FileBytes& file) {
+  try {
+    return may_be_rest_of_frame(file) ? FrameCondition::kDamaged : FrameCondition::kOther;
+  } catch (const DamagedFile&) {  // shortened meanwhile
+    return FrameCondition::kOther;
+  }
+}
+
+FrameCondition claimed_condition(const std::filesystem::path& path, const FileBytes& file,
                                  const std::optional<FrameHead>& head, const WantedFrame& wanted) {
-  if (!head) return FrameCondition::kDamaged;
+  if (!head) return headless_condition(file);
   if (difference(path, *head, wanted)) return FrameCondition::kOther;
   const bool same = head->key == wanted.key && head->digest.size() == kBlankDigest.size();
   return same ? FrameCondition::kGood : FrameCondition::kOlder;
@@ -70,7 +78,7 @@ FrameCondition claimed_condition(const std::filesystem::path& path,
 
 FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted) {
   const auto file = FileBytes::open(path);
-  return file ? claimed_condition(path, head_of(*file), wanted) : FrameCondition::kMissing;
+  return file ? claimed_condition(path, *file, head_of(*file), wanted) : FrameCondition::kMissing;
 }
 
 bool is_whole(const std::filesystem::path& path) {
@@ -83,16 +91,16 @@ FrameCondition examine_frame(const std::filesystem::path& path, const WantedFram
   const auto file = FileBytes::open(path);
   if (!file) return FrameCondition::kMissing;
   const auto head = head_of(*file);
-  const FrameCondition claimed = claimed_condition(path, head, wanted);
+  const FrameCondition claimed = claimed_condition(path, *file, head, wanted);
   const bool keeps = claimed == FrameCondition::kGood ||
-                     (claimed == FrameCondition::kOther && !head->digest.empty());
+                     (claimed == FrameCondition::kOther && head && !head->digest.empty());
   return !keeps || has_right_digest(*file, *head) ? claimed : FrameCondition::kDamaged;
 }
 
 std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted) {
   const auto file = FileBytes::open(path);
   const auto head = file ? head_of(*file) : std::nullopt;
-  return head ? difference(path, *head, wanted).value_or("") : "";
+  return head ? difference(path, *head, wanted).value_or("") : "a file that is not Domefall's";
 }
 
 }  // namespace domefall

@@ -11,8 +11,8 @@ namespace domefall {
 
 enum class FrameCondition {
   kMissing,  // there is no such file
-  kDamaged,  // it is no image, or not as it was written
-  kOther,  // a frame of another size, show or projection, or an image of another format or program
+  kDamaged,  // not as it was written, or what is left of a frame
+  kOther,    // a frame of another size, show or projection, or a file of another format or program
   kOlder,  // of the same show, but of another version of it, or written without a digest
   kGood,
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
+#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -100,11 +101,11 @@ void check_exr_table(const FileBytes& file, std::uint64_t table, std::int64_t he
   }
 }
 
-// Rows in one part, by the number of the compression.
-std::int64_t rows_per_part(unsigned char compression) {
-  constexpr unsigned char kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 0};
-  if (compression >= sizeof kRows) throw DamagedFile("its compression is unknown");
-  return kRows[compression] == 0 ? 256 : kRows[compression];
+// Rows in one part, by the number of the compression; nothing for a later one.
+std::optional<std::int64_t> rows_per_part(unsigned char compression) {
+  constexpr std::int64_t kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+  if (compression >= std::size(kRows)) return std::nullopt;
+  return kRows[compression];
 }
 
 FrameHead read_exr_head(const FileBytes& file) {
@@ -140,9 +141,8 @@ FrameHead read_exr_head(const FileBytes& file) {
   if (digest) head.digest_at = attributes.at(kExrDigest).at;
   head.ours = key || digest || attributes.contains(kExrTitle);
   check_digest(head, attributes.contains(kFormerExrDigest));
-  if (version == kScanLines)
-    check_exr_table(file, at, head.height,
-                    rows_per_part(static_cast<unsigned char>(value("compression", 1)[0])));
+  const auto rows = rows_per_part(static_cast<unsigned char>(value("compression", 1)[0]));
+  if (version == kScanLines && rows) check_exr_table(file, at, head.height, *rows);
   return head;
 }
 
@@ -182,6 +182,15 @@ FrameHead read_png_head(const FileBytes& file) {
 }
 
 // ---- TIFF 6.0, section 2 ----
+
+bool holds_text(const FileBytes& file, std::string_view text) {
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
+  for (std::uint64_t at = 0; at < file.size(); at += kBlock) {
+    const std::uint64_t count = std::min(kBlock + text.size(), file.size() - at);
+    if (file.at(at, count).find(text) != std::string::npos) return true;
+  }
+  return false;
+}
 
 class TiffDirectory {
  public:
@@ -237,14 +246,7 @@ class TiffDirectory {
 };
 
 // Whether the file holds a description of ours, which a damaged directory no longer leads to.
-bool holds_our_lines(const FileBytes& file) {
-  constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
-  for (std::uint64_t at = 0; at < file.size(); at += kBlock) {
-    const std::uint64_t count = std::min(kBlock + kSoftwareLine.size(), file.size() - at);
-    if (file.at(at, count).find(kSoftwareLine) != std::string::npos) return true;
-  }
-  return false;
-}
+bool holds_our_lines(const FileBytes& file) { return holds_text(file, kSoftwareLine); }
 
 FrameHead read_tiff_head(const FileBytes& file, bool big) {
   constexpr std::uint16_t kWidth = 256, kHeight = 257, kDescription = 270;
@@ -274,6 +276,15 @@ std::string one_line(std::string title) {
   std::replace_if(
       title.begin(), title.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return title;
+}
+
+bool may_be_rest_of_frame(const FileBytes& file) {
+  constexpr std::uint64_t kBlock = 512;
+  const std::string start = file.at(0, std::min(file.size(), kBlock));
+  if (start.find_first_not_of('\0') == std::string::npos) return true;
+  for (const std::string_view magic : {kExrStart, kPngStart, kTiffLittle, kTiffBig})
+    if (start.starts_with(magic) || magic.starts_with(start)) return true;
+  return holds_text(file, kExrKey) || holds_text(file, kSoftwareLine);
 }
 
 std::optional<FrameHead> read_frame_head(const FileBytes& file) {

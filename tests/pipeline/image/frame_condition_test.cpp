@@ -130,10 +130,41 @@ TEST_F(FrameConditions, KnowAFormatBehindAnothersName) {
     fs::copy_file(made(from), folder_ / to);
     EXPECT_EQ(condition(folder_ / to), FrameCondition::kOther) << to;
   }
-  put(folder_ / "f.exr", "no image");
-  put(folder_ / "f.png", "");
-  EXPECT_EQ(condition(folder_ / "f.exr"), FrameCondition::kDamaged);
-  EXPECT_EQ(condition(folder_ / "f.png"), FrameCondition::kDamaged);
+}
+
+// Nobody asked for them to be replaced.
+TEST_F(FrameConditions, TakeAFileOfAnotherKindForAnothers) {
+  using std::string_literals::operator""s;
+  const std::string rest(2000, 'x');
+  for (const char* name : kNames)
+    for (const std::string& start : {"no image"s, "v"s + "iew"s, "\xff\xd8\xff\xe0\0\x10JFIF"s,
+                                     "II+\0\x08\0\0\0"s, "MM\0+\0\x08\0\0"s, "GIF89a"s, "RIFF"s}) {
+      put(folder_ / name, start + rest);
+      EXPECT_EQ(condition(folder_ / name), FrameCondition::kOther) << name << ", " << start;
+      EXPECT_EQ(claimed_condition(folder_ / name, wanted_frame()), FrameCondition::kOther);
+      EXPECT_EQ(describe_difference(folder_ / name, wanted_frame()),
+                "a file that is not Domefall's");
+    }
+  // Another program's OpenEXR with a compression of a later version.
+  std::string exr = contents(made("f.exr"));
+  for (const char* field : {"frameKey", "fileDigest", "showTitle"})
+    exr.replace(exr.find(field), 2, "zz");
+  exr[exr.find("compression\0compression"s) + 12 + 12 + 4] = 11;
+  put(folder_ / "f.exr", exr);
+  EXPECT_EQ(condition(folder_ / "f.exr"), FrameCondition::kOther);
+}
+
+TEST_F(FrameConditions, TakeWhatIsLeftOfAFrameForDamaged) {
+  for (const char* name : kNames) {
+    const std::string whole = contents(made(name));
+    std::string no_start = whole, no_head = whole;
+    no_start.replace(0, 8, "xxxxxxxx");
+    no_head.replace(0, whole.size(), whole.size(), '\0');
+    for (const std::string& left : {std::string(), no_start, no_head}) {
+      put(folder_ / name, left);
+      EXPECT_EQ(condition(folder_ / name), FrameCondition::kDamaged) << name << left.size();
+    }
+  }
 }
 
 // The header that a decoder would ask for 21 GB for.
