@@ -22,11 +22,26 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char *kLinear = "linear", *kGraded = "graded";
 
+// The first part of the path that is a link to nothing; empty if there is none.
+fs::path dangling_link(const fs::path& path) {
+  fs::path part;
+  for (const fs::path& name : path) {
+    part /= name;
+    std::error_code ignored;
+    if (fs::is_symlink(part, ignored) && !fs::exists(part, ignored)) return part;
+  }
+  return {};
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    const std::string what = folder.string() + ": the folder cannot be made: " + error.message();
+    const fs::path link = dangling_link(folder);
+    const std::string why = error.value() == ELOOP || link.empty()
+                                ? error.message()
+                                : link.string() + " is a link that leads nowhere";
+    const std::string what = folder.string() + ": the folder cannot be made: " + why;
     if (error.value() == ENOTDIR || error.value() == ENAMETOOLONG || error.value() == ELOOP)
       throw InputError(what);
     throw TemporaryError(what);
@@ -57,7 +72,11 @@ void for_each_file(const fs::path& folder, const std::function<void(const fs::pa
 Json read_record(const fs::path& path) {
   const auto file = FileBytes::open(path);
   if (!file || file->size() > FileBytes::kMost) return {};
-  return Json::parse(file->at(0, file->size()), nullptr, false);
+  try {
+    return Json::parse(file->at(0, file->size()), nullptr, false);
+  } catch (const DamagedFile&) {  // another program has shortened it meanwhile
+    return {};
+  }
 }
 
 std::string text_of(const Json& record) {
@@ -151,8 +170,11 @@ void FrameFolder::prepare() const {
 
 void FrameFolder::write_record() const {
   const std::string text = record();
-  const auto there = FileBytes::open(record_path());
-  if (there && there->size() == text.size() && there->at(0, text.size()) == text) return;
+  try {
+    const auto there = FileBytes::open(record_path());
+    if (there && there->size() == text.size() && there->at(0, text.size()) == text) return;
+  } catch (const DamagedFile&) {  // another program has shortened it meanwhile
+  }
   write_atomically(record_path(), text);
 }
 

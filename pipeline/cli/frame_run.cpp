@@ -153,6 +153,8 @@ class Run {
       return true;
     } catch (const InputError&) {  // one is gone
       return false;
+    } catch (const TemporaryError&) {  // one went while it was read
+      return false;
     }
   }
 

@@ -65,7 +65,9 @@ says '^file/below/linear: '
 exits 2 render --out "$(printf 'x%.0s' {1..300})"
 ln -s nowhere-yet absent
 exits 75 render --out absent/below
-says '^absent/below/linear: the folder cannot be made: '
+says '^absent/below/linear: the folder cannot be made: absent is a link that leads nowhere$'
+exits 75 render --out absent
+says '^absent/linear: the folder cannot be made: absent is a link that leads nowhere$'
 if [ "$(id -u)" -eq 0 ] && setpriv --reuid=65534 --clear-groups true 2>/dev/null; then
   as_nobody() { setpriv --reuid=65534 --clear-groups "$@"; }
 elif [ "$(id -u)" -ne 0 ]; then
