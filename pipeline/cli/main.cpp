@@ -26,7 +26,7 @@
 
 namespace {
 
-constexpr int kTryAgain = 75, kFailure = 1;
+constexpr int kFailure = 1;
 
 int report(const char* message, int code) {
   std::fprintf(stderr, "%s\n", message);
@@ -73,15 +73,16 @@ int main(int argc, char** argv) {
   } catch (const domefall::InputError& error) {
     return report(error.what(), domefall::kBadInput);
   } catch (const domefall::TemporaryError& error) {
-    return report(error.what(), kTryAgain);
+    return report(error.what(), domefall::kTryAgain);
   } catch (const std::system_error& error) {
     // Of the machine and the moment: threads that may not be started, a folder that is gone.
     if (error.code() != std::errc::resource_unavailable_try_again)
-      return report(error.what(), kTryAgain);
+      return report(error.what(), domefall::kTryAgain);
     return report("no more threads can be started: raise the limit, or take fewer --threads",
-                  kTryAgain);
+                  domefall::kTryAgain);
   } catch (const std::bad_alloc&) {
-    return report("out of memory: fewer --threads or a smaller --size may fit", kTryAgain);
+    return report("out of memory: fewer --threads or a smaller --size may fit",
+                  domefall::kTryAgain);
   } catch (const std::exception& error) {
     return report(error.what(), kFailure);
   }

@@ -17,8 +17,6 @@
 namespace domefall {
 namespace {
 
-constexpr int kTryAgain = 75;
-
 // How many of `count` threads can live at the same time.
 int threads_to_be_had(int count) {
   std::promise<void> end;
