@@ -130,8 +130,8 @@ class Run {
     return condition == FrameCondition::kGood;
   }
 
-  // The keys hold digests of the assets as they were when the run began, and the renderer reads them
-  // later.  So a frame counts only if nothing has touched them until it was rendered.
+  // The keys hold digests of the assets as they were when the run began, and the renderer reads
+  // them later.  So a frame counts only if nothing has touched them until it was rendered.
   void render_as_keyed(const FrameState& state, HalfFrame& frame) {
     for (;;) {
       render(state, frame);

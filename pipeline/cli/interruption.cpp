@@ -33,8 +33,8 @@ void on_signal(int signal) {
   errno = error;
 }
 
-// Says it only where it can be said at once: a pipe may be full that nobody reads, and a thread that
-// waits for it holds the lock of the stream.
+// Says it only where it can be said at once: a pipe may be full that nobody reads, and a thread
+// that waits for it holds the lock of the stream.
 void say(std::string_view line) {
   pollfd out{STDERR_FILENO, POLLOUT, 0};
   if (poll(&out, 1, 0) > 0 && (out.revents & POLLOUT) != 0)

@@ -33,8 +33,8 @@ int report(const char* message, int code) {
   return code;
 }
 
-// A file must not get the number of a standard stream that the caller has closed: what is said there
-// would go into the file.
+// A file must not get the number of a standard stream that the caller has closed: what is said
+// there would go into the file.
 void occupy_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     // An open takes the lowest free number.  What is printed on the second still fails.

@@ -17,8 +17,8 @@ struct TrialBounds {
 // that another thread of this process may hold.
 //
 // Throws InputError or TemporaryError as `step` does.  Throws InputError, which begins with `name`,
-// if the copy crashes or takes more processor time or memory than these bounds, and TemporaryError if
-// it has not ended in time, since it may wait for a slow disk, or cannot be made.
+// if the copy crashes or takes more processor time or memory than these bounds, and TemporaryError
+// if it has not ended in time, since it may wait for a slow disk, or cannot be made.
 void try_elsewhere(const std::string& name, const std::function<void()>& step,
                    const TrialBounds& bounds = {});
 

@@ -21,6 +21,7 @@ class FileBytes {
  public:
   // A file that is open already, and stays so for as long as this lives.
   FileBytes(int descriptor, std::filesystem::path name);
+  ~FileBytes() = default;
   FileBytes(const FileBytes&) = delete;
   FileBytes(FileBytes&&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;

@@ -13,7 +13,7 @@ enum class FrameCondition {
   kMissing,  // there is no such file
   kDamaged,  // not as it was written, or what is left of a frame
   kOther,    // a frame of another size, show or projection, or a file of another format or program
-  kOlder,  // of the same show, but of another version of it, or written without a digest
+  kOlder,    // of the same show, but of another version of it, or written without a digest
   kGood,
 };
 
@@ -29,15 +29,16 @@ struct WantedFrame {
 // or .tiff that format is wanted.  Throws as FileBytes::open and FileBytes::at.
 FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted);
 
-// Whether the file has a digest and the bytes that it was taken of, all of which are read.  False if
-// it is missing.  Throws as above.
+// Whether the file has a digest and the bytes that it was taken of, all of which are read.  False
+// if it is missing.  Throws as above.
 bool is_whole(const std::filesystem::path& path);
 
-// The claimed condition, held against the whole file where that is kGood or kOther.  An image without
-// a digest, of which nobody can tell, is taken to be whole.  Throws as above.
+// The claimed condition, held against the whole file where that is kGood or kOther.  An image
+// without a digest, of which nobody can tell, is taken to be whole.  Throws as above.
 FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted);
 
-// What makes a frame another one than is wanted, for people: "1024 x 1024 pixels".  Throws as above.
+// What makes a frame another one than is wanted, for people: "1024 x 1024 pixels".  Throws as
+// above.
 std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted);
 
 }  // namespace domefall

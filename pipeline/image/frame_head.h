@@ -31,9 +31,9 @@ struct FrameHead {
 // stands before the pixels is broken off or does not fit together, and as FileBytes::at.
 std::optional<FrameHead> read_frame_head(const FileBytes& file);
 
-// Of a file without a readable head: whether it may be what is left of a frame.  It is empty, begins
-// with zeros, as after a power cut, or as a frame does, or holds a field of Domefall's.  Throws as
-// FileBytes::at.
+// Of a file without a readable head: whether it may be what is left of a frame.  It is empty,
+// begins with zeros, as after a power cut, or as a frame does, or holds a field of Domefall's.
+// Throws as FileBytes::at.
 bool may_be_rest_of_frame(const FileBytes& file);
 
 // The CRC-32 of a PNG's chunk, big-endian as it stands in the file.

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/scratch_folder.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
-#include "pipeline/image/scratch_folder.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/sky/catalogue/star_file.h"
 

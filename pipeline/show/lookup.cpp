@@ -39,7 +39,8 @@ std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name)
   fs::path file = shipped_asset(name);
   if (is_readable_file(file)) return file;
   item.miss_file("needs Domefall's own file " + std::string(name) + ", which is missing from " +
-            assets_folder().string() + " (the variable DOMEFALL_ASSETS can name another folder)");
+                 assets_folder().string() +
+                 " (the variable DOMEFALL_ASSETS can name another folder)");
   return std::nullopt;
 }
 

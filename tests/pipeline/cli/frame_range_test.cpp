@@ -1,5 +1,4 @@
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/cli/frame_size.h"
 
 #include <gmock/gmock.h>
 
