@@ -162,7 +162,8 @@ class Run {
     if (!run_.render)
       throw InputError(
           folder_.linear(state.frame).string() +
-          ": the frame is missing, damaged or of another version of the show; render it first");
+          ": the frame is missing, damaged, or of another size or version of the show; render it "
+          "first");
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
       // All that the run needs is loaded at once, so that a damaged file ends it before its first
