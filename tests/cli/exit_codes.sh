@@ -32,6 +32,12 @@ says '^full/(linear|graded)/fall_000.*: File too large'
 [ -z "$(find full -type f)" ] || fail "a full disk left files: $(find full -type f | head -3)"
 exits 0 "$DOMEFALL" render fall.yaml --frames 0-2 --out full
 
+# Too little memory: for the threads of the run, and for the libraries of images.
+for kilobytes in 60000 300000; do
+  exits 75 bash -c "ulimit -v $kilobytes; exec '$DOMEFALL' render fall.yaml --frames 0 --out little"
+  [ -z "$(find little -name '*.tmp' 2>/dev/null)" ] || fail "little memory left temporaries"
+done
+
 # Data that did not reach its reader is no success.
 exits 75 bash -c "'$DOMEFALL' states fall.yaml >/dev/full"
 says '^standard output: '
