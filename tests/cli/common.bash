@@ -37,5 +37,16 @@ timeline:
 END
 }
 
+# A show of 60 frames, on which little is to be seen, for tests of what is written.
+write_grid_show() {
+  cat >"$1" <<END
+frames_per_second: 12
+size: 64
+black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {background: grid, stars: none}}
+timeline: [{duration_s: 5, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
+END
+}
+
 # same_frames A B: both folders hold the same files with the same bytes.
 same_frames() { diff -r "$1" "$2" >/dev/null || fail "$1 and $2 differ: $(diff -rq "$1" "$2" | head -3)"; }

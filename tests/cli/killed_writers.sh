@@ -4,13 +4,7 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
-cat >tiny.yaml <<'END'
-frames_per_second: 12
-size: 64
-black_hole: {mass_solar: 4.3e6}
-sky: {region_I: {background: grid, stars: none}}
-timeline: [{duration_s: 5, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
-END
+write_grid_show tiny.yaml
 cat >killed_writers.py <<'END'
 import os, pathlib, random, shutil, signal, struct, subprocess, sys, time, zlib
 

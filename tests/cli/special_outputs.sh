@@ -4,13 +4,7 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
-cat >tiny.yaml <<'END'
-frames_per_second: 12
-size: 64
-black_hole: {mass_solar: 4.3e6}
-sky: {region_I: {background: grid, stars: none}}
-timeline: [{duration_s: 5, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
-END
+write_grid_show tiny.yaml
 exits 0 "$DOMEFALL" stars import csv "$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv" --faintest 6 --out few.stars
 exits 0 "$DOMEFALL" preview tiny.yaml --size 128x64 --out panorama.png
 mkdir scratch
