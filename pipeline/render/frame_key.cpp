@@ -11,7 +11,7 @@ namespace domefall {
 namespace {
 
 // It is raised with every change that alters a pixel, so that older frames are made again.
-constexpr int kPixelVersion = 5;
+constexpr int kPixelVersion = 6;
 
 // Components of unit vectors are rounded to 1e-12, since one that is 0 on one processor may be
 // 1e-17 on another.
@@ -90,6 +90,8 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_sky(common, show.sky[SkyRegion::kI]);
   add_point_spread(common, show.point_spread);
   common.add(show.panorama_shift.blueshift_power);
+  if (show.least_star_radius != Show().least_star_radius)
+    common.add("star radius").add(show.least_star_radius);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   common_ = common.hex();
@@ -146,6 +148,11 @@ std::string FrameKeys::instant(const FrameState& state) const {
   if (!is_flat(o)) {
     digest.add(sky_four_);
     add_settings(digest, state.settings.sky[SkyRegion::kIV]);
+  }
+  // Stars that race around the ring are drawn by how far the sky turns until the next frame.
+  if (!is_flat(o) && !(show_.exposure.shutter > 0)) {
+    const V3d turn = sky_turn(show_, state);
+    for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));

@@ -90,14 +90,15 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
   StageTimes sum;
   sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;
+  const double gap = show_.exposure.shutter > 0 ? show_.exposure.shutter / sum.instants : 1;
   if (sum.instants == 1) {
-    render_instant(state, frame, sum);
+    render_instant(state, gap, frame, sum);
   } else {
     MeanFrame mean;
     for (FrameState& exposed : exposure_states(show_, state.frame, sum.instants)) {
       take_size(state, exposed);
       StageTimes own;
-      render_instant(exposed, frame, own);
+      render_instant(exposed, gap, frame, own);
       memory_->arena.execute([&] { mean.add(frame); });
       sum.add(own);
     }
@@ -107,17 +108,19 @@ void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* tim
 }
 
 // A dissolve mixes the views of two segments.
-void Renderer::render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times) {
-  render_view(state, frame, times);
+void Renderer::render_instant(const FrameState& state, double gap, HalfFrame& frame,
+                              StageTimes& times) {
+  render_view(state, gap, frame, times);
   if (!state.vanishing) return;
   StageTimes own;
   HalfFrame vanishing;
-  render_view(*state.vanishing, vanishing, own);
+  render_view(*state.vanishing, gap, vanishing, own);
   dissolve(frame, vanishing, state.vanishing_part);
   times.add(own);
 }
 
-void Renderer::render_view(const FrameState& state, HalfFrame& frame, StageTimes& times) {
+void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame,
+                           StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
   const PerSky<const Sky*> skies = skies_.skies_of(plan);
@@ -125,7 +128,9 @@ void Renderer::render_view(const FrameState& state, HalfFrame& frame, StageTimes
   const HoleOptics& optics = optics_.optics_for(state.observer, plan);
   times.tables_made = optics_.tables_made();
   times.table_nodes = node_count(optics);
-  const FrameScene scene(show_, state, plan, optics, skies);
+  SkyMotion motion;
+  if (plan.gravity) motion = {sky_turn(show_, state) * gap, show_.exposure.shutter > 0};
+  const FrameScene scene(show_, state, plan, optics, skies, motion);
   times.tables_s = watch.lap();
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
     frame = HalfFrame(columns(state.projection), rows(state.projection));

@@ -47,8 +47,9 @@ class Renderer {
  private:
   struct Memory;
 
-  void render_instant(const FrameState& state, HalfFrame& frame, StageTimes& times);
-  void render_view(const FrameState& state, HalfFrame& frame, StageTimes& times);
+  // `gap` is the time to the next instant that is seen, in frames.
+  void render_instant(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
+  void render_view(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;

@@ -74,6 +74,31 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
   return states;
 }
 
+// A direction d of the sky has the components S^T d along the tetrad's axes, so they change by
+// (S'^T S) S^T d, where S'^T S is antisymmetric.  The difference is taken over a quarter of a frame.
+// It is rounded, since its last bits differ between processors.
+V3d sky_turn(const Show& show, const FrameState& state) {
+  constexpr double kHalf = 0.125, kSteps = 1e9;
+  const auto axes = [&](double frames) {
+    const double t = state.show_time_s + frames / show.frames_per_second;
+    return observer_at(show, state.segment, part_at(show, state.segment, t)).sky_from_tetrad;
+  };
+  const double begin = begin_of(show, state.segment),
+               end = begin + segment_of(show, state.segment).duration_s;
+  const double before = std::max(-kHalf, (begin - state.show_time_s) * show.frames_per_second);
+  const double after = std::min(kHalf, (end - state.show_time_s) * show.frames_per_second);
+  if (!(after > before)) return V3d(0, 0, 0);
+  const M33d first = axes(before), last = axes(after);
+  // (S'^T S)[i][j] is the product of the changed axis i and axis j.
+  const auto change = [&](int i, int j) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += (last[k][i] - first[k][i]) * (last[k][j] + first[k][j]) / 2;
+    return sum / (after - before);
+  };
+  const auto rounded = [](double v) { return std::round(v * kSteps) / kSteps + 0.0; };
+  return {rounded(change(2, 1)), rounded(change(0, 2)), rounded(change(1, 0))};
+}
+
 void take_size(const FrameState& state, FrameState& other) {
   const auto* flat = std::get_if<Stereographic>(&other.projection);
   const std::optional<double> fov = flat ? std::optional(flat->fov) : std::nullopt;

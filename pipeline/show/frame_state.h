@@ -43,6 +43,10 @@ FrameState frame_state(const Show& show, int frame);
 // is open.  That time is cut off at the ends of the frame's segment, so that a cut is not blurred.
 std::vector<FrameState> exposure_states(const Show& show, int frame, int count);
 
+// The rotation vector of the sky against the axes R, Theta, Phi of the tetrad at a state's instant,
+// in radians per frame.  It is 0 for an observer who stays on one line through the hole.
+V3d sky_turn(const Show& show, const FrameState& state);
+
 // Gives `other`, and the state that vanishes in it, the projection of `state`, which a caller may
 // have resized.  A flat one keeps its own field of view.
 void take_size(const FrameState& state, FrameState& other);

@@ -52,7 +52,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const ShowCamera camera = read_show_camera(section, lookup);
   show.projection = camera.projection;
   read_sky(root, section, lookup, show);
-  show.point_spread = read_point_spread(section);
+  read_stars(section, show);
   show.exposure = read_exposure(section);
   show.effects = read_effects(section);
   show.timeline = read_timeline(section, show, camera, lookup);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -103,6 +104,8 @@ struct PanoramaShift {
   double blueshift_power = 2;
 };
 
+// The default of Show::least_star_radius: 0.4 arc seconds, by which catalogues place their stars.
+inline constexpr double kLeastStarRadiusDeg = 1e-4;
 inline constexpr double kWhiteCore = 10;  // a show's default of PointSpreadLaw::white_core
 
 // The law by which stars are spread over pixels.  Each is a truncated Gaussian in angle.  Without a
@@ -185,6 +188,9 @@ struct Show {
   PanoramaShift panorama_shift;
   Effects effects;
   PointSpreadLaw point_spread;
+  // The angular radius that a star has at least, in radians.  It bounds the light of one on the axis
+  // of the lens, and makes an arc or a ring of one that stays there.
+  double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;
   Exposure exposure;
   GradeSettings grade;
   GradedFormat graded_format = GradedFormat::kPng;

@@ -16,12 +16,7 @@ constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magni
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
 
-}  // namespace
-
-PointSpreadLaw read_point_spread(const Section& show) {
-  const Section s = subsection(show, "stars",
-                               {"law", "min_sigma_deg", "growth", "reference_magnitude",
-                                "max_sigma_deg", "halo", "halo_sigma_deg", "white_core"});
+PointSpreadLaw read_point_spread(const Section& s) {
   const bool psf = s.word<bool>("law", {{"size", false}, {"psf", true}}).value_or(false);
   const auto keys_of_other_law =
       psf ? std::span<const std::string_view>(kKeysOfSize) : std::span(kKeysOfPsf);
@@ -47,6 +42,18 @@ PointSpreadLaw read_point_spread(const Section& show) {
   law.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
   law.halo_sigma = radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
   return law;
+}
+
+}  // namespace
+
+void read_stars(const Section& show, Show& to) {
+  const Section s =
+      subsection(show, "stars",
+                 {"law", "min_sigma_deg", "growth", "reference_magnitude", "max_sigma_deg", "halo",
+                  "halo_sigma_deg", "white_core", "least_radius_deg"});
+  to.point_spread = read_point_spread(s);
+  to.least_star_radius =
+      radians(s.number("least_radius_deg", kDegrees.above(0).at_most(1), kLeastStarRadiusDeg));
 }
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The show's `stars`: how wide and how white stars are drawn.
+// The show's `stars`: how stars are drawn.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -7,7 +7,8 @@
 
 namespace domefall {
 
-// Reads the law of point spread, with the defaults of its two forms: `law: size` and `law: psf`.
-PointSpreadLaw read_point_spread(const Section& show);
+// Sets the law of point spread, with the defaults of its two forms, `law: size` and `law: psf`, and
+// the least radius of stars.
+void read_stars(const Section& show, Show& to);
 
 }  // namespace domefall

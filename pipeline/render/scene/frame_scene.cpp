@@ -26,7 +26,8 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
 }  // namespace
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
-                       const HoleOptics& hole_optics, const PerSky<const Sky*>& skies)
+                       const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
+                       const SkyMotion& sky_motion)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
@@ -34,6 +35,8 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       tracer(frame, hole_optics, show.effects),
       exposure(exposure_scale(frame.settings)),
       point_spread(show.point_spread, frame.projection, exposure),
+      least_star_radius(show.least_star_radius),
+      motion(sky_motion),
       stars(stars_of(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)) {}
 

@@ -12,11 +12,20 @@
 
 namespace domefall {
 
+// How the sky moves while a frame lasts.
+struct SkyMotion {
+  // By what it turns against the axes R, Theta, Phi of the tetrad from this instant to the next one
+  // that is seen: the rotation vector, radians.
+  V3d turn{0, 0, 0};
+  bool shutter_open = false;  // whether that instant belongs to the same frame
+};
+
 struct FrameScene {
   // `skies` has null for a sky that the plan leaves out.  Everything that is passed, but for the
   // plan, must outlive the scene.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
-             const HoleOptics& hole_optics, const PerSky<const Sky*>& skies);
+             const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
+             const SkyMotion& sky_motion = {});
 
   const FrameState& state;
   const Effects& effects;
@@ -25,6 +34,8 @@ struct FrameScene {
   const ViewTracer tracer;
   const double exposure;  // the pixel value of 1 cd/m^2
   const PointSpread point_spread;
+  const double least_star_radius;  // angular radius that each star has at least, radians
+  const SkyMotion motion;
   const PerSky<const SceneStars*> stars;  // null where the plan has none
   // Empty for a sky that is black or has stars only.
   const PerSky<std::optional<SkyLight>> background;

@@ -63,7 +63,7 @@ SceneStars::SceneStars(const std::vector<Star>& stars) {
     const double flux = std::pow(10, -0.4 * s.v_magnitude) * flux_of_v_zero()(s.temperature);
     push_back(s.direction.v, s.v_magnitude, flux, s.temperature);
   }
-  find_most_flux();
+  find_bounds();
 }
 
 SceneStars::SceneStars(std::vector<SceneStar> stars) {
@@ -75,7 +75,7 @@ SceneStars::SceneStars(std::vector<SceneStar> stars) {
     push_back(s.direction.v, s.magnitude, s.flux, s.temperature);
     angular_radius_.back() = static_cast<float>(s.angular_radius);
   }
-  find_most_flux();
+  find_bounds();
 }
 
 void SceneStars::reserve(std::size_t count) {
@@ -93,7 +93,9 @@ void SceneStars::push_back(const V3d& d, double magnitude, double flux, double t
   angular_radius_.push_back(static_cast<float>(angular_radius(flux, temperature)));
 }
 
-void SceneStars::find_most_flux() {
+void SceneStars::find_bounds() {
+  for (const float radius : angular_radius_)
+    most_angular_radius_ = std::max(most_angular_radius_, double{radius});
   most_flux_.assign(size() / kBlock + 1, 0);
   for (std::size_t k = 0; k < size(); ++k)
     most_flux_[k / kBlock] = std::max(most_flux_[k / kBlock], double{flux_[k]});

@@ -34,6 +34,8 @@ class SceneStars {
   // An upper bound of the flux of the star `first` and all that follow.
   double most_flux_from(std::size_t first) const { return most_flux_[first / kBlock]; }
 
+  double most_angular_radius() const { return most_angular_radius_; }
+
   static constexpr std::size_t kBlock = 256;
 
   const float* x() const { return x_.data(); }
@@ -46,10 +48,11 @@ class SceneStars {
  private:
   void reserve(std::size_t count);
   void push_back(const V3d& direction, double magnitude, double flux, double temperature);
-  void find_most_flux();
+  void find_bounds();
 
   std::vector<float> x_, y_, z_, magnitude_, flux_, temperature_, angular_radius_;
   std::vector<double> most_flux_;  // of each block of kBlock stars and all that follow
+  double most_angular_radius_ = 0;
 };
 
 // Gives a unit vector whose components were rounded to floats the length 1 again, within 2e-14.  It

@@ -8,6 +8,7 @@
 #include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/render/stars/einstein_rings.h"
+#include "pipeline/show/curve.h"
 
 namespace domefall {
 namespace {
@@ -27,6 +28,27 @@ constexpr int kOrdersWithoutAmplification = 2;
 // The spacing of the pieces of an arc in sigma.  A row of Gaussians at this distance is even to
 // 2 exp(-2 pi^2/1.5^2) = 3e-4.
 constexpr double kPieceSigmas = 1.5;
+
+// With a closed shutter an image is a trail where the source comes nearer to the axis than so many
+// times its way from frame to frame, and an image of the instant beyond kInstant times.  Between
+// them the window shrinks, so that nothing snaps.  Its half is kWindow frames at first: a shorter
+// one would show half a ring in one frame and nothing in its neighbours.
+constexpr double kTrail = 3, kInstant = 8, kWindow = 2;
+// With an open shutter images that move by less than so many pixels from one instant to the next
+// are left to the mean of instants: their sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
+constexpr double kTrailPixels = 1.5;
+// The farthest that a passage reaches from the axis (as a sine), and the longest half of its way.
+// The sky is taken as flat so far.
+constexpr double kFarthestPassage = 0.5, kLongestWay = 0.3;
+
+// The sine of the angle from the axis within which images may be trails.
+double farthest_passage(const FrameScene& scene, double stretch) {
+  const double way =
+      std::hypot(scene.motion.turn.y, scene.motion.turn.z) + std::abs(scene.motion.turn.x);
+  if (!scene.motion.shutter_open) return std::min(kInstant * way, kFarthestPassage);
+  return std::min(way * stretch / (kTrailPixels * central_pixel_angle(scene.projection())),
+                  kFarthestPassage);
+}
 
 // The part of a star's light that the frame's limit of magnitude leaves.  Magnitudes are floats, so
 // a hard limit is rounded as they were, lest a star on the limit be lost.
@@ -53,7 +75,9 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
       straight_ratio_(scene.effects.lensing ? 1 : gravitational_ratio(observer_.r)),
       peak_per_lux_(peak_per_lux(scene.exposure, scene.point_spread)),
       stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
-      disc_(scene.point_spread.least() / stretch_),
+      has_caustics_(table_ != nullptr && scene.effects.lensing &&
+                    scene.effects.amplification != Amplification::kNone),
+      near_(has_caustics_ ? farthest_passage(scene, stretch_) : 0),
       // The loops know all effects of nature and nothing else.
       in_batches_((scene.effects.lensing || is_flat(observer_)) && scene.effects.intensity &&
                   scene.effects.doppler_colour &&
@@ -85,32 +109,53 @@ void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>
 void StarImageFinder::append_orders(const SceneStar& star, const V3d& source, int first, int end,
                                     std::vector<StarImage>& images) const {
   if (table_ == nullptr) {
-    append_order(star, source, 0, images);
+    append_order(star, source, std::nullopt, 0, images);
     return;
   }
-  const double sine = std::hypot(source.y, source.z);
   if (scene_.effects.amplification == Amplification::kNone)
     end = std::min(end, kOrdersWithoutAmplification);
+  const std::optional<AxisPassage> passage = passage_of(star, source);
+  const double least = in_batches_ ? least_sine(star, source, passage) : 0;
   for (int order = first; order < end; ++order) {
-    if (in_batches_ && !may_be_seen(star, sine, order)) return;
-    const bool bright = append_order(star, source, order, images);
+    if (in_batches_ && !(star.flux * bound_[static_cast<std::size_t>(order)] > least)) return;
+    const bool bright = append_order(star, source, passage, order, images);
     if (!in_batches_ && !bright && order + 1 >= kAlwaysTried) return;
   }
 }
 
-// Whether the star may be bright enough in this order or a later one.  The amplification of a disc
-// is the mean over its points, of which that of 1/(distance from the axis) is at most 2/radius.
-bool StarImageFinder::may_be_seen(const SceneStar& star, double sine, int order) const {
-  const double radius = std::max(disc_, star.angular_radius);
-  const double least = sine < kNearAxis * radius ? radius / 2 : sine;
-  return star.flux * bound_[static_cast<std::size_t>(order)] > least;
+double StarImageFinder::radius_of(const SceneStar& star) const {
+  return std::max(scene_.least_star_radius, star.angular_radius);
 }
 
-bool StarImageFinder::is_arc(const V3d& source, int order) const {
-  const double near = kNearAxis * disc_;
-  return table_ != nullptr && scene_.effects.lensing &&
-         scene_.effects.amplification != Amplification::kNone &&
-         source.y * source.y + source.z * source.z < near * near && on_caustic(source, order);
+// The sine that stands for the star's distance from the axis in bound_.  The amplification of a
+// disc is the mean over its points, of which that of 1/(distance from the axis) is at most
+// 2/radius.
+double StarImageFinder::least_sine(const SceneStar& star, const V3d& source,
+                                   const std::optional<AxisPassage>& passage) const {
+  const double sine = std::hypot(source.y, source.z), radius = radius_of(star);
+  const double still = sine < kNearAxis * radius ? radius / 2 : sine;
+  return passage ? std::min(still, 1 / passage->most_inverse_distance()) : still;
+}
+
+bool StarImageFinder::is_arc(const SceneStar& star, const V3d& source) const {
+  return has_caustics_ && std::hypot(source.y, source.z) < kNearAxis * radius_of(star);
+}
+
+// A star whose own disc is larger than its way has no passage.
+std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
+                                                       const V3d& source) const {
+  const double sine = std::hypot(source.y, source.z);
+  if (!(sine < near_)) return std::nullopt;
+  V3d way = scene_.motion.turn.cross(source);
+  way.x = 0;
+  const double length = way.length(), radius = radius_of(star);
+  if (!(length > radius)) return std::nullopt;
+  double window = 1;
+  if (!scene_.motion.shutter_open)
+    window = kWindow * (1 - smooth_step((sine / length - kTrail) / (kInstant - kTrail)));
+  window = std::min(window, kLongestWay / length);
+  if (!(window * length > radius)) return std::nullopt;
+  return AxisPassage(source, way * window, radius);
 }
 
 // The image of one order in the frame of the tetrad.
@@ -151,26 +196,32 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
 
 // Appends the image of one order.  Returns whether it is bright enough, even if it is beside the
 // frame.
-bool StarImageFinder::append_order(const SceneStar& star, const V3d& source, int order,
+bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
+                                   const std::optional<AxisPassage>& passage, int order,
                                    std::vector<StarImage>& images) const {
-  if (is_arc(source, order)) return append_arc(star, source, order, images);
+  const bool caustic = on_caustic(source, order), arc = !passage && is_arc(star, source);
+  if (caustic && (passage || arc)) {
+    // The spacing is that of the frame, carried back through the boost.
+    const auto spacing = [&](const V3d& direction) {
+      return kPieceSigmas * scene_.point_spread.least() *
+             from_tetrad_.to_rest(direction).frequency_ratio;
+    };
+    return append_pieces(star,
+                         passage ? trail_of(*table_, *passage, order, spacing)
+                                 : arc_of(*table_, source, order, radius_of(star), spacing),
+                         images);
+  }
   const Received received = receive(star, image(star, source, order));
   if (!(received.peak > kFaintestPeak)) return false;
   if (received.placed) images.push_back(received.image);
   return true;
 }
 
-bool StarImageFinder::append_arc(const SceneStar& star, const V3d& source, int order,
-                                 std::vector<StarImage>& images) const {
-  // The spacing is that of the frame, carried back through the boost.
-  const auto spacing = [&](const V3d& direction) {
-    return kPieceSigmas * scene_.point_spread.least() *
-           from_tetrad_.to_rest(direction).frequency_ratio;
-  };
+bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                                    std::vector<StarImage>& images) const {
   const std::size_t before = images.size();
   double peak = 0;
-  for (const SkyImage& piece :
-       arc_of(*table_, source, order, std::max(disc_, star.angular_radius), spacing)) {
+  for (const SkyImage& piece : pieces) {
     const Received received = receive(star, piece);
     peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);

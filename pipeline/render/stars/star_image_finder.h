@@ -9,6 +9,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/render/stars/star_loops.h"
+#include "pipeline/render/stars/star_trail.h"
 
 namespace domefall {
 
@@ -21,8 +22,9 @@ inline constexpr double kFadeMagnitudes = 0.5;
 // Without amplification all images of a star are equally bright and infinitely many, so only the
 // two are found whose light does not go around the hole.
 //
-// Near the axis of the lens, where a point would be infinitely bright, a star is a disc with the
-// radius of the smallest blob.  Its image is an arc or a ring (einstein_rings.h).
+// Near the axis of the lens an image is bright and quick.  Where the sky turns, it is the mean over
+// the time of a frame (star_trail.h).  Where it stands still, a star so near to the axis that its
+// own disc matters is an arc or a ring (einstein_rings.h).
 //
 // Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
 // (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis,
@@ -57,20 +59,25 @@ class StarImageFinder {
   struct Batch;
 
   std::optional<SceneStar> with_gain(const SceneStar& catalogued) const;
-  bool append_order(const SceneStar& star, const V3d& source, int order,
+  // The way of a source that passes near the axis while the frame lasts, or nothing.
+  std::optional<AxisPassage> passage_of(const SceneStar& star, const V3d& source) const;
+  bool append_order(const SceneStar& star, const V3d& source,
+                    const std::optional<AxisPassage>& passage, int order,
                     std::vector<StarImage>& images) const;
-  bool append_arc(const SceneStar& star, const V3d& source, int order,
-                  std::vector<StarImage>& images) const;
+  bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                     std::vector<StarImage>& images) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,
                      std::vector<StarImage>& images) const;
   Received receive(const SceneStar& star, const SkyImage& at) const;
-  bool may_be_seen(const SceneStar& star, double sine, int order) const;
-  bool is_arc(const V3d& source, int order) const;
+  double radius_of(const SceneStar& star) const;
+  double least_sine(const SceneStar& star, const V3d& source,
+                    const std::optional<AxisPassage>& passage) const;
+  bool is_arc(const SceneStar& star, const V3d& source) const;
   SkyImage image(const SceneStar& star, const V3d& source, int order) const;
 
   void prepare_batches();
   void append_curved(Batch& batch, int order, std::vector<StarImage>& images) const;
-  void set_aside_axis(Batch& batch) const;
+  void set_aside_axis(Batch& batch, double most_radius) const;
   void drop_faint(Batch& batch, int order) const;
   void set_aside_high_orders(Batch& batch) const;
   void append_views(StarViews& views, int count, std::vector<StarImage>& images) const;
@@ -86,7 +93,8 @@ class StarImageFinder {
   double straight_ratio_;  // gravity's part of the frequency ratio where light goes straight
   double peak_per_lux_;    // pixel value of the peak of the smallest blob
   double stretch_;         // gamma + |celerity|, the most by which the boost stretches angles
-  double disc_;            // radius of a star near the axis, radians
+  bool has_caustics_;      // whether the lens brightens stars without bound near its axis
+  double near_;            // the sine of the angle from the axis below which images are trails
   bool in_batches_;        // whether stars are found in batches
 
   // The rest is used if stars are found in batches.

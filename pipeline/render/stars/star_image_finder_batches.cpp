@@ -72,9 +72,9 @@ void StarImageFinder::prepare_batches() {
 std::size_t StarImageFinder::count(const SceneStars& stars) const {
   std::size_t number = stars.count_to_magnitude(sky_.max_magnitude);
   if (!in_batches_) return number;
-  // The sine of a disc's angle from the axis counts as half its radius at least (may_be_seen).
+  // The sine of a disc's angle from the axis counts as half its radius at least (least_sine()).
   // Flat space has no axis.
-  const double least = table_ == nullptr ? 1 : disc_ / 2;
+  const double least = table_ == nullptr ? 1 : scene_.least_star_radius / 2;
   while (number > 0 && !(stars.most_flux_from(number - 1) * sky_.star_gain * bound_[0] > least))
     number = (number - 1) / SceneStars::kBlock * SceneStars::kBlock;
   return number;
@@ -97,7 +97,7 @@ void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::si
     append_views(views, count, images);
     return;
   }
-  set_aside_axis(batch);
+  set_aside_axis(batch, stars.most_angular_radius());
   for (int order = 0; order < 2 * kCurves && batch.candidate_count > 0; ++order) {
     drop_faint(batch, order);
     append_curved(batch, order, images);
@@ -107,8 +107,9 @@ void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::si
 }
 
 // Sets aside the sources near the axis and makes the others candidates.
-void StarImageFinder::set_aside_axis(Batch& batch) const {
-  const double near = std::max(kNearAxis * disc_, kOnAxis);
+void StarImageFinder::set_aside_axis(Batch& batch, double most_radius) const {
+  const double near =
+      std::max({kNearAxis * std::max(scene_.least_star_radius, most_radius), near_, kOnAxis});
   for (int k = 0; k < batch.count; ++k) {
     batch.candidates[static_cast<std::size_t>(batch.candidate_count)] = k;
     if (batch.sources.sine[static_cast<std::size_t>(k)] < near)

@@ -7,6 +7,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/show/observer_track.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -230,12 +231,28 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   EXPECT_EQ(FrameKeys(show).scene(later), FrameKeys(show).scene(frame_state(show, 0)));
 }
 
+// Stars near the axis are drawn by how fast the sky turns, so two shows that pass one instant at
+// different speeds have different frames there.
+TEST(FrameKeys, KnowHowFastTheSkyTurns) {
+  Show show = show_of(CircularOrbit{10}, Domemaster{64});
+  show.timeline[0].timing = {0, 10};
+  Show faster = show;
+  faster.timeline[0].timing = {0, 20};
+  join_segments(show);
+  join_segments(faster);
+  const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
+  EXPECT_NE(key(show), key(faster));
+}
+
 TEST(FrameKeys, KnowHowStarsAreDrawn) {
   Show show = show_of(StaticObserver{10}, Domemaster{64});
   show.point_spread.white_core = kWhiteCore;
   const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
   Show other = show;
   other.point_spread.white_core = 0;
+  EXPECT_NE(key(other), key(show));
+  other = show;
+  other.least_star_radius *= 2;
   EXPECT_NE(key(other), key(show));
   other = show;
   other.point_spread.halo_sigma = 0.01;  // without a halo it has no effect

@@ -59,8 +59,8 @@ inline FramePlan plan_with(const Show& show, const FrameState& state,
 }
 
 inline FrameScene scene_with(const Show& show, const FrameState& state, const HoleOptics& optics,
-                             const PerSky<const Sky*>& skies = {}) {
-  return FrameScene(show, state, plan_with(show, state, skies), optics, skies);
+                             const PerSky<const Sky*>& skies = {}, const SkyMotion& motion = {}) {
+  return FrameScene(show, state, plan_with(show, state, skies), optics, skies, motion);
 }
 
 inline V3d random_direction(std::mt19937& random) {

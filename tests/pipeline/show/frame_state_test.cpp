@@ -6,6 +6,7 @@
 #include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/show/attitude.h"
+#include "pipeline/show/observer_track.h"
 #include "pipeline/show/placement.h"
 #include "tests/pipeline/show/show_file.h"
 
@@ -321,6 +322,39 @@ TEST_F(FrameStates, FlyingTowardsAStarKeepsItDeadAhead) {
 }
 
 // In doubles 0.1 + 0.1 + 0.1 exceeds 0.3, and yet the frame at the cut must not be late.
+// ---- how the sky turns ----
+
+TEST_F(FrameStates, TurnOfTheSkyLeadsFromFrameToFrame) {
+  const Show s = show(
+      "  - {duration_s: 2, trajectory: {type: circular, r: 8, orbits: 0.1}}\n"
+      "  - {duration_s: 2, trajectory: {type: parabolic, periastron: 6, from_r: 30, to_r: 6}}\n"
+      "  - {duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 1, angular_momentum: 2}}\n");
+  for (const int frame : {0, 1, 30, 59, 61, 100, 119, 130, 160}) {
+    const FrameState here = frame_state(s, frame);
+    // Half a frame on, in the same segment.
+    const double t = here.show_time_s + 0.5 / s.frames_per_second;
+    const M33d later = observer_at(s, here.segment, part_at(s, here.segment, t)).sky_from_tetrad;
+    const V3d turn = sky_turn(s, here);
+    EXPECT_GT(turn.length(), 1e-5) << frame;
+    for (const V3d& d : {V3d(1, 0, 0), V3d(0, 0.6, 0.8), V3d(0.48, -0.8, 0.36)}) {
+      const V3d source = apply_transposed(here.observer.sky_from_tetrad, d);
+      const V3d moved = source + turn.cross(source) * 0.5;
+      // What is left is of second order, or the change of the speed within the frame.
+      expect_near(apply_transposed(later, d), moved, 0.1 * turn.length());
+    }
+  }
+  // A tenth of an orbit in 60 frames.
+  EXPECT_NEAR(sky_turn(s, frame_state(s, 20)).length(), 0.2 * std::numbers::pi / 60, 1e-8);
+}
+
+TEST_F(FrameStates, TurnOfTheSkyIsNoneOnALineThroughTheHole) {
+  const Show s = show(
+      "  - {duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 1}}\n"
+      "  - {duration_s: 2, trajectory: {type: static, r: 9}}\n");
+  for (const int frame : {0, 30, 59, 61, 119})
+    EXPECT_EQ(sky_turn(s, frame_state(s, frame)), V3d(0, 0, 0));
+}
+
 TEST(Cuts, FallOnTheirFramesHoweverTheDurationsAddUp) {
   Show show;
   for (int k = 0; k < 10; ++k) {

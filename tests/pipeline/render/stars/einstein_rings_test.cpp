@@ -60,9 +60,9 @@ TEST(EinsteinRings, HaveTheLightOfADiscAcrossTheAxis) {
        {Sweep{Region::kI, 1e8, false}, Sweep{Region::kI, 1e6, false}, Sweep{Region::kI, 1e3, false},
         Sweep{Region::kI, 10, false}, Sweep{Region::kI, 2.5, false}, Sweep{Region::kII, 1, false},
         Sweep{Region::kII, 1, true}}) {
-    const StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
+    StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
+    const double disc = scene.show.least_star_radius = 0.16 * kDegree;
     const StarImageFinder maker = scene.images(s.far);
-    const double disc = scene.point_spread().least();
     double before = 0;
     for (int k = -60; k <= 10; ++k) {
       const double from_axis = 0.2 * disc * std::abs(k);
@@ -121,8 +121,8 @@ TEST(EinsteinRings, InLineAreARing) {
 
 // As the star leaves the axis, its arc shrinks to a point.
 TEST(EinsteinRings, BecomePoints) {
-  const StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
-  const double disc = scene.point_spread().least();
+  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  const double disc = scene.show.least_star_radius = 0.16 * kDegree;
   const auto longest = [&](double radii) {
     std::vector<StarImage> images;
     const V3d source(-1, radii * disc * 0.6, radii * disc * 0.8);

@@ -126,7 +126,6 @@ TEST(StarImageFinder, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
   for (const Case& c : cases())
     for (const Projection& projection : projections) {
       const StarScene scene({c.region, c.tetrad, c.r, c.celerity}, projection, 2);
-      const double disc = scene.point_spread().least();
       for (const bool far : {false, true}) {
         if (far && !scene.has(true)) continue;
         SCOPED_TRACE("r " + std::to_string(c.r) + " celerity " +
@@ -139,7 +138,8 @@ TEST(StarImageFinder, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
             source = V3d((k % 2 ? -1 : 1) * std::cos(angle), std::sin(angle) * std::cos(k),
                          std::sin(angle) * std::sin(k));
           }
-          if (std::hypot(source.y, source.z) < 1.01 * kNearAxis * disc) continue;
+          if (std::hypot(source.y, source.z) < 1.01 * kNearAxis * scene.show.least_star_radius)
+            continue;
           compare(scene, far, star_of(scene.sky(source), magnitude(random), temperature(random)));
           if (testing::Test::HasFailure()) return;
         }

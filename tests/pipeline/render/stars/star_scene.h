@@ -30,7 +30,7 @@ class StarScene {
   double exposure() const { return exposure_scale(state.settings); }
   PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }
   StarImageFinder images(bool far = false) const {
-    scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics)));
+    scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics, {}, motion)));
     return {*scenes_.back(), region(far)};
   }
   // The direction on the sky that has these components along R, Theta, Phi.
@@ -41,6 +41,7 @@ class StarScene {
   Show show;
   FrameState state;
   HoleOptics optics;
+  SkyMotion motion;
 
  private:
   mutable std::vector<std::unique_ptr<FrameScene>> scenes_;  // images() refers to them

@@ -1,0 +1,61 @@
+// The images of a star that passes the axis of the lens while a frame lasts: a trail along the
+// Einstein ring.
+//
+// As a source passes the hole at the angle b from the axis, its image races around the ring, by
+// half of it within the time in which the source moves by a few b.  No single instant stands for
+// that time.  So an image near the axis is the mean over a window of time about the frame's
+// instant.  Its weight falls evenly to 0 at both ends, so that the windows of successive instants
+// add up to an even exposure, and the trail tapers.
+//
+// Near the axis the sky is flat and the source moves along a line.  With x = asinh(s/b), where s is
+// the way from the point closest to the axis, the distance from the axis is b cosh(x).  The
+// amplification goes with its inverse, and ds / (b cosh x) = dx, so that an image brings equal
+// light in equal steps of x, though its path in x is as smooth as the lens.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "pipeline/optics/hole_optics.h"
+
+namespace domefall {
+
+// The way of a source past the axis, from u = -1 to u = 1, with its middle at u = 0.  It passes the
+// axis at `radius`/2 or more, because the mean of 1/distance over a disc about the axis is
+// 2/radius.
+class AxisPassage {
+ public:
+  // `source` is a unit vector along R, Theta, Phi, and `half_way` what is added to it from u = 0 to
+  // u = 1, small against 1 and not along R.  The radius is in radians, > 0.
+  AxisPassage(const V3d& source, const V3d& half_way, double radius);
+
+  double begin() const { return begin_; }    // the x of u = -1
+  double middle() const { return middle_; }  // the x of u = 0
+  double end() const { return end_; }        // the x of u = 1
+  double distance(double x) const;           // from the axis: the sine of the angle
+  V3d source(double x) const;                // unit vector along R, Theta, Phi
+
+  // The integral of (1 - |u|)/distance over u between two x, which lie on one side of the middle.
+  // Over the whole way 1 - |u| has the integral 1.
+  double mean_inverse_distance(double from, double to) const;
+  // At least the same over the whole way.
+  double most_inverse_distance() const { return (end_ - begin_) / half_way_; }
+
+ private:
+  double u(double x) const;
+
+  double side_;          // the sign of the source's component along R
+  double least_;         // distance from the axis at x = 0
+  double half_way_;      // the length of the way from u = 0 to u = 1
+  double u_least_;       // u at x = 0
+  V3d outward_, along_;  // unit vectors across R: from the axis to x = 0, and along the way
+  double begin_, middle_, end_;
+};
+
+// The image of one order of a source near the axis on its way, in pieces from one end of the trail
+// to the other, with the amplification that each adds to the mean.  Their distance is at most
+// spacing(direction).
+std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
+                               const std::function<double(const V3d&)>& spacing);
+
+}  // namespace domefall

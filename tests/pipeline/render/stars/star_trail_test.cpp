@@ -1,0 +1,178 @@
+#include "pipeline/render/stars/star_trail.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "pipeline/render/stars/einstein_rings.h"
+#include "tests/pipeline/render/stars/star_scene.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kRadius = 1e-6;
+
+// Sources behind the hole, or above the observer, and their way in half a window.
+struct Case {
+  double r;
+  V3d source, way;
+};
+const std::vector<Case> kCases{
+    {10, V3d(-1, 0.003, 0.001), V3d(0, -0.004, 0.002)},  // at a moderate distance
+    {10, V3d(-1, 1e-5, 0), V3d(0, 0, 0.005)},            // through the middle of the ring
+    {10, V3d(-1, 0, 0), V3d(0, 0.003, 0.003)},           // straight through the axis
+    {1000, V3d(-1, 0.02, 0.01), V3d(0, 0.001, 0.003)},   // past it
+    {3.5, V3d(1, 0.002, 0.001), V3d(0, 0.004, -0.003)},  // above the observer
+};
+
+SkyTable table_at(double r) { return *make_hole_optics(r, Tetrad::kRain, {}).home_sky; }
+
+// The mean over many instants has the light of the trail, and its middle.
+TEST(StarTrail, IsTheMeanOverManyInstants) {
+  for (const Case& c : kCases)
+    for (int order = 0; order < 4; ++order) {
+      if (!on_caustic(c.source, order)) continue;
+      const SkyTable table = table_at(c.r);
+      const AxisPassage passage(c.source, c.way, kRadius);
+      double light = 0, red = 0;
+      for (const SkyImage& piece :
+           trail_of(table, passage, order, [](const V3d&) { return 1e-3; })) {
+        light += piece.amplification;
+        red += piece.amplification * piece.frequency_ratio;
+      }
+      // Equal steps of x, with the weight of each: near the axis a mean over time needs far more.
+      constexpr int kInstants = 100'000;
+      double wanted = 0, wanted_red = 0;
+      for (int k = 0; k < kInstants; ++k) {
+        const double step = (passage.end() - passage.begin()) / kInstants;
+        const double x = passage.begin() + (k + 0.5) * step;
+        const V3d source = passage.source(x);
+        const V3d moved = source - c.source.normalized();
+        const double u = (moved.y * c.way.y + moved.z * c.way.z) / c.way.length2();
+        const SkyImage image = image_of(&table, source, order, 0);
+        const double time = passage.distance(x) * step / c.way.length();
+        wanted += image.amplification * (1 - std::min(1.0, std::abs(u))) * time;
+        wanted_red +=
+            image.amplification * (1 - std::min(1.0, std::abs(u))) * time * image.frequency_ratio;
+      }
+      EXPECT_NEAR(light / wanted, 1, 2e-3) << c.r << ", order " << order;
+      EXPECT_NEAR(red / wanted_red, 1, 2e-3) << c.r << ", order " << order;
+    }
+}
+
+TEST(StarTrail, HasNoGaps) {
+  for (const Case& c : kCases) {
+    const SkyTable table = table_at(c.r);
+    const double spacing = 2e-3;
+    V3d before(0, 0, 0);
+    for (const SkyImage& piece : trail_of(table, AxisPassage(c.source, c.way, kRadius), 1,
+                                          [&](const V3d&) { return spacing; })) {
+      if (before.length2() > 0) {
+        EXPECT_LT((piece.direction.v - before).length(), spacing * 1.01);
+      }
+      before = piece.direction.v;
+    }
+  }
+}
+
+// Over a whole passage the trails of successive instants have the light of the time between them,
+// wherever the instants lie.
+TEST(StarTrail, OfSuccessiveInstantsLoseNoLight) {
+  const SkyTable table = table_at(10);
+  const double step = 0.004, from_axis = 0.0007;
+  const auto passing = [&](double first) {
+    double sum = 0;
+    for (int k = -40; k <= 40; ++k) {
+      const V3d source(-1, from_axis, (k + first) * step);
+      for (const SkyImage& piece :
+           trail_of(table, AxisPassage(source.normalized(), V3d(0, 0, 2 * step), kRadius), 0,
+                    [](const V3d&) { return 1e-3; }))
+        sum += piece.amplification;
+    }
+    return sum;
+  };
+  const double at_first = passing(0);
+  for (const double first : {0.1, 0.25, 0.5, 0.7}) EXPECT_NEAR(passing(first) / at_first, 1, 5e-3);
+}
+
+// The light of a star in cells about as large as a degree.
+using Cells = std::map<std::pair<int, int>, double>;
+
+Cells cells_at(const StarScene& scene, const V3d& source) {
+  std::vector<StarImage> images;
+  const SceneStar star{scene.sky(source), 4, 1e-10, 6000, 1e-9};
+  for (const StarImage& image : all_images(scene.images(), SceneStars({star})))
+    images.push_back(image);
+  Cells cells;
+  for (const StarImage& image : images)
+    cells[{static_cast<int>(std::floor(image.x / 6)), static_cast<int>(std::floor(image.y / 6))}] +=
+        light(image);
+  return cells;
+}
+
+// The largest part of a frame's light in one cell that is in neither neighbour, as a star passes
+// the axis in steps.
+double largest_flash(const StarScene& scene, double from_axis, double step) {
+  std::vector<Cells> frames;
+  for (int k = -4; k <= 4; ++k)
+    frames.push_back(cells_at(scene, V3d(-1, from_axis, (k + 0.1) * step)));
+  double most = 0;
+  for (std::size_t k = 1; k + 1 < frames.size(); ++k)
+    for (const auto& [cell, light_now] : frames[k]) {
+      const auto in = [&](std::size_t f) {
+        const auto found = frames[f].find(cell);
+        return found == frames[f].end() ? 0 : found->second;
+      };
+      most = std::max(most, light_now - std::max(in(k - 1), in(k + 1)));
+    }
+  double before = 0;
+  for (const auto& [cell, light_now] : frames.front()) before = std::max(before, light_now);
+  return most / before;
+}
+
+// However close a star passes behind the hole, no frame flashes: nowhere is its light much more than
+// a star four steps from the axis has anyhow.
+TEST(StarTrail, MakesNoFrameFlash) {
+  const double step = 0.004;
+  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  for (const double from_axis : {1e-6, 1e-4, 2e-3}) {
+    scene.motion = {};
+    const double still = largest_flash(scene, from_axis, step);
+    scene.motion = {V3d(0, -step, 0), false};
+    EXPECT_LT(largest_flash(scene, from_axis, step), 1.5) << from_axis;
+    EXPECT_GT(still, 2.0) << from_axis;
+  }
+}
+
+// Far from the axis, and where the sky stands still, an image is that of the instant.
+TEST(StarTrail, IsOneImageWhereTheSkyMovesLittle) {
+  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  const SceneStar star{scene.sky(V3d(-1, 0.05, 0.02)), 4, 1e-10, 6000, 1e-9};
+  const auto still = all_images(scene.images(), SceneStars({star}));
+  scene.motion = {V3d(0, 0.001, 0), false};
+  const auto moving = all_images(scene.images(), SceneStars({star}));
+  ASSERT_EQ(moving.size(), still.size());
+  for (std::size_t k = 0; k < still.size(); ++k) {
+    EXPECT_EQ(moving[k].x, still[k].x);
+    EXPECT_EQ(moving[k].rgb[0], still[k].rgb[0]);
+  }
+}
+
+// The light of a star near the axis does not depend on the size of the picture.
+TEST(StarTrail, HasTheSameLightAtEverySize) {
+  for (const V3d& turn : {V3d(0, 0, 0), V3d(0, -0.004, 0)})
+    for (const double from_axis : {1e-5, 1e-3}) {
+      double small = 0;
+      for (const int size : {512, 1024, 4096}) {
+        StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{size});
+        scene.motion = {turn, false};
+        const SceneStar star{scene.sky(V3d(-1, from_axis, 0.001)), 4, 1e-10, 6000, 1e-9};
+        const double total = total_light(all_images(scene.images(), SceneStars({star})));
+        if (small == 0) small = total;
+        EXPECT_NEAR(total / small, 1, 0.01) << size << " " << from_axis;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace domefall
