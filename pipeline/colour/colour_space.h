@@ -39,6 +39,16 @@ const ColourMatrix& working_from_rec709();
 
 WorkingRgb to_working(const Xyz& colour);
 
+// The colour at `saturation` times its distance from the grey of its luminance.  What would become
+// negative is 0.
+inline WorkingRgb saturated(const WorkingRgb& c, float luminance, float saturation) {
+  const auto mixed = [=](float v) {
+    const float m = luminance + saturation * (v - luminance);
+    return m > 0 ? m : 0;
+  };
+  return {mixed(c.r), mixed(c.g), mixed(c.b)};
+}
+
 // Luminance of a working-space colour in the scene's own (D65-relative) terms.
 double luminance(const WorkingRgb& colour);
 

@@ -43,12 +43,28 @@ void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) 
           fmt::format("pixel ({}, {}) is not a finite number", k / 3 + 1, row + 1));
 }
 
+// Takes the light of stars off the pixels of a row that see no sky, and a part of it off those on a
+// border.  `background` is the row without stars.
+void end_stars_at(const SkyBorders& borders, const Projection& projection, const PixelBox& box,
+                  int row, const float* background, float* rgb) {
+  for (int column = box.first_column; column <= box.last_column; ++column) {
+    const float* before = background + 3 * column;
+    float* now = rgb + 3 * column;
+    if (now[0] == before[0] && now[1] == before[1] && now[2] == before[2]) continue;
+    const PixelPosition pixel{column + 1.0, row + 1.0};
+    const auto part = static_cast<float>(
+        borders.part_in_skies(direction_at(projection, pixel), pixel_angle(projection, pixel)));
+    for (int c = 0; c < 3; ++c) now[c] = before[c] + part * (now[c] - before[c]);
+  }
+}
+
 }  // namespace
 
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                BandMemory& memory, HalfFrame& frame) {
+                const std::optional<SkyBorders>& borders, BandMemory& memory, HalfFrame& frame) {
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
   const bool lit = scene.plan.has_background();
+  const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
   const auto draw_band = [&](int band, SplatBuffer& splats) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     std::vector<float>& rgb = memory.rows.local();
@@ -57,7 +73,15 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
       sky.fill_band(band, rgb.data());
     else
       std::fill(rgb.begin(), rgb.end(), 0.0f);
+    const bool bordered = box && first <= box->last_row && end > box->first_row;
+    std::vector<float>& background = memory.background.local();
+    if (bordered) background.assign(rgb.begin(), rgb.end());
     stars.draw_band(band, splats, rgb.data());
+    for (int row = first; bordered && row < end; ++row) {
+      const std::size_t begin = static_cast<std::size_t>(row - first) * stride;
+      end_stars_at(*borders, scene.projection(), *box, row, background.data() + begin,
+                   rgb.data() + begin);
+    }
     for (int row = first; row < end; ++row)
       store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
                 inside_columns(scene.projection(), row), frame);

@@ -4,10 +4,12 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <optional>
 #include <vector>
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/sky/sky_pass.h"
 
 namespace domefall {
@@ -16,13 +18,13 @@ namespace domefall {
 // writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatBuffer> splats{};
-  tbb::enumerable_thread_specific<std::vector<float>> rows{};
+  tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{};
 };
 
 // Draws skies and stars into a frame of the projection's size, by all threads of the arena that
-// calls. A value beyond the largest half (65504) is stored as that.  Throws std::runtime_error,
+// calls.  Where there are borders, stars end at them.  A value beyond the largest half (65504) is stored as that.  Throws std::runtime_error,
 // naming the pixel, if a value is not finite.
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                BandMemory& memory, HalfFrame& frame);
+                const std::optional<SkyBorders>& borders, BandMemory& memory, HalfFrame& frame);
 
 }  // namespace domefall

@@ -33,7 +33,7 @@ void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
   for (const double v : {law.min_sigma, law.growth, law.reference_magnitude, law.max_sigma})
     digest.add(v);
   if (law.halo > 0) digest.add("halo").add(law.halo).add(law.halo_sigma);
-  if (law.white_core != kWhiteCore) digest.add("core").add(law.white_core);
+  digest.add("core").add(law.white_core);
 }
 
 // Shows that leave no effect out keep the keys that they had before effects could be left out.
@@ -92,6 +92,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   common.add(show.panorama_shift.blueshift_power);
   if (show.least_star_radius != Show().least_star_radius)
     common.add("star radius").add(show.least_star_radius);
+  common.add("saturation").add(show.star_saturation);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   common_ = common.hex();

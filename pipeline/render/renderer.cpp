@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "pipeline/image/errors.h"
@@ -141,12 +142,17 @@ void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame
     UnresolvedSkies unresolved = find_unresolved_skies(scene);
     stars.add(unresolved.blobs);
     stars.sort_into_bands();
+    std::optional<SkyBorders> borders;
+    if (plan.gravity && show_.effects.lensing && unresolved.blobs.empty() && stars.size() > 0) {
+      borders.emplace(state, optics, scene.tracer.vantage());
+      if (!borders->usable()) borders.reset();
+    }
     times.images = stars.size() - unresolved.blobs.size();
     times.stars_s = watch.lap();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
     times.traced_fraction = sky.traced_fraction();
     times.grid_s = watch.lap();
-    draw_bands(scene, sky, stars, memory_->bands, frame);
+    draw_bands(scene, sky, stars, borders, memory_->bands, frame);
     times.pixels_s = watch.lap();
   });
 }

@@ -106,7 +106,6 @@ struct PanoramaShift {
 
 // The default of Show::least_star_radius: 0.4 arc seconds, by which catalogues place their stars.
 inline constexpr double kLeastStarRadiusDeg = 1e-4;
-inline constexpr double kWhiteCore = 10;  // a show's default of PointSpreadLaw::white_core
 
 // The law by which stars are spread over pixels.  Each is a truncated Gaussian in angle.  Without a
 // halo its width grows with its observed magnitude m,
@@ -188,6 +187,8 @@ struct Show {
   PanoramaShift panorama_shift;
   Effects effects;
   PointSpreadLaw point_spread;
+  // How far the colours of stars are from grey: 0 grey, 1 as the CIE's standard observer sees them.
+  double star_saturation = 1;
   // The angular radius that a star has at least, in radians.  It bounds the light of one on the axis
   // of the lens, and makes an arc or a ring of one that stays there.
   double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;

@@ -9,15 +9,20 @@
 namespace domefall {
 namespace {
 
-// Defaults of the law.
-constexpr double kMinSigmaDeg = 0.05, kMaxSigmaDeg = 0.3;
-constexpr double kHalo = 0.15, kHaloSigmaDeg = 0.2;
+// Defaults of the laws.  That of the size is the paper's, whose stars are white in their middle and
+// of true colour at their edge.
+constexpr double kPaperWhiteCore = 10, kSaturation = 0.8;
+constexpr double kMinSigmaDeg = 0.04, kMaxSigmaDeg = 0.3;
+constexpr double kHalo = 0.2, kHaloSigmaDeg = 0.1;
 constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
 
 PointSpreadLaw read_point_spread(const Section& s) {
-  const bool psf = s.word<bool>("law", {{"size", false}, {"psf", true}}).value_or(false);
+  // A key of one law stands for it.
+  const bool sized = std::any_of(kKeysOfSize.begin(), kKeysOfSize.end(),
+                                 [&](std::string_view key) { return s.find(key) != nullptr; });
+  const bool psf = s.word<bool>("law", {{"size", false}, {"psf", true}}).value_or(!sized);
   const auto keys_of_other_law =
       psf ? std::span<const std::string_view>(kKeysOfSize) : std::span(kKeysOfPsf);
   for (const std::string_view key : keys_of_other_law)
@@ -37,7 +42,7 @@ PointSpreadLaw read_point_spread(const Section& s) {
   law.growth = s.number("growth", kPureNumber.within(0, 0.5), law.growth);
   law.reference_magnitude =
       s.number("reference_magnitude", Range{"magnitudes"}.within(-30, 40), law.reference_magnitude);
-  law.white_core = s.number("white_core", kPureNumber.within(0, 1e6), kWhiteCore);
+  law.white_core = s.number("white_core", kPureNumber.within(0, 1e6), psf ? 0 : kPaperWhiteCore);
   if (!psf) return law;
   law.halo = s.number("halo", kPureNumber.above(0).at_most(0.9), kHalo);
   law.halo_sigma = radians(s.number("halo_sigma_deg", kDegrees.above(0).at_most(3), kHaloSigmaDeg));
@@ -50,8 +55,10 @@ void read_stars(const Section& show, Show& to) {
   const Section s =
       subsection(show, "stars",
                  {"law", "min_sigma_deg", "growth", "reference_magnitude", "max_sigma_deg", "halo",
-                  "halo_sigma_deg", "white_core", "least_radius_deg"});
+                  "halo_sigma_deg", "white_core", "saturation", "least_radius_deg"});
   to.point_spread = read_point_spread(s);
+  to.star_saturation =
+      s.number("saturation", kPureNumber.within(0, 2), to.point_spread.halo > 0 ? kSaturation : 1);
   to.least_star_radius =
       radians(s.number("least_radius_deg", kDegrees.above(0).at_most(1), kLeastStarRadiusDeg));
 }

@@ -35,6 +35,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       tracer(frame, hole_optics, show.effects),
       exposure(exposure_scale(frame.settings)),
       point_spread(show.point_spread, frame.projection, exposure),
+      star_saturation(static_cast<float>(show.star_saturation)),
       least_star_radius(show.least_star_radius),
       motion(sky_motion),
       stars(stars_of(plan, skies)),

@@ -34,6 +34,7 @@ struct FrameScene {
   const ViewTracer tracer;
   const double exposure;  // the pixel value of 1 cd/m^2
   const PointSpread point_spread;
+  const float star_saturation;     // 1 for true colours
   const double least_star_radius;  // angular radius that each star has at least, radians
   const SkyMotion motion;
   const PerSky<const SceneStars*> stars;  // null where the plan has none

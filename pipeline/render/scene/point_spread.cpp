@@ -15,9 +15,10 @@ using std::numbers::pi;
 
 // A Gaussian of a halo is drawn if the pixel value of its peak is above this.
 constexpr double kFaintestHalo = 0.02;
-// The second Gaussian of a halo is so many times as wide as the first, and has this share of the
-// halo's light.  It makes the halo fall off more slowly than a Gaussian.
-constexpr double kWingSigma = 3, kWingShare = 0.3;
+// The widths of a halo's Gaussians, against its first, and their shares of its light.  From one to
+// the next the peak falls to a ninth, so that together they fall off like the power -2.4 of the
+// distance.  The glare of a lens or an eye falls with its square (CIE 146:2002).
+constexpr std::array<double, 3> kHaloSigma{1, 2.5, 6}, kHaloShare{0.5, 0.3, 0.2};
 
 // A law gives widths for a dome, whose frame is 180 degrees wide.  In a flat frame of another field
 // of view a blob takes the same part of the frame's width.
@@ -42,12 +43,13 @@ PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection
       reference_(kMagnitudeZeroLux * exposure *
                  exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),
       halo_sigma_(std::max(law.halo_sigma * width_factor(projection), least_)),
-      single_blob_light_(law.halo > 0 ? least_halo_light(law.halo, halo_sigma_) : reference_),
+      single_blob_light_(law.halo > 0 ? least_halo_light(law.halo * kHaloShare[0], halo_sigma_)
+                                      : reference_),
       paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
 double PointSpread::reach() const {
   static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in units of sigma
-  return farthest * std::max(most_, law_.halo > 0 ? kWingSigma * halo_sigma_ : 0.0);
+  return farthest * std::max(most_, law_.halo > 0 ? kHaloSigma.back() * halo_sigma_ : 0.0);
 }
 
 double PointSpread::sigma_of(const StarImage& image) const {
@@ -62,9 +64,8 @@ PointSpreadParts PointSpread::parts(const StarImage& image) const {
   if (!(law_.halo > 0)) return parts;
   const double light = std::max({image.rgb[0], image.rgb[1], image.rgb[2]});
   double left = 1;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double share = law_.halo * (k == 0 ? 1 - kWingShare : kWingShare);
-    const double sigma = halo_sigma_ * (k == 0 ? 1 : kWingSigma);
+  for (std::size_t k = 0; k < kHaloSigma.size(); ++k) {
+    const double share = law_.halo * kHaloShare[k], sigma = halo_sigma_ * kHaloSigma[k];
     // A halo grows from nothing as the star brightens, so that it does not appear at once.
     const double seen = 1 - least_halo_light(share, sigma) / light;
     if (!(seen > 0)) continue;

@@ -28,7 +28,7 @@ inline double cut_of(double peak) {
   return low > kLowestCut ? low : kLowestCut;
 }
 
-// The Gaussians that together draw one image: its middle, and two for the halo of a bright one.
+// The Gaussians that together draw one image: its middle, and three for the halo of a bright one.
 struct PointSpreadParts {
   StarImage image;  // the middle, whose light is what the halo leaves
   double sigma;     // radians; width of the middle
@@ -36,7 +36,7 @@ struct PointSpreadParts {
     double sigma;  // radians
     double share;  // part of the image's light; 0 where the halo would not be seen
   };
-  std::array<Halo, 2> halo;
+  std::array<Halo, 3> halo;
 };
 
 // A show's point-spread law at the size and exposure of one frame.

@@ -33,7 +33,7 @@ constexpr double kPieceSigmas = 1.5;
 // times its way from frame to frame, and an image of the instant beyond kInstant times.  Between
 // them the window shrinks, so that nothing snaps.  Its half is kWindow frames at first: a shorter
 // one would show half a ring in one frame and nothing in its neighbours.
-constexpr double kTrail = 3, kInstant = 8, kWindow = 2;
+constexpr double kTrail = 4, kInstant = 24, kWindow = 2;
 // With an open shutter images that move by less than so many pixels from one instant to the next
 // are left to the mean of instants: their sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
 constexpr double kTrailPixels = 1.5;
@@ -183,14 +183,15 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
       blackbody_colours().per_flux(star.temperature * colour_ratio(scene_.effects, g));
   const auto pixel = pixel_of(scene_.projection(),
                               {apply_transposed(observer_.tetrad_from_camera, seen.direction)});
-  const double pixel_flux = flux * scene_.exposure;
-  Received received{{0, 0, {}}, luminance(per_flux) * flux * peak_per_lux_, pixel.has_value()};
+  const double bright = luminance(per_flux), pixel_flux = flux * scene_.exposure;
+  const WorkingRgb colour = saturated(per_flux, static_cast<float>(bright), scene_.star_saturation);
+  Received received{{0, 0, {}}, bright * flux * peak_per_lux_, pixel.has_value()};
   if (!pixel) return received;
   received.image = {
       static_cast<float>(pixel->i - 1),
       static_cast<float>(pixel->j - 1),
-      {static_cast<float>(per_flux.r * pixel_flux), static_cast<float>(per_flux.g * pixel_flux),
-       static_cast<float>(per_flux.b * pixel_flux)}};
+      {static_cast<float>(colour.r * pixel_flux), static_cast<float>(colour.g * pixel_flux),
+       static_cast<float>(colour.b * pixel_flux)}};
   return received;
 }
 

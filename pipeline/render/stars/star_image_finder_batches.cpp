@@ -189,12 +189,14 @@ void StarImageFinder::append_views(StarViews& views, int count,
   for (int n = 0; n < number; ++n) {
     const auto k = static_cast<std::size_t>(listed[static_cast<std::size_t>(n)]);
     const StarColours::Light per_flux = colours(views.temperature[k]);
+    const WorkingRgb colour =
+        saturated({per_flux.r, per_flux.g, per_flux.b}, per_flux.luminance, scene_.star_saturation);
     const double flux = views.flux[k], pixel_flux = flux * scene_.exposure;
     images[bright] = {
         static_cast<float>(views.i[k]),
         static_cast<float>(views.j[k]),
-        {static_cast<float>(per_flux.r * pixel_flux), static_cast<float>(per_flux.g * pixel_flux),
-         static_cast<float>(per_flux.b * pixel_flux)}};
+        {static_cast<float>(colour.r * pixel_flux), static_cast<float>(colour.g * pixel_flux),
+         static_cast<float>(colour.b * pixel_flux)}};
     bright += per_flux.luminance * flux * peak_per_lux_ > kFaintestPeak ? 1 : 0;
   }
   images.resize(bright);

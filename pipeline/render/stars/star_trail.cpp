@@ -7,57 +7,49 @@
 namespace domefall {
 namespace {
 
-// A piece is at most so long in x.  The weight 1 - |u| and the amplification times the distance
-// change little over it.
-constexpr double kLongestPiece = 1;
-// A piece is halved at most so often, which allows for 4096 pieces of each first one.
-constexpr int kMostHalvings = 12;
+// The longest step in x from one place where the lens is evaluated to the next.
+constexpr double kStep = 0.25;
+constexpr int kMostPieces = 4096;
 
-// Halves a stretch of the trail until its ends are near enough to each other.
-class Trail {
- public:
-  Trail(const SkyTable& table, const AxisPassage& passage, int order,
-        const std::function<double(const V3d&)>& spacing)
-      : table_(table), passage_(passage), order_(order), spacing_(spacing) {}
-
-  void add(double from, double to) {
-    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kLongestPiece)));
-    V3d before = direction(from);
-    for (int k = 0; k < count; ++k) {
-      const double begin = from + (to - from) * k / count,
-                   end = from + (to - from) * (k + 1) / count;
-      const V3d after = direction(end);
-      add_piece(begin, before, end, after, 0);
-      before = after;
-    }
-  }
-
-  std::vector<SkyImage> pieces;
-
- private:
-  SkyImage image(double x) const { return image_of(&table_, passage_.source(x), order_, 0); }
-  V3d direction(double x) const { return image(x).direction.v; }
-
-  void add_piece(double from, const V3d& first, double to, const V3d& last, int halvings) {
-    const double x = (from + to) / 2;
-    SkyImage middle = image(x);
-    const V3d& d = middle.direction.v;
-    // The chord over the whole piece is 0 for a full turn, so both halves count.
-    const double length = (d - first).length() + (last - d).length();
-    if (length > spacing_(d) && halvings < kMostHalvings) {
-      add_piece(from, first, x, d, halvings + 1);
-      add_piece(x, d, to, last, halvings + 1);
-      return;
-    }
-    middle.amplification *= passage_.distance(x) * passage_.mean_inverse_distance(from, to);
-    pieces.push_back(middle);
-  }
-
-  const SkyTable& table_;
-  const AxisPassage& passage_;
-  int order_;
-  const std::function<double(const V3d&)>& spacing_;
+// The image of the source at one place of its way.
+struct Node {
+  double x;
+  V3d direction;
+  double frequency_ratio;
+  double strength;  // amplification times the distance from the axis, which is finite on it
 };
+
+Node node_at(const SkyTable& table, const AxisPassage& passage, int order, double x) {
+  const SkyImage image = image_of(&table, passage.source(x), order, 0);
+  return {x, image.direction.v, image.frequency_ratio, image.amplification * passage.distance(x)};
+}
+
+// Nodes from one x to another, without the last one.
+void add_nodes(const SkyTable& table, const AxisPassage& passage, int order, double from, double to,
+               std::vector<Node>& nodes) {
+  const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
+  for (int k = 0; k < count; ++k)
+    nodes.push_back(node_at(table, passage, order, from + (to - from) * k / count));
+}
+
+// Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four around them, or
+// through all if there are fewer.  In x the images are so smooth that a step of kStep errs by less
+// than 1e-5 of the ring's radius.
+Node between(const std::vector<Node>& nodes, std::size_t k, double x) {
+  const std::size_t count = std::min<std::size_t>(4, nodes.size());
+  const std::size_t first = std::min(k > 0 ? k - 1 : 0, nodes.size() - count);
+  Node sum{x, V3d(0, 0, 0), 0, 0};
+  for (std::size_t i = first; i < first + count; ++i) {
+    double weight = 1;
+    for (std::size_t j = first; j < first + count; ++j)
+      if (j != i) weight *= (x - nodes[j].x) / (nodes[i].x - nodes[j].x);
+    sum.direction += nodes[i].direction * weight;
+    sum.frequency_ratio += nodes[i].frequency_ratio * weight;
+    sum.strength += nodes[i].strength * weight;
+  }
+  sum.direction.normalize();
+  return sum;
+}
 
 }  // namespace
 
@@ -96,10 +88,26 @@ double AxisPassage::mean_inverse_distance(double from, double to) const {
 
 std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
                                const std::function<double(const V3d&)>& spacing) {
-  Trail trail(table, passage, order, spacing);
-  trail.add(passage.begin(), passage.middle());
-  trail.add(passage.middle(), passage.end());
-  return std::move(trail.pieces);
+  std::vector<Node> nodes;
+  add_nodes(table, passage, order, passage.begin(), passage.middle(), nodes);
+  add_nodes(table, passage, order, passage.middle(), passage.end(), nodes);
+  nodes.push_back(node_at(table, passage, order, passage.end()));
+  std::vector<SkyImage> pieces;
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const Node &from = nodes[k], &to = nodes[k + 1];
+    const double length = (to.direction - from.direction).length();
+    const double wanted =
+        std::ceil(length / std::min({spacing(from.direction), spacing(to.direction)}));
+    const int count = static_cast<int>(std::clamp(wanted, 1.0, double{kMostPieces}));
+    for (int n = 0; n < count; ++n) {
+      const double step = (to.x - from.x) / count, x = from.x + n * step;
+      const Node middle = between(nodes, k, x + step / 2);
+      pieces.push_back({{middle.direction},
+                        middle.frequency_ratio,
+                        middle.strength * passage.mean_inverse_distance(x, x + step)});
+    }
+  }
+  return pieces;
 }
 
 }  // namespace domefall

@@ -19,8 +19,8 @@ inline bool is_temperature(float colour) { return colour >= kColdest; }
 float colour_of_b_v(double b_v);
 
 // Returns the effective temperature (K) for B-V, by Ballesteros 2012 (EPL 97, 34008), who takes
-// stars for blackbodies.  B-V is held to -0.4 to 2.0, so the result lies between 3,170 K and 22,000
-// K.
+// stars for blackbodies.  B-V is held to -0.4 to kReddest, so the result lies between 837 K and
+// 22,000 K.  Carbon stars (B-V of 3 to 5) are warmer than the result, but as red as it.
 double temperature_from_b_v(double b_v);
 
 // Returns the temperature (K) of the blackbody as which a star of this colour is drawn.

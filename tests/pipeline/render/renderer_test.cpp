@@ -246,10 +246,12 @@ TEST(FrameKeys, KnowHowFastTheSkyTurns) {
 
 TEST(FrameKeys, KnowHowStarsAreDrawn) {
   Show show = show_of(StaticObserver{10}, Domemaster{64});
-  show.point_spread.white_core = kWhiteCore;
   const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
   Show other = show;
-  other.point_spread.white_core = 0;
+  other.point_spread.white_core = 10;
+  EXPECT_NE(key(other), key(show));
+  other = show;
+  other.star_saturation = 0.5;
   EXPECT_NE(key(other), key(show));
   other = show;
   other.least_star_radius *= 2;

@@ -286,7 +286,7 @@ TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
       return bytes;
     });
     PointSpreadLaw plain{0.05 * kDegree, 0.3, 2, 3 * kDegree}, haloes = plain;
-    haloes.halo = 0.3, haloes.halo_sigma = 2 * kDegree, haloes.white_core = kWhiteCore;
+    haloes.halo = 0.3, haloes.halo_sigma = 2 * kDegree, haloes.white_core = 10;
     for (const PointSpreadLaw& law : {plain, haloes})
       compare("drawn", [&] {
         Bytes bytes;

@@ -106,7 +106,7 @@ std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
   const GridSky grid;
   Show haloes = with(StaticObserver{7}, colour, black, black);
   haloes.point_spread.halo = 0.4, haloes.point_spread.halo_sigma = 2 * kDegree;
-  haloes.point_spread.white_core = kWhiteCore;
+  haloes.point_spread.white_core = 10;
   haloes.timeline[0].camera.elevation = 80 * kDegree;
   return {
       {"7 M", with(StaticObserver{7}, colour, black, black)},

@@ -47,12 +47,12 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
   }
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
   EXPECT_EQ(show.star_epoch, 2000);
-  EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.05 * kDegree);
-  EXPECT_EQ(show.point_spread.growth, 0.2);
-  EXPECT_EQ(show.point_spread.reference_magnitude, 5);
-  EXPECT_DOUBLE_EQ(show.point_spread.max_sigma, 0.3 * kDegree);
-  EXPECT_EQ(show.point_spread.halo, 0);
-  EXPECT_EQ(show.point_spread.white_core, 10);
+  EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.04 * kDegree);
+  EXPECT_EQ(show.point_spread.halo, 0.2);
+  EXPECT_DOUBLE_EQ(show.point_spread.halo_sigma, 0.1 * kDegree);
+  EXPECT_EQ(show.point_spread.white_core, 0);
+  EXPECT_EQ(show.star_saturation, 0.8);
+  EXPECT_DOUBLE_EQ(show.least_star_radius, 1e-4 * kDegree);
   EXPECT_EQ(show.exposure.ev, 0);
   EXPECT_EQ(show.grade.config, asset("dome.ocio"));
   EXPECT_EQ(show.grade.display, "");
@@ -262,10 +262,28 @@ TEST_F(ShowKeys, LensingMayBeLeftOutWhereverAllFramesAreOutside) {
   EXPECT_FALSE(with(straight, "{type: static}", "{mass_solar: 0}").effects.lensing);
 }
 
+// The law of the paper has the paper's colours, and any key of it stands for it.
+TEST_F(ShowKeys, StarsByTheLawOfThePaper) {
+  for (const char* keys : {"{law: size}", "{growth: 0.2}", "{reference_magnitude: 5}",
+                           "{max_sigma_deg: 0.3}", "{law: size, saturation: 1}"}) {
+    const Show show = with(std::string("stars: ") + keys + "\n");
+    EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.04 * kDegree);
+    EXPECT_EQ(show.point_spread.growth, 0.2);
+    EXPECT_EQ(show.point_spread.reference_magnitude, 5);
+    EXPECT_DOUBLE_EQ(show.point_spread.max_sigma, 0.3 * kDegree);
+    EXPECT_EQ(show.point_spread.halo, 0);
+    EXPECT_EQ(show.point_spread.white_core, 10);
+    EXPECT_EQ(show.star_saturation, 1);
+  }
+}
+
 TEST_F(ShowKeys, StarsWithAHalo) {
   const PointSpreadLaw own = with("stars: {law: psf}\n").point_spread;
-  EXPECT_EQ(own.halo, 0.15);
-  EXPECT_DOUBLE_EQ(own.halo_sigma, 0.2 * kDegree);
+  EXPECT_EQ(own.halo, 0.2);
+  EXPECT_DOUBLE_EQ(own.halo_sigma, 0.1 * kDegree);
+  const Show dim = with("stars: {saturation: 0.3, least_radius_deg: 0.01}\n");
+  EXPECT_EQ(dim.star_saturation, 0.3);
+  EXPECT_DOUBLE_EQ(dim.least_star_radius, 0.01 * kDegree);
   const PointSpreadLaw given =
       with("stars: {law: psf, min_sigma_deg: 0.06, halo: 0.3, halo_sigma_deg: 1, white_core: 0}\n")
           .point_spread;

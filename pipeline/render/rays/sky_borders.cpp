@@ -1,0 +1,84 @@
+#include "pipeline/render/rays/sky_borders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/render/rays/view_tracer.h"
+
+namespace domefall {
+namespace {
+
+// A circle with a smaller radius, in pixels, is not resolved.
+constexpr double kLeastRadius = 4;
+
+}  // namespace
+
+SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage) {
+  // The angle of an edge counts from the direction of the hole, or from the opposite one for the
+  // outgoing tetrad.
+  const V3d inward(is_outgoing(optics.tetrad) ? 1 : -1, 0, 0);
+  for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge})
+    if (*edge) add(**edge, inward, vantage.celerity, state);
+  usable_ = usable_ && !circles_.empty();
+  if (usable_) find_box(state.projection);
+}
+
+// Directions n with n.u = cos(alpha) are those whose light ray (1, -n) is orthogonal to the vector
+// (cos(alpha), -u) of space-time, so the circle goes through the boost as that vector does.
+void SkyBorders::add(const SkyEdge& edge, const V3d& inward, const V3d& celerity,
+                     const FrameState& state) {
+  const double sine = 2 * edge.half.sine * edge.half.cosine;
+  const double cosine = (edge.half.cosine - edge.half.sine) * (edge.half.cosine + edge.half.sine);
+  const double gamma = std::sqrt(1 + celerity.length2()), along = celerity.dot(inward);
+  const double time = gamma * cosine + along;
+  const V3d space = inward + celerity * (along / (gamma + 1) + cosine);
+  const double length = space.length();
+  const V3d axis = apply_transposed(state.observer.tetrad_from_camera, space / length);
+  circles_.push_back({axis * edge.sign, edge.sign * time / length, sine / length});
+  usable_ = usable_ && sine / length > kLeastRadius * central_pixel_angle(state.projection);
+}
+
+double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
+  double part = 0;
+  for (const Circle& c : circles_) {
+    const double beyond = (n.v.dot(c.axis) - c.cosine) / (c.sine * pixel_angle);
+    part += std::clamp(0.5 - beyond, 0.0, 1.0);
+  }
+  return std::min(part, 1.0);
+}
+
+// What is without a sky lies inside the first circle, where the home sky ends.  If that is less
+// than a hemisphere, the image of its rim bounds it.
+void SkyBorders::find_box(const Projection& projection) {
+  constexpr int kPlaces = 96, kMargin = 3;
+  const int width = columns(projection), height = rows(projection);
+  box_ = PixelBox{0, width - 1, 0, height - 1};
+  const Circle& c = circles_.front();
+  if (c.cosine < 0) return;
+  const V3d e1 = c.axis.cross(std::abs(c.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
+  const V3d e2 = c.axis.cross(e1);
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double t = 2 * std::numbers::pi * k / kPlaces;
+    const auto pixel =
+        pixel_of(projection, {c.axis * c.cosine + (e1 * std::cos(t) + e2 * std::sin(t)) * c.sine});
+    if (!pixel) return;
+    left = std::min(left, pixel->i - 1), right = std::max(right, pixel->i - 1);
+    top = std::min(top, pixel->j - 1), bottom = std::max(bottom, pixel->j - 1);
+  }
+  // Between two places a rim of this radius bulges by less than a thousandth of it.
+  const double margin = kMargin + 1e-3 * (right - left + bottom - top);
+  const auto within = [](double v, int last) {
+    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(last)));
+  };
+  if (right + margin < 0 || bottom + margin < 0 || left - margin > width - 1 ||
+      top - margin > height - 1) {
+    box_.reset();
+    return;
+  }
+  box_ = PixelBox{within(left - margin, width - 1), within(right + margin, width - 1),
+                  within(top - margin, height - 1), within(bottom + margin, height - 1)};
+}
+
+}  // namespace domefall

@@ -1,0 +1,111 @@
+#include "pipeline/render/rays/sky_borders.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+struct View {
+  FrameState state;
+  HoleOptics optics;
+};
+
+View view_of(const GivenVelocity& at, const Projection& projection) {
+  const FrameState state = frame_state(show_of(at, projection), 0);
+  return {state, make_hole_optics(at.r, at.tetrad, {true, true, true})};
+}
+
+const std::vector<GivenVelocity> kObservers{
+    {Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)},
+    {Region::kI, Tetrad::kRain, 6, V3d(0.2, 0.6, 0.3)},
+    {Region::kI, Tetrad::kRain, 2.5, V3d(-0.5, 1, 0.5)},
+    {Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)},
+    {Region::kII, Tetrad::kRain, 1.2, V3d(0, 0.5, 0)},
+    {Region::kII, Tetrad::kRain, 0.3, V3d(0.3, 0, -1)},
+    {Region::kIII, Tetrad::kRainOfThree, 4, V3d(0.5, 0, 0)},
+};
+
+// Rays that are traced tell the same: a whole pixel away from the borders all of a pixel sees a sky
+// or none.
+TEST(SkyBorders, AreWhereTracedRaysChangeTheirSky) {
+  std::mt19937 random(6);
+  for (const GivenVelocity& at : kObservers) {
+    const View view = view_of(at, Domemaster{512});
+    const ViewTracer tracer(view.state, view.optics);
+    const SkyBorders borders(view.state, view.optics, tracer.vantage());
+    ASSERT_TRUE(borders.usable());
+    int seen[2] = {0, 0}, partly = 0;
+    for (int k = 0; k < 20'000; ++k) {
+      const CameraDirection n{random_direction(random)};
+      const ViewRay ray = tracer.trace(n);
+      const double pixel = 0.02, part = borders.part_in_skies(n, pixel);
+      const bool sky = ray.sky != SkyRegion::kIV;
+      if (ray.to_edge > 0.6 * pixel) {
+        ASSERT_EQ(part, sky ? 1 : 0) << "r " << at.r << ", " << ray.to_edge;
+        ++seen[sky ? 1 : 0];
+      } else {
+        // The part is more than a half on the sky's side.
+        ASSERT_GE(sky ? part : 1 - part, 0.49) << "r " << at.r;
+        ++partly;
+      }
+    }
+    EXPECT_GT(seen[0], 20);
+    EXPECT_GT(seen[1], 20);
+    EXPECT_GT(partly, 20);
+  }
+}
+
+TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
+  for (const Projection& projection :
+       {Projection(Domemaster{128}), Projection(Stereographic{160, 90, 1.5})})
+    for (const GivenVelocity& at : kObservers) {
+      const View view = view_of(at, projection);
+      const ViewTracer tracer(view.state, view.optics);
+      const SkyBorders borders(view.state, view.optics, tracer.vantage());
+      const std::optional<PixelBox> box = borders.box_without_sky();
+      for (int row = 0; row < rows(projection); ++row)
+        for (int column = 0; column < columns(projection); ++column) {
+          const PixelPosition pixel{column + 1.0, row + 1.0};
+          if (!is_inside(projection, pixel)) continue;
+          if (tracer.trace(direction_at(projection, pixel)).sky != SkyRegion::kIV) continue;
+          ASSERT_TRUE(box && column >= box->first_column && column <= box->last_column &&
+                      row >= box->first_row && row <= box->last_row)
+              << "r " << at.r << ", " << column << " " << row;
+        }
+    }
+}
+
+// Bright stars glow all around the silhouette, and not into it.
+TEST(SkyBorders, EndTheBlobsOfStars) {
+  Show show = show_of(StaticObserver{8}, Domemaster{256});
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.point_spread.halo = 0.5;
+  show.point_spread.halo_sigma = 1 * kDegree;
+  show.exposure.ev = 8;
+  const FrameState state = frame_state(show, 0);
+  const HalfFrame frame = Renderer(show, 2).render(state);
+  const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
+  const ViewTracer tracer(state, optics);
+  int lit = 0, dark = 0;
+  for (int row = 0; row < 256; ++row)
+    for (int column = 0; column < 256; ++column) {
+      const PixelPosition pixel{column + 1.0, row + 1.0};
+      if (!is_inside(state.projection, pixel)) continue;
+      const ViewRay ray = tracer.trace(direction_at(state.projection, pixel));
+      const float green = frame.row(row)[3 * column + 1];
+      if (ray.to_edge < pixel_angle(state.projection, pixel)) continue;
+      if (ray.sky == SkyRegion::kIV) {
+        ASSERT_EQ(green, 0) << column << " " << row;
+        ++dark;
+      } else if (ray.to_edge < 0.1) {
+        lit += green > 0 ? 1 : 0;
+      }
+    }
+  EXPECT_GT(dark, 500);
+  EXPECT_GT(lit, 500);
+}
+
+}  // namespace
+}  // namespace domefall
