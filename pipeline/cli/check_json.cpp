@@ -29,7 +29,7 @@ Json extreme(const std::optional<Extreme>& e, double value) {
   return {{"value", number(value)},
           {"time_s", number(e->time_s)},
           {"frame", e->frame},
-          {"segment", e->segment}};
+          {"segment", e->segment + 1}};
 }
 
 Json extreme(const std::optional<Extreme>& e) { return extreme(e, e ? e->value : 0); }
@@ -53,7 +53,7 @@ Json json_of(const SegmentSurvey& s, const std::optional<double>& mass_solar) {
 }
 
 Json json_of(const SegmentJoint& j) {
-  return {{"segment", j.segment},
+  return {{"segment", j.segment + 1},
           {"time_s", number(j.time_s)},
           {"dissolve_s", number(j.dissolve_s)},
           {"r_before", number(j.r_before)},
@@ -68,7 +68,7 @@ Json json_of(const SegmentJoint& j) {
 Json json_of(const FrameLight& l) {
   return {{"frame", l.frame},
           {"time_s", number(l.time_s)},
-          {"segment", l.segment},
+          {"segment", l.segment + 1},
           {"ev", number(l.ev)},
           {"mean", number(l.mean)},
           {"percentile_99", number(l.percentile99)},
@@ -80,8 +80,10 @@ Json json_of(const RenderTime& t) {
 }
 
 Json json_of(const ShowWarning& w) {
-  return {
-      {"time_s", number(w.time_s)}, {"frame", w.frame}, {"segment", w.segment}, {"text", w.text}};
+  return {{"time_s", number(w.time_s)},
+          {"frame", w.frame},
+          {"segment", w.segment + 1},
+          {"text", w.text}};
 }
 
 Json json_of_head(const CheckReport& report) {

@@ -86,7 +86,7 @@ class Page {
   void segment(std::size_t k) {
     const SegmentSurvey& s = r_.survey.segments[k];
     if (k > 0) joint(r_.joints[k - 1]);
-    line(fmt::format("segment {}", k),
+    line(fmt::format("segment {}", k + 1),
          fmt::format("{}, {:.6g} s to {:.6g} s", s.type, s.begin_s, s.end_s));
     std::string text = "flat space; ";
     if (show_.mass_solar) {
@@ -145,7 +145,7 @@ class Page {
   void light_line(const char* name, const FrameLight& light) {
     std::string text =
         fmt::format("frame {} ({:.5g} s), segment {}: mean luminance {:.3g}, 99 % below {:.3g}",
-                    light.frame, light.time_s, light.segment, light.mean, light.percentile99);
+                    light.frame, light.time_s, light.segment + 1, light.mean, light.percentile99);
     constexpr double kMuch = 0.03;
     if (light.white > kMuch)
       text += fmt::format("; {:.0f} % of the pixels at or beyond white", 100 * light.white);
@@ -178,8 +178,8 @@ class Page {
     text_ += "\nwarnings\n";
     for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
       const ShowWarning& w = r_.warnings[k];
-      text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame, w.segment,
-                           w.text);
+      text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame,
+                           w.segment + 1, w.text);
     }
     if (r_.warnings.size() > kMost)
       text_ += fmt::format("  and {} more\n", r_.warnings.size() - kMost);

@@ -60,7 +60,7 @@ std::string describe(const std::map<int, int>& frames_of_segments, const char* w
   std::vector<std::string> segments;
   int frames = 0;
   for (const auto& [segment, count] : frames_of_segments) {
-    segments.push_back(std::to_string(segment));
+    segments.push_back(std::to_string(segment + 1));
     frames += count;
   }
   constexpr std::size_t kMost = 8;

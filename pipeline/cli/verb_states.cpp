@@ -33,7 +33,7 @@ void print_states(const std::string& file, const std::string& frames, const std:
     const ObserverState& o = s.observer;
     const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
     std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g,%.15g", n,
-                s.show_time_s, s.segment, region_name(o.region), tetrad_name(o.tetrad), o.r,
+                s.show_time_s, s.segment + 1, region_name(o.region), tetrad_name(o.tetrad), o.r,
                 o.proper_time, o.celerity.x, o.celerity.y, o.celerity.z, place.ra_deg,
                 place.dec_deg, o.azimuth * 180 / std::numbers::pi);
     for (int k = 0; k < 3; ++k) {

@@ -66,7 +66,7 @@ void check_effects(const Item& root, const Show& show) {
   (lensing ? *lensing : root)
       .fail(fmt::format("can be false outside the horizon only (r > 2), but frame {}, in "
                         "timeline[{}], lies at r = {} (units of M)",
-                        found->frame, found->segment, short_number(found->observer.r)));
+                        found->frame, found->segment + 1, short_number(found->observer.r)));
 }
 
 }  // namespace domefall

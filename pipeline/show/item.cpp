@@ -162,7 +162,7 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
     const auto mark = child.Mark();
     items.push_back({static_cast<const YAML::Node&>(child),
                      {mark.line, mark.column},
-                     fmt::format("{}[{}]", item.path, items.size()),
+                     fmt::format("{}[{}]", item.path, items.size() + 1),
                      item.problems});
   }
   return items;

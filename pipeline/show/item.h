@@ -1,4 +1,4 @@
-// A value in a show file, which knows its place and its path ("timeline[0].trajectory.from_r"), and
+// A value in a show file, which knows its place and its path ("timeline[1].trajectory.from_r"), and
 // the readers that check its kind, unit and range.  A reader that finds a mistake reports it and
 // returns nothing, so that the rest of the file is still checked.
 #pragma once
@@ -94,7 +94,7 @@ std::optional<T> meaning(const Item& item, const Words<T, N>& words) {
   return std::nullopt;
 }
 
-// Reads a list of at least one entry.  The paths of its entries end in [k].
+// Reads a list of at least one entry.  The paths of its entries end in [k], counted from 1.
 std::optional<std::vector<Item>> read_list(const Item& item);
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
                                                 const Range& range);

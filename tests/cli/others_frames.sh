@@ -90,16 +90,16 @@ cp -r out edited
 truncate -s -1 edited/linear/fall_00020.exr
 sed 's/to_r: 1}/to_r: 0.9}/' fall.yaml >none/fall.yaml
 exits 0 run none/fall.yaml --out edited --dry-run
-says '^segment 1: 11 frames will be made again$'
+says '^segment 2: 11 frames will be made again$'
 sed 's/from_r: 6/from_r: 7/; s/to_r: 1}/to_r: 0.9}/' fall.yaml >none/fall.yaml
 exits 0 run none/fall.yaml --frames 4-17 --out edited
-says '^segments 0 and 1: 13 frames will be made again$'
+says '^segments 1 and 2: 13 frames will be made again$'
 {
   cat fall.yaml
   echo 'grade: {view: Star log}'
 } >none/fall.yaml
 exits 0 "$DOMEFALL" grade none/fall.yaml --frames 0-3 --out out
-says '^segment 0: 4 frames will be graded again$'
+says '^segment 1: 4 frames will be graded again$'
 
 # A shortened show, another name, another kind: told, and left alone.
 sed 's/duration_s: 1, trajectory: {type: infall, from_r: 2.5/duration_s: 0.5, trajectory: {type: infall, from_r: 2.5/' \

@@ -23,9 +23,9 @@ tells() { grep -qE -- "$1" stdout || { cat stdout >&2; fail "no '$1'"; }; }
 tells '^title +Around "it"$'
 tells '^frames +130 at 10 a second \(13 s\), domemaster of 256 x 256$'
 tells '^graded for +Dome G2\.2 Rec\.709, Dome$'
-tells '^segment 0 +parabolic, 0 s to 6 s$'
+tells '^segment 1 +parabolic, 0 s to 6 s$'
 tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
-tells '^segment 2 +infall, 7 s to 11 s$'
+tells '^segment 3 +infall, 7 s to 11 s$'
 tells '^ +-- joint at 6 s: the motion goes on$'
 tells '^ +-- dissolve of 1 s at 7 s: r jumps from '
 tells '^ +-- cut at 11 s: region II to I; r jumps from 0\.5 M to 3 M$'
@@ -36,7 +36,7 @@ tells '^bluest sky +1 \+ z = 0\.'
 tells '^reddest sky +1 \+ z = [1-9]'
 tells '^brightest +frame [0-9]+ .* mean luminance'
 tells '^to render +about .* on this machine with [0-9]+ threads? at 256 x 256'
-tells '^ +6 s, frame 60, segment 1: the motion goes on, but its clock jumps from '
+tells '^ +6 s, frame 60, segment 2: the motion goes on, but its clock jumps from '
 cp stdout page
 
 exits 0 "$DOMEFALL" check around.yaml --json
@@ -53,7 +53,7 @@ assert facts['segments'][2]['regions'] == ['I', 'II'] and facts['regions'] == ['
 assert abs(facts['closest_r']['value'] - 0.5) < 1e-9
 assert 0 < facts['fastest_speed']['value'] < 1 <= facts['fastest_lorentz_factor']['value']
 assert facts['least_one_plus_z']['value'] < 1 < facts['largest_one_plus_z']['value']
-assert facts['joints'][1]['dissolve_s'] == 1 and facts['joints'][0]['velocity_jump'] < 1e-6
+assert facts["joints"][1]["segment"] == 3 and facts["joints"][1]["dissolve_s"] == 1 and facts['joints'][0]['velocity_jump'] < 1e-6
 assert len(facts['warnings']) == 1 and facts['warnings'][0]['frame'] == 60, facts['warnings']
 assert facts['render']['seconds'] > 0 and facts['render']['threads'] >= 1
 assert facts['brightest']['mean'] >= facts['darkest']['mean'] > 0

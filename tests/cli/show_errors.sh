@@ -23,7 +23,7 @@ black_hole: {mass_solar: 4.3e6}
 timeline:
   - {duration_s: 2, trajectory: {type: infall, from_r: -3}}
 END
-says 'fall.yaml:4:56: timeline\[0\]\.trajectory\.from_r must exceed 0 \(units of M\), got -3$'
+says 'fall.yaml:4:56: timeline\[1\]\.trajectory\.from_r must exceed 0 \(units of M\), got -3$'
 
 broken keys.yaml 1:1 3:1 4:1 <<'END'
 titel: Fall

@@ -71,10 +71,10 @@ TEST_F(ShowErrorsInPictures, Cameras) {
                "  - duration_s: 1\n"
                "    trajectory: {type: static, r: 9}\n"
                "    camera: {projection: domemaster}\n",
-       "5:26: timeline[0].camera.projection holds for the whole show; it belongs in the show's own "
+       "5:26: timeline[1].camera.projection holds for the whole show; it belongs in the show's own "
        "camera section"},
       {"MotionOfAStaticObserver", kShow + "camera: {look_at: motion}\n",
-       "2:12: timeline[0] has a camera that looks along the motion, but its observer does not "
+       "2:12: timeline[1] has a camera that looks along the motion, but its observer does not "
        "move; give the segment another camera.look_at"},
       {"StarMisspelt", kShow + "camera: {look_at: Betelgeuze}\n",
        "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
@@ -92,7 +92,7 @@ TEST_F(ShowErrorsInPictures, Cameras) {
        kHole + "camera: {euler_deg: [0, 0, 0]}\n"
                "timeline:\n"
                "  - {duration_s: 1, trajectory: {type: static, r: 9}, camera: {roll_deg: 9}}\n",
-       "4:74: timeline[0].camera.roll_deg goes with look_at only; the show's camera is turned by "
+       "4:74: timeline[1].camera.roll_deg goes with look_at only; the show's camera is turned by "
        "euler_deg"},
   });
 }
@@ -170,24 +170,24 @@ TEST_F(ShowErrorsInPictures, Effects) {
       {"StraightLightInside",
        moving("{type: velocity, r: 1.5, against: free_fall, speed: 0}") +
            "effects: {lensing: false}\n",
-       "4:20: " + told + "0, in timeline[0], lies at r = 1.5 (units of M)"},
+       "4:20: " + told + "0, in timeline[1], lies at r = 1.5 (units of M)"},
       {"StraightLightBeforeThePastHorizon",
        moving("{type: velocity, r: 1.5, region: IV, against: outgoing, speed: 0}") +
            "effects: {lensing: false}\n",
-       "4:20: " + told + "0, in timeline[0], lies at r = 1.5 (units of M)"},
+       "4:20: " + told + "0, in timeline[1], lies at r = 1.5 (units of M)"},
       {"StraightLightAtTheHorizon",
        moving("{type: velocity, r: 2, against: free_fall, speed: 0}") +
            "effects: {lensing: false}\n",
-       "4:20: " + told + "0, in timeline[0], lies at r = 2 (units of M)"},
+       "4:20: " + told + "0, in timeline[1], lies at r = 2 (units of M)"},
       {"StraightLightFallsIn",
        kHole +
            "timeline:\n  - {duration_s: 1, trajectory: {type: static, r: 9}}\n"
            "  - {duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 1, pace: slowing}}\n"
            "effects: {lensing: false}\n",
-       "5:20: " + told + "89, in timeline[1], lies at r = 1.037299197 (units of M)"},
+       "5:20: " + told + "89, in timeline[2], lies at r = 1.037299197 (units of M)"},
       {"LensingComesAfterTheTimeline",
        moving("{type: infall, from_r: -3}") + "effects: {lensing: false}\n",
-       "3:56: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3"},
+       "3:56: timeline[1].trajectory.from_r must exceed 0 (units of M), got -3"},
   });
 }
 

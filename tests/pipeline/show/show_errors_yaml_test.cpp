@@ -51,12 +51,12 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"UndefinedAlias", "timeline: *shots\n",
        "1:11: this is not valid YAML: the referenced anchor is not defined"},
       {"CyclicAlias", "timeline: &t [*t]\n",
-       "1:11: timeline[0] must be a map of keys (duration_s, dissolve_s, trajectory, camera, "
+       "1:11: timeline[1] must be a map of keys (duration_s, dissolve_s, trajectory, camera, "
        "exposure, sky or keyframes), got a list"},
       {"CyclicTrajectory",
        kHole + "timeline:\n"
                "  - &s {duration_s: 1, trajectory: *s}\n",
-       "3:5: timeline[0].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
+       "3:5: timeline[1].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
        "bound, infall, thrown, kruskal, path, velocity or continue"},
       {"MergeKey", kShow + "camera: {<<: {look_at: hole}}\n",
        "3:10: camera.<< is an unknown key; known here: projection, fov_deg, look_at, euler_deg, "
@@ -85,14 +85,14 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"KeyInCapitals", kShow + "Camera: {}\n",
        "3:1: Camera is an unknown key; did you mean camera?"},
       {"OtherUnit", moving("{type: infall, from_radius: 9}"),
-       "3:48: timeline[0].trajectory.from_radius is an unknown key; did you mean from_r?"},
+       "3:48: timeline[1].trajectory.from_radius is an unknown key; did you mean from_r?"},
       {"RepeatedKey",
        kShow + "frames_per_second: 30\n"
                "title: a\n"
                "frames_per_second: 60\n",
        "5:1: frames_per_second is repeated; it is given at line 3 already"},
       {"RepeatedKeyInAMap", moving("{type: static, r: 9, r: 8}"),
-       "3:54: timeline[0].trajectory.r is repeated; it is given at line 3 already"},
+       "3:54: timeline[1].trajectory.r is repeated; it is given at line 3 already"},
       {"EmptyValue", kShow + "size:\n",
        "3:1: size must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got "
        "nothing"},
@@ -109,15 +109,15 @@ TEST_F(ShowErrorsInYaml, NumbersMustBePlainAndFinite) {
        "3:20: frames_per_second must be a finite number (frames per second) that a double holds, "
        "got .nan"},
       {"Infinity", moving("{type: static, r: .inf}"),
-       "3:51: timeline[0].trajectory.r must be a finite number (units of M) that a double holds, "
+       "3:51: timeline[1].trajectory.r must be a finite number (units of M) that a double holds, "
        "got .inf"},
       {"NanWithoutADot", kShow + "exposure: {ev: nan}\n",
        "3:16: exposure.ev must be a finite number (stops) that a double holds, got nan"},
       {"NumberWithUnit", moving("{type: static, r: 30M}"),
-       "3:51: timeline[0].trajectory.r must be a number (units of M), got '30M'; leave the unit "
+       "3:51: timeline[1].trajectory.r must be a number (units of M), got '30M'; leave the unit "
        "out"},
       {"NumberWithUnitAfterABlank", moving("{type: infall, from_r: 30 M}"),
-       "3:56: timeline[0].trajectory.from_r must be a number (units of M), got '30 M'; leave the "
+       "3:56: timeline[1].trajectory.from_r must be a number (units of M), got '30 M'; leave the "
        "unit out"},
       {"BooleanForANumber", kShow + "frames_per_second: true\n",
        "3:20: frames_per_second must be a number (frames per second), got 'true'"},
@@ -156,9 +156,9 @@ TEST_F(ShowErrorsInYaml, AllMistakesAreListedInTheOrderOfTheFile) {
             "got '9k'\n"
             "show.yaml:3:26: black_hole.mass_solar must be a number (solar masses; 0 is flat "
             "space), got 'x'\n"
-            "show.yaml:5:56: timeline[0].trajectory.from_r must exceed 0 (units of M), got -3\n"
-            "show.yaml:6:6: timeline[1].duration is an unknown key; did you mean duration_s?\n"
-            "show.yaml:6:51: timeline[1].trajectory.r must exceed 3 (units of M), got 2: at the "
+            "show.yaml:5:56: timeline[1].trajectory.from_r must exceed 0 (units of M), got -3\n"
+            "show.yaml:6:6: timeline[2].duration is an unknown key; did you mean duration_s?\n"
+            "show.yaml:6:51: timeline[2].trajectory.r must exceed 3 (units of M), got 2: at the "
             "light circle an orbit needs the speed of light, below it more");
 }
 
