@@ -5,7 +5,7 @@
 
 namespace domefall {
 
-// At most ten significant digits, without trailing zeros: "1", "0.05", "1e+08", "inf".
+// At most ten significant digits, as people write them: "1", "0.05", "1e12", "1e-6", "infinity".
 std::string short_number(double value);
 
 }  // namespace domefall

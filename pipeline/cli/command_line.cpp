@@ -1,11 +1,37 @@
 #include "pipeline/cli/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
 
 #include "pipeline/cli/verbs.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/show/nearest_word.h"
+#include "pipeline/show/problems.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
+
+namespace {
+
+// Throws InputError if the command line begins with a word that is no verb.
+void check_verb(const CLI::App& app, const char* word) {
+  if (!word || word[0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  if (std::ranges::find(names, word) != names.end()) return;
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string wanted = "domefall has no verb '" + shown(word) + "'";
+  if (std::string_view(word) == "movie")
+    throw InputError(wanted +
+                     " yet: it makes frames, which a program such as ffmpeg joins; `domefall "
+                     "render` makes all those of a show");
+  const std::string near = did_you_mean(word, known);
+  throw InputError(wanted + (near.empty() ? "; it has " + listed(known) : near));
+}
+
+}  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Black-hole shows for planetariums: a show file in, graded Domemaster frames out");
@@ -23,6 +49,7 @@ int run_command_line(int argc, char** argv) {
   add_sky(app);
   // A wrong DOMEFALL_SIMD is told before anything is made.
   app.parse_complete_callback([] { simd_in_use(); });
+  if (argc > 1) check_verb(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

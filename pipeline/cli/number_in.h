@@ -1,22 +1,23 @@
-// A check of an option's number like CLI::Range, which lets NaN pass.
+// A check of an option's number against its bounds, which NaN does not pass either.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "trajectories/short_number.h"
+
 namespace domefall {
 
 inline CLI::Validator number_in(double low, double high) {
-  const CLI::Range range(low, high);
+  const std::string bounds = "from " + short_number(low) + " to " + short_number(high);
   return CLI::Validator(
-      [low, high, range](std::string& text) {
+      [low, high, bounds](std::string& text) -> std::string {
         double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && !(value >= low && value <= high))
-          return "the value " + text + " is not from " + CLI::detail::to_string(low) + " to " +
-                 CLI::detail::to_string(high);
-        return range(text);
+        if (!CLI::detail::lexical_cast(text, value)) return "'" + text + "' is not a number";
+        if (!(value >= low && value <= high)) return text + " is not " + bounds;
+        return {};
       },
-      range.get_description());
+      bounds);
 }
 
 }  // namespace domefall

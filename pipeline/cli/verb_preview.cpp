@@ -6,6 +6,7 @@
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
@@ -94,9 +95,9 @@ void add_preview(CLI::App& app) {
   verb->add_option("--out", o->out, "picture to write, .png or .tif")->required();
   verb->add_option("--size", o->size, "WIDTHxHEIGHT")->capture_default_str();
   verb->add_option("--fov", o->fov_deg, "horizontal opening angle, degrees")
-      ->check(CLI::Range(0.001, 340.0))
+      ->check(number_in(0.001, 340))
       ->capture_default_str();
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(CLI::Range(0, 1024));
+  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->callback([o] { preview(*o); });
 }
 

@@ -3,6 +3,7 @@
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/number_in.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/show/read_show.h"
 
@@ -44,7 +45,7 @@ void add_render(CLI::App& app) {
       app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG or TIFF");
   auto o = std::make_shared<Options>();
   add_frame_options(*verb, o);
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(CLI::Range(0, 1024));
+  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
   verb->add_flag("--dry-run", o->dry, "only print which frames would be made");
   verb->callback([o] { run(*o, true); });

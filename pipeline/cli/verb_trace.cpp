@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/cli/number_in.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/csv_file.h"
 #include "pipeline/optics/traced_ray.h"
@@ -153,7 +154,7 @@ void add_trace(CLI::App& app) {
   verb->add_option("--tolerance", options->tolerance,
                    "of the integrators, relative, each step, 1e-13 to 1e-3; a ray nearer to an "
                    "edge than that may lose its origin")
-      ->check(CLI::Range(1e-13, 1e-3))
+      ->check(number_in(1e-13, 1e-3))
       ->capture_default_str();
   verb->callback([table, method, options] { trace(*table, method_named(*method), *options); });
 }

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/yaml_document.h"
@@ -45,6 +46,9 @@ bool is_yaml_special(std::string_view text) {
   };
   return is(".nan") || is(".inf");
 }
+
+// Whether a number that no double holds is beyond the largest one, and not below the smallest.
+bool is_huge(const std::string& text) { return std::isinf(std::strtod(text.c_str(), nullptr)); }
 
 // The advice for a text that would be a number without its `rest`.
 std::string_view mended(std::string_view rest, const Range& range) {
@@ -109,33 +113,41 @@ std::optional<double> read_number(const Item& item, const Range& range) {
   const char* end = text->data() + text->size();
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range || is_yaml_special(*text) ||
-      (error == std::errc() && stop == end && !std::isfinite(value))) {
+  const bool too_large = error == std::errc::result_out_of_range && is_huge(*text);
+  if (too_large) value = text->starts_with('-') ? -HUGE_VAL : HUGE_VAL;
+  const bool bounded = too_large && stop == end && broken_bound(range, value);
+  if (!bounded && (error == std::errc::result_out_of_range || is_yaml_special(*text) ||
+                   (error == std::errc() && stop == end && !std::isfinite(value)))) {
     item.fail("must be a finite number" + in_unit(range) + " that a double holds, got " +
               shown(*text));
     return std::nullopt;
   }
-  if (is_quoted(item) || error != std::errc() || stop != end) {
+  if (is_quoted(item) || (error != std::errc() && !bounded) || stop != end) {
     item.fail("must be " + wanted + ", got " + kind_of(item) +
               std::string(stop == begin ? "" : mended({stop, end}, range)));
     return std::nullopt;
   }
-  if (const auto bound = broken_bound(range, value)) {
-    const bool low = value <= range.low && !range.low_reason.empty();
-    item.fail("must " + *bound + in_unit(range) + ", got " + shown(*text) +
-              (low ? ": " + std::string(range.low_reason) : ""));
-    return std::nullopt;
-  }
-  return value;
+  return in_range(item, value, range);
+}
+
+std::optional<double> in_range(const Item& item, double value, const Range& range) {
+  const auto bound = broken_bound(range, value);
+  if (!bound) return value;
+  const bool low = value <= range.low && !range.low_reason.empty();
+  item.fail("must " + *bound + in_unit(range) + ", got " + as_written(item) +
+            (low ? ": " + std::string(range.low_reason) : ""));
+  return std::nullopt;
 }
 
 std::optional<int> read_whole_number(const Item& item, const Range& range) {
   const auto value = read_number(item, range);
   if (!value) return std::nullopt;
   if (*value == std::floor(*value)) return static_cast<int>(*value);
-  item.fail("must be a whole number" + in_unit(range) + ", got " + shown(item.node.Scalar()));
+  item.fail("must be a whole number" + in_unit(range) + ", got " + as_written(item));
   return std::nullopt;
 }
+
+std::string as_written(const Item& item) { return shown(item.node.Scalar()); }
 
 bool is_word(const Item& item, std::string_view word) {
   return item.node.IsScalar() && item.node.Scalar() == word;

@@ -68,7 +68,12 @@ bool is_text_or_number(const Item& item);
 // control characters.
 std::optional<std::string> read_text(const Item& item);
 std::optional<double> read_number(const Item& item, const Range& range);
+// The value that was read of an item.  Reports one that breaks a bound.
+std::optional<double> in_range(const Item& item, double value, const Range& range);
 std::optional<int> read_whole_number(const Item& item, const Range& range);
+
+// The number as the file has it, for a message.
+std::string as_written(const Item& item);
 
 // Whether the item is this word, so far as that can be said before it is known what it may be.
 bool is_word(const Item& item, std::string_view word);

@@ -35,7 +35,7 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (mass && *mass > 0 && *mass < kFewestSolarMasses)
     s.find("mass_solar")
         ->fail(fmt::format("must be 0 (flat space) or at least {} (solar masses), got {}",
-                           short_number(kFewestSolarMasses), short_number(*mass)));
+                           short_number(kFewestSolarMasses), as_written(*s.find("mass_solar"))));
   if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
 }
 

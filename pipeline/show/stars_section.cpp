@@ -36,7 +36,7 @@ PointSpreadLaw read_point_spread(const Section& s) {
   if (!psf && most < least)
     s.find("max_sigma_deg")
         ->fail(fmt::format("must be at least min_sigma_deg = {} (degrees), got {}",
-                           short_number(least), short_number(most)));
+                           short_number(least), as_written(*s.find("max_sigma_deg"))));
   law.min_sigma = radians(least);
   law.max_sigma = radians(most);
   law.growth = s.number("growth", kPureNumber.within(0, 0.5), law.growth);

@@ -31,7 +31,7 @@ void fail_unreached(const Item& item, const Trajectory& trajectory, std::optiona
   std::string range = fmt::format("it stays at r = {} M", short_number(low));
   if (low < high)
     range = fmt::format("it moves between r = {} M and {}", short_number(low),
-                        std::isinf(high) ? "infinity" : short_number(high) + " M");
+                        short_number(high) + (std::isinf(high) ? "" : " M"));
   item.fail(fmt::format("is not passed {}{}; {}",
                         leg ? fmt::format("on the {} leg ", leg_name(*leg)) : "", when, range));
 }
@@ -53,7 +53,7 @@ std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& tr
   if (!(*tau > birth(trajectory) && *tau < lifetime(trajectory))) {
     item.fail(fmt::format(
         "must lie within the trajectory, that is between {} and {} (units of M), got {}",
-        short_number(birth(trajectory)), short_number(lifetime(trajectory)), short_number(*tau)));
+        short_number(birth(trajectory)), short_number(lifetime(trajectory)), as_written(item)));
     return std::nullopt;
   }
   if (const auto what = leaves_shows(trajectory, *tau)) {
@@ -120,10 +120,12 @@ std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& traj
   const auto tau = s.number("to_tau_m", kClock);
   if (!tau) return std::nullopt;
   if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
-  s.find("to_tau_m")
-      ->fail(fmt::format(
-          "must be at least {}, where the segment begins, and below {} (units of M), got {}",
-          short_number(double(begin)), short_number(lifetime(trajectory)), short_number(*tau)));
+  const Item& item = *s.find("to_tau_m");
+  const double end = lifetime(trajectory);
+  item.fail(fmt::format("must be at least {}, where the segment begins{} (units of M), got {}",
+                        short_number(double(begin)),
+                        std::isinf(end) ? "," : ", and below " + short_number(end),
+                        as_written(item)));
   return std::nullopt;
 }
 

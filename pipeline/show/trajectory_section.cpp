@@ -100,10 +100,10 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
     (to ? to : s.find("from_r"))
         ->fail(to ? fmt::format("must stay below from_r = {} (units of M), got {}: a free fall "
                                 "only goes inward",
-                                short_number(*from_r), short_number(end))
+                                short_number(*from_r), as_written(*to))
                   : fmt::format("must exceed {} (units of M), the default of to_r, got {}: a free "
                                 "fall only goes inward",
-                                short_number(end), short_number(*from_r)));
+                                short_number(end), as_written(*s.find("from_r"))));
     return std::nullopt;
   }
   return timed(s, fall, {0, proper_time_to(fall, end)}, mirrored);

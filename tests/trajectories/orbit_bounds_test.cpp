@@ -97,7 +97,7 @@ TEST(OrbitBounds, RefusalsNameTheQuantityTheBoundAndTheValue) {
       {"below 1e15", [] { return kruskal_crossing(0, 1e200); }},
       {"below 1e15", [] { return fall_from_rest(2.5, 1e200); }},
       {"energy must be at least 0", [] { return kruskal_crossing(-1); }},
-      {"energy must be at least 1e-06", [] { return kruskal_crossing(1e-7); }},
+      {"energy must be at least 1e-6", [] { return kruskal_crossing(1e-7); }},
       {"angular_momentum must be at least 0", [] { return kruskal_crossing(1, -1); }},
   };
   for (const Case& c : cases) {

@@ -139,7 +139,7 @@ TEST_F(FarEnds, NoProperTimeLeadsDeeperThanShowsGo) {
     EXPECT_THAT(complaint("black_hole: {mass_solar: 4e6}\n"
                           "timeline: [{duration_s: 1, trajectory: {type: " +
                           std::string(orbit) + "}}]\n"),
-                testing::ContainsRegex("_tau_m leads to r = .* M; shows go from 1e-06 to"))
+                testing::ContainsRegex("_tau_m leads to r = .* M; shows go from 1e-6 to"))
         << orbit;
 }
 

@@ -89,8 +89,8 @@ TEST_F(ShowErrorsInOrbits, Throws) {
       {"Throws3", moving("{type: kruskal, energy: -1}"),
        "3:57: timeline[1].trajectory.energy must be at least 0, got -1"},
       {"Throws4", moving("{type: kruskal, energy: 1e-9}"),
-       "3:57: timeline[1].trajectory.energy must be at least 1e-06 (of the unit of mass), got "
-       "1e-09: closer to 0 it is 0 in double precision"},
+       "3:57: timeline[1].trajectory.energy must be at least 1e-6 (of the unit of mass), got "
+       "1e-9: closer to 0 it is 0 in double precision"},
       {"Throws5", moving("{type: continue}"),
        "3:33: timeline[1].trajectory goes on with the trajectory of the segment before, but this "
        "is the first segment"},

@@ -53,7 +53,7 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
        "3:65: timeline[1].trajectory.to_r must stay below from_r = 3 (units of M), got 4: a free "
        "fall only goes inward"},
       {"ToRTooDeep", moving("{type: infall, from_r: 30, to_r: 1e-7}"),
-       "3:66: timeline[1].trajectory.to_r must be at least 1e-06 (units of M), got 1e-7"},
+       "3:66: timeline[1].trajectory.to_r must be at least 1e-6 (units of M), got 1e-7"},
       {"FromRBelowTheDefaultEnd", moving("{type: infall, from_r: 0.04}"),
        "3:56: timeline[1].trajectory.from_r must exceed 0.05 (units of M), the default of to_r, "
        "got 0.04: a free fall only goes inward"},
@@ -75,7 +75,7 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
       {"MoreOrbitsThanAngleCanCount",
        "black_hole: {mass_solar: 1e-20}\n"
        "timeline: [{duration_s: 1, trajectory: {type: circular, r: 4, time_lapse: 1}}]\n",
-       "2:75: timeline[1].trajectory.time_lapse makes 8.078125856e+23 orbits in the segment; at "
+       "2:75: timeline[1].trajectory.time_lapse makes 8.078125856e23 orbits in the segment; at "
        "most 1000000 are possible"},
       {"OrbitTimedTwice", moving("{type: circular, r: 9, orbits: 1, time_lapse: 3}"),
        "3:79: timeline[1].trajectory.time_lapse excludes orbits; give one of them"},

@@ -134,7 +134,15 @@ TEST_F(ShowErrorsInYaml, NumbersMustBePlainAndFinite) {
       {"HugeInteger", kShow + "size: 99999999999999999999999999\n",
        "3:7: size must be at most 16384 (pixels), got 99999999999999999999999999"},
       {"BeyondDoubles", kShow + "exposure: {ev: 1e999}\n",
-       "3:16: exposure.ev must be a finite number (stops) that a double holds, got 1e999"},
+       "3:16: exposure.ev must be at most 30 (stops), got 1e999"},
+      {"FarBelowZero", kShow + "exposure: {ev: -1e999}\n",
+       "3:16: exposure.ev must be at least -30 (stops), got -1e999"},
+      {"BelowDoubles", moving("{type: infall, from_r: 1e-999}"),
+       "3:56: timeline[1].trajectory.from_r must be a finite number (units of M) that a double "
+       "holds, got 1e-999"},
+      {"BoundsWithoutLeadingZeros", moving("{type: infall, from_r: 9, rate_m_per_s: 1e13}"),
+       "3:73: timeline[1].trajectory.rate_m_per_s must be at most 1e12 (units of M per second of "
+       "show), got 1e13"},
       {"Hexadecimal", kShow + "size: 0x1000\n",
        "3:7: size must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '0x1000'"},
       {"Underscore", kShow + "size: 4_096\n",

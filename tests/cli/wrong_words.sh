@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Verbs that do not exist and numbers out of range are told in plain words, and end with 2.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+write_grid_show show.yaml
+
+exits 2 "$DOMEFALL" movie show.yaml
+says "^domefall has no verb 'movie' yet: it makes frames, "
+exits 2 "$DOMEFALL" rendr show.yaml
+says "^domefall has no verb 'rendr'; did you mean render\?$"
+exits 2 "$DOMEFALL" zzz
+says "^domefall has no verb 'zzz'; it has check, render, .* or sky$"
+exits 2 "$DOMEFALL"
+says 'subcommand is required'
+
+exits 2 "$DOMEFALL" preview show.yaml --out a.png --fov 1e400
+says '^--fov: 1e400 is not from 0.001 to 340$'
+exits 2 "$DOMEFALL" preview show.yaml --out a.png --fov nan
+says '^--fov: nan is not from 0.001 to 340$'
+exits 2 "$DOMEFALL" preview show.yaml --out a.png --fov wide
+says "^--fov: 'wide' is not a number$"
+exits 2 "$DOMEFALL" render show.yaml --out frames --threads 4096
+says '^--threads: 4096 is not from 0 to 1024$'
