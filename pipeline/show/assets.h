@@ -1,4 +1,5 @@
-// The files that come with Domefall: sky map, star catalogue, grading configuration.
+// The files that come with Domefall: sky map, star catalogue, places on the sky, grading
+// configuration.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 namespace domefall {
 
 inline constexpr std::string_view kNakedEyeStars = "naked_eye_stars.csv";
+inline constexpr std::string_view kSkyPlaces = "sky_places.csv";
 inline constexpr std::string_view kMilkyWay = "milky_way.exr";
 inline constexpr std::string_view kDomeConfig = "dome.ocio";
 

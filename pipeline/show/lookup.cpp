@@ -44,37 +44,56 @@ std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name)
   return std::nullopt;
 }
 
-std::optional<SkyDirection> Lookup::star(const Item& item,
-                                         std::span<const std::string_view> words) {
+bool Lookup::read_places(const Item& item, int table) {
+  const bool stars = table == 0;
+  const auto file = shipped(item, stars ? kNakedEyeStars : kSkyPlaces);
+  if (!file) return false;
+  try {
+    places_.add(stars ? read_star_catalogue(*file, std::numeric_limits<double>::infinity()).names
+                      : read_sky_places(*file));
+  } catch (const InputError& error) {
+    item.fail((stars ? "needs the star catalogue: " : "needs the table of places on the sky: ") +
+              std::string(error.what()));
+    return false;
+  }
+  return true;
+}
+
+std::optional<SkyDirection> Lookup::find_place(const Item& item, const std::string& name) {
+  constexpr int kTables = 2;
+  auto found = places_.find(name);
+  for (; !found && tables_read_ < kTables; found = places_.find(name))
+    if (read_places(item, tables_read_))
+      ++tables_read_;
+    else
+      return std::nullopt;
+  return found;
+}
+
+std::optional<SkyDirection> Lookup::place(const Item& item,
+                                          std::span<const std::string_view> words) {
   const auto name = read_text(item);
   if (!name) return std::nullopt;
-  if (!stars_) {
-    const auto file = shipped(item, kNakedEyeStars);
-    if (!file) return std::nullopt;
-    try {
-      stars_ = read_star_catalogue(*file, std::numeric_limits<double>::infinity());
-    } catch (const InputError& error) {
-      item.fail("needs the star catalogue: " + std::string(error.what()));
-      return std::nullopt;
-    }
-  }
-  if (auto found = find_star(*stars_, *name)) return found;
+  const std::size_t reported = item.problems->count();
+  if (auto found = find_place(item, *name)) return found;
+  if (item.problems->count() > reported) return std::nullopt;
   std::string near(nearest_word(*name, words));
-  if (near.empty() && name->size() < 60) near = nearest_star_name(*stars_, *name);
+  if (near.empty() && name->size() < 60) near = places_.nearest(*name);
   item.fail((words.empty() ? "" : "must be " + listed(words) + ", or a place on the sky; it ") +
-            "names the star '" + shown(*name) + "', which the naked-eye catalogue does not have" +
+            "names '" + shown(*name) +
+            "', which is no star, constellation or object that Domefall knows" +
             (near.empty() ? "" : "; did you mean " + near + "?"));
   return std::nullopt;
 }
 
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
                                            std::span<const std::string_view> words) {
-  if (is_text_or_number(item)) return lookup.star(item, words);
+  if (is_text_or_number(item)) return lookup.place(item, words);
   const Section place(item, {"ra_deg", "dec_deg", "star"});
   if (place.find("star")) {
     place.one_of({"star", "ra_deg"});
     place.one_of({"star", "dec_deg"});
-    return lookup.star(*place.find("star"));
+    return lookup.place(*place.find("star"));
   }
   const auto ra = place.required_number("ra_deg", kDegrees.within(0, 360));
   const auto dec = place.required_number("dec_deg", kDegrees.within(-90, 90));

@@ -1,4 +1,4 @@
-// Finds the files and stars that a show names.
+// Finds the files and the places on the sky that a show names.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "pipeline/show/item.h"
-#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/show/sky_places.h"
 
 namespace domefall {
 
@@ -24,17 +24,22 @@ class Lookup {
   // it.
   std::optional<std::filesystem::path> shipped(const Item& item, std::string_view name) const;
 
-  // The place of a star of the shipped naked-eye catalogue, which is read when the first star is
-  // named.  `words` are what the item could have been besides, for the message about an unknown
-  // name.
-  std::optional<SkyDirection> star(const Item& item, std::span<const std::string_view> words = {});
+  // The place of a name: of a star of the shipped naked-eye catalogue, which is read when the first
+  // place is named, or else of the shipped table of places, which is read when a name is no star's.
+  // `words` are what the item could have been besides, for the message about an unknown name.
+  std::optional<SkyDirection> place(const Item& item, std::span<const std::string_view> words = {});
 
  private:
+  std::optional<SkyDirection> find_place(const Item& item, const std::string& name);
+  // Reads the stars (0) or the other places (1).  Reports a file that is missing or damaged.
+  bool read_places(const Item& item, int table);
+
   std::filesystem::path folder_;
-  std::optional<StarCatalogue> stars_;
+  SkyPlaces places_;
+  int tables_read_ = 0;
 };
 
-// Reads a place on the sky: a star's name, {star: NAME}, or {ra_deg: X, dec_deg: Y} in J2000.
+// Reads a place on the sky: its name, {star: NAME}, or {ra_deg: X, dec_deg: Y} in J2000.
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
                                            std::span<const std::string_view> words = {});
 

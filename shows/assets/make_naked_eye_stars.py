@@ -73,11 +73,16 @@ def fetched(folder):
     return os.path.join(folder, done.stdout.split()[-1])
 
 
-def read_package(archive):
-    """The stars and their names, from the one archive this was written for."""
+def check_package(archive):
+    """Stops unless it is the one archive this was written for."""
     with open(archive, "rb") as file:
         if hashlib.sha256(file.read()).hexdigest() != SHA256:
             sys.exit(f"{archive}: not the package this was written for")
+
+
+def read_package(archive):
+    """The stars and their names."""
+    check_package(archive)
     with tarfile.open(archive) as package:
         def load(name):
             return json.load(package.extractfile(f"package/data/{name}"))

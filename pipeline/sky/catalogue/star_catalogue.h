@@ -1,7 +1,6 @@
 // Stars as the renderer needs them: directions, magnitudes, temperatures, and names to look for.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,12 +31,5 @@ struct StarCatalogue {
 // Returns a name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen"
 // are one.
 std::string folded_star_name(std::string_view name);
-
-// Returns the first star of that folded name.
-std::optional<SkyDirection> find_star(const StarCatalogue& catalogue, std::string_view name);
-
-// Returns the name nearest to a misspelt one, for error messages.  Empty if none is nearer than
-// a third of its letters (at least two) inserted, deleted or replaced.
-std::string nearest_star_name(const StarCatalogue& catalogue, std::string_view name);
 
 }  // namespace domefall

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -89,9 +90,9 @@ class Panel {
 inline V3d star(const std::string& name) {
   static const StarCatalogue catalogue =
       read_star_catalogue(source_file("shows/assets/stars_to_8.csv"), 8);
-  const auto place = find_star(catalogue, name);
-  EXPECT_TRUE(place) << name;
-  return place ? place->v : V3d(1, 0, 0);
+  const auto place = std::ranges::find(catalogue.names, name, &NamedStar::name);
+  EXPECT_NE(place, catalogue.names.end()) << name;
+  return place == catalogue.names.end() ? V3d(1, 0, 0) : place->direction.v;
 }
 
 }  // namespace domefall

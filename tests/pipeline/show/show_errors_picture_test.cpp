@@ -77,17 +77,25 @@ TEST_F(ShowErrorsInPictures, Cameras) {
        "2:12: timeline[1] has a camera that looks along the motion, but its observer does not "
        "move; give the segment another camera.look_at"},
       {"StarMisspelt", kShow + "camera: {look_at: Betelgeuze}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
-       "star "
-       "'Betelgeuze', which the naked-eye catalogue does not have; did you mean Betelgeuse?"},
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
+       "'Betelgeuze', which is no star, constellation or object that Domefall knows; did you mean "
+       "Betelgeuse?"},
       {"UnknownStar", kShow + "camera: {look_at: Qwertyuiop}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
-       "star "
-       "'Qwertyuiop', which the naked-eye catalogue does not have"},
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
+       "'Qwertyuiop', which is no star, constellation or object that Domefall knows"},
       {"HoleMisspelt", kShow + "camera: {look_at: holes}\n",
-       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names the "
-       "star "
-       "'holes', which the naked-eye catalogue does not have; did you mean hole?"},
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
+       "'holes', which is no star, constellation or object that Domefall knows; did you mean "
+       "hole?"},
+      {"ConstellationMisspelt", kHole + "camera: {look_at: Orino}\n" + kShow.substr(kHole.size()),
+       "2:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
+       "'Orino', which is no star, constellation or object that Domefall knows; did you mean "
+       "Orion?"},
+      {"HoleAtAnUnknownPlace",
+       "black_hole: {mass_solar: 1, at: Adromeda Galaxy}\n" + kShow.substr(kHole.size()),
+       "1:33: black_hole.at names 'Adromeda Galaxy', which is no star, constellation or object "
+       "that "
+       "Domefall knows; did you mean Andromeda Galaxy?"},
       {"RollUnderTheShowsEulerAngles",
        kHole + "camera: {euler_deg: [0, 0, 0]}\n"
                "timeline:\n"

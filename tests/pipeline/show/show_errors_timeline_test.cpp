@@ -122,8 +122,8 @@ TEST_F(ShowErrorsInTimelines, VelocitiesThatDoNotExist) {
        "{radial, theta, phi} or a place on the sky"},
       {"DirectionMisspelt", moving("{type: velocity, r: 9, speed: 0.5, direction: inwards}"),
        "3:79: timeline[1].trajectory.direction must be inward, outward, forward, backward, north "
-       "or south, or a place on the sky; it names the star 'inwards', which the naked-eye "
-       "catalogue does not have; did you mean inward?"},
+       "or south, or a place on the sky; it names 'inwards', which is no star, constellation or "
+       "object that Domefall knows; did you mean inward?"},
       {"NoDirectionAtAll", moving("{type: velocity, r: 9, speed: 0.5, direction: {radial: 0}}"),
        "3:79: timeline[1].trajectory.direction must not be the zero vector; give radial, theta or "
        "phi"},

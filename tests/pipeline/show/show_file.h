@@ -23,6 +23,10 @@ class ShowFile : public TestFolder {
           "101.287,-16.716,-1.44,0.009,Sirius,alpha CMa\n"
           "88.793,7.407,0.45,1.5,Betelgeuse,alpha Ori\n"
           "279.235,38.784,0.03,-0.001,Vega,alpha Lyr\n");
+    write("assets/sky_places.csv",
+          "name,ra_deg,dec_deg\n"
+          "Orion,85.39,5.69\nM 31,10.6847,41.2687\nAndromeda Galaxy,10.6847,41.2687\n"
+          "galactic centre,266.405,-28.9362\nVega,1,2\n");
     setenv("DOMEFALL_ASSETS", (folder_ / "assets").c_str(), 1);
   }
   ~ShowFile() override { unsetenv("DOMEFALL_ASSETS"); }

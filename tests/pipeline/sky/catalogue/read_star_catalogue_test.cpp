@@ -21,14 +21,13 @@ TEST(Stars, AreTheNakedEyeSky) {
       std::is_sorted(catalogue.stars.begin(), catalogue.stars.end(),
                      [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; }));
   for (const auto& [name, ra, dec] :
-       {std::tuple("Sirius", 101.287155, -16.716116), std::tuple("vega", 279.234735, 38.783689),
+       {std::tuple("Sirius", 101.287155, -16.716116), std::tuple("Vega", 279.234735, 38.783689),
         std::tuple("alpha Ori", 88.792939, 7.407064)}) {
-    const auto found = find_star(catalogue, name);
-    ASSERT_TRUE(found) << name;
-    EXPECT_LT((found->v - sky_direction(ra, dec).v).length(), 3e-6) << "0.5 arcsec";
+    const auto found = std::ranges::find(catalogue.names, name, &NamedStar::name);
+    ASSERT_NE(found, catalogue.names.end()) << name;
+    EXPECT_LT((found->direction.v - sky_direction(ra, dec).v).length(), 3e-6) << "0.5 arcsec";
   }
   EXPECT_EQ(read_star_catalogue(kAssets + "naked_eye_stars.csv", 1.5).stars.size(), 23u);
-  EXPECT_EQ(nearest_star_name(catalogue, "Betelguese"), "Betelgeuse");
 }
 
 TEST(Stars, ADamagedRowIsNamedByFileAndLine) {
