@@ -77,7 +77,8 @@ class Page {
   std::string rate(const SegmentSurvey& s) const {
     const char* unit = show_.mass_solar ? "M" : "s";
     const double mean = s.proper_time / (s.end_s - s.begin_s);
-    const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean);
+    const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean) &&
+                        std::abs(s.rate_end - mean) <= 1e-3 * std::abs(mean);
     return steady ? fmt::format("{:.4g} {} a second", mean, unit)
                   : fmt::format("{:.4g} {} a second ({:.4g} at first, {:.4g} at last)", mean, unit,
                                 s.rate_begin, s.rate_end);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/show/rate_law.h"
 #include "trajectories/passages.h"
 
 namespace domefall {
@@ -10,9 +11,6 @@ namespace {
 
 // The tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
 double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
-
-// The integral from 0 to t of the rate a + (b - a) (3 t^2 - 2 t^3).
-double ramp(double a, double b, double t) { return t * (a + (b - a) * t * t * (1 - t / 2)); }
 
 // What must be added to the null time of a trajectory, so that it goes on from the joint.  Between
 // v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
@@ -61,6 +59,18 @@ ProperTime part_between(const ProperTime& from, const ProperTime& to, double don
   return left < kNextToTheEnd ? to - span * left : from + span * done;
 }
 
+// The time at which r has changed by `part` of the way, in equal factors.  Rounding of r can move a
+// passage next to the beginning out of the segment.
+ProperTime time_of_even_log_r(const Segment& s, double part) {
+  const ProperTime &from = s.timing.tau_begin, &to = s.timing.tau_end;
+  if (!(part > 0)) return from;
+  if (!(part < 1)) return to;
+  const double begin = point_at(s.trajectory, from).r, end = point_at(s.trajectory, to).r;
+  const auto tau = time_at(s.trajectory, ratio_between(begin, end, part),
+                           end < begin ? Leg::kInward : Leg::kOutward, from);
+  return tau && *tau >= from && *tau <= to ? *tau : part_between(from, to, part, 1 - part);
+}
+
 }  // namespace
 
 ProperTime proper_time_at(const Segment& s, double part) {
@@ -74,13 +84,16 @@ ProperTime proper_time_at(const Segment& s, double part) {
       const ProperTime start = birth(s.trajectory);
       return start + ratio_between(double(from - start), double(to - start), part);
     }
+    case Pace::kLogRadius:
+      return time_of_even_log_r(s, part);
     case Pace::kEased:
       return part_between(from, to, smooth_step(part), smooth_step(1 - part));
     case Pace::kSteady:
       break;
   }
   const double begins = s.timing.rate_begin, ends = s.timing.rate_end;
-  return part_between(from, to, ramp(begins, ends, part), ramp(ends, begins, 1 - part));
+  return part_between(from, to, part_passed(begins, ends, part),
+                      part_passed(ends, begins, 1 - part));
 }
 
 Joint first_joint(const Show& show, const Segment& first) {

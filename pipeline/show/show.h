@@ -27,9 +27,10 @@ namespace domefall {
 enum class Pace {
   kSteady,  // evenly, or by a rate that changes smoothly from the first instant's to the last one's
   kEased,   // from standstill to standstill
-  kSlowing,    // so that the time left to the singularity shrinks by equal factors in equal show
-               // times: log r falls evenly, and the end is not over in a frame
-  kQuickening  // the same backwards, from the past singularity on
+  kSlowing,     // so that the time left to the singularity shrinks by equal factors in equal show
+                // times: log r falls evenly, and the end is not over in a frame
+  kQuickening,  // the same backwards, from the past singularity on
+  kLogRadius    // so that log r changes evenly; r goes one way
 };
 
 // Which part of its trajectory a segment shows, and how the observer's clock runs meanwhile.
@@ -37,7 +38,7 @@ struct Timing {
   // Proper time of the trajectory at the segment's first and last instant.
   ProperTime tau_begin, tau_end;
   Pace pace = Pace::kSteady;
-  // How fast proper time runs at both ends for kSteady, as parts of the mean.  Their sum is 2.
+  // How fast proper time runs at both ends for kSteady, as parts of the mean (part_passed).
   double rate_begin = 1, rate_end = 1;
 };
 

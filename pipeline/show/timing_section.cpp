@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace domefall {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
 constexpr double kDefaultRate = 1;  // M per second
 constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
+constexpr Range kRateRange = Range{"units of M per second of show"}.within(0, kMostRate);
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
 std::string leg_name(Leg leg) { return leg == Leg::kInward ? "inward" : "outward"; }
@@ -151,12 +153,64 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
 bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime& tau) {
   const auto what = leaves_shows(trajectory, tau);
   if (!what) return true;
-  const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
+  const Item* given = nullptr;
+  for (const char* key : {"time_lapse", "rate_m_per_s", "to_tau_m", "to_r"})
+    if (const Item* item = s.find(key)) given = item;
   if (given)
     given->fail(*what);
   else
     s.require("to_r", ": the default rate of 1 M per second " + *what);
   return false;
+}
+
+bool has_two_rates(const Section& s) {
+  const Item* rate = s.find("rate_m_per_s");
+  return rate && rate->node.IsSequence();
+}
+
+// Whether r only falls or only rises between two instants, so that each r has one time.
+bool goes_one_way(const Trajectory& trajectory, const Timing& timing) {
+  const ProperTime &from = timing.tau_begin, &to = timing.tau_end;
+  const double span = double(to - from), end = point_at(trajectory, to).r;
+  double r = point_at(trajectory, from).r;
+  const bool inward = end < r;
+  constexpr double kSoon[] = {1e-6, 1e-3};
+  constexpr int kSamples = 64;
+  const auto goes_on = [&](double part) {
+    const double before = std::exchange(r, point_at(trajectory, from + span * part).r);
+    return inward ? r < before : r > before;
+  };
+  for (const double part : kSoon)
+    if (!goes_on(part)) return false;
+  for (int k = 1; k <= kSamples; ++k)
+    if (!goes_on(static_cast<double>(k) / kSamples)) return false;
+  // A turn between two samples would make the end a later passage than the first.
+  const auto first = time_at(trajectory, end, inward ? Leg::kInward : Leg::kOutward, from);
+  constexpr double kRounding = 1e-6;
+  return !first || double(to - *first) < kRounding * span;
+}
+
+// The words of `pace`.
+enum class Word {
+  kSteady,
+  kEased,
+  kEasedIn,
+  kEasedOut,
+  kSlowing,
+  kQuickening,
+  kLogRadius,
+  kFrozen
+};
+
+std::optional<Word> read_word(const Section& s) {
+  return s.word<Word>("pace", {{"steady", Word::kSteady},
+                               {"eased", Word::kEased},
+                               {"eased_in", Word::kEasedIn},
+                               {"eased_out", Word::kEasedOut},
+                               {"slowing", Word::kSlowing},
+                               {"quickening", Word::kQuickening},
+                               {"log_r", Word::kLogRadius},
+                               {"frozen", Word::kFrozen}});
 }
 
 }  // namespace
@@ -179,33 +233,50 @@ std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optiona
   }
   const Item* rate = s.find("rate_m_per_s");
   if (!rate) return Rate{kDefaultRate * stage.duration_s};
-  const Range range = Range{"units of M per second of show"}.within(0, kMostRate);
   if (rate->node.IsSequence()) {
-    const auto ends = read_numbers(*rate, 2, range);
+    const auto ends = read_numbers(*rate, 2, kRateRange);
     if (!ends) return std::nullopt;
     const double mean = ((*ends)[0] + (*ends)[1]) / 2;
     if (!(mean > 0)) return Rate{0};
     return Rate{mean * stage.duration_s, (*ends)[0] / mean, (*ends)[1] / mean};
   }
-  const auto value = read_number(*rate, range);
+  const auto value = read_number(*rate, kRateRange);
   if (!value) return std::nullopt;
   return Rate{*value * stage.duration_s};
+}
+
+const Item* find_end(const Section& s, std::initializer_list<std::string_view> ends) {
+  const Item* end = s.one_of(ends);
+  if (!end) return s.one_of({"rate_m_per_s", "time_lapse"});
+  const std::string key = end->path.substr(end->path.rfind('.') + 1);
+  for (const char* rate : {"rate_m_per_s", "time_lapse"}) {
+    const Item* item = s.find(rate);
+    if (!item || item->node.IsSequence()) continue;
+    item->fail("excludes " + key + "; give one of them");
+  }
+  return end;
+}
+
+bool read_end_rates(const Section& s, const Stage& stage, Timing& timing) {
+  if (!has_two_rates(s)) return true;
+  const Item& item = *s.find("rate_m_per_s");
+  const auto ends = read_numbers(item, 2, kRateRange);
+  if (!ends) return false;
+  const double mean = double(timing.tau_end - timing.tau_begin) / stage.duration_s;
+  if (!(mean > 0)) {
+    item.fail("needs an end behind the segment's beginning");
+    return false;
+  }
+  timing.rate_begin = (*ends)[0] / mean, timing.rate_end = (*ends)[1] / mean;
+  return true;
 }
 
 bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
   const Item* item = s.find("pace");
   if (!item) return true;
-  enum class Word { kSteady, kEased, kEasedIn, kEasedOut, kSlowing, kQuickening, kFrozen };
-  const auto pace = s.word<Word>("pace", {{"steady", Word::kSteady},
-                                          {"eased", Word::kEased},
-                                          {"eased_in", Word::kEasedIn},
-                                          {"eased_out", Word::kEasedOut},
-                                          {"slowing", Word::kSlowing},
-                                          {"quickening", Word::kQuickening},
-                                          {"frozen", Word::kFrozen}});
+  const auto pace = read_word(s);
   if (!pace) return false;
-  const Item* rate = s.find("rate_m_per_s");
-  const bool ramped = rate && rate->node.IsSequence();
+  const bool ramped = has_two_rates(s);
   switch (*pace) {
     case Word::kSteady:
       return true;
@@ -229,6 +300,13 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
                      : "of 'quickening' needs a trajectory that begins in the past singularity");
       return false;
     }
+    case Word::kLogRadius:
+      timing.pace = Pace::kLogRadius;
+      if (goes_one_way(trajectory, timing)) break;
+      item->fail(
+          "of 'log_r' needs an r that only falls or only rises in the segment; end it, or begin "
+          "it, where the orbit turns");
+      return false;
     case Word::kFrozen:
       timing.tau_end = timing.tau_begin;
       for (const char* key : {"to_r", "to_tau_m", "rate_m_per_s", "time_lapse", "orbits"})
@@ -245,7 +323,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
 
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                const ProperTime& begin, const Defaults& defaults) {
-  const Item* given = s.one_of({"to_r", "to_tau_m", "rate_m_per_s", "time_lapse"});
+  const Item* given = find_end(s, {"to_r", "to_tau_m"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");
   if (pace && is_word(*pace, "frozen")) {
@@ -267,6 +345,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
   }
   if (end) {
     timing.tau_end = *end;
+    if (!read_end_rates(s, stage, timing)) return std::nullopt;
   } else {
     const auto rated = read_rated(s, stage, trajectory, begin);
     if (!rated) return std::nullopt;

@@ -36,6 +36,15 @@ struct Rate {
 std::optional<Rate> read_rate(const Section& s, const Stage& stage,
                               std::optional<double> period = std::nullopt);
 
+// The key that says where a segment ends, one of `ends`, or else how fast its clock runs; null
+// without either.  Reports keys that exclude each other.  Only the two rates of `rate_m_per_s:
+// [a, b]` go with an end.
+const Item* find_end(const Section& s, std::initializer_list<std::string_view> ends);
+
+// Reads two rates into a timing whose ends are fixed, if there are any.  Returns whether there was
+// no mistake.
+bool read_end_rates(const Section& s, const Stage& stage, Timing& timing);
+
 // Reads `pace` into a timing whose ends are fixed.  Reports a pace that the trajectory cannot have,
 // and returns whether there was no mistake.
 bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing);

@@ -43,7 +43,7 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage)
 
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "r", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"});
-  s.one_of({"orbits", "rate_m_per_s", "time_lapse"});
+  find_end(s, {"orbits"});
   const auto r = s.required_number(
       "r", kUnitsOfM
                .above(kCircularInnermost,
@@ -60,7 +60,9 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
                           short_number(orbits), short_number(kMostOrbits)));
     return std::nullopt;
   }
-  return timed(s, CircularOrbit{*r}, timing_of(*rate), mirrored);
+  Timing timing = timing_of(*rate);
+  if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
+  return timed(s, CircularOrbit{*r}, timing, mirrored);
 }
 
 // Reads the rate of a fall that is timed by one.  The segment must end before the singularity.
@@ -79,14 +81,14 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "region",
                          "rest_r", "angular_momentum", "v_inf", "impact_parameter", "from_leg",
                          "from_tau_m", "to_leg", "to_tau_m"});
-  const Item* timing = s.one_of({"to_r", "rate_m_per_s", "time_lapse"});
+  const Item* given = find_end(s, {"to_r"});
   const Item* to = s.find("to_r");
   const auto to_r = s.number("to_r", kUnitsOfM.at_least(kNearest).at_most(kFarthest));
   const auto from_r = s.required_number("from_r", kUnitsOfM.above(0).at_most(kFarthest));
   if (!from_r || (to && !to_r)) return std::nullopt;
   const RadialInfall fall{*from_r};
   const bool mirrored = is_in_region_three(s);
-  if (timing && !to) {
+  if (given && !to) {
     const Item* pace = s.find("pace");
     if (pace && is_word(*pace, "slowing")) {
       pace->fail("of 'slowing' needs to_r, not a rate");
@@ -106,7 +108,9 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
                                 short_number(end), as_written(*s.find("from_r"))));
     return std::nullopt;
   }
-  return timed(s, fall, {0, proper_time_to(fall, end)}, mirrored);
+  Timing timing{0, proper_time_to(fall, end)};
+  if (!read_end_rates(s, stage, timing)) return std::nullopt;
+  return timed(s, fall, timing, mirrored);
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {

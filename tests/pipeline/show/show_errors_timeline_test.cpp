@@ -67,7 +67,7 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
        "3:83: timeline[1].trajectory.pace of 'slowing' needs to_r, not a rate"},
       {"PaceMisspelt", moving("{type: infall, from_r: 10, pace: slow}"),
        "3:66: timeline[1].trajectory.pace must be steady, eased, eased_in, eased_out, slowing, "
-       "quickening or frozen, got 'slow'; did you mean "
+       "quickening, log_r or frozen, got 'slow'; did you mean "
        "slowing?"},
       {"OrbitAtTheLightCircle", moving("{type: circular, r: 3}"),
        "3:53: timeline[1].trajectory.r must exceed 3 (units of M), got 3: at the light circle an "
