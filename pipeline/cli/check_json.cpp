@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/cli/check_page.h"
+#include "pipeline/show/observer_track.h"
 
 namespace domefall {
 namespace {
@@ -79,6 +80,13 @@ Json json_of(const RenderTime& t) {
   return {{"seconds", number(t.seconds)}, {"frame_s", number(t.frame_s)}, {"threads", t.threads}};
 }
 
+Json json_of(const Show& show, const Marker& m) {
+  return {{"name", m.name},
+          {"time_s", number(m.at_s)},
+          {"frame", nearest_frame(show, m.at_s)},
+          {"segment", segment_at(show, m.at_s) + 1}};
+}
+
 Json json_of(const ShowWarning& w) {
   return {{"time_s", number(w.time_s)},
           {"frame", w.frame},
@@ -124,6 +132,8 @@ std::string check_json(const CheckReport& report) {
   json["segments"] = Json::array();
   for (const SegmentSurvey& s : report.survey.segments)
     json["segments"].push_back(json_of(s, report.show.mass_solar));
+  json["markers"] = Json::array();
+  for (const Marker& m : report.show.markers) json["markers"].push_back(json_of(report.show, m));
   json["joints"] = Json::array();
   for (const SegmentJoint& j : report.joints) json["joints"].push_back(json_of(j));
   add_whole(report, json);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "pipeline/show/observer_track.h"
+#include "pipeline/show/show_time.h"
+
 namespace domefall {
 namespace {
 
@@ -15,6 +18,7 @@ class Page {
 
   std::string text() {
     head();
+    markers();
     effects();
     for (std::size_t k = 0; k < r_.survey.segments.size(); ++k) segment(k);
     whole();
@@ -168,6 +172,15 @@ class Page {
                      duration_text(r_.time->seconds), r_.time->threads,
                      r_.time->threads == 1 ? "" : "s", columns(show_.projection),
                      rows(show_.projection), r_.time->frame_s));
+  }
+
+  void markers() {
+    for (const Marker& marker : show_.markers) {
+      const int frame = nearest_frame(show_, marker.at_s);
+      line("marker", fmt::format("{} at {} ({:.6g} s), frame {}, segment {}", marker.name,
+                                 clock_text(marker.at_s), marker.at_s, frame,
+                                 segment_at(show_, marker.at_s) + 1));
+    }
   }
 
   void warnings() {

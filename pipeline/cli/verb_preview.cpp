@@ -23,7 +23,8 @@ namespace {
 
 struct Options {
   std::string show, out, size = "1280x720";
-  int frame = 0, threads = 0;
+  FrameChoice choice;
+  int threads = 0;
   double fov_deg = 100;
 };
 
@@ -59,11 +60,11 @@ void flatten(const Show& show, FrameState& state, const Projection& flat) {
 void preview(const Options& o) {
   check_graded_name(o.out);
   Show show = read_show(o.show);
-  parse_frames(std::to_string(o.frame), frame_count(show));
+  const int number = chosen_frame(o.choice, show);
   OutputFile out(o.out);
   const Projection flat =
       resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
-  FrameState state = frame_state(show, o.frame);
+  FrameState state = frame_state(show, number);
   flatten(show, state, flat);
   // The default display is for domes, and a preview for screens.  The displays of a show's own
   // configuration are not known.
@@ -75,7 +76,7 @@ void preview(const Options& o) {
   GradedInfo info;
   info.key = keys.graded(keys.scene(state));
   info.title = show.title;
-  info.frame = o.frame;
+  info.frame = number;
   info.display = grader.display();
   info.view = grader.view();
   info.software = kSoftware;
@@ -91,7 +92,7 @@ void add_preview(CLI::App& app) {
       app.add_subcommand("preview", "One frame as a flat picture (stereographic), for a screen");
   auto o = std::make_shared<Options>();
   verb->add_option("show", o->show, "show file (YAML)")->required();
-  verb->add_option("--frame", o->frame, "frame number, from 0")->check(CLI::NonNegativeNumber);
+  add_frame_choice(*verb, o->choice);
   verb->add_option("--out", o->out, "picture to write, .png or .tif")->required();
   verb->add_option("--size", o->size, "WIDTHxHEIGHT")->capture_default_str();
   verb->add_option("--fov", o->fov_deg, "horizontal opening angle, degrees")

@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   std::string show, size, pixel;
-  int frame = 0;
+  FrameChoice choice;
 };
 
 PixelPosition parse_pixel(const std::string& text) {
@@ -41,8 +41,8 @@ void print_effects(const Effects& effects, const ViewRay& ray, double width) {
 void probe(const Options& o) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);
-  parse_frames(std::to_string(o.frame), frame_count(show));
-  const FrameState state = frame_state(show, o.frame);
+  const int number = chosen_frame(o.choice, show);
+  const FrameState state = frame_state(show, number);
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
@@ -69,7 +69,7 @@ void add_probe(CLI::App& app) {
   auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift");
   auto o = std::make_shared<Options>();
   verb->add_option("show", o->show, "show file (YAML)")->required();
-  verb->add_option("--frame", o->frame, "frame number, from 0")->check(CLI::NonNegativeNumber);
+  add_frame_choice(*verb, o->choice);
   verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")->required();
   verb->add_option("--size", o->size, "as for render");
   verb->callback([o] { probe(*o); });

@@ -1,14 +1,19 @@
 #include "pipeline/show/keyframes.h"
 
+#include "pipeline/show/show_time.h"
+
 namespace domefall {
 namespace {
 
-Keyframe read_keyframe(const Item& item, double start, double latest, ShowCamera& camera,
-                       Lookup& lookup) {
+Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
+                       const std::vector<Marker>& markers, ShowCamera& camera, Lookup& lookup) {
   const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "sky"});
   Keyframe keyframe;
-  const auto at = s.required_number("at_s", Range{"seconds"}.within(0, latest));
-  keyframe.at_s = start + at.value_or(0);
+  const Item* time = s.require("at_s", " (seconds)");
+  const auto at =
+      time ? read_time(*time, Range{"seconds"}.within(0, span.latest), markers, span.start)
+           : std::nullopt;
+  keyframe.at_s = span.start + at.value_or(0);
   keyframe.ease =
       s.word<Ease>("ease",
                    {{"smooth", Ease::kSmooth}, {"linear", Ease::kLinear}, {"hold", Ease::kHold}})
@@ -27,18 +32,19 @@ Keyframe read_keyframe(const Item& item, double start, double latest, ShowCamera
 
 }  // namespace
 
-std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
-                                     ShowCamera& camera, Lookup& lookup) {
+std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
+                                     const std::vector<Marker>& markers, ShowCamera& camera,
+                                     Lookup& lookup) {
   std::vector<Keyframe> keyframes;
   const auto items = read_list(item);
   if (!items) return keyframes;
   for (const Item& entry : *items) {
-    keyframes.push_back(read_keyframe(entry, start, latest, camera, lookup));
+    keyframes.push_back(read_keyframe(entry, span, markers, camera, lookup));
     const std::size_t n = keyframes.size();
     if (n > 1 && !(keyframes[n - 1].at_s > keyframes[n - 2].at_s) && peek(entry, "at_s"))
       peek(entry, "at_s")
           ->fail("must be later than that of the keyframe before it, " +
-                 short_number(keyframes[n - 2].at_s - start) + " (seconds)");
+                 short_number(keyframes[n - 2].at_s - span.start) + " (seconds)");
   }
   return keyframes;
 }

@@ -15,10 +15,16 @@ struct Keyframe {
   ChannelValues values;
 };
 
-// Reads a list.  `start` is the show's second from which at_s counts, and `latest` the largest at_s
-// allowed.  Keyframes that bear a name are entered into `camera`.
-std::vector<Keyframe> read_keyframes(const Item& item, double start, double latest,
-                                     ShowCamera& camera, Lookup& lookup);
+// The part of the show for which a list of keyframes is given.
+struct KeyframeSpan {
+  double start = 0;   // the show's second from which at_s counts
+  double latest = 0;  // the largest at_s allowed
+};
+
+// Reads a list.  Keyframes that bear a name are entered into `camera`.
+std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
+                                     const std::vector<Marker>& markers, ShowCamera& camera,
+                                     Lookup& lookup);
 
 // The curve of a channel through the keyframes that give it; nothing if none does.  It begins at
 // `start` with `value_there`, the value without keyframes, unless a keyframe stands there.

@@ -22,11 +22,18 @@ std::vector<double> segment_times(const Show& show) {
   return times;
 }
 
-int frame_count(const Show& show) {
-  const double seconds = show.joints.empty()
-                             ? segment_times(show).back()
+double end_of(const Show& show) {
+  return show.joints.empty() ? segment_times(show).back()
                              : show.joints.back().begin_s + show.timeline.back().duration_s;
-  return std::max(1, static_cast<int>(std::lround(seconds * show.frames_per_second)));
+}
+
+int frame_count(const Show& show) {
+  return std::max(1, static_cast<int>(std::lround(end_of(show) * show.frames_per_second)));
+}
+
+int nearest_frame(const Show& show, double time_s) {
+  return std::clamp(static_cast<int>(std::lround(time_s * show.frames_per_second)), 0,
+                    frame_count(show) - 1);
 }
 
 }  // namespace domefall

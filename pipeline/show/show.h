@@ -154,6 +154,12 @@ struct Effects {
 
 // ---- the whole ----
 
+// An instant of the show that bears a name.
+struct Marker {
+  std::string name;
+  double at_s = 0;  // show seconds
+};
+
 enum class GradedFormat { kNone, kPng, kTiff };
 
 // What a segment takes over from those before it.
@@ -178,6 +184,7 @@ struct Show {
   SkyDirection hole_at;
   double heading = 0;
   std::vector<Segment> timeline;
+  std::vector<Marker> markers;
   // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
   // show that is put together otherwise has none, and each of its states follows the timeline from
   // its start.  Whoever moves or alters a segment clears them.
@@ -212,6 +219,12 @@ double value_at(const Segment& segment, Channel channel, double t, double consta
 
 // The show seconds at which each segment begins and, as the last element, at which the show ends.
 std::vector<double> segment_times(const Show& show);
+
+// The frame whose instant is nearest to a time; the last one for the end.
+int nearest_frame(const Show& show, double time_s);
+
+// The show second at which the show ends.
+double end_of(const Show& show);
 
 // The number of frames: the show's length times the frame rate, rounded to the nearest whole number
 // (halves away from zero), but at least 1.  Frame n shows the instant n / frames_per_second, so a

@@ -8,9 +8,13 @@
 
 #include "pipeline/show/keyframes.h"
 #include "pipeline/show/observer_track.h"
+#include "pipeline/show/show_time.h"
 
 namespace domefall {
 namespace {
+
+constexpr Range kSeconds{"seconds"};
+constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
 
 // Whether the observer rests in the static frame, to rounding.
 bool is_at_rest(const Trajectory& trajectory) {
@@ -52,9 +56,9 @@ class TimelineReader {
     const Section section(
         item, {"duration_s", "dissolve_s", "trajectory", "camera", "exposure", "sky", "keyframes"});
     Segment segment;
-    segment.duration_s =
-        section.required_number("duration_s", Range{"seconds"}.above(0)).value_or(1);
-    read_dissolve(section, segment);
+    const double dissolve = read_dissolve(section);
+    segment.duration_s = read_duration(section, end_ - dissolve);
+    if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
     const double begin = end_ - segment.dissolve_s;
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
@@ -67,26 +71,36 @@ class TimelineReader {
   std::vector<Segment> take() { return std::move(segments_); }
 
  private:
+  double read_dissolve(const Section& section) const {
+    const Item* item = section.find("dissolve_s");
+    if (!item) return 0;
+    if (!segments_.empty()) return read_time(*item, kSeconds.at_least(0)).value_or(0);
+    item->fail("needs a segment before this one, out of which the picture fades in");
+    return 0;
+  }
+
+  // A marker says when the segment ends.
+  double read_duration(const Section& section, double begin) const {
+    const Item* item = section.require("duration_s", " (seconds)");
+    const auto seconds =
+        item ? read_time(*item, kSeconds.above(0).at_most(kLongest), show_.markers, begin)
+             : std::nullopt;
+    return seconds.value_or(1);
+  }
+
   // At most two segments are seen at a time, so that a dissolve begins after that of the segment
   // before has ended.
-  void read_dissolve(const Section& section, Segment& segment) const {
-    const Item* item = section.find("dissolve_s");
-    if (!item) return;
-    if (segments_.empty()) {
-      item->fail("needs a segment before this one, out of which the picture fades in");
-      return;
-    }
+  bool fits_dissolve(const Section& section, double dissolve, const Segment& segment) const {
+    if (dissolve == 0) return true;
     const Segment& before = segments_.back();
     const double most = std::min(segment.duration_s, before.duration_s - before.dissolve_s);
-    const auto dissolve = read_number(*item, Range{"seconds"}.at_least(0));
-    if (!dissolve) return;
-    if (*dissolve <= most)
-      segment.dissolve_s = *dissolve;
-    else
-      item->fail(
-          fmt::format("must be at most {} (seconds), which is how long this segment and "
-                      "what is left of the one before it last, got {}",
-                      short_number(most), short_number(*dissolve)));
+    if (dissolve <= most) return true;
+    const Item& item = *section.find("dissolve_s");
+    item.fail(
+        fmt::format("must be at most {} (seconds), which is how long this segment and "
+                    "what is left of the one before it last, got {}",
+                    short_number(most), as_written(item)));
+    return false;
   }
 
   // The values of the show, which hold wherever neither a segment nor a keyframe says otherwise.
@@ -116,7 +130,8 @@ class TimelineReader {
     lay_over(values, own.values);
     std::vector<Keyframe> keyframes;
     if (const Item* list = section.find("keyframes"))
-      keyframes = read_keyframes(*list, begin, segment.duration_s, camera_, lookup_);
+      keyframes =
+          read_keyframes(*list, {begin, segment.duration_s}, show_.markers, camera_, lookup_);
 
     segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
     const PerChannel<double> of_show = constants(camera_from(camera_.keys, show_.projection)),
@@ -203,13 +218,21 @@ class TimelineReader {
   double end_ = 0;
 };
 
+void fail_behind_the_end(const Item& item, double end) {
+  item.fail(fmt::format("lies behind the end of the show at {} s, got {}", short_number(end),
+                        as_written(item)));
+}
+
 // Reports keyframes behind the end of the show, which would never be seen.
 void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, double end) {
   for (std::size_t k = 0; k < keyframes.size(); ++k)
-    if (keyframes[k].at_s > end)
-      peek((*read_list(list))[k], "at_s")
-          ->fail(fmt::format("lies behind the end of the show at {} s, got {}", short_number(end),
-                             short_number(keyframes[k].at_s)));
+    if (keyframes[k].at_s > end) fail_behind_the_end(*peek((*read_list(list))[k], "at_s"), end);
+}
+
+// Reports markers there.
+void check_markers(const Section& section, const std::vector<Marker>& markers, double end) {
+  for (const Marker& marker : markers)
+    if (marker.at_s > end) fail_behind_the_end(*peek(*section.find("markers"), marker.name), end);
 }
 
 }  // namespace
@@ -222,7 +245,9 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
   ShowCamera named = camera;
   const Item* keyframe_list = section.find("keyframes");
   std::vector<Keyframe> keyframes;
-  if (keyframe_list) keyframes = read_keyframes(*keyframe_list, 0, kMostFrames, named, lookup);
+  if (keyframe_list)
+    keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show.markers, named, lookup);
+  const std::size_t reported = list->problems->count();
   TimelineReader reader(show, named, keyframes, lookup);
   bool fitted = true;
   for (const Item& item : *items) {
@@ -240,6 +265,8 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
                     short_number(reader.end()), short_number(show.frames_per_second),
                     short_number(1 / show.frames_per_second)));
   if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
+  // Where a segment is in error the end of the show is not known.
+  if (list->problems->count() == reported) check_markers(section, show.markers, reader.end());
   return reader.take();
 }
 

@@ -9,6 +9,7 @@ title: "Around \"it\""
 frames_per_second: 10
 size: 256
 black_hole: {mass_solar: 4.3e6}
+markers: {turn: 0:03, plunge: 7.04}
 timeline:
   - {duration_s: 6, trajectory: {type: parabolic, periastron: 6, from_r: 20, to_r: 20, to_leg: outward}}
   - {duration_s: 2, trajectory: {type: continue, rate_m_per_s: 100}}
@@ -23,6 +24,8 @@ tells() { grep -qE -- "$1" stdout || { cat stdout >&2; fail "no '$1'"; }; }
 tells '^title +Around "it"$'
 tells '^frames +130 at 10 a second \(13 s\), domemaster of 256 x 256$'
 tells '^graded for +Dome G2\.2 Rec\.709, Dome$'
+tells '^marker +turn at 0:03 \(3 s\), frame 30, segment 1$'
+tells '^marker +plunge at 0:07\.04 \(7\.04 s\), frame 70, segment 3$'
 tells '^segment 1 +parabolic, 0 s to 6 s$'
 tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
 tells '^segment 3 +infall, 7 s to 11 s$'
@@ -51,6 +54,8 @@ closest = facts['segments'][0]['closest']
 assert abs(closest['value'] - 6) < 1e-9 and abs(closest['time_s'] - 3) < 1e-5, closest
 assert facts['segments'][2]['regions'] == ['I', 'II'] and facts['regions'] == ['I', 'II', 'I']
 assert abs(facts['closest_r']['value'] - 0.5) < 1e-9
+assert [(m['name'], m['time_s'], m['frame'], m['segment']) for m in facts['markers']] == [
+    ('turn', 3, 30, 1), ('plunge', 7.04, 70, 3)], facts['markers']
 assert 0 < facts['fastest_speed']['value'] < 1 <= facts['fastest_lorentz_factor']['value']
 assert facts['least_one_plus_z']['value'] < 1 < facts['largest_one_plus_z']['value']
 assert facts["joints"][1]["segment"] == 3 and facts["joints"][1]["dissolve_s"] == 1 and facts['joints'][0]['velocity_jump'] < 1e-6

@@ -20,5 +20,9 @@ exits 2 "$DOMEFALL" preview show.yaml --out a.png --fov nan
 says '^--fov: nan is not from 0.001 to 340$'
 exits 2 "$DOMEFALL" preview show.yaml --out a.png --fov wide
 says "^--fov: 'wide' is not a number$"
+exits 2 "$DOMEFALL" preview show.yaml --out a.png --frame 99999999999999
+says '^--frame: 99999999999999 is not from 0 to 9999999$'
+exits 2 "$DOMEFALL" preview show.yaml --out a.png --frame -1
+says '^--frame: -1 is not from 0 to 9999999$'
 exits 2 "$DOMEFALL" render show.yaml --out frames --threads 4096
 says '^--threads: 4096 is not from 0 to 1024$'

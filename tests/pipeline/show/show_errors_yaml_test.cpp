@@ -14,10 +14,10 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"OnlyAComment", "# nothing yet\n", "1:1: the show is empty; it needs a timeline at least"},
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, cameras, keyframes, effects, sky, stars, exposure, grade or output), got a list"},
+       "camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, cameras, keyframes, effects, sky, stars, exposure, grade or output), got 'hello'"},
+       "camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
@@ -77,7 +77,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
   expect_complaints({
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
-       "timeline, camera, cameras, keyframes, effects, sky, stars, exposure, grade or output"},
+       "timeline, camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",
@@ -143,6 +143,9 @@ TEST_F(ShowErrorsInYaml, NumbersMustBePlainAndFinite) {
       {"BoundsWithoutLeadingZeros", moving("{type: infall, from_r: 9, rate_m_per_s: 1e13}"),
        "3:73: timeline[1].trajectory.rate_m_per_s must be at most 1e12 (units of M per second of "
        "show), got 1e13"},
+      {"EndlessSegment", "timeline: [{duration_s: 1e308}, {duration_s: 1e308}]\n",
+       "1:25: timeline[1].duration_s must be at most 10000000 (seconds), got 1e308\n"
+       "1:46: timeline[2].duration_s must be at most 10000000 (seconds), got 1e308"},
       {"Hexadecimal", kShow + "size: 0x1000\n",
        "3:7: size must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '0x1000'"},
       {"Underscore", kShow + "size: 4_096\n",

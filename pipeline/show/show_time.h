@@ -1,0 +1,31 @@
+// Times of a show as people write them: seconds, minutes and seconds, or the name of a marker.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/show/section.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+// The seconds of "M:SS", "M:SS.s" or "H:MM:SS"; nothing for any other text.
+std::optional<double> parse_clock_time(std::string_view text);
+
+// Seconds as "1:02.5", to the thousandth.
+std::string clock_text(double seconds);
+
+// The seconds of a number, a clock time or a marker's name; nothing for any other text.
+std::optional<double> parse_time(std::string_view text, const std::vector<Marker>& markers);
+
+// Reads the show's `markers`.
+std::vector<Marker> read_markers(const Section& show);
+
+// Reads a time as parse_time does, in seconds since the show's second `start`.  Numbers and clock
+// times count from there, and markers from the beginning of the show.
+std::optional<double> read_time(const Item& item, const Range& range,
+                                const std::vector<Marker>& markers = {}, double start = 0);
+
+}  // namespace domefall

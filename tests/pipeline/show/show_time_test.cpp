@@ -1,0 +1,100 @@
+#include "pipeline/show/show_time.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/show/frame_state.h"
+#include "tests/pipeline/show/show_mistakes.h"
+
+namespace domefall {
+namespace {
+
+TEST(ClockTimes, AreMinutesAndSecondsAndPerhapsHours) {
+  for (const auto& [text, seconds] :
+       {std::pair("0:34", 34.0), std::pair("1:02.5", 62.5), std::pair("0:00", 0.0),
+        std::pair("12:00", 720.0), std::pair("90:05", 5405.0), std::pair("1:02:03.25", 3723.25),
+        std::pair("0:59.999", 59.999)})
+    EXPECT_DOUBLE_EQ(parse_clock_time(text).value_or(-1), seconds) << text;
+  for (const char* text :
+       {"", "34", ":34", "0:", "0:3", "0:60", "0:3.5", "1:2:03", "1:60:00", "-0:34", "0:-1",
+        "1.5:00", "0:34s", "1:02:03:04", "0:3x", "0:34.", "1e1:00", "door"})
+    EXPECT_FALSE(parse_clock_time(text)) << text;
+  for (const auto& [seconds, text] :
+       {std::pair(34.0, "0:34"), std::pair(62.5, "1:02.5"), std::pair(59.9996, "1:00"),
+        std::pair(3723.25, "62:03.25"), std::pair(0.0, "0:00")})
+    EXPECT_EQ(clock_text(seconds), text);
+}
+
+using ShowTimes = ShowMistakes;
+
+TEST_F(ShowTimes, AreClockTimesOrMarkersWhereverATimeIsGiven) {
+  const Show show = read(
+      "frames_per_second: 10\n"
+      "markers: {door: 0:34, bow: 1:02.5, end: 80}\n"
+      "black_hole: {mass_solar: 1}\n"
+      "keyframes:\n"
+      "  - {at_s: 0:10, exposure: {ev: 0}}\n"
+      "  - {at_s: door, exposure: {ev: 2}}\n"
+      "timeline:\n"
+      "  - {duration_s: \"0:30\", trajectory: {type: static, r: 9}}\n"
+      "  - duration_s: bow\n"
+      "    dissolve_s: 0:02\n"
+      "    trajectory: {type: static, r: 8}\n"
+      "    keyframes:\n"
+      "      - {at_s: door, camera: {roll_deg: 10}}\n"
+      "      - {at_s: 0:07, camera: {roll_deg: 20}}\n"
+      "  - {duration_s: end, trajectory: {type: static, r: 7}}\n");
+  ASSERT_EQ(show.markers.size(), 3u);
+  EXPECT_EQ(show.markers[1].name, "bow");
+  EXPECT_EQ(show.markers[1].at_s, 62.5);
+  EXPECT_EQ(show.timeline[0].duration_s, 30);
+  EXPECT_EQ(show.timeline[1].duration_s, 34.5) << "from 28 s to the marker";
+  EXPECT_EQ(show.timeline[2].duration_s, 17.5);
+  EXPECT_EQ(segment_times(show).back(), 80);
+  EXPECT_DOUBLE_EQ(frame_state(show, 100).settings.ev, 0);
+  EXPECT_DOUBLE_EQ(frame_state(show, 340).settings.ev, 2);
+  const auto roll = [&](double t) {
+    return value_at(show.timeline[1], Channel::kRoll, t, 99) * 57.29577951308232;
+  };
+  EXPECT_NEAR(roll(34), 10, 1e-9) << "the marker is a time of the show";
+  EXPECT_NEAR(roll(35), 20, 1e-9) << "clock times count from the segment's beginning, 28 s";
+}
+
+TEST_F(ShowTimes, MistakesInThemAreTold) {
+  const std::string markers = "markers: {door: 0:34}\n";
+  const auto lasting = [](const std::string& text) {
+    return "timeline: [{duration_s: " + text + "}]\n";
+  };
+  expect_complaints({
+      {"SixtySeconds", lasting("0:60"),
+       "1:25: timeline[1].duration_s must be seconds, or minutes and seconds such as 1:02.5, "
+       "got '0:60'"},
+      {"Zero", lasting("0:00"), "1:25: timeline[1].duration_s must exceed 0 (seconds), got 0:00"},
+      {"Quoted", lasting("'34'"),
+       "1:25: timeline[1].duration_s must be a number (seconds), got the text '34'; leave the "
+       "quotes out"},
+      {"UnknownMarker", markers + "timeline: [{duration_s: doro}]\n",
+       "2:25: timeline[1].duration_s names a marker that the show does not have: 'doro'; did you "
+       "mean door?"},
+      {"MarkerBehindTheEnd", markers + lasting("20"),
+       "1:17: markers.door lies behind the end of the show at 20 s, got 0:34"},
+      {"MarkerBeforeTheSegment", markers + "timeline: [{duration_s: 40}, {duration_s: door}]\n",
+       "2:43: timeline[2].duration_s names the marker 'door', which lies at 34 s, where it must be "
+       "after 40 s"},
+      {"MarkerBehindTheSegment",
+       markers + "timeline:\n"
+                 "  - {duration_s: 10, keyframes: [{at_s: door, exposure: {ev: 1}}]}\n"
+                 "  - {duration_s: 40}\n",
+       "3:41: timeline[1].keyframes[1].at_s names the marker 'door', which lies at 34 s, where it "
+       "must be at most 10 s"},
+      {"MarkerNamedLikeATime", "markers: {0:34: 20}\n" + lasting("30"),
+       "1:17: markers.0:34 has a name that is a time itself; begin it with a letter"},
+      {"MarkerWithoutATime", "markers: {door: open}\n" + lasting("30"),
+       "1:17: markers.door must be a number (seconds), got 'open'"},
+      {"MarkersInAList", "markers: [0:34]\n" + lasting("30"),
+       "1:10: markers must be a map of names and times, e.g. {door_opens: 0:34}, got a list"},
+      {"RepeatedMarker", "markers: {a: 1, a: 2}\n" + lasting("30"), "1:17: markers.a is repeated"},
+  });
+}
+
+}  // namespace
+}  // namespace domefall
