@@ -18,6 +18,7 @@ class Page {
 
   std::string text() {
     head();
+    fades(show_.fades, "fading");
     markers();
     effects();
     for (std::size_t k = 0; k < r_.survey.segments.size(); ++k) segment(k);
@@ -102,6 +103,7 @@ class Page {
       text.clear();
     }
     line("", text + proper_time(s.proper_time) + " of proper time, " + rate(s));
+    fades(segment_of(show_, static_cast<int>(k)).fades, "");
   }
 
   static void add(std::string& list, const std::string& text) {
@@ -181,6 +183,13 @@ class Page {
                                  clock_text(marker.at_s), marker.at_s, frame,
                                  segment_at(show_, marker.at_s) + 1));
     }
+  }
+
+  void fades(const Fades& fades, const char* name) {
+    std::string text;
+    if (fades.in_s > 0) add(text, fmt::format("fades in for {:.6g} s", fades.in_s));
+    if (fades.out_s > 0) add(text, fmt::format("fades out for {:.6g} s", fades.out_s));
+    if (!text.empty()) line(name, text);
   }
 
   void warnings() {

@@ -156,6 +156,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
     for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }
   if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
+  if (state.fade != 1) digest.add("fade").add(steady(state.fade));
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();
 }

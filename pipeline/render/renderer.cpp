@@ -37,6 +37,12 @@ int threads_of(int wanted) {
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
+// Leaves a part of a frame's light.
+void fade(HalfFrame& frame, double part) {
+  const auto left = static_cast<float>(part);
+  for (Imath::half& value : frame.pixels) value = left * static_cast<float>(value);
+}
+
 // Replaces `part` of a frame's light by that of another one.
 void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
@@ -111,13 +117,19 @@ void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* tim
 // A dissolve mixes the views of two segments.
 void Renderer::render_instant(const FrameState& state, double gap, HalfFrame& frame,
                               StageTimes& times) {
-  render_view(state, gap, frame, times);
+  render_faded(state, gap, frame, times);
   if (!state.vanishing) return;
   StageTimes own;
   HalfFrame vanishing;
-  render_view(*state.vanishing, gap, vanishing, own);
+  render_faded(*state.vanishing, gap, vanishing, own);
   dissolve(frame, vanishing, state.vanishing_part);
   times.add(own);
+}
+
+void Renderer::render_faded(const FrameState& state, double gap, HalfFrame& frame,
+                            StageTimes& times) {
+  render_view(state, gap, frame, times);
+  if (state.fade < 1) fade(frame, state.fade);
 }
 
 void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame,

@@ -49,6 +49,7 @@ class Renderer {
 
   // `gap` is the time to the next instant that is seen, in frames.
   void render_instant(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
+  void render_faded(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
   void render_view(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
 
   const Show& show_;

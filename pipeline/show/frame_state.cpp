@@ -25,6 +25,22 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   return settings;
 }
 
+// The light at t between `begin` and `end`.  To the eye, which sees a quarter of the light as half,
+// it changes evenly.
+double faded(const Fades& fades, double begin, double end, double t) {
+  const auto part = [](double passed, double fade) {
+    return fade > 0 ? smooth_step(passed / fade) : 1;
+  };
+  const double left = part(t - begin, fades.in_s) * part(end - t, fades.out_s);
+  return left * left;
+}
+
+double fade_at(const Show& show, int segment, double t) {
+  const Segment& s = segment_of(show, segment);
+  const double begin = begin_of(show, segment), end = begin + s.duration_s;
+  return faded(s.fades, begin, end, t) * faded(show.fades, 0, end_of(show), t);
+}
+
 FrameState state_in(const Show& show, int segment, int frame, double t) {
   const Segment& s = segment_of(show, segment);
   FrameState state;
@@ -35,6 +51,7 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   if (auto* flat = std::get_if<Stereographic>(&state.projection))
     flat->fov = value_at(s, Channel::kFov, t, flat->fov);
   state.settings = settings_at(show, s, t);
+  state.fade = fade_at(show, segment, t);
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =
       camera_axes_at(show, segment, t, state.projection, state.observer);

@@ -43,13 +43,15 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(
       root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
-             "keyframes", "markers", "effects", "sky", "stars", "exposure", "grade", "output"});
+             "keyframes", "markers", "fade_in_s", "fade_out_s", "effects", "sky", "stars",
+             "exposure", "grade", "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
   show.frames_per_second =
       section.number("frames_per_second", Range{"frames per second"}.within(1, 240), 30);
   show.markers = read_markers(section);
+  show.fades = read_fades(section);
   read_black_hole(section, lookup, show);
   const ShowCamera camera = read_show_camera(section, lookup);
   show.projection = camera.projection;

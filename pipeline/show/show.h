@@ -53,11 +53,17 @@ struct AttitudeKey {
   std::vector<V3d> turns{};
 };
 
+// Seconds of show in which the light rises from black at a beginning, and sinks to it at an end.
+struct Fades {
+  double in_s = 0, out_s = 0;
+};
+
 struct Segment {
   std::string type = "static";  // of its trajectory, in the words of show files
   double duration_s = 0;        // show seconds, > 0
   // Its first seconds are also the last ones of the segment before, which fades into this one.
   double dissolve_s = 0;
+  Fades fades;
   Trajectory trajectory;
   Timing timing;
   Placement placement;
@@ -185,6 +191,7 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
+  Fades fades;
   // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
   // show that is put together otherwise has none, and each of its states follows the timeline from
   // its start.  Whoever moves or alters a segment clears them.

@@ -14,6 +14,7 @@ namespace domefall {
 namespace {
 
 constexpr Range kSeconds{"seconds"};
+constexpr double kRounding = 1e-9;
 constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
 
 // Whether the observer rests in the static frame, to rounding.
@@ -42,6 +43,14 @@ bool ever_has(const Segment& s, double begin, double end) {
   return false;
 }
 
+// Reports fades that together last longer than what they begin and end.
+void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
+  if (!(fades.in_s + fades.out_s > duration * (1 + kRounding))) return;
+  const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
+  last->fail(fmt::format("makes {} s of fades, but {} lasts {} s",
+                         short_number(fades.in_s + fades.out_s), of, short_number(duration)));
+}
+
 // Reads segment after segment, since each begins where the one before ends.
 class TimelineReader {
  public:
@@ -53,12 +62,14 @@ class TimelineReader {
         lookup_(lookup) {}
 
   void read(const Item& item) {
-    const Section section(
-        item, {"duration_s", "dissolve_s", "trajectory", "camera", "exposure", "sky", "keyframes"});
+    const Section section(item, {"duration_s", "dissolve_s", "fade_in_s", "fade_out_s",
+                                 "trajectory", "camera", "exposure", "sky", "keyframes"});
     Segment segment;
     const double dissolve = read_dissolve(section);
     segment.duration_s = read_duration(section, end_ - dissolve);
     if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
+    segment.fades = read_fades(section);
+    check_fades(section, segment.fades, segment.duration_s, "the segment");
     const double begin = end_ - segment.dissolve_s;
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
@@ -237,6 +248,15 @@ void check_markers(const Section& section, const std::vector<Marker>& markers, d
 
 }  // namespace
 
+Fades read_fades(const Section& section) {
+  Fades fades;
+  if (const Item* in = section.find("fade_in_s"))
+    fades.in_s = read_time(*in, kSeconds.at_least(0)).value_or(0);
+  if (const Item* out = section.find("fade_out_s"))
+    fades.out_s = read_time(*out, kSeconds.at_least(0)).value_or(0);
+  return fades;
+}
+
 std::vector<Segment> read_timeline(const Section& section, const Show& show,
                                    const ShowCamera& camera, Lookup& lookup) {
   const Item* list = section.require("timeline", ": a list of segments");
@@ -267,6 +287,7 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
   if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
   // Where a segment is in error the end of the show is not known.
   if (list->problems->count() == reported) check_markers(section, show.markers, reader.end());
+  check_fades(section, show.fades, reader.end(), "the show");
   return reader.take();
 }
 

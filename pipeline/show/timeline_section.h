@@ -6,6 +6,9 @@
 
 namespace domefall {
 
+// Reads `fade_in_s` and `fade_out_s` of a show or a segment.
+Fades read_fades(const Section& section);
+
 // Reads the segments of a `show` that has everything else but its grade already.
 std::vector<Segment> read_timeline(const Section& section, const Show& show,
                                    const ShowCamera& camera, Lookup& lookup);

@@ -80,7 +80,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
     const FrameState state = reduced(frame_state(show, frame), kWidth);
-    FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, 0, 0, 0};
+    FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
     meter.measure(renderer.render(state), state.projection, light);
     lights.push_back(light);
   }
@@ -89,8 +89,10 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   found.frames = samples;
   found.brightest = *std::max_element(lights.begin(), lights.end(), darker);
   double highest = -HUGE_VAL;
-  for (const FrameLight& light : lights) highest = std::max(highest, light.ev);
-  std::erase_if(lights, [&](const FrameLight& light) { return light.ev < highest - kFadeStops; });
+  const auto stops = [](const FrameLight& light) { return light.ev + std::log2(light.fade); };
+  for (const FrameLight& light : lights) highest = std::max(highest, stops(light));
+  std::erase_if(lights,
+                [&](const FrameLight& light) { return stops(light) < highest - kFadeStops; });
   found.darkest = *std::min_element(lights.begin(), lights.end(), darker);
   return found;
 }

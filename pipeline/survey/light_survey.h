@@ -13,6 +13,7 @@ struct FrameLight {
   double time_s = 0;
   int segment = 0;
   double ev = 0;
+  double fade = 1;  // the part of its light that a fade from or to black leaves
   // Luminance of the pixels inside the image (a dome's circle), in pixel values: its mean, and the
   // value that 1 % of them exceed.
   double mean = 0, percentile99 = 0;

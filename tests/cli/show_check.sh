@@ -10,11 +10,12 @@ frames_per_second: 10
 size: 256
 black_hole: {mass_solar: 4.3e6}
 markers: {turn: 0:03, plunge: 7.04}
+fade_in_s: 0:01
 timeline:
   - {duration_s: 6, trajectory: {type: parabolic, periastron: 6, from_r: 20, to_r: 20, to_leg: outward}}
   - {duration_s: 2, trajectory: {type: continue, rate_m_per_s: 100}}
   - {duration_s: 4, dissolve_s: 1, trajectory: {type: infall, from_r: 8, to_r: 0.5}, camera: {look_at: outward}}
-  - {duration_s: 2, trajectory: {type: static, r: 3}}
+  - {duration_s: 2, fade_out_s: 1.5, trajectory: {type: static, r: 3}}
 END
 
 exits 0 "$DOMEFALL" check around.yaml
@@ -24,8 +25,10 @@ tells() { grep -qE -- "$1" stdout || { cat stdout >&2; fail "no '$1'"; }; }
 tells '^title +Around "it"$'
 tells '^frames +130 at 10 a second \(13 s\), domemaster of 256 x 256$'
 tells '^graded for +Dome G2\.2 Rec\.709, Dome$'
+tells '^fading +fades in for 1 s$'
 tells '^marker +turn at 0:03 \(3 s\), frame 30, segment 1$'
 tells '^marker +plunge at 0:07\.04 \(7\.04 s\), frame 70, segment 3$'
+tells '^ +fades out for 1\.5 s$'
 tells '^segment 1 +parabolic, 0 s to 6 s$'
 tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
 tells '^segment 3 +infall, 7 s to 11 s$'

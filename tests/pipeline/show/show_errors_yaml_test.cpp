@@ -14,10 +14,12 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"OnlyAComment", "# nothing yet\n", "1:1: the show is empty; it needs a timeline at least"},
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output), got a list"},
+       "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, exposure, "
+       "grade or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
-       "camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output), got 'hello'"},
+       "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, exposure, "
+       "grade or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
@@ -51,7 +53,8 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"UndefinedAlias", "timeline: *shots\n",
        "1:11: this is not valid YAML: the referenced anchor is not defined"},
       {"CyclicAlias", "timeline: &t [*t]\n",
-       "1:11: timeline[1] must be a map of keys (duration_s, dissolve_s, trajectory, camera, "
+       "1:11: timeline[1] must be a map of keys (duration_s, dissolve_s, fade_in_s, fade_out_s, "
+       "trajectory, camera, "
        "exposure, sky or keyframes), got a list"},
       {"CyclicTrajectory",
        kHole + "timeline:\n"
@@ -77,7 +80,8 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
   expect_complaints({
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
-       "timeline, camera, cameras, keyframes, markers, effects, sky, stars, exposure, grade or output"},
+       "timeline, camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, "
+       "exposure, grade or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",
