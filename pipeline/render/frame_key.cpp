@@ -1,5 +1,8 @@
 #include "pipeline/render/frame_key.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,16 +66,22 @@ double steady(double value) {
 }
 
 // The stamp is taken first: a change after it is seen by touched_asset().
-void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
-  const auto stamp = [this](const std::filesystem::path& file) {
-    assets_.emplace_back(file, FileStamp(file));
-  };
-  digest.add(static_cast<double>(sky.background.index()));
-  if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background)) {
+void FrameKeys::stamp(const std::filesystem::path& file) {
+  assets_.emplace_back(file, FileStamp(file));
+}
+
+void FrameKeys::add_background(Digest& digest, const SkyBackground& background) {
+  digest.add(static_cast<double>(background.index()));
+  if (const auto* panorama = std::get_if<PanoramaSky>(&background)) {
     stamp(panorama->image);
     digest.add(sky_digest(panorama->image));
+    if (panorama->brightness != 1) digest.add("brightness").add(panorama->brightness);
   }
-  if (const auto* rings = std::get_if<RingsSky>(&sky.background)) digest.add(rings->period);
+  if (const auto* rings = std::get_if<RingsSky>(&background)) digest.add(rings->period);
+}
+
+void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
+  add_background(digest, sky.background);
   digest.add(sky.stars ? "stars" : "no stars");
   if (!sky.stars) return;
   stamp(sky.stars->catalogue);
@@ -82,6 +91,22 @@ void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
     digest.add(*print);
   else
     digest.add_file(sky.stars->catalogue);
+}
+
+// Many segments may share a background, whose file is read once.
+void FrameKeys::add_segments() {
+  std::vector<std::pair<SkyBackground, std::string>> known;
+  const auto key_of = [&](const SkyBackground& background) {
+    const auto found = std::ranges::find(known, background, [](const auto& k) { return k.first; });
+    if (found != known.end()) return found->second;
+    Digest digest;
+    add_background(digest, background);
+    return known.emplace_back(background, digest.hex()).second;
+  };
+  for (std::size_t k = 0; k < show_.timeline.size(); ++k)
+    for (const SkyRegion region : kEverySky)
+      if (const auto& own = show_.timeline[k].backgrounds[region])
+        own_skies_[static_cast<int>(k)] += fmt::format("{} {};", kSkyKeys[region], key_of(*own));
 }
 
 FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
@@ -99,7 +124,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);
   sky_three_ = three.hex();
-  rings_ = std::holds_alternative<RingsSky>(show.sky[SkyRegion::kIV].background);
+  add_segments();
   if (std::holds_alternative<BlackSky>(show.sky[SkyRegion::kIV].background)) return;
   Digest four;
   add_sky(four, show.sky[SkyRegion::kIV]);
@@ -113,7 +138,8 @@ std::optional<std::filesystem::path> FrameKeys::touched_asset() const {
 }
 
 bool FrameKeys::same_assets(const FrameKeys& other) const {
-  return common_ == other.common_ && sky_three_ == other.sky_three_ && sky_four_ == other.sky_four_;
+  return common_ == other.common_ && sky_three_ == other.sky_three_ &&
+         sky_four_ == other.sky_four_ && own_skies_ == other.own_skies_;
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
@@ -155,7 +181,10 @@ std::string FrameKeys::instant(const FrameState& state) const {
     const V3d turn = sky_turn(show_, state);
     for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }
-  if (!is_flat(o) && rings_) digest.add(steady(o.null_time));
+  const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
+  if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity)) digest.add(steady(o.null_time));
+  if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())
+    digest.add("own skies").add(own->second);
   if (state.fade != 1) digest.add("fade").add(steady(state.fade));
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();

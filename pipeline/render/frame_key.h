@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,14 +41,18 @@ class FrameKeys {
   std::string graded(const std::string& scene_key) const;
 
  private:
+  void stamp(const std::filesystem::path& file);
+  void add_background(Digest& digest, const SkyBackground& background);
   void add_sky(Digest& digest, const RegionSky& sky);
+  void add_segments();
   // The key of what is seen at one instant.
   std::string instant(const FrameState& state) const;
 
   const Show& show_;
   std::string common_;
   std::string sky_three_, sky_four_;  // they enter the keys of frames that can see these skies
-  bool rings_ = false;                // whether region IV is lit by rings, which depend on time
+  // The backgrounds that segments have of their own, by the segment's index.
+  std::map<int, std::string> own_skies_;
   std::string grade_;
   std::vector<std::pair<std::filesystem::path, FileStamp>> assets_;
 };

@@ -83,7 +83,7 @@ Renderer::~Renderer() = default;
 
 int Renderer::threads() const { return memory_->arena.max_concurrency(); }
 
-void Renderer::load_sky(SkyRegion sky) { skies_.sky(sky); }
+void Renderer::load_sky(SkyRegion sky) { skies_.load(sky); }
 
 void Renderer::load(const FramePlan& plan) { skies_.skies_of(plan); }
 

@@ -11,7 +11,8 @@ inline constexpr Range kGain = kPureNumber.within(0, 1e6);
 inline constexpr Range kMagnitudes = Range{"magnitudes"}.within(-30, 40);
 
 // Reads `exposure: {ev}` and `sky: {region_I: {gain, stars: {gain, max_magnitude}}, ...}` of a
-// section.  The camera's channels stay empty.
-ChannelValues read_values(const Section& section);
+// section.  The camera's channels stay empty.  The skies of a segment may also have the keys of
+// backgrounds, which read_backgrounds (sky_section.h) reads; `has_backgrounds` says so.
+ChannelValues read_values(const Section& section, bool has_backgrounds);
 
 }  // namespace domefall

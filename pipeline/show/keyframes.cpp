@@ -18,7 +18,7 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
       s.word<Ease>("ease",
                    {{"smooth", Ease::kSmooth}, {"linear", Ease::kLinear}, {"hold", Ease::kHold}})
           .value_or(Ease::kSmooth);
-  keyframe.values = read_values(s);
+  keyframe.values = read_values(s, false);
   if (const Item* own = s.find("camera")) {
     const CameraKeys keys = read_camera(*own, camera, lookup);
     keyframe.attitude = keys.attitude;

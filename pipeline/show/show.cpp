@@ -10,6 +10,12 @@ double value_at(const Segment& segment, Channel channel, double t, double consta
   return curve ? value_at(*curve, t) : constant;
 }
 
+const SkyBackground& background_of(const Show& show, int segment, SkyRegion region) {
+  const auto k = static_cast<std::size_t>(segment);
+  const bool own = k < show.timeline.size() && show.timeline[k].backgrounds[region];
+  return own ? *show.timeline[k].backgrounds[region] : show.sky[region].background;
+}
+
 std::vector<double> segment_times(const Show& show) {
   std::vector<double> times;
   times.reserve(show.timeline.size() + 1);

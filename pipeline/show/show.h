@@ -21,6 +21,34 @@
 
 namespace domefall {
 
+// ---- the backgrounds of skies ----
+
+struct BlackSky {
+  bool operator==(const BlackSky&) const = default;
+};
+// The built-in test sky of [Riazuelo] sec. ssec_bckgsky: a checkerboard with squares of 5 degrees,
+// all blackbodies of 8000 K and a factor of 4 apart in intensity, and polar discs of 2000 K, 5
+// degrees wide.
+struct GridSky {
+  bool operator==(const GridSky&) const = default;
+};
+// An equirectangular image in equatorial coordinates (J2000), as seen from inside.
+struct PanoramaSky {
+  std::filesystem::path image;
+  // A factor on the luminance that the file's values stand for by themselves.
+  double brightness = 1;
+
+  bool operator==(const PanoramaSky&) const = default;
+};
+// Light from the past singularity that left it at t glows with 1 + cos(2 pi t/period): "a series of
+// rings of variable t", [Riazuelo] sec. sec_Kruskal.  Only region IV has this background.
+struct RingsSky {
+  double period = 4;  // M, > 0
+
+  bool operator==(const RingsSky&) const = default;
+};
+using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky, RingsSky>;
+
 // ---- the timeline ----
 
 // How proper time runs from a segment's first to its last instant.
@@ -73,25 +101,10 @@ struct Segment {
   // A channel has a curve if the show or the segment keyframes it, or if the segment has a value of
   // its own for it.
   PerChannel<std::optional<Curve>> curves;
+  PerSky<std::optional<SkyBackground>> backgrounds;  // none where the show's stays
 };
 
 // ---- the sky ----
-
-struct BlackSky {};
-// The built-in test sky of [Riazuelo] sec. ssec_bckgsky: a checkerboard with squares of 5 degrees,
-// all blackbodies of 8000 K and a factor of 4 apart in intensity, and polar discs of 2000 K, 5
-// degrees wide.
-struct GridSky {};
-// An equirectangular image in equatorial coordinates (J2000), as seen from inside.
-struct PanoramaSky {
-  std::filesystem::path image;
-};
-// Light from the past singularity that left it at t glows with 1 + cos(2 pi t/period): "a series of
-// rings of variable t", [Riazuelo] sec. sec_Kruskal.  Only region IV has this background.
-struct RingsSky {
-  double period = 4;  // M, > 0
-};
-using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky, RingsSky>;
 
 struct StarField {
   std::filesystem::path catalogue;
@@ -220,6 +233,9 @@ inline constexpr int kMostFrames = 10'000'000;
 inline const Segment& segment_of(const Show& show, int k) {
   return show.timeline[static_cast<std::size_t>(k)];
 }
+
+// The background that a segment has in a region: its own one, or else the show's.
+const SkyBackground& background_of(const Show& show, int segment, SkyRegion region);
 
 // The value of a channel t seconds into the show: that of its curve, or else `constant`.
 double value_at(const Segment& segment, Channel channel, double t, double constant);

@@ -1,10 +1,13 @@
 #include "pipeline/show/sky_section.h"
 
 #include <array>
+#include <system_error>
 
 #include "pipeline/show/assets.h"
 #include "pipeline/show/channel_values.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/sky/make/panorama.h"
+#include "pipeline/sky/maps/sky_file.h"
 
 namespace domefall {
 namespace {
@@ -17,6 +20,9 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
 // Beyond these years a star's motion is no straight line.
 constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
+constexpr Range kWhite = Range{"cd/m^2"}.above(0).at_most(1e12);
+// What the white of a show's own image is unless the show says otherwise: pixel value 1 at 0 EV.
+constexpr double kShownWhite = 1e-3;
 
 // Reads a background as a word or as a file.  Only the past singularity may have rings.
 std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup,
@@ -37,6 +43,46 @@ std::optional<SkyBackground> read_background(const Item& item, const Lookup& loo
   item.fail("must be " + listed(kWords) + " or an image file, got '" + shown(*text) + "'" +
             did_you_mean(*text, kWords));
   return std::nullopt;
+}
+
+// Whether a background is an image that the show names, whose values have no unit of their own.
+bool is_own_image(const SkyBackground& background) {
+  const auto* panorama = std::get_if<PanoramaSky>(&background);
+  std::error_code error;
+  return panorama &&
+         !std::filesystem::equivalent(panorama->image, shipped_asset(kMilkyWay), error) &&
+         !is_sky_file(panorama->image);
+}
+
+// What a show or a segment says of the background of one region.  Each item may be null.
+struct BackgroundKeys {
+  const Item *background = nullptr, *white = nullptr, *period = nullptr;
+  bool singularity = false;  // region IV alone may have rings
+};
+
+// Sets what the value 1 of an image is.  Other backgrounds have a light of their own.
+void read_white(const Item* white, SkyBackground& background) {
+  if (!is_own_image(background)) {
+    if (white) white->fail("is the white of an image; this background has its own light, see gain");
+    return;
+  }
+  const auto luminance = white ? read_number(*white, kWhite) : std::nullopt;
+  std::get<PanoramaSky>(background).brightness = luminance.value_or(kShownWhite) / kPanoramaUnit;
+}
+
+// Reads the keys into a background, which stays where they do not name another.
+void read_background_keys(const BackgroundKeys& keys, const Lookup& lookup,
+                          SkyBackground& background) {
+  const auto found =
+      keys.background ? read_background(*keys.background, lookup, keys.singularity) : std::nullopt;
+  const bool failed = keys.background && !found;
+  if (found) background = *found;
+  if (!failed && (found || keys.white)) read_white(keys.white, background);
+  const auto period = keys.period ? read_number(*keys.period, kPeriod) : std::nullopt;
+  if (auto* rings = std::get_if<RingsSky>(&background))
+    rings->period = period.value_or(rings->period);
+  else if (period && !failed)
+    keys.period->fail("is the period of rings; the background must be rings");
 }
 
 std::optional<std::filesystem::path> read_catalogue(const Item& item, const Lookup& lookup) {
@@ -75,31 +121,23 @@ void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
 
 // Reads the sky of region I or III into `sky`, which keeps what the section does not name.
 void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
-  if (const Item* background = section.find("background"))
-    if (const auto found = read_background(*background, lookup)) sky.background = *found;
+  read_background_keys({section.find("background"), section.find("white_cd_m2")}, lookup,
+                       sky.background);
   sky.background_gain = section.number("gain", kGain, sky.background_gain);
   if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
 }
 
-void read_singularity(const Section& section, const Lookup& lookup, RegionSky& sky) {
-  sky.background_gain = section.number("gain", kGain, sky.background_gain);
-  const Item* background = section.find("background");
-  const auto found = background ? read_background(*background, lookup, true) : std::nullopt;
-  if (found) sky.background = *found;
-  const auto period = section.number("period_m", kPeriod);
-  if (auto* rings = std::get_if<RingsSky>(&sky.background))
-    rings->period = period.value_or(rings->period);
-  else if (period && (found || !background))
-    section.find("period_m")->fail("is the period of rings; the background must be rings");
-}
-
 // Reads the sky of the past singularity, which is a background alone: a word, or a map.
 void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
-  if (item.node.IsMap()) {
-    read_singularity(Section(item, {"background", "gain", "period_m"}), lookup, sky);
+  if (!item.node.IsMap()) {
+    read_background_keys({&item, nullptr, nullptr, true}, lookup, sky.background);
     return;
   }
-  if (const auto found = read_background(item, lookup, true)) sky.background = *found;
+  const Section section(item, {"background", "gain", "period_m", "white_cd_m2"});
+  sky.background_gain = section.number("gain", kGain, sky.background_gain);
+  read_background_keys(
+      {section.find("background"), section.find("white_cd_m2"), section.find("period_m"), true},
+      lookup, sky.background);
 }
 
 // The sky of region I where the show says nothing else.  The shipped files are asked for only where
@@ -120,7 +158,8 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
   RegionSky before;  // region III has what region I has, but for what its own section names
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
-    const Section own = subsection(sky, kSkyKeys[region], {"background", "gain", "stars"});
+    const Section own =
+        subsection(sky, kSkyKeys[region], {"background", "gain", "stars", "white_cd_m2"});
     if (region == SkyRegion::kI) before = default_sky(root, own, lookup);
     read_region(own, lookup, before);
     show.sky[region] = before;
@@ -130,6 +169,21 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   show.panorama_shift.blueshift_power =
       sky.number("blueshift_power", kPureNumber.within(0, 10), show.panorama_shift.blueshift_power);
   show.star_epoch = sky.number("epoch", kEpochs, show.star_epoch);
+}
+
+void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<RegionSky>& of_show,
+                      PerSky<std::optional<SkyBackground>>& backgrounds) {
+  for (const SkyRegion region : kEverySky) {
+    const auto own = peek(sky, kSkyKeys[region]);
+    if (!own) continue;
+    const auto background = peek(*own, "background"), white = peek(*own, "white_cd_m2"),
+               period = peek(*own, "period_m");
+    if (!background && !white && !period) continue;
+    const auto item = [](const std::optional<Item>& found) { return found ? &*found : nullptr; };
+    backgrounds[region] = of_show[region].background;
+    read_background_keys({item(background), item(white), item(period), region == SkyRegion::kIV},
+                         lookup, *backgrounds[region]);
+  }
 }
 
 }  // namespace domefall

@@ -11,4 +11,9 @@ namespace domefall {
 // file, since the section may be left out.
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show);
 
+// Reads the backgrounds that a segment's `sky` gives.  Those of the show stand for what it leaves
+// out.  Unknown keys are reported elsewhere.
+void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<RegionSky>& of_show,
+                      PerSky<std::optional<SkyBackground>>& backgrounds);
+
 }  // namespace domefall

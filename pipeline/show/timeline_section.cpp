@@ -9,6 +9,7 @@
 #include "pipeline/show/keyframes.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/show_time.h"
+#include "pipeline/show/sky_section.h"
 
 namespace domefall {
 namespace {
@@ -70,6 +71,8 @@ class TimelineReader {
     if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
     segment.fades = read_fades(section);
     check_fades(section, segment.fades, segment.duration_s, "the segment");
+    if (const Item* sky = section.find("sky"))
+      read_backgrounds(*sky, lookup_, show_.sky, segment.backgrounds);
     const double begin = end_ - segment.dissolve_s;
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
@@ -137,7 +140,7 @@ class TimelineReader {
   void read_view(const Section& section, double begin, Segment& segment) {
     CameraKeys own;
     if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
-    ChannelValues values = read_values(section);
+    ChannelValues values = read_values(section, true);
     lay_over(values, own.values);
     std::vector<Keyframe> keyframes;
     if (const Item* list = section.find("keyframes"))

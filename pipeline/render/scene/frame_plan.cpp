@@ -5,17 +5,18 @@
 namespace domefall {
 namespace {
 
-bool has_background(const RegionSky& sky, const FrameSettings::Sky& now) {
-  return !std::holds_alternative<BlackSky>(sky.background) && now.background_gain > 0;
+bool is_lit(const SkyBackground& background, const FrameSettings::Sky& now) {
+  return !std::holds_alternative<BlackSky>(background) && now.background_gain > 0;
 }
 
 bool has_stars(const RegionSky& sky, const FrameSettings::Sky& now) {
   return sky.stars && now.star_gain > 0;
 }
 
-FramePlan::Sky plan_sky(const RegionSky& sky, const FrameSettings::Sky& now) {
-  return {has_background(sky, now), has_stars(sky, now),
-          std::holds_alternative<RingsSky>(sky.background)};
+FramePlan::Sky plan_sky(const RegionSky& sky, const SkyBackground& background,
+                        const FrameSettings::Sky& now) {
+  return {is_lit(background, now), has_stars(sky, now),
+          std::holds_alternative<RingsSky>(background), &background};
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
   const auto add = [&](SkyRegion which) {
-    plan.sky[which] = plan_sky(show.sky[which], state.settings.sky[which]);
+    plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
+                               state.settings.sky[which]);
   };
   if (o.region != Region::kIV) add(home_sky(o.tetrad));
   if (inside) add(far_sky(o.tetrad));

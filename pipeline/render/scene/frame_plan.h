@@ -12,6 +12,8 @@ struct FramePlan {
     bool background = false;  // whether it shows anything but stars
     bool stars = false;
     bool rings = false;  // whether its light depends on when it started
+    // The segment's, which the show owns; null where the plan is not made of a show.
+    const SkyBackground* shown = nullptr;
 
     bool lit() const { return background || stars; }
   };

@@ -12,14 +12,21 @@ PerSky<const SceneStars*> stars_of(const FramePlan& plan, const PerSky<const Sky
   return stars;
 }
 
+// How much brighter a background is than its file says.
+double brightness_of(const FramePlan::Sky& sky) {
+  const auto* panorama = sky.shown ? std::get_if<PanoramaSky>(sky.shown) : nullptr;
+  return panorama ? panorama->brightness : 1;
+}
+
 PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameState& state,
                                                const FramePlan& plan,
                                                const PerSky<const Sky*>& skies, double exposure) {
   PerSky<std::optional<SkyLight>> light;
   for (const SkyRegion sky : kEverySky)
     if (plan[sky].background)
-      light[sky].emplace(*skies[sky], show.effects, show.panorama_shift,
-                         exposure * state.settings.sky[sky].background_gain);
+      light[sky].emplace(
+          *skies[sky], show.effects, show.panorama_shift,
+          exposure * state.settings.sky[sky].background_gain * brightness_of(plan[sky]));
   return light;
 }
 

@@ -1,18 +1,14 @@
 #include "pipeline/render/scene/sky_store.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
 
 namespace domefall {
 namespace {
-
-bool same_background(const RegionSky& a, const RegionSky& b) {
-  const auto *p = std::get_if<PanoramaSky>(&a.background),
-             *q = std::get_if<PanoramaSky>(&b.background);
-  return p && q && p->image == q->image;
-}
 
 bool same_stars(const RegionSky& a, const RegionSky& b) {
   return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
@@ -28,58 +24,65 @@ double SkyStore::faintest_magnitude(SkyRegion which) const {
   return faintest;
 }
 
-// A map that another sky has loaded already is shared with it, and so are stars.
-void SkyStore::load_background(SkyRegion which) {
-  const RegionSky& own = show_.sky[which];
-  auto& background = skies_[which].sky.background;
-  if (std::holds_alternative<GridSky>(own.background)) background = Grid{};
-  if (const auto* rings = std::get_if<RingsSky>(&own.background)) background = *rings;
-  const auto* panorama = std::get_if<PanoramaSky>(&own.background);
+void SkyStore::load_background(Kept& kept) {
+  if (!kept.background) return;
+  auto& background = kept.sky.background;
+  if (std::holds_alternative<GridSky>(*kept.background)) background = Grid{};
+  if (const auto* rings = std::get_if<RingsSky>(&*kept.background)) background = *rings;
+  const auto* panorama = std::get_if<PanoramaSky>(&*kept.background);
   if (!panorama) return;
-  for (const SkyRegion other : kEverySky) {
-    const Loaded& loaded = skies_[other];
-    if (!loaded.background || !same_background(own, show_.sky[other])) continue;
-    background = loaded.sky.background;
-    return;
-  }
-  background = read_sky(panorama->image, largest_face_);
+  auto& map = maps_[panorama->image];
+  if (!map) map = read_sky(panorama->image, largest_face_);
+  background = map;
 }
 
-void SkyStore::load_stars(SkyRegion which) {
+// Stars that another sky has loaded already are shared with it.
+void SkyStore::load_stars(SkyRegion which, Kept& kept) {
   const RegionSky& own = show_.sky[which];
   if (!own.stars) return;
   const double faintest = faintest_magnitude(which);
-  auto& stars = skies_[which].sky.stars;
-  for (const SkyRegion other : kEverySky) {
-    const Loaded& loaded = skies_[other];
-    if (!loaded.stars || !same_stars(own, show_.sky[other]) ||
-        faintest != faintest_magnitude(other))
-      continue;
-    stars = loaded.sky.stars;
-    return;
-  }
-  stars = std::make_shared<const SceneStars>(
+  for (const SkyRegion other : kEverySky)
+    for (const Kept& loaded : skies_[other])
+      if (loaded.has_stars && same_stars(own, show_.sky[other]) &&
+          faintest == faintest_magnitude(other)) {
+        kept.sky.stars = loaded.sky.stars;
+        return;
+      }
+  kept.sky.stars = std::make_shared<const SceneStars>(
       read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch).stars);
 }
 
-const Sky& SkyStore::sky(SkyRegion which, bool background, bool stars) {
+const Sky& SkyStore::sky(SkyRegion which, const std::optional<SkyBackground>& background,
+                         bool stars) {
   const std::scoped_lock lock(loading_);
-  Loaded& kept = skies_[which];
-  if (background && !kept.background) {
-    load_background(which);
-    kept.background = true;
+  auto& skies = skies_[which];
+  auto kept = std::ranges::find(skies, background, &Kept::background);
+  if (kept == skies.end()) {
+    Kept added{background};
+    load_background(added);
+    skies.push_back(std::move(added));
+    kept = std::prev(skies.end());
   }
-  if (stars && !kept.stars) {
-    load_stars(which);
-    kept.stars = true;
+  if (stars && !kept->has_stars) {
+    load_stars(which, *kept);
+    kept->has_stars = true;
   }
-  return kept.sky;
+  return kept->sky;
+}
+
+void SkyStore::load(SkyRegion which) {
+  sky(which, show_.sky[which].background, true);
+  for (const Segment& segment : show_.timeline)
+    if (const auto& own = segment.backgrounds[which]) sky(which, own, true);
 }
 
 PerSky<const Sky*> SkyStore::skies_of(const FramePlan& plan) {
   PerSky<const Sky*> skies{};
   for (const SkyRegion which : kEverySky)
-    if (plan[which].lit()) skies[which] = &sky(which, plan[which].background, plan[which].stars);
+    if (plan[which].lit())
+      skies[which] =
+          &sky(which, plan[which].background ? std::optional(*plan[which].shown) : std::nullopt,
+               plan[which].stars);
   return skies;
 }
 

@@ -1,9 +1,12 @@
 // The backgrounds and stars of a show's skies, each loaded when a frame first needs it.
 #pragma once
 
-#include <array>
+#include <deque>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <variant>
 
 #include "pipeline/render/scene/frame_plan.h"
@@ -31,26 +34,30 @@ class SkyStore {
   explicit SkyStore(const Show& show, int largest_face = kLargestFace)
       : show_(show), largest_face_(largest_face) {}
 
-  // A sky with the parts that this call or an earlier one asked for.  A file that several regions
-  // name is loaded once.  Throws InputError if a file cannot be read.
-  const Sky& sky(SkyRegion which, bool background = true, bool stars = true);
+  // A sky with this background, if any, and with its stars.  What an earlier call loaded is kept, and a file that several skies name is
+  // loaded once.  Throws InputError if a file cannot be read.
+  const Sky& sky(SkyRegion which, const std::optional<SkyBackground>& background, bool stars);
+  // Loads all that any frame of the show may need of a region's sky.
+  void load(SkyRegion which);
   // The skies that a plan asks for, and null for the others.
   PerSky<const Sky*> skies_of(const FramePlan& plan);
 
  private:
-  struct Loaded {
+  struct Kept {
+    std::optional<SkyBackground> background;
     Sky sky{Black{}, std::make_shared<const SceneStars>()};
-    bool background = false, stars = false;  // whether they are loaded
+    bool has_stars = false;  // whether they are loaded
   };
-  void load_background(SkyRegion which);
-  void load_stars(SkyRegion which);
+  void load_background(Kept& kept);
+  void load_stars(SkyRegion which, Kept& kept);
   // The magnitude of the faintest stars that any frame of the show draws.
   double faintest_magnitude(SkyRegion which) const;
 
   const Show& show_;
   int largest_face_;
   std::mutex loading_;
-  PerSky<Loaded> skies_;
+  PerSky<std::deque<Kept>> skies_;  // whose elements stay where they are
+  std::map<std::filesystem::path, std::shared_ptr<const SkyMap>> maps_;
 };
 
 }  // namespace domefall

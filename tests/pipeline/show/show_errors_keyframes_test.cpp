@@ -74,8 +74,10 @@ TEST_F(ShowErrorsInKeyframes, AreToldWithTheirPlace) {
        "domemaster shows 180 degrees"},
       {"SkyOfASegment",
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, sky: {region_I: "
-               "{background: grid}}}]\n",
-       "2:79: timeline[1].sky.region_I.background is an unknown key; known here: gain or stars"},
+               "{epoch: 2100}}}]\n",
+       "2:79: timeline[1].sky.region_I.epoch is an unknown key; known here: gain, stars, "
+       "background "
+       "or white_cd_m2"},
       {"BehindTheSegment",
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, keyframes: [{at_s: 3, "
                "exposure: {ev: 2}}]}]\n",

@@ -137,7 +137,8 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:31: sky.region_IV.background must be milky_way, grid, black or rings or an image file, "
        "got 'gird'; did you mean grid?"},
       {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
-       "3:20: sky.region_III.period_m is an unknown key; known here: background, gain or stars"},
+       "3:20: sky.region_III.period_m is an unknown key; known here: background, gain, stars or "
+       "white_cd_m2"},
       {"EpochTooLate", kShow + "sky: {epoch: 30001}\n",
        "3:14: sky.epoch must be at most 30000 (Julian years), got 30001"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",

@@ -42,8 +42,9 @@ TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
   const FrameState state = frame_state(show, 0);
   SkyStore store(show);
   const HoleOptics optics = make_hole_optics(10, Tetrad::kRain, {});
-  const UnresolvedSkies found = find_unresolved_skies(
-      scene_with(show, state, optics, {&store.sky(SkyRegion::kI), nullptr, nullptr}));
+  const UnresolvedSkies found = find_unresolved_skies(scene_with(
+      show, state, optics,
+      {&store.sky(SkyRegion::kI, show.sky[SkyRegion::kI].background, true), nullptr, nullptr}));
   EXPECT_TRUE(found.blobs.empty());
   EXPECT_TRUE(found.darkened.empty());
 }
