@@ -80,6 +80,13 @@ Json json_of(const RenderTime& t) {
   return {{"seconds", number(t.seconds)}, {"frame_s", number(t.frame_s)}, {"threads", t.threads}};
 }
 
+Json json_of(const DiskSize& d) {
+  return {{"bytes", number(d.total())},
+          {"frame_linear_bytes", number(d.linear)},
+          {"frame_graded_bytes", number(d.graded)},
+          {"measured", d.measured}};
+}
+
 Json json_of(const Show& show, const Marker& m) {
   return {{"name", m.name},
           {"time_s", number(m.at_s)},
@@ -123,6 +130,7 @@ void add_whole(const CheckReport& report, Json& json) {
   json["brightest"] = json_of(report.light.brightest);
   json["darkest"] = json_of(report.light.darkest);
   json["render"] = report.time ? json_of(*report.time) : Json();
+  json["disk"] = json_of(disk_size(report));
 }
 
 }  // namespace

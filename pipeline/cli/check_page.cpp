@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "pipeline/show/observer_track.h"
@@ -25,6 +26,7 @@ class Page {
     whole();
     light();
     time();
+    disk();
     warnings();
     return text_;
   }
@@ -176,6 +178,15 @@ class Page {
                      rows(show_.projection), r_.time->frame_s));
   }
 
+  void disk() {
+    const DiskSize size = disk_size(r_);
+    std::string text = fmt::format("{} {}: {} frames of {}", size.measured ? "about" : "at most",
+                                   bytes_text(size.total()), size.frames, bytes_text(size.linear));
+    if (size.graded > 0)
+      text += fmt::format(" scene-linear and {} graded", bytes_text(size.graded));
+    line("on disk", text);
+  }
+
   void markers() {
     for (const Marker& marker : show_.markers) {
       const int frame = nearest_frame(show_, marker.at_s);
@@ -232,6 +243,25 @@ std::string duration_text(double seconds) {
     if (std::abs(seconds) >= unit.from)
       return fmt::format("{:.3g} {}", seconds / unit.seconds, unit.name);
   return fmt::format("{:g} s", seconds);
+}
+
+std::string bytes_text(double bytes) {
+  constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < std::size(kUnits); ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
+
+DiskSize disk_size(const CheckReport& report) {
+  const Show& show = report.show;
+  constexpr double kBytesPerPixel = 6;  // three channels of 16 bits in either file
+  DiskSize size;
+  size.frames = frame_count(show);
+  size.measured = report.time.has_value();
+  size.linear = kBytesPerPixel * columns(show.projection) * rows(show.projection);
+  size.graded = report.display.empty() ? 0 : size.linear;
+  if (report.time) size.linear = report.time->linear_bytes, size.graded = report.time->graded_bytes;
+  return size;
 }
 
 std::string check_page(const CheckReport& report) { return Page(report).text(); }

@@ -22,11 +22,25 @@ struct CheckReport {
   std::optional<RenderTime> time;  // none where it was not measured
 };
 
+// What the frames take on the disk, in bytes: as estimated from a few of them, or else without any
+// compression.
+struct DiskSize {
+  int frames = 0;
+  double linear = 0, graded = 0;  // of one frame; 0 without a grade
+  bool measured = false;
+
+  double total() const { return frames * (linear + graded); }
+};
+DiskSize disk_size(const CheckReport& report);
+
 // About 40 lines: the show, its segments and joints, its extremes, its light, its warnings.
 std::string check_page(const CheckReport& report);
 
 // One JSON object on one line.  Numbers have twelve digits, and an infinite one is null.
 std::string check_json(const CheckReport& report);
+
+// Three digits in the unit that suits: "850 kB", "12.3 GB".
+std::string bytes_text(double bytes);
 
 // Three digits in the unit that suits: "41 s", "12 min", "3.5 h", "20 days", "1.6 ms".  The seconds
 // may be negative.

@@ -30,6 +30,7 @@ std::array<int, 3> measured_widths(const Show& show) {
 // the latter.
 struct Cost {
   double wall = 0, processor = 0;
+  double linear_bytes = 0, graded_bytes = 0;  // of its files
 };
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -46,28 +47,41 @@ class Run {
     std::future<void> writing;
     Clock::time_point start;
     double processor = 0;
+    Cost cost;
     // One frame more is made: the clocks run from the writing of the first one on.
     for (int k = 0; k <= kFrames; ++k) {
       const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<HalfFrame>(
           renderer_.render(reduced(frame_state(show_, static_cast<int>(number)), width)));
-      if (writing.valid()) writing.get();
+      if (writing.valid()) {
+        writing.get();
+        add_sizes(cost);
+      }
       if (k == 0) start = Clock::now(), processor = processor_seconds();
       if (k < kFrames) writing = std::async(std::launch::async, [this, frame] { write(*frame); });
     }
-    return {std::chrono::duration<double>(Clock::now() - start).count() / kFrames,
-            (processor_seconds() - processor) / kFrames};
+    cost.wall = std::chrono::duration<double>(Clock::now() - start).count() / kFrames;
+    cost.processor = (processor_seconds() - processor) / kFrames;
+    return cost;
   }
 
  private:
-  void write(const HalfFrame& frame) const {
-    std::future<void> linear = std::async(
-        std::launch::async, [&] { write_frame(folder_ / "linear.exr", frame, FrameInfo{}); });
+  std::filesystem::path linear() const { return folder_ / "linear.exr"; }
+  std::filesystem::path graded() const {
+    return folder_ / (show_.graded_format == GradedFormat::kTiff ? "graded.tif" : "graded.png");
+  }
+
+  void add_sizes(Cost& cost) const {
+    cost.linear_bytes += static_cast<double>(std::filesystem::file_size(linear())) / kFrames;
     if (grader_)
-      write_graded(
-          folder_ / (show_.graded_format == GradedFormat::kTiff ? "graded.tif" : "graded.png"),
-          grader_->grade(frame), GradedInfo{});
-    linear.get();
+      cost.graded_bytes += static_cast<double>(std::filesystem::file_size(graded())) / kFrames;
+  }
+
+  void write(const HalfFrame& frame) const {
+    std::future<void> other =
+        std::async(std::launch::async, [&] { write_frame(linear(), frame, FrameInfo{}); });
+    if (grader_) write_graded(graded(), grader_->grade(frame), GradedInfo{});
+    other.get();
   }
 
   const Show& show_;
@@ -75,6 +89,12 @@ class Run {
   const Grader* grader_;
   ScratchFolder folder_;
 };
+
+// A file's size at a width that is `doublings` doublings above `whole`'s.
+double size_at(double half, double whole, double doublings) {
+  const double growth = std::clamp(whole / std::max(half, 1.0), 2.0, 4.0);
+  return whole * std::pow(growth, doublings);
+}
 
 }  // namespace
 
@@ -101,6 +121,8 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   RenderTime time;
   time.threads = renderer.threads();
   time.frame_s = whole.wall * (1 + more / std::max(whole.processor, 1e-9));
+  time.linear_bytes = size_at(half.linear_bytes, whole.linear_bytes, doublings);
+  time.graded_bytes = size_at(half.graded_bytes, whole.graded_bytes, doublings);
   time.seconds = time.frame_s * frame_count(show);
   return time;
 }

@@ -29,6 +29,7 @@ tells '^fading +fades in for 1 s$'
 tells '^marker +turn at 0:03 \(3 s\), frame 30, segment 1$'
 tells '^marker +plunge at 0:07\.04 \(7\.04 s\), frame 70, segment 3$'
 tells '^ +fades out for 1\.5 s$'
+tells '^on disk +about [0-9.]+ [kM]B: 130 frames of [0-9.]+ kB scene-linear and [0-9.]+ kB graded$'
 tells '^segment 1 +parabolic, 0 s to 6 s$'
 tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
 tells '^segment 3 +infall, 7 s to 11 s$'
@@ -59,6 +60,9 @@ assert facts['segments'][2]['regions'] == ['I', 'II'] and facts['regions'] == ['
 assert abs(facts['closest_r']['value'] - 0.5) < 1e-9
 assert [(m['name'], m['time_s'], m['frame'], m['segment']) for m in facts['markers']] == [
     ('turn', 3, 30, 1), ('plunge', 7.04, 70, 3)], facts['markers']
+disk = facts['disk']
+assert disk['measured'] and disk['frame_linear_bytes'] > 20000 and disk['frame_graded_bytes'] > 20000
+assert abs(disk['bytes'] / 130 / (disk['frame_linear_bytes'] + disk['frame_graded_bytes']) - 1) < 1e-9
 assert 0 < facts['fastest_speed']['value'] < 1 <= facts['fastest_lorentz_factor']['value']
 assert facts['least_one_plus_z']['value'] < 1 < facts['largest_one_plus_z']['value']
 assert facts["joints"][1]["segment"] == 3 and facts["joints"][1]["dissolve_s"] == 1 and facts['joints'][0]['velocity_jump'] < 1e-6
