@@ -127,6 +127,9 @@ void add_whole(const CheckReport& report, Json& json) {
   json["fastest_lorentz_factor"] = extreme(survey.fastest, gamma);
   json["least_one_plus_z"] = extreme(survey.bluest);
   json["largest_one_plus_z"] = extreme(survey.reddest);
+  for (const SkyRegion sky : kEverySky)
+    if (report.black[sky])
+      json["black_cd_m2"][fmt::format("region_{}", name_of(sky))] = number(report.black[sky]);
   json["brightest"] = json_of(report.light.brightest);
   json["darkest"] = json_of(report.light.darkest);
   json["render"] = report.time ? json_of(*report.time) : Json();

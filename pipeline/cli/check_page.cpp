@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "pipeline/render/scene/exposure.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/show_time.h"
 
@@ -132,9 +133,23 @@ class Page {
     return fmt::format("frame {} ({:.5g} s)", e.frame, e.time_s);
   }
 
+  // What is taken from maps as their black.
+  void black() {
+    for (const SkyRegion sky : kEverySky) {
+      const auto& level = r_.black[sky];
+      if (!level) continue;
+      const auto* map = std::get_if<PanoramaSky>(&show_.sky[sky].background);
+      const char* by = map && map->black ? "as the show says" : "the map's own darkest 1 %";
+      line(fmt::format("black of {}", name_of(sky)),
+           fmt::format("{:.3g} cd/m^2, {}, {:.3g} as a pixel value at 0 EV", *level, by,
+                       *level / kReferenceLuminance));
+    }
+  }
+
   void whole() {
     text_ += "\nthe whole show\n";
     if (show_.mass_solar) line("regions", regions_text(r_.survey.regions));
+    black();
     if (const auto& e = r_.survey.closest)
       line("closest", fmt::format("r = {:.6g} M, ", e->value) + place(*e));
     if (const auto& e = r_.survey.fastest) {

@@ -19,7 +19,8 @@ struct CheckReport {
   std::vector<SegmentJoint> joints;
   std::vector<ShowWarning> warnings;
   LightSurvey light;
-  std::optional<RenderTime> time;  // none where it was not measured
+  PerSky<std::optional<double>> black;  // of the maps of the skies that are visited, cd/m^2
+  std::optional<RenderTime> time;       // none where it was not measured
 };
 
 // What the frames take on the disk, in bytes: as estimated from a few of them, or else without any

@@ -14,15 +14,23 @@ namespace domefall {
 namespace {
 
 // Loads all that the frames will read, since a file may be damaged and none of the frames that are
-// measured need show it.
-void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
+// measured need show it.  Returns the blacks of the maps.
+PerSky<std::optional<double>> load_skies(const Show& show, const ShowSurvey& survey,
+                                         Renderer& renderer) {
+  PerSky<std::optional<double>> blacks;
+  const auto load = [&](SkyRegion sky) {
+    renderer.load_sky(sky);
+    if (std::holds_alternative<PanoramaSky>(show.sky[sky].background))
+      blacks[sky] = renderer.sky_black(sky);
+  };
   const auto visits = [&survey](Region region) {
     return std::find(survey.regions.begin(), survey.regions.end(), region) != survey.regions.end();
   };
   const bool inside = visits(Region::kII);
-  if (inside || visits(Region::kI)) renderer.load_sky(SkyRegion::kI);
-  if (inside || visits(Region::kIII)) renderer.load_sky(SkyRegion::kIII);
-  if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
+  if (inside || visits(Region::kI)) load(SkyRegion::kI);
+  if (inside || visits(Region::kIII)) load(SkyRegion::kIII);
+  if (show.mass_solar) load(SkyRegion::kIV);
+  return blacks;
 }
 
 // The time to render; nothing where it is not worth measuring, or where no temporary file can be
@@ -46,8 +54,8 @@ void check(const std::string& file, bool json) {
   const Grader* grade = grader ? &*grader : nullptr;
   Renderer renderer(show, 0, {}, kSurveyFace);
   const ShowSurvey found = survey(show);
-  load_skies(show, found, renderer);
-  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}};
+  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
+  report.black = load_skies(show, found, renderer);
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);

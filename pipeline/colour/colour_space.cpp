@@ -51,6 +51,15 @@ WorkingRgb to_working(const Xyz& colour) {
   return {static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z)};
 }
 
+const std::array<float, 3>& luminance_weights() {
+  static const std::array<float, 3> weights = [] {
+    const ColourMatrix xyz = working_from_xyz().inverse();
+    return std::array{static_cast<float>(xyz[1][0]), static_cast<float>(xyz[1][1]),
+                      static_cast<float>(xyz[1][2])};
+  }();
+  return weights;
+}
+
 double luminance(const WorkingRgb& c) {
   static const ColourMatrix xyz = working_from_xyz().inverse();
   return xyz[1][0] * c.r + xyz[1][1] * c.g + xyz[1][2] * c.b;

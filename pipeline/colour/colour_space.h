@@ -3,6 +3,8 @@
 
 #include <Imath/ImathMatrix.h>
 
+#include <array>
+
 namespace domefall {
 
 // CIE 1931 tristimulus values; Y in the photometric unit of the context (cd/m^2 or lux).
@@ -48,6 +50,10 @@ inline WorkingRgb saturated(const WorkingRgb& c, float luminance, float saturati
   };
   return {mixed(c.r), mixed(c.g), mixed(c.b)};
 }
+
+// What one unit of each channel of a working-space colour adds to the luminance of light.  The
+// three add up to 1.
+const std::array<float, 3>& luminance_weights();
 
 // Luminance of a working-space colour in the scene's own (D65-relative) terms.
 double luminance(const WorkingRgb& colour);

@@ -76,6 +76,7 @@ void FrameKeys::add_background(Digest& digest, const SkyBackground& background) 
     stamp(panorama->image);
     digest.add(sky_digest(panorama->image));
     if (panorama->brightness != 1) digest.add("brightness").add(panorama->brightness);
+    if (panorama->black) digest.add("black").add(*panorama->black);
   }
   if (const auto* rings = std::get_if<RingsSky>(&background)) digest.add(rings->period);
 }

@@ -85,6 +85,10 @@ int Renderer::threads() const { return memory_->arena.max_concurrency(); }
 
 void Renderer::load_sky(SkyRegion sky) { skies_.load(sky); }
 
+double Renderer::sky_black(SkyRegion sky) {
+  return skies_.sky(sky, show_.sky[sky].background, false).black.luminance;
+}
+
 void Renderer::load(const FramePlan& plan) { skies_.skies_of(plan); }
 
 HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
@@ -137,6 +141,8 @@ void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
   const PerSky<const Sky*> skies = skies_.skies_of(plan);
+  for (const SkyRegion sky : kEverySky)
+    if (skies[sky]) times.black[sky] = skies[sky]->black.luminance;
   times.load_s = watch.lap();
   const HoleOptics& optics = optics_.optics_for(state.observer, plan);
   times.tables_made = optics_.tables_made();

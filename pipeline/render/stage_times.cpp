@@ -18,6 +18,7 @@ void StageTimes::add(const StageTimes& other) {
   table_nodes = std::max(table_nodes, other.table_nodes);
   images += other.images;
   tables_made += other.tables_made;
+  for (const SkyRegion sky : kEverySky) black[sky] = std::max(black[sky], other.black[sky]);
 }
 
 std::string describe(const FramePlan& plan, const StageTimes& t) {
@@ -32,6 +33,10 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   if (tables.empty()) tables = "all skies black: none";
   if (!plan.gravity) tables = "straight light: none";
   std::string text = fmt::format("load    {:8.3f} s  {}\n", t.load_s, skies);
+  for (const SkyRegion sky : kEverySky)
+    if (t.black[sky] > 0)
+      text +=
+          fmt::format("black   {:.3g} cd/m^2 of the map of sky {}\n", t.black[sky], name_of(sky));
   text += fmt::format("tables  {:8.5f} s  {}, {} nodes, {} made\n", t.tables_s, tables,
                       t.table_nodes, t.tables_made);
   text += fmt::format("stars   {:8.4f} s  {} images\n", t.stars_s, t.images);

@@ -13,7 +13,9 @@ struct StageTimes {
   double traced_fraction = 0;  // the part of the sky's pixels that have view rays of their own
   std::size_t table_nodes = 0, images = 0;
   int tables_made = 0;  // those that were not kept from the frame before
-  int instants = 1;     // more than 1 with an open shutter; the times are those of all of them
+  // The luminance (cd/m^2) that was taken as black from the map of each sky that is seen.
+  PerSky<double> black{};
+  int instants = 1;  // more than 1 with an open shutter; the times are those of all of them
 
   // Adds the times and counts of another instant of the frame.  The traced fraction and the nodes
   // become the larger ones of both.

@@ -37,6 +37,9 @@ struct PanoramaSky {
   std::filesystem::path image;
   // A factor on the luminance that the file's values stand for by themselves.
   double brightness = 1;
+  // The luminance (cd/m^2, before the gain) that is taken from the light of a map, so that what has
+  // no more of it is black.  Where nothing is given it is the map's own dark level.
+  std::optional<double> black{};
 
   bool operator==(const PanoramaSky&) const = default;
 };

@@ -19,6 +19,7 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
 
 // Beyond these years a star's motion is no straight line.
 constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
+constexpr Range kLuminance = Range{"cd/m^2, or auto, or none"}.within(0, 1e6);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
 constexpr Range kWhite = Range{"cd/m^2"}.above(0).at_most(1e12);
 // What the white of a show's own image is unless the show says otherwise: pixel value 1 at 0 EV.
@@ -56,7 +57,7 @@ bool is_own_image(const SkyBackground& background) {
 
 // What a show or a segment says of the background of one region.  Each item may be null.
 struct BackgroundKeys {
-  const Item *background = nullptr, *white = nullptr, *period = nullptr;
+  const Item *background = nullptr, *white = nullptr, *black = nullptr, *period = nullptr;
   bool singularity = false;  // region IV alone may have rings
 };
 
@@ -70,6 +71,20 @@ void read_white(const Item* white, SkyBackground& background) {
   std::get<PanoramaSky>(background).brightness = luminance.value_or(kShownWhite) / kPanoramaUnit;
 }
 
+// Sets what is black on a map.  Formulas have no floor to take away.
+void read_black(const Item& item, SkyBackground& background) {
+  auto* panorama = std::get_if<PanoramaSky>(&background);
+  if (!panorama) {
+    item.fail("is the black of a map; the background must be milky_way, a .sky file or an image");
+  } else if (is_word(item, "auto")) {
+    panorama->black.reset();
+  } else if (is_word(item, "none")) {
+    panorama->black = 0;
+  } else if (const auto level = read_number(item, kLuminance)) {
+    panorama->black = *level;
+  }
+}
+
 // Reads the keys into a background, which stays where they do not name another.
 void read_background_keys(const BackgroundKeys& keys, const Lookup& lookup,
                           SkyBackground& background) {
@@ -78,6 +93,7 @@ void read_background_keys(const BackgroundKeys& keys, const Lookup& lookup,
   const bool failed = keys.background && !found;
   if (found) background = *found;
   if (!failed && (found || keys.white)) read_white(keys.white, background);
+  if (keys.black && !failed) read_black(*keys.black, background);
   const auto period = keys.period ? read_number(*keys.period, kPeriod) : std::nullopt;
   if (auto* rings = std::get_if<RingsSky>(&background))
     rings->period = period.value_or(rings->period);
@@ -121,8 +137,9 @@ void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
 
 // Reads the sky of region I or III into `sky`, which keeps what the section does not name.
 void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
-  read_background_keys({section.find("background"), section.find("white_cd_m2")}, lookup,
-                       sky.background);
+  read_background_keys(
+      {section.find("background"), section.find("white_cd_m2"), section.find("black_cd_m2")},
+      lookup, sky.background);
   sky.background_gain = section.number("gain", kGain, sky.background_gain);
   if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
 }
@@ -130,14 +147,14 @@ void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
 // Reads the sky of the past singularity, which is a background alone: a word, or a map.
 void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (!item.node.IsMap()) {
-    read_background_keys({&item, nullptr, nullptr, true}, lookup, sky.background);
+    read_background_keys({&item, nullptr, nullptr, nullptr, true}, lookup, sky.background);
     return;
   }
-  const Section section(item, {"background", "gain", "period_m", "white_cd_m2"});
+  const Section section(item, {"background", "gain", "black_cd_m2", "period_m", "white_cd_m2"});
   sky.background_gain = section.number("gain", kGain, sky.background_gain);
-  read_background_keys(
-      {section.find("background"), section.find("white_cd_m2"), section.find("period_m"), true},
-      lookup, sky.background);
+  read_background_keys({section.find("background"), section.find("white_cd_m2"),
+                        section.find("black_cd_m2"), section.find("period_m"), true},
+                       lookup, sky.background);
 }
 
 // The sky of region I where the show says nothing else.  The shipped files are asked for only where
@@ -158,8 +175,8 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
   RegionSky before;  // region III has what region I has, but for what its own section names
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
-    const Section own =
-        subsection(sky, kSkyKeys[region], {"background", "gain", "stars", "white_cd_m2"});
+    const Section own = subsection(sky, kSkyKeys[region],
+                                   {"background", "gain", "black_cd_m2", "stars", "white_cd_m2"});
     if (region == SkyRegion::kI) before = default_sky(root, own, lookup);
     read_region(own, lookup, before);
     show.sky[region] = before;
@@ -177,12 +194,13 @@ void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<Region
     const auto own = peek(sky, kSkyKeys[region]);
     if (!own) continue;
     const auto background = peek(*own, "background"), white = peek(*own, "white_cd_m2"),
-               period = peek(*own, "period_m");
-    if (!background && !white && !period) continue;
+               black = peek(*own, "black_cd_m2"), period = peek(*own, "period_m");
+    if (!background && !white && !black && !period) continue;
     const auto item = [](const std::optional<Item>& found) { return found ? &*found : nullptr; };
     backgrounds[region] = of_show[region].background;
-    read_background_keys({item(background), item(white), item(period), region == SkyRegion::kIV},
-                         lookup, *backgrounds[region]);
+    read_background_keys(
+        {item(background), item(white), item(black), item(period), region == SkyRegion::kIV},
+        lookup, *backgrounds[region]);
   }
 }
 

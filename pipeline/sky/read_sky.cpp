@@ -10,6 +10,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_image.h"
 #include "pipeline/image/some_light.h"
+#include "pipeline/sky/make/import_sky.h"
 #include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
 
@@ -40,6 +41,11 @@ std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int la
     return std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face));
   }
   return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));
+}
+
+bool is_microwave_background(const std::filesystem::path& file) {
+  return is_sky_file(file) && SkyFile(file).origin().text.find(
+                                  std::string("\n") + kMicrowaveBackground) != std::string::npos;
 }
 
 std::string sky_digest(const std::filesystem::path& file) {

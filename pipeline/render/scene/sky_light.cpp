@@ -82,7 +82,8 @@ SkyLight::SkyLight(const Sky& sky, const Effects& effects, const PanoramaShift& 
       map_(map_of(sky)),
       effects_(effects),
       panorama_shift_(panorama_shift),
-      scale_(scale) {}
+      scale_(scale),
+      black_(map_ ? sky.black.light / map_->unit() : 0) {}
 
 double SkyLight::intensity(double g) const {
   if (!effects_.intensity) return 1;
@@ -95,9 +96,16 @@ float SkyLight::gain_of(double intensity) const {
 
 WorkingRgb SkyLight::at(const V3d& sky_direction, double footprint, double g) const {
   if (map_ != nullptr) {
-    if (map_->kind() == SkyMapKind::kThermal)
-      return thermal_light(map_->sample_thermal(sky_direction, footprint), effects_, g) * scale_;
-    return map_->sample(sky_direction, footprint) * (intensity(g) * scale_);
+    const double black = black_ * map_->unit();
+    if (map_->kind() == SkyMapKind::kThermal) {
+      ThermalLight light = map_->sample_thermal(sky_direction, footprint);
+      light.radiance = std::max(0.0, light.radiance - black);
+      return thermal_light(light, effects_, g) * scale_;
+    }
+    const WorkingRgb light = map_->sample(sky_direction, footprint);
+    const double seen = luminance(light);
+    if (!(seen > black)) return {0, 0, 0};
+    return light * ((1 - black / seen) * (intensity(g) * scale_));
   }
   if (!std::holds_alternative<Grid>(sky_->background)) return {0, 0, 0};
   return grid_light({sky_direction}, footprint, colour_ratio(effects_, g)) *

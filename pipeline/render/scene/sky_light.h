@@ -27,6 +27,10 @@ class SkyLight {
   // Null unless the background is a map.
   const SkyMap* map() const { return map_; }
 
+  // What is taken from the map's light before anything else is done to it, in units of the map: of
+  // a colour map from the luminance, so that the hue is kept, of a thermal one from the radiance.
+  double black() const { return black_; }
+
   // The pixel value of the grid or a map in a direction of the sky, averaged over `footprint`
   // radians there, at frequency ratio g = 1/(1+z), with the effects that the show keeps.  The
   // caller applies the amplification.  A black sky gives 0.
@@ -55,6 +59,7 @@ class SkyLight {
   Effects effects_;
   PanoramaShift panorama_shift_;
   double scale_;
+  double black_;
 };
 
 }  // namespace domefall

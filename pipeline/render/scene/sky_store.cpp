@@ -10,6 +10,15 @@
 namespace domefall {
 namespace {
 
+// The microwave background is a glow of its own, whose darkest parts are no floor of a picture.
+DarkLevel black_of(const PanoramaSky& sky, const SkyMap& map) {
+  if (sky.black) return {light_of_luminance(map, *sky.black / sky.brightness), *sky.black};
+  if (is_microwave_background(sky.image)) return {};
+  DarkLevel level = dark_level(map);
+  level.luminance *= sky.brightness;
+  return level;
+}
+
 bool same_stars(const RegionSky& a, const RegionSky& b) {
   return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
 }
@@ -34,6 +43,7 @@ void SkyStore::load_background(Kept& kept) {
   auto& map = maps_[panorama->image];
   if (!map) map = read_sky(panorama->image, largest_face_);
   background = map;
+  kept.sky.black = black_of(*panorama, *map);
 }
 
 // Stars that another sky has loaded already are shared with it.

@@ -12,6 +12,7 @@
 #include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/show.h"
+#include "pipeline/sky/maps/dark_level.h"
 #include "pipeline/sky/maps/sky_map.h"
 #include "trajectories/sky_region.h"
 
@@ -25,6 +26,9 @@ using Rings = RingsSky;
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
   std::shared_ptr<const SceneStars> stars;  // never null, but empty if there are none
+  // What is taken from a map's light as its black (PanoramaSky::black), in the unit of its texels and
+  // as luminance.
+  DarkLevel black;
 };
 
 class SkyStore {
@@ -45,7 +49,7 @@ class SkyStore {
  private:
   struct Kept {
     std::optional<SkyBackground> background;
-    Sky sky{Black{}, std::make_shared<const SceneStars>()};
+    Sky sky{Black{}, std::make_shared<const SceneStars>(), {}};
     bool has_stars = false;  // whether they are loaded
   };
   void load_background(Kept& kept);

@@ -33,7 +33,8 @@ PixelShader::PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing,
     : scene_(scene), darkened_(std::move(darkened)), anti_aliasing_(anti_aliasing) {
   for (const SkyRegion sky : kEverySky) {
     const auto& background = scene.background[sky];
-    if (background && background->map()) samplers_[sky].emplace(*background->map());
+    if (background && background->map())
+      samplers_[sky].emplace(*background->map(), background->black());
   }
 }
 

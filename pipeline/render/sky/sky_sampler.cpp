@@ -37,11 +37,34 @@ struct FinestTaps {
 }
 Dispatched<locate_plain_loop> locate_plain;
 
+// The weights of the channels in luminance, for two samples side by side, and the luminance that is
+// black in all lanes.
+struct Black {
+  ChannelPair weights, level;
+
+  explicit Black(float black) {
+    const auto& w = luminance_weights();
+    weights = ChannelPair{w[0], w[1], w[2], 0, w[0], w[1], w[2], 0};
+    broadcast(black, black, level);
+  }
+};
+
+// Lowers the luminance of two samples by the black level, or to 0, and keeps their hue.  The level
+// exceeds 0, so that a dark sample gives -infinity before it gives 0.
+[[gnu::always_inline]] inline void take_black(const Black& black, ChannelPair& light) {
+  ChannelPair luminance = light * black.weights;
+  luminance += __builtin_shufflevector(luminance, luminance, 1, 0, 3, 2, 5, 4, 7, 6);
+  luminance += __builtin_shufflevector(luminance, luminance, 2, 3, 0, 1, 6, 7, 4, 5);
+  const ChannelPair kept = 1 - black.level / luminance;
+  light *= kept > 0 ? kept : ChannelPair{};
+}
+
 // Takes plain samples, which are most samples of most frames, in a loop of their own.  `count` is
 // even.  Of four channels the last is 0; the next sample's first overwrites it.
-template <bool kWide>
+template <bool kWide, bool kBlack>
 [[gnu::always_inline]] inline void take_plain_loop(const SkyLevel& level, const FinestTaps& taps,
-                                                   const float* gain, int count, float* rgb) {
+                                                   const Black& black, const float* gain, int count,
+                                                   float* rgb) {
   const SkyTexel* texels = level.texels;
   const int stride = level.size + 2;
   for (int k = 0; k < count; k += 2, rgb += 6) {
@@ -52,6 +75,7 @@ template <bool kWide>
     take_pair<kWide>(
         {texels + taps.texel[k], stride, taps.fx[k], taps.fy[k], kTapScale},
         {texels + taps.texel[k + 1], stride, taps.fx[k + 1], taps.fy[k + 1], kTapScale}, light);
+    if constexpr (kBlack) take_black(black, light);
     Channels samples[2];
     std::memcpy(samples, &light, sizeof samples);
     samples[0] *= gain[k];
@@ -60,8 +84,10 @@ template <bool kWide>
     std::memcpy(rgb + 3, &samples[1], sizeof samples[1]);
   }
 }
-Dispatched<take_plain_loop<true>> take_plain;
-Dispatched<take_plain_loop<false>> take_plain_one_by_one;
+Dispatched<take_plain_loop<true, false>> take_plain;
+Dispatched<take_plain_loop<true, true>> take_plain_above_black;
+Dispatched<take_plain_loop<false, false>> take_plain_one_by_one;
+Dispatched<take_plain_loop<false, true>> take_plain_above_black_one_by_one;
 
 // Adds the two halves of a sample's sum.
 [[gnu::always_inline]] inline void total(const ChannelPair& sum, Channels& light) {
@@ -70,24 +96,34 @@ Dispatched<take_plain_loop<false>> take_plain_one_by_one;
           kTapScale;
 }
 
-[[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums, const float* gain,
-                                                   const SampleFilter* filters, int count,
-                                                   float* rgb) {
+template <bool kBlack>
+[[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums, const Black& black,
+                                                   const float* gain, const SampleFilter* filters,
+                                                   int count, float* rgb) {
   for (int k = 0; k < count; ++k, rgb += 3) {
     if (filters[k].taps() == 0) continue;
     Channels light;
     total(sums[k], light);
-    light *= gain[k] / static_cast<float>(filters[k].taps());
+    const auto taps = static_cast<float>(filters[k].taps());
+    if constexpr (kBlack) {
+      light *= 1 / taps;
+      ChannelPair pair = __builtin_shufflevector(light, light, 0, 1, 2, 3, 0, 1, 2, 3);
+      take_black(black, pair);
+      light = __builtin_shufflevector(pair, pair, 0, 1, 2, 3) * gain[k];
+    } else {
+      light *= gain[k] / taps;
+    }
     rgb[0] = light[0];
     rgb[1] = light[1];
     rgb[2] = light[2];
   }
 }
-Dispatched<to_colours_loop> to_colours;
+Dispatched<to_colours_loop<false>> to_colours;
+Dispatched<to_colours_loop<true>> to_colours_above_black;
 
 // The first two channels of a thermal map are the radiance I and I theta (SkyMapKind::kThermal), so
 // that their ratio is the mean of theta.  The temperature is raised by `tone` octaves.
-void thermal_to_colours(const ChannelPair* sums, const float* gain, const float* tone,
+void thermal_to_colours(const ChannelPair* sums, float black, const float* gain, const float* tone,
                         const SampleFilter* filters, int count, float* rgb) {
   static const auto base = static_cast<float>(std::log2(kThermalBase));
   const BlackbodyColours& colours = blackbody_colours();
@@ -95,10 +131,10 @@ void thermal_to_colours(const ChannelPair* sums, const float* gain, const float*
     if (filters[k].taps() == 0) continue;
     Channels sum;
     total(sums[k], sum);
-    const float radiance = sum[0];
+    const float radiance = sum[0] / static_cast<float>(filters[k].taps()) - black;
     WorkingRgb colour{0, 0, 0};
-    if (radiance > 0) colour = colours.per_flux_log2(base + sum[1] / radiance + tone[k]);
-    const float scale = radiance * gain[k] / static_cast<float>(filters[k].taps());
+    if (radiance > 0) colour = colours.per_flux_log2(base + sum[1] / sum[0] + tone[k]);
+    const float scale = radiance * gain[k];
     rgb[0] = colour.r * scale;
     rgb[1] = colour.g * scale;
     rgb[2] = colour.b * scale;
@@ -217,8 +253,10 @@ void queue_taps(const SampleBatch& b, SampleFilter filter, const std::uint16_t* 
 
 }  // namespace
 
-SkySampler::SkySampler(const SkyMap& map)
-    : map_(map), texel_(static_cast<float>(std::numbers::pi / 2 / map.levels().front().size)) {}
+SkySampler::SkySampler(const SkyMap& map, double black)
+    : map_(map),
+      texel_(static_cast<float>(std::numbers::pi / 2 / map.levels().front().size)),
+      black_(static_cast<float>(black)) {}
 
 void SkySampler::choose_filters(const float* wide, const float* narrow, int count, int most_taps,
                                 float longest_line, SampleFilter* filters) const {
@@ -242,10 +280,14 @@ void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) c
   FinestTaps taps;
   const SkyLevel& finest = map_.levels().front();
   locate_plain(batch, count, finest.size, taps);
-  if (simd_in_use() == Simd::kPortable)
-    take_plain_one_by_one(finest, taps, batch.gain.data(), count, rgb);
+  const Black black(black_);
+  const auto take = [&](const auto& loop) {
+    loop(finest, taps, black, batch.gain.data(), count, rgb);
+  };
+  if (simd_in_use() != Simd::kPortable)
+    black_ > 0 ? take(take_plain_above_black) : take(take_plain);
   else
-    take_plain(finest, taps, batch.gain.data(), count, rgb);
+    black_ > 0 ? take(take_plain_above_black_one_by_one) : take(take_plain_one_by_one);
 }
 
 void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter* filters,
@@ -269,9 +311,12 @@ void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter*
     }
   queue.flush(sums.data());
   if (map_.kind() == SkyMapKind::kThermal)
-    thermal_to_colours(sums.data(), batch.gain.data(), batch.tone.data(), filters, count, rgb);
+    thermal_to_colours(sums.data(), black_, batch.gain.data(), batch.tone.data(), filters, count,
+                       rgb);
+  else if (black_ > 0)
+    to_colours_above_black(sums.data(), Black(black_), batch.gain.data(), filters, count, rgb);
   else
-    to_colours(sums.data(), batch.gain.data(), filters, count, rgb);
+    to_colours(sums.data(), Black(black_), batch.gain.data(), filters, count, rgb);
 }
 
 }  // namespace domefall

@@ -8,8 +8,9 @@ namespace domefall {
 
 class SkySampler {
  public:
-  // The map must outlive the sampler.
-  explicit SkySampler(const SkyMap& map);
+  // The map must outlive the sampler.  `black`, in units of the map, is taken from each sample: of
+  // a colour map from its luminance, which keeps the hue, of a thermal one from its radiance.
+  explicit SkySampler(const SkyMap& map, double black = 0);
 
   static constexpr int kMostTaps = 32;
   // Chooses filters by the longer and the shorter side of footprints (radians on the sky).  An
@@ -31,6 +32,7 @@ class SkySampler {
  private:
   const SkyMap& map_;
   float texel_;  // the width of a texel of the finest level, radians
+  float black_;
 };
 
 }  // namespace domefall

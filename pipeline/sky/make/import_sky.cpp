@@ -72,7 +72,7 @@ double kelvin_of(const SkyImport& import, const std::string& units) {
 }
 
 std::string cmb_text(const CmbSettings& cmb) {
-  return fmt::format("microwave background: at redshift {:f}, contrast {:f}\n", cmb.redshift,
+  return fmt::format("{}at redshift {:f}, contrast {:f}\n", kMicrowaveBackground, cmb.redshift,
                      cmb.contrast);
 }
 

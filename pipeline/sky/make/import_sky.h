@@ -11,6 +11,9 @@
 
 namespace domefall {
 
+// How the line begins by which the text of a .sky file says that it holds the microwave background.
+inline constexpr const char* kMicrowaveBackground = "microwave background: ";
+
 enum class SkyProjection {
   kOfFile,  // HEALPix for a FITS file, equirectangular for any other
   kEquirectangular,

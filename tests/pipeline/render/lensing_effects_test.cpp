@@ -154,7 +154,8 @@ TEST(Effects, AnAmplifiedBackgroundHasASmoothRingAndNoSpecks) {
   Show show = at_rest_at(30, {});
   show.projection = Stereographic{480, 360, 90 * kDegree};
   show.timeline[0].camera.attitude = LookAtHole{};
-  show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
+  show.sky[SkyRegion::kI].background =
+      PanoramaSky{small_panorama(), 1, 0.0};  // without a black, so that each pixel has a ratio
   const HalfFrame natural = render(show);
   show.effects.amplification = Amplification::kEverything;
   const HalfFrame amplified = render(show);

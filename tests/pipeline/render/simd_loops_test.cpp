@@ -79,7 +79,7 @@ TEST_P(SimdLoops, SamplesTheSameInSkyMaps) {
     noise(pyramid);
     pyramid.finish();
     const SkyMap map = pyramid.map();
-    const SkySampler sampler(map);
+    const SkySampler sampler(map), above_black(map, 50);
     std::mt19937 random(1);
     const SampleBatch batch = random_samples(random, 1e-9);
     std::array<SampleFilter, SampleBatch::kSize> filters;
@@ -100,6 +100,13 @@ TEST_P(SimdLoops, SamplesTheSameInSkyMaps) {
         }
       compare("plain", [&] {
         return colours([&](float* rgb) { sampler.sample_plain(batch, count, rgb); });
+      });
+      compare("plain, above black", [&] {
+        return colours([&](float* rgb) { above_black.sample_plain(batch, count, rgb); });
+      });
+      compare("four taps above black", [&] {
+        filters.fill(SampleFilter(4, true));
+        return colours([&](float* rgb) { above_black.sample(batch, count, filters.data(), rgb); });
       });
       compare("every filter", [&] {
         sampler.choose_filters(batch.wide.data(), batch.narrow.data(), count, SkySampler::kMostTaps,

@@ -136,9 +136,22 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
       {"PeriodOfWhatIsWrong", kShow + "sky: {region_IV: {background: gird, period_m: 2}}\n",
        "3:31: sky.region_IV.background must be milky_way, grid, black or rings or an image file, "
        "got 'gird'; did you mean grid?"},
+      {"BlackOfAGrid", kShow + "sky: {region_I: {background: grid, black_cd_m2: 1e-5}}\n",
+       "3:45: sky.region_I.black_cd_m2 is the black of a map; the background must be milky_way, a "
+       ".sky file or an image"},
+      {"BlackOfRings", kShow + "sky: {region_IV: {background: rings, black_cd_m2: auto}}\n",
+       "3:51: sky.region_IV.black_cd_m2 is the black of a map; the background must be milky_way, a "
+       ".sky file or an image"},
+      {"BlackOfWhatIsWrong", kShow + "sky: {region_I: {background: gird, black_cd_m2: 1}}\n",
+       "3:30: sky.region_I.background must be milky_way, grid or black or an image file, "
+       "got 'gird'; did you mean grid?"},
+      {"BlackBelowNothing", kShow + "sky: {region_III: {black_cd_m2: -1}}\n",
+       "3:33: sky.region_III.black_cd_m2 must be at least 0 (cd/m^2, or auto, or none), got -1"},
+      {"BlackByAnUnknownWord", kShow + "sky: {region_III: {black_cd_m2: dark}}\n",
+       "3:33: sky.region_III.black_cd_m2 must be a number (cd/m^2, or auto, or none), got 'dark'"},
       {"PeriodOutside", kShow + "sky: {region_III: {period_m: 2}}\n",
-       "3:20: sky.region_III.period_m is an unknown key; known here: background, gain, stars or "
-       "white_cd_m2"},
+       "3:20: sky.region_III.period_m is an unknown key; known here: background, gain, "
+       "black_cd_m2, stars or white_cd_m2"},
       {"EpochTooLate", kShow + "sky: {epoch: 30001}\n",
        "3:14: sky.epoch must be at most 30000 (Julian years), got 30001"},
       {"BlueshiftPowerTooHigh", kShow + "sky: {blueshift_power: 11}\n",

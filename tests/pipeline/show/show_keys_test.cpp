@@ -189,6 +189,26 @@ TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   EXPECT_EQ(show.star_epoch, 2026.5);
 }
 
+TEST_F(ShowKeys, TheBlackOfAMapIsItsOwnUnlessTheShowSaysIt) {
+  using Levels = std::vector<std::optional<double>>;
+  const auto levels = [this](const std::string& sky) {
+    const Show show = with("sky: {" + sky + "}\n");
+    Levels found;
+    for (const RegionSky& own : show.sky) {
+      const auto* map = std::get_if<PanoramaSky>(&own.background);
+      found.push_back(map ? map->black : std::nullopt);
+    }
+    return found;
+  };
+  const std::optional<double> of_map;
+  EXPECT_EQ(levels("blueshift_power: 2"), (Levels{of_map, of_map, of_map}));
+  EXPECT_EQ(levels("region_I: {black_cd_m2: 3e-5}"), (Levels{3e-5, 3e-5, of_map}));
+  EXPECT_EQ(levels("region_I: {black_cd_m2: none}, region_III: {black_cd_m2: auto}"),
+            (Levels{0, of_map, of_map}));
+  EXPECT_EQ(levels("region_IV: {background: milky_way, black_cd_m2: 1e-6}"),
+            (Levels{of_map, of_map, 1e-6}));
+}
+
 TEST_F(ShowKeys, SkiesMayBeBlackAndStarless) {
   const Show show = with("sky: {region_I: {background: black, stars: none}}\n");
   for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]}) {

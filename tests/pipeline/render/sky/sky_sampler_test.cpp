@@ -7,6 +7,7 @@
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/simd/half_row.h"
 #include "pipeline/sky/make/panorama.h"
+#include "pipeline/sky/maps/sky_pyramid.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -145,6 +146,56 @@ TEST(SkySampler, SamplesOfManyFiltersAreThoseOfEachFilter) {
   for (std::size_t k = 0; k < SampleBatch::kSize; k += 7, compared += 3)
     ASSERT_EQ(rgb[3 * k + 1], -1);
   EXPECT_EQ(compared, 3 * SampleBatch::kSize);
+}
+
+// What has less luminance than the black level is black, and the rest keeps its hue.
+TEST(SkySampler, TakesTheBlackLevelFromTheLuminanceAndKeepsTheHue) {
+  const SkyMap map = map_of_panorama(noise(512));
+  const double black = map.sample({1, 0, 0}, 2).g / map.unit();
+  const SkySampler all(map), above(map, black);
+  std::mt19937 random(5);
+  std::array<float, 3 * SampleBatch::kSize + 1> with{}, without{};
+  int dark = 0;
+  for (const int taps : {0, 1, 4}) {  // 0 stands for the plain loop
+    const SampleBatch batch = random_samples(random, map.unit());
+    const auto sample = [&](const SkySampler& sampler, float* rgb) {
+      if (taps == 0) return sampler.sample_plain(batch, SampleBatch::kSize, rgb);
+      sample_all(sampler, batch, SampleFilter(taps, true), rgb);
+    };
+    sample(all, without.data());
+    sample(above, with.data());
+    for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
+      const float* c = &without[3 * k];
+      const double kept = std::max(0.0, 1 - black * map.unit() / luminance({c[0], c[1], c[2]}));
+      dark += kept == 0;
+      for (std::size_t i = 3 * k; i < 3 * k + 3; ++i)
+        ASSERT_NEAR(with[i], kept * without[i], 1e-6 * without[i]) << taps;
+    }
+  }
+  EXPECT_GT(dark, 10) << "some samples lie below the level";
+}
+
+// A thermal sample that has a part of the light left keeps its temperature.
+TEST(SkySampler, TakesTheBlackLevelFromTheRadianceOfAThermalMap) {
+  const double radiance = 2e-5, theta = 4;
+  const SkyPyramid pyramid(SkyMapKind::kThermal, sky_unit(radiance * theta), 8);
+  paint(pyramid.levels[0], [&](const V3d&, float* channel) {
+    channel[0] = static_cast<float>(radiance / pyramid.unit);
+    channel[1] = static_cast<float>(radiance * theta / pyramid.unit);
+  });
+  pyramid.finish();
+  const SkyMap map = pyramid.map();
+  std::mt19937 random(7);
+  const SampleBatch batch = random_samples(random, map.unit());
+  std::array<float, 3 * SampleBatch::kSize + 1> all, quarter, none;
+  sample_all(SkySampler(map), batch, SampleFilter(1, true), all.data());
+  sample_all(SkySampler(map, 0.75 * radiance / map.unit()), batch, SampleFilter(1, true),
+             quarter.data());
+  sample_all(SkySampler(map, 2 * radiance / map.unit()), batch, SampleFilter(1, true), none.data());
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(quarter[k], all[k] / 4, 0.005 * all[k]);  // half floats hold the radiance to 0.1 %
+    EXPECT_EQ(none[k], 0);
+  }
 }
 
 // The oracle is one sample of the map and the exact colour of its temperature.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/sky/read_sky.h"
 
 namespace domefall {
 namespace {
@@ -86,6 +87,18 @@ TEST_F(ImportSky, AHealpixMapOfNegativeValuesIsNoLightButMayBeFluctuations) {
                         "and they go down to -0.00046"));
   import.cmb = CmbSettings{};
   EXPECT_EQ(refusal_of(import), "");
+}
+
+// Its darkest parts are no floor of a picture, so that shows ask for it.
+TEST_F(ImportSky, TheMicrowaveBackgroundIsKnownByItsFile) {
+  SkyImport import = healpix([](int k) { return 1e-5f * static_cast<float>(k); });
+  import.text = "licence: a map of the microwave background: free\n";
+  EXPECT_EQ(refusal_of(import), "");
+  EXPECT_FALSE(is_microwave_background(import.out));
+  import.cmb = CmbSettings{};
+  EXPECT_EQ(refusal_of(import), "");
+  EXPECT_TRUE(is_microwave_background(import.out));
+  EXPECT_FALSE(is_microwave_background(import.image));
 }
 
 TEST_F(ImportSky, OnePixelOfLightIsEnough) {

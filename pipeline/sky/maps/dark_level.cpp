@@ -1,0 +1,91 @@
+#include "pipeline/sky/maps/dark_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/sky/maps/cube_face.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kTexels = 64;
+constexpr double kDarkest = 0.01;  // of the sphere
+constexpr double kEven = 0.75;     // of the median, beyond which the darkest part is not dark
+
+// The light of a texel, of what luminance it is, and the part of the sphere that it stands for.
+struct Patch {
+  double light, luminance, solid_angle;
+};
+
+// A texel at (u, v) of a face of the cube is seen under (1 + u^2 + v^2)^(-3/2) of its area.
+double solid_angle(int i, int j, int size) {
+  const double u = (2 * i + 1.0) / size - 1, v = (2 * j + 1.0) / size - 1;
+  const double s = 1 + u * u + v * v;
+  return 1 / (s * std::sqrt(s));
+}
+
+Patch patch_of(const SkyMap& map, const SkyTexel& texel, double solid_angle) {
+  const auto channel = [&](int k) { return half_value(texel.channel[k]); };
+  if (map.kind() == SkyMapKind::kColour) {
+    const double light = map.unit() * luminance({channel(0), channel(1), channel(2)});
+    return {light, light, solid_angle};
+  }
+  if (!(channel(0) > 0)) return {0, 0, solid_angle};
+  const double radiance = map.unit() * channel(0);
+  const double temperature = kThermalBase * std::exp2(channel(1) / channel(0));
+  return {radiance, radiance * luminance(blackbody_colours().per_flux(temperature)), solid_angle};
+}
+
+std::vector<Patch> patches_of(const SkyMap& map) {
+  const auto& levels = map.levels();
+  const auto level = std::find_if(levels.begin(), levels.end() - 1,
+                                  [](const SkyLevel& l) { return l.size <= kTexels; });
+  const int n = level->size;
+  std::vector<Patch> patches;
+  patches.reserve(static_cast<std::size_t>(6) * static_cast<std::size_t>(n * n));
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        patches.push_back(
+            patch_of(map, level->face(face)[static_cast<std::size_t>((j + 1) * (n + 2) + i + 1)],
+                     solid_angle(i, j, n)));
+  return patches;
+}
+
+// The patch that completes this part of the sphere, of patches in ascending order.
+const Patch& at_part(const std::vector<Patch>& patches, double part) {
+  double sphere = 0, below = 0;
+  for (const Patch& patch : patches) sphere += patch.solid_angle;
+  for (const Patch& patch : patches) {
+    below += patch.solid_angle;
+    if (below >= part * sphere) return patch;
+  }
+  return patches.back();
+}
+
+}  // namespace
+
+DarkLevel dark_level(const SkyMap& map) {
+  std::vector<Patch> patches = patches_of(map);
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const Patch& a, const Patch& b) { return a.light < b.light; });
+  const Patch& darkest = at_part(patches, kDarkest);
+  if (darkest.light > kEven * at_part(patches, 0.5).light) return {};
+  return {darkest.light, darkest.luminance};
+}
+
+double light_of_luminance(const SkyMap& map, double luminance) {
+  if (map.kind() == SkyMapKind::kColour) return luminance;
+  // Of a map that is dark in many places, the darkest part that shines at all has a temperature.
+  std::vector<Patch> patches = patches_of(map);
+  std::erase_if(patches, [](const Patch& patch) { return !(patch.luminance > 0); });
+  const auto darkest =
+      std::min_element(patches.begin(), patches.end(),
+                       [](const Patch& a, const Patch& b) { return a.light < b.light; });
+  return darkest == patches.end() ? 0 : luminance * darkest->light / darkest->luminance;
+}
+
+}  // namespace domefall
