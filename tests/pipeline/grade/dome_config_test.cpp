@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -18,9 +19,11 @@ namespace domefall {
 namespace {
 
 const std::string kConfig = source_file("shows/assets/dome.ocio");
-constexpr const char* kDisplays[] = {"Dome G2.2 Rec.709", "Dome G2.6 P3-D65", "sRGB - Display",
-                                     "Rec.1886 Rec.709 - Display"};
-constexpr const char* kViews[] = {"Dome", "ACES SDR", "Star log", "Un-tone-mapped", "Raw"};
+constexpr const char* kDisplays[] = {
+    "Dome G2.2 Rec.709", "Dome G2.6 P3-D65", "sRGB - Display",    "Rec.1886 Rec.709 - Display",
+    "Dome G2.4 Rec.709", "Dome G2.6 DCI-P3", "Dome G2.4 Rec.2020"};
+constexpr const char* kViews[] = {"Dome",           "ACES SDR", "Star field",
+                                  "Un-tone-mapped", "Star log", "Raw"};
 
 GradeSettings settings(const std::string& view, const std::string& display = kDisplays[0]) {
   GradeSettings s;
@@ -81,19 +84,20 @@ TEST(DomeConfig, EveryDisplayHasEveryView) {
 // ACES alone lifts black: its 0.02 cd/m^2 is 1 in 65535 here.
 TEST(DomeConfig, BlackIsCodeValueZeroButInAces) {
   for (const char* display : kDisplays)
-    for (const char* view : {"Dome", "Star log", "Un-tone-mapped", "Raw"})
+    for (const char* view : {"Dome", "Star field", "Un-tone-mapped", "Raw"})
       EXPECT_EQ(graded(settings(view, display), 0), (Triple{0, 0, 0})) << display << ", " << view;
 }
 
-TEST(DomeConfig, TheDomeViewShowsLightOfTwoTenThousandths) {
+// Its toe makes of less a black that no display's 8 bits tell from 0.
+TEST(DomeConfig, TheDomeViewShowsLightOfAThousandth) {
   for (const char* display : kDisplays)
-    for (const double code : graded(settings("Dome", display), 2e-4)) EXPECT_GT(code, 0) << display;
+    for (const double code : graded(settings("Dome", display), 1e-3)) EXPECT_GT(code, 0) << display;
 }
 
 TEST(DomeConfig, NoViewTakesAStepBackOverAllHalfGreys) {
   const HalfFrame in = all_greys();
   for (const char* display : kDisplays)
-    for (const char* view : {"Dome", "Star log", "Un-tone-mapped", "Raw"}) {
+    for (const char* view : {"Dome", "Star field", "Un-tone-mapped", "Raw"}) {
       const GradedFrame out = Grader(settings(view, display)).grade(in);
       for (std::size_t k = 3; k < out.pixels.size(); ++k)
         ASSERT_GE(out.pixels[k], out.pixels[k - 3])
@@ -102,30 +106,99 @@ TEST(DomeConfig, NoViewTakesAStepBackOverAllHalfGreys) {
     }
 }
 
-// y = log10(1 + 2 x^1.25) / log10(1201), as the configuration's comment says; below x^1.25 = 0.001
-// its straight part departs from it by no more than 0.1 %.
-TEST(DomeConfig, TheDomeViewHasTheCurveThatItsCommentGives) {
-  for (double x = std::ldexp(1.0, -11); x < 128; x *= std::sqrt(2.0)) {
-    const double half = static_cast<float>(Imath::half(static_cast<float>(x)));
-    const double y = std::log10(1 + 2 * std::pow(half, 1.25)) / std::log10(1201);
+// The two curves of the configuration's comment.
+double tone(double y) { return 0.2242 * std::log1p(std::pow(y / 0.18, 2.4)); }
+double shoulder(double v) {
+  constexpr double k = 3.3830045995709987;
+  return std::min(1.0, v < 0.3 ? v : 0.3 + std::log1p(k * (v - 0.3)) / k);
+}
+
+double half_of(double x) { return static_cast<float>(Imath::half(static_cast<float>(x))); }
+
+// Below (x/0.18)^2.4 = 0.004 the straight part departs from the curve by 0.2 %.
+TEST(DomeConfig, TheDomeViewHasTheCurvesThatItsCommentGives) {
+  for (double x = std::ldexp(1.0, -10); x < 128; x *= std::sqrt(2.0)) {
+    const double y = shoulder(tone(half_of(x)));
     for (const double code : graded(settings("Dome"), x))
-      EXPECT_NEAR(std::pow(code, 2.2), y, 1e-3 * y + 1e-5) << x;
+      EXPECT_NEAR(std::pow(code, 2.2), y, 3e-3 * y + 1e-6) << x;
+  }
+}
+
+// Linear Rec.709 in the working space.
+Triple scene_of(const Triple& rec709, double v) {
+  const Imath::M33d& working = working_from_rec709();
+  Triple scene{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      scene[static_cast<std::size_t>(i)] += working[i][j] * rec709[static_cast<std::size_t>(j)] * v;
+  return scene;
+}
+
+constexpr Triple kRedStar{1, 0.55, 0.3}, kBlueStar{0.5, 0.7, 1};
+
+Triple light_of(const GradeSettings& s, const Triple& scene) {
+  Triple light = graded(s, scene);
+  for (double& channel : light) channel = std::pow(channel, 2.2);
+  return light;
+}
+
+// Below the shoulder the display's light has the ratios of the scene's.
+TEST(DomeConfig, TheDomeViewKeepsTheRatiosOfColoursBelowItsShoulder) {
+  for (const Triple& star : {kRedStar, kBlueStar})
+    for (const double v : {0.05, 0.1, 0.2}) {
+      const Triple light = light_of(settings("Dome"), scene_of(star, v));
+      ASSERT_LT(*std::max_element(light.begin(), light.end()), 0.3);
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(light[c] / light[1], star[c] / star[1], 5e-3) << v;
+    }
+}
+
+double saturation(const Triple& light) {
+  const auto [least, most] = std::minmax_element(light.begin(), light.end());
+  return 1 - *least / *most;
+}
+
+// In degrees around the grey axis, red at 0.
+double hue(const Triple& l) {
+  return std::atan2(std::sqrt(3) * (l[1] - l[2]), 2 * l[0] - l[1] - l[2]) * 180 / std::acos(-1);
+}
+
+// A shoulder on each channel turns the hue of what it pales: measured, by 18 degrees of 360 while a
+// quarter of its light is still its colour.
+TEST(DomeConfig, TheDomeViewPalesBrightColoursToWhite) {
+  for (const Triple& star : {kRedStar, kBlueStar}) {
+    double before = saturation(star) + 1e-3;
+    for (double v = 0.25; v < 3000; v *= 2) {
+      const Triple light = light_of(settings("Dome"), scene_of(star, v));
+      const double now = saturation(light);
+      EXPECT_LE(now, before + 1e-3) << v;
+      if (now > 0.25) {
+        EXPECT_LT(std::abs(hue(light) - hue(star)), 20) << v << ", saturation " << now;
+      }
+      before = now;
+    }
+    EXPECT_LT(before, 0.1);
   }
 }
 
 // The display's light has the ratios of the scene's, on displays of any primaries and encoding.
-TEST(DomeConfig, TheDomeViewKeepsTheRatiosOfColoursInRec709) {
-  const Imath::M33d& working = working_from_rec709();
-  const Triple star{1, 0.55, 0.3};
+TEST(DomeConfig, TheStarFieldKeepsTheRatiosOfColoursInRec709) {
   for (const double v : {0.05, 1.0, 30.0, 900.0}) {
-    Triple scene{};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        scene[static_cast<std::size_t>(i)] += working[i][j] * star[static_cast<std::size_t>(j)] * v;
-    const Triple code = graded(settings("Dome"), scene);
-    for (std::size_t c = 1; c < 3; ++c)
-      EXPECT_NEAR(std::pow(code[c] / code[0], 2.2), star[c], 2e-3) << v;
+    const Triple light = light_of(settings("Star field"), scene_of(kRedStar, v));
+    for (std::size_t c = 1; c < 3; ++c) EXPECT_NEAR(light[c] / light[0], kRedStar[c], 2e-3) << v;
   }
+}
+
+TEST(DomeConfig, TheStarFieldHasTheCurveThatItsCommentGives) {
+  for (double x = std::ldexp(1.0, -10); x < 128; x *= std::sqrt(2.0)) {
+    const double y = std::min(1.0, std::log1p(4 * half_of(x)) / std::log(257));
+    for (const double code : graded(settings("Star field"), x))
+      EXPECT_NEAR(std::pow(code, 2.2), y, 3e-3 * y) << x;
+  }
+}
+
+TEST(DomeConfig, TheFormerNameOfTheStarFieldStillWorks) {
+  EXPECT_EQ(graded(settings("Star log"), 0.1), graded(settings("Star field"), 0.1));
 }
 
 double srgb(double light) {  // IEC 61966-2-1
@@ -133,12 +206,8 @@ double srgb(double light) {  // IEC 61966-2-1
 }
 
 TEST(DomeConfig, UnToneMappedIsTheStandardsPrimariesAndEncoding) {
-  const Imath::M33d& working = working_from_rec709();
   const Triple light{0.7, 0.25, 0.06};
-  Triple scene{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      scene[static_cast<std::size_t>(i)] += working[i][j] * light[static_cast<std::size_t>(j)];
+  const Triple scene = scene_of(light, 1);
   const Triple power = graded(settings("Un-tone-mapped", kDisplays[0]), scene),
                piecewise = graded(settings("Un-tone-mapped", kDisplays[2]), scene),
                studio = graded(settings("Un-tone-mapped", kDisplays[3]), scene);
@@ -148,6 +217,23 @@ TEST(DomeConfig, UnToneMappedIsTheStandardsPrimariesAndEncoding) {
     EXPECT_NEAR(piecewise[c], srgb(light[c]), 5e-4);
     EXPECT_NEAR(studio[c], std::pow(light[c], 1 / 2.4), 5e-4);
   }
+}
+
+// DCI-P3's primaries against its own white, to which the scene's is adapted: a grey has equal codes.
+// P3's red is outside Rec.709 and inside Rec.2020.
+TEST(DomeConfig, UnToneMappedHasThePrimariesOfWideDisplays) {
+  const auto red = [](const char* display, double gamma) {
+    Triple light = graded(settings("Un-tone-mapped", display), scene_of({1, 0, 0}, 1));
+    for (double& channel : light) channel = std::pow(channel, gamma);
+    return light;
+  };
+  // Of linear Rec.709 red in P3-D65 (SMPTE RP 431, RP 177) and in Rec.2020 (ITU-R BT.2087).
+  const Triple p3 = red("Dome G2.6 P3-D65", 2.6), wide = red("Dome G2.4 Rec.2020", 2.4);
+  for (const auto& [light, expected] : {std::pair(p3, Triple{0.8225, 0.0332, 0.0171}),
+                                        std::pair(wide, Triple{0.6274, 0.0691, 0.0164})})
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(light[c], expected[c], 1e-3);
+  EXPECT_EQ(graded(settings("Dome", "Dome G2.4 Rec.709"), 0.2),
+            graded(settings("Dome", "Rec.1886 Rec.709 - Display"), 0.2));
 }
 
 TEST(DomeConfig, WhiteIsWhiteOnEveryDisplay) {

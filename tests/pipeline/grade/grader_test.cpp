@@ -44,13 +44,13 @@ TEST(DomeView, RisesFromTheFaintestStarToWhiteWithoutAStepBack) {
 }
 
 // A star of 3000 K, from faint to 10,000 times the Milky Way.
-TEST(DomeView, KeepsTheHueOfAStarHoweverBright) {
+TEST(StarField, KeepsTheHueOfAStarHoweverBright) {
   HalfFrame frame(12, 1);
   for (int i = 0; i < 12; ++i) {
     const float v = std::ldexp(0.25f, i);
     frame.row(0)[3 * i] = v, frame.row(0)[3 * i + 1] = 0.8f * v, frame.row(0)[3 * i + 2] = 0.5f * v;
   }
-  const GradedFrame out = Grader(shipped()).grade(frame);
+  const GradedFrame out = Grader(shipped("Star field")).grade(frame);
   const auto ratio = [&](int i, int c) {
     return static_cast<double>(out.row(0)[3 * i + c]) / out.row(0)[3 * i];
   };
@@ -62,7 +62,7 @@ TEST(Grader, GivesTheSameBytesForAnySplitIntoRows) {
   HalfFrame frame(17, 9);
   for (std::size_t k = 0; k < frame.pixels.size(); ++k)
     frame.pixels[k] = 0.01f * static_cast<float>(k % 131);
-  for (const char* view : {"Dome", "Star log", "ACES SDR", "Un-tone-mapped", "Raw"}) {
+  for (const char* view : {"Dome", "Star field", "ACES SDR", "Un-tone-mapped", "Raw"}) {
     const Grader grader(shipped(view));
     const GradedFrame whole = grader.grade(frame);
     GradedFrame parts(17, 9);
@@ -112,7 +112,7 @@ TEST(Grader, ListsWhatItKnowsWhenAskedForAnother) {
   } catch (const InputError& error) {
     EXPECT_NE(std::strstr(error.what(),
                           "has no view 'Doom' for the display 'Dome G2.2 Rec.709'; it "
-                          "has 'Dome', 'ACES SDR', 'Star log'"),
+                          "has 'Dome', 'ACES SDR', 'Star field'"),
               nullptr)
         << error.what();
   }

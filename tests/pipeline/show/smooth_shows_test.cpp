@@ -214,7 +214,7 @@ TEST_F(AJumpEditedIn, IsFound) {
   EXPECT_GT(speed.dome.change_of_change, kOnDome.change_of_change);
   const Motion radius = motion("rest_r: 6", "rest_r: 5.8", 110);
   EXPECT_GT(radius.log_r.change, kLogRadius.change);
-  const Motion flash = motion("{ev: 0.5}}", "{ev: 0.5}, ease: hold}", 6);
+  const Motion flash = motion("{ev: 0.2}}", "{ev: 0.2}, ease: hold}", 6);
   EXPECT_GT(flash.stops.change, kStops.change);
   const Motion camera =
       motion("camera: {look_at: motion}}", "camera: {look_at: motion}, ease: hold}", 77);
