@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
+#include <mutex>
 #include <vector>
 
 #include "pipeline/colour/colour_space.h"
@@ -118,24 +120,69 @@ bool changes_anything(const GradeSettings& s) {
   return s.slope != ones || s.offset != zeros || s.power != ones || s.saturation != 1;
 }
 
-ocio::TransformRcPtr space_change(const char* from, const char* to) {
-  auto change = ocio::ColorSpaceTransform::Create();
-  change->setSrc(from);
-  change->setDst(to);
-  return change;
+using Direction = ocio::TransformDirection;
+
+void append_builtin(ocio::GroupTransform& group, const char* style,
+                    Direction direction = ocio::TRANSFORM_DIR_FORWARD) {
+  auto builtin = ocio::BuiltinTransform::Create();
+  builtin->setStyle(style);
+  builtin->setDirection(direction);
+  group.appendTransform(builtin);
 }
 
-// Appends the CDL in the configuration's space for colour timing, which is ACEScct in the shipped
-// one.
+constexpr const char *kToAp0 = "ACEScg_to_ACES2065-1", *kAcescct = "ACEScct_to_ACES2065-1";
+
+// Appends the CDL in ACEScct, which OpenColorIO knows whatever the configuration has.
 void append_cdl(ocio::GroupTransform& group, const GradeSettings& settings) {
   auto cdl = ocio::CDLTransform::Create();
   cdl->setSlope(settings.slope.data());
   cdl->setOffset(settings.offset.data());
   cdl->setPower(settings.power.data());
   cdl->setSat(settings.saturation);
-  group.appendTransform(space_change(kWorkingSpaceName, ocio::ROLE_COLOR_TIMING));
+  append_builtin(group, kToAp0);
+  append_builtin(group, kAcescct, ocio::TRANSFORM_DIR_INVERSE);
   group.appendTransform(cdl);
-  group.appendTransform(space_change(ocio::ROLE_COLOR_TIMING, kWorkingSpaceName));
+  append_builtin(group, kAcescct);
+  append_builtin(group, kToAp0, ocio::TRANSFORM_DIR_INVERSE);
+}
+
+bool names_acescg(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.find("acescg") != std::string::npos;
+}
+
+// Appends what takes the working space to a space of the configuration, and returns that space.
+// What a role for interchange names is exact.  Older configurations have none, and of these
+// scene_linear is ACEScg if it is called so, and linear Rec.709 otherwise, as in those that were
+// shipped with compositing programs.
+std::string append_change_to(ocio::GroupTransform& group, const ocio::Config& config,
+                             const std::string& file) {
+  if (config.hasRole(ocio::ROLE_INTERCHANGE_SCENE)) {
+    append_builtin(group, kToAp0);
+    return ocio::ROLE_INTERCHANGE_SCENE;
+  }
+  if (const auto space = config.getColorSpace(kWorkingSpaceName)) return space->getName();
+  if (config.hasRole(ocio::ROLE_INTERCHANGE_DISPLAY)) {
+    append_builtin(group, kToAp0);
+    append_builtin(group, "UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD");
+    return ocio::ROLE_INTERCHANGE_DISPLAY;
+  }
+  if (!config.hasRole(ocio::ROLE_SCENE_LINEAR))
+    throw InputError(file +
+                     ": has none of the roles aces_interchange, cie_xyz_d65_interchange and "
+                     "scene_linear, by one of which frames would enter it");
+  const auto linear = config.getColorSpace(ocio::ROLE_SCENE_LINEAR);
+  if (!names_acescg(linear->getName()))
+    append_builtin(group, "UTILITY - ACES-AP1_to_LINEAR-REC709_BFD");
+  return linear->getName();
+}
+
+// What a view shows of data, such as Raw, are the frame's own values.
+bool is_data(const ocio::Config& config, const std::string& display, const std::string& view) {
+  const auto space =
+      config.getColorSpace(config.getDisplayViewColorSpaceName(display.c_str(), view.c_str()));
+  return space && space->isData();
 }
 
 struct View {
@@ -150,7 +197,12 @@ View chosen_view(const ocio::ConstConfigRcPtr& config, const GradeSettings& sett
   auto group = ocio::GroupTransform::Create();
   if (changes_anything(settings)) append_cdl(*group, settings);
   auto view = ocio::DisplayViewTransform::Create();
-  view->setSrc(kWorkingSpaceName);
+  // From one space of data to another nothing is changed.
+  const std::string source =
+      is_data(*config, chosen.display, chosen.name)
+          ? config->getDisplayViewColorSpaceName(chosen.display.c_str(), chosen.name.c_str())
+          : append_change_to(*group, *config, settings.config.string());
+  view->setSrc(source.c_str());
   view->setDisplay(chosen.display.c_str());
   view->setView(chosen.name.c_str());
   group->appendTransform(view);

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <csignal>
 #include <cstring>
 
+#include "pipeline/colour/colour_space.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/grade/trial.h"
 #include "pipeline/image/errors.h"
@@ -54,6 +56,62 @@ TEST_F(StrangeConfig, ThatIsSoundIsTriedAndUsed) {
   HalfFrame frame(1, 1);
   for (int c = 0; c < 3; ++c) frame.row(0)[c] = 0.5f;
   EXPECT_NEAR(grader.grade(frame).row(0)[0], 16384, 1);
+}
+
+// A configuration of one linear space of its own, whose view shows it as it is.
+class ConfigByRoles : public TestFolder {
+ protected:
+  std::array<double, 3> graded(const std::string& roles, const std::string& transform,
+                               const std::string& name = "scene") const {
+    GradeSettings settings;
+    settings.config = folder_ / "config.ocio";
+    put(settings.config, "ocio_profile_version: 2\nroles: {default: raw, " + roles +
+                             "}\ndisplays: {Dome: [!<View> {name: Plain, colorspace: shown}]}\n"
+                             "colorspaces:\n"
+                             "  - !<ColorSpace> {name: reference}\n"
+                             "  - !<ColorSpace> {name: raw, isdata: true}\n"
+                             "  - !<ColorSpace> {name: " +
+                             name + transform +
+                             "}\n"
+                             "  - !<ColorSpace> {name: shown}\n");
+    HalfFrame frame(1, 1);
+    frame.pixels = {Imath::half(0.5f), Imath::half(0.25f), Imath::half(0.125f)};
+    const GradedFrame out = Grader(settings).grade(frame);
+    return {out.pixels[0] / 65535.0, out.pixels[1] / 65535.0, out.pixels[2] / 65535.0};
+  }
+  static constexpr std::array<double, 3> kFrame{0.5, 0.25, 0.125};
+
+  static void expect_near(const std::array<double, 3>& found,
+                          const std::array<double, 3>& expected) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 3e-4) << c;
+  }
+};
+
+// The reference is AP0, and what is shown is the reference: the matrix is S-2014-004's.
+TEST_F(ConfigByRoles, IsEnteredByTheInterchangeSpace) {
+  const std::array<double, 3> ap0{0.6954522414 * 0.5 + 0.1406786965 * 0.25 + 0.1638690622 * 0.125,
+                                  0.0447945634 * 0.5 + 0.8596711185 * 0.25 + 0.0955343182 * 0.125,
+                                  -0.0055258826 * 0.5 + 0.0040252103 * 0.25 + 1.0015006723 * 0.125};
+  expect_near(graded("aces_interchange: reference, scene_linear: scene", ""), ap0);
+  // A space that is called ACEScg and is none is not asked.
+  expect_near(graded("aces_interchange: reference, scene_linear: ACEScg", "", "ACEScg"), ap0);
+}
+
+TEST_F(ConfigByRoles, WithoutInterchangeIsEnteredByItsSceneLinearSpace) {
+  // ACEScg by its name, in a role.
+  expect_near(graded("scene_linear: ACES - ACEScg", "", "ACES - ACEScg"), kFrame);
+  // And linear Rec.709 by any other.
+  const Imath::M33d rec709 = working_from_rec709().inverse();
+  std::array<double, 3> expected{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      expected[static_cast<std::size_t>(i)] += rec709[i][j] * kFrame[static_cast<std::size_t>(j)];
+  expect_near(graded("scene_linear: linear", "", "linear"), expected);
+}
+
+TEST_F(ConfigByRoles, WithoutAnyIsRefused) {
+  EXPECT_THAT([&] { graded("color_picking: scene", ""); },
+              ThrowsMessage<InputError>(HasSubstr("has none of the roles aces_interchange")));
 }
 
 // It follows the circle until its stack is full.
