@@ -137,7 +137,7 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:31: sky.region_IV.background must be milky_way, grid, black or rings or an image file, "
        "got 'gird'; did you mean grid?"},
       {"BlackOfAGrid", kShow + "sky: {region_I: {background: grid, black_cd_m2: 1e-5}}\n",
-       "3:45: sky.region_I.black_cd_m2 is the black of a map; the background must be milky_way, a "
+       "3:49: sky.region_I.black_cd_m2 is the black of a map; the background must be milky_way, a "
        ".sky file or an image"},
       {"BlackOfRings", kShow + "sky: {region_IV: {background: rings, black_cd_m2: auto}}\n",
        "3:51: sky.region_IV.black_cd_m2 is the black of a map; the background must be milky_way, a "
