@@ -221,10 +221,21 @@ class Run {
     }
     if (other.valid()) other.get();
     if (run_.explain)
-      std::fprintf(
-          stderr,
-          "frame %d: linear file %.3f s, graded file %.3f s, %.3f s of it waiting for the grade\n",
-          state.frame, linear_s, graded_s, grade_s);
+      std::fprintf(stderr,
+                   "frame %d: linear file %.3f s, graded file %.3f s, %.3f s of it waiting for the "
+                   "grade\n%s",
+                   state.frame, linear_s, graded_s, grade_s,
+                   graded ? describe_grade(frame).c_str() : "");
+  }
+
+  // By what the frame was graded, and how exactly.
+  std::string describe_grade(const HalfFrame& frame) const {
+    const auto table = grader_->table_error(frame);
+    if (!table) return "grade by formulas\n";
+    constexpr double kCodes = 4095;
+    return fmt::format(
+        "grade by a table, to {:.2f} of a 12-bit code; {:.1f} % of it left to the formulas\n",
+        kCodes * table->error, 100 * (1 - table->held));
   }
 
   // Writes a graded file, of which some rows are graded while those before are packed.  Returns the

@@ -12,6 +12,7 @@
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/grade/config_check.h"
+#include "pipeline/grade/grade_table.h"
 #include "pipeline/grade/trial.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -63,8 +64,45 @@ void fill_black(unsigned short* row, int begin, int end, const Code& black) {
 }  // namespace
 
 struct Grader::Processor {
-  ocio::ConstCPUProcessorRcPtr cpu;
+  ocio::ConstCPUProcessorRcPtr cpu;     // from half floats to 16 bits
+  ocio::ConstCPUProcessorRcPtr floats;  // the same for floats
   Code black;
+
+  Processor(ocio::ConstCPUProcessorRcPtr halves, ocio::ConstCPUProcessorRcPtr of_floats,
+            Code of_black)
+      : cpu(std::move(halves)), floats(std::move(of_floats)), black(of_black) {}
+
+  mutable std::once_flag tabulated;
+  mutable std::optional<GradeTable> table;
+
+  const GradeTable& made_table() const {
+    std::call_once(tabulated, [this] {
+      table.emplace([this](const float* rgb, int pixels, float* codes) {
+        std::copy_n(rgb, 3 * pixels, codes);
+        ocio::PackedImageDesc image(codes, pixels, 1, 3);
+        floats->apply(image);
+      });
+    });
+    return *table;
+  }
+
+  // Grades a row by the table, and by the formulas what it does not hold.
+  void look_up(const Imath::half* in, int pixels, unsigned short* out) const {
+    constexpr int kMost = GradeTable::kMostPixels;
+    const GradeTable& by = made_table();
+    std::array<unsigned short, 3 * kMost + 1> codes;
+    std::array<int, kMost> missed;
+    std::array<Imath::half, 3 * kMost> rest;
+    for (int first = 0; first < pixels; first += kMost, in += 3 * kMost, out += 3 * kMost) {
+      const int count = std::min(kMost, pixels - first);
+      const int misses = by.look_up(in, count, codes.data(), missed.data());
+      std::copy_n(codes.begin(), 3 * count, out);
+      if (misses == 0) continue;
+      for (int k = 0; k < misses; ++k) std::copy_n(in + 3 * missed[k], 3, &rest[3 * k]);
+      apply(*cpu, rest.data(), codes.data(), misses);
+      for (int k = 0; k < misses; ++k) std::copy_n(&codes[3 * k], 3, out + 3 * missed[k]);
+    }
+  }
 };
 
 namespace {
@@ -252,18 +290,35 @@ Grader::Grader(const GradeSettings& settings) {
     transform_id_ = processor->getCacheID();
     const auto cpu = processor->getOptimizedCPUProcessor(
         ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
-    processor_ = std::make_shared<const Processor>(Processor{cpu, graded_black(*cpu)});
+    const auto floats = processor->getOptimizedCPUProcessor(
+        ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_DEFAULT);
+    processor_ = std::make_shared<const Processor>(cpu, floats, graded_black(*cpu));
   });
 }
 
+bool Grader::by_table(const HalfFrame& in) {
+  constexpr long kMany = 1L << 21;
+  return static_cast<long>(in.width) * in.height >= kMany;
+}
+
+std::optional<TableError> Grader::table_error(const HalfFrame& in) const {
+  if (!by_table(in)) return std::nullopt;
+  const GradeTable& table = processor_->made_table();
+  return TableError{table.error(), table.held()};
+}
+
 // The corners of a domemaster, a fifth of it, are black, and black is graded once: only the columns
-// from a row's first light to its last go through the processor.
+// from a row's first light to its last are graded one by one.
 void Grader::grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out) const {
+  const bool table = by_table(in);
   for (int y = y0; y < y1; ++y, out += static_cast<std::ptrdiff_t>(3) * in.width) {
     const Lit lit = lit_columns(in.row(y), in.width);
     fill_black(out, 0, lit.begin, processor_->black);
-    if (lit.begin < lit.end)
-      apply(*processor_->cpu, in.row(y) + 3 * lit.begin, out + 3 * lit.begin, lit.end - lit.begin);
+    const int pixels = lit.end - lit.begin;
+    if (table)
+      processor_->look_up(in.row(y) + 3 * lit.begin, pixels, out + 3 * lit.begin);
+    else if (pixels > 0)
+      apply(*processor_->cpu, in.row(y) + 3 * lit.begin, out + 3 * lit.begin, pixels);
     fill_black(out, lit.end, in.width, processor_->black);
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "pipeline/grade/grade_settings.h"
@@ -9,14 +10,19 @@
 
 namespace domefall {
 
+// What is known of a grade by table.
+struct TableError {
+  double error;  // the largest one measured, as a part of white
+  double held;   // the part of the table's cells that were not left out for a larger one
+};
+
 // The grade of a show.  It takes ACEScg through the show's ASC CDL in ACEScct, unless that changes
 // nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
-// rounded.  A pixel depends on its own input alone.  Copies share one processor, and any number of
-// threads may use it.
+// rounded.  A pixel depends on its own input and the frame's size alone.  Copies share one
+// processor, and any number of threads may use it.
 //
-// One thread of a 2-core machine took 0.6 s for a domemaster of 4096 pixels by the shipped view
-// Dome (27 million pixels a second), 1.5 s by ACES SDR, 0.4 s by Star log and 0.3 s by
-// Un-tone-mapped.
+// Frames of 2^21 pixels and more, from 2k domes on, are graded by a table (grade_table.h), which is
+// made when the first one comes.
 class Grader {
  public:
   // A configuration that is not the shipped one is first read in a process of its own (trial.h),
@@ -33,6 +39,10 @@ class Grader {
   // Grades the whole frame on the calling thread.
   GradedFrame grade(const HalfFrame& in) const;
 
+  // How far a table's grade of such a frame is from the formulas; nothing for one that is graded by
+  // the formulas.
+  std::optional<TableError> table_error(const HalfFrame& in) const;
+
   // A digest of what it does to a pixel: of all transforms and of the contents of the files they
   // read.
   const std::string& transform_id() const { return transform_id_; }
@@ -42,6 +52,8 @@ class Grader {
   const std::string& view() const { return view_; }
 
  private:
+  static bool by_table(const HalfFrame& in);
+
   struct Processor;
   std::shared_ptr<const Processor> processor_;
   std::string display_, view_, transform_id_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -92,6 +93,53 @@ TEST(Grader, ACdlOffsetOfOneStopIsOneStop) {
                     graded = Grader(brighter).grade(greys());
   for (int i = 10; i < 15; ++i)
     EXPECT_NEAR(graded.row(0)[3 * i], plain.row(0)[3 * (i + 1)], 20) << i;
+}
+
+// Rows of colours from a red star's to a hot one's, of all brightness, and some that no star has.
+constexpr int kColouredRows = 48;
+void put_colours(HalfFrame& frame) {
+  for (int y = 0; y < kColouredRows; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const float v = std::exp2(static_cast<float>(x) / 80 - 14);
+      const float hue = static_cast<float>(y) / (kColouredRows - 1);  // from red to blue
+      Imath::half* rgb = frame.row(y) + 3 * x;
+      rgb[0] = v * (1 - 0.7f * hue);
+      rgb[1] = v * (0.6f + 0.2f * std::sin(6 * hue));
+      rgb[2] = v * (0.05f + 0.95f * hue);
+    }
+  for (int x = 0; x < frame.width; x += 7) frame.row(11)[3 * x + 1] = frame.row(11)[3 * x];
+  frame.row(13)[0] = -1.0f, frame.row(13)[4] = HUGE_VALF;
+}
+
+// The bound is half a step of 12 bits, 8 of 65535.  A small frame is graded by the formulas.
+TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
+  HalfFrame large(2048, 1024), small(2048, kColouredRows);
+  put_colours(large);
+  put_colours(small);
+  for (const char* view : {"Dome", "ACES SDR"}) {
+    const Grader grader(shipped(view));
+    ASSERT_FALSE(grader.table_error(small));
+    const auto table = grader.table_error(large);
+    ASSERT_TRUE(table);
+    EXPECT_LT(table->error, 0.5 / 4095) << view;
+    EXPECT_GT(table->held, 0.4) << view;
+    const GradedFrame exact = grader.grade(small), quick = grader.grade(large);
+    int worst = 0;
+    for (std::size_t k = 0; k < exact.pixels.size(); ++k)
+      worst = std::max(worst, std::abs(exact.pixels[k] - quick.pixels[k]));
+    EXPECT_LE(worst, 8) << view;
+  }
+}
+
+TEST(LargeFrames, HaveTheSameBytesForAnySplitIntoRows) {
+  HalfFrame large(2048, 1024);
+  put_colours(large);
+  const Grader grader(shipped());
+  const GradedFrame whole = grader.grade(large);
+  GradedFrame parts(large.width, large.height);
+  for (int y = 0; y < large.height; y += 10)
+    grader.grade_rows(large, y, std::min(y + 10, large.height), parts.row(y));
+  EXPECT_EQ(whole.pixels, parts.pixels);
 }
 
 TEST(Grader, IsTheSameWhateverTheUserSetForOtherPrograms) {

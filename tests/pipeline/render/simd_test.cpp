@@ -149,7 +149,7 @@ Bytes grid_of(const Show& show, const SkyMap& map) {
   const FrameState state = frame_state(show, 0);
   const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;
   const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
-  const Sky sky{std::make_shared<const SkyMap>(map), nullptr};
+  const Sky sky{std::make_shared<const SkyMap>(map), nullptr, {}};
   const FrameScene scene = scene_with(show, state, optics, {&sky, &sky, nullptr});
   const PixelShader shader(scene);
   RayGrid grid;
