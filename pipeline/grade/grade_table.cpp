@@ -16,16 +16,22 @@
 namespace domefall {
 namespace {
 
-constexpr int kRatios = 17, kStep = 32, kInfinity = 0x7c00;
+constexpr int kGreys = 21, kHues = 9, kOrders = 6, kStep = 32, kInfinity = 0x7c00;
 constexpr int kLargest = kInfinity / kStep + 1;  // nodes of the largest channel
-constexpr int kColumns = 3 * kRatios * kRatios;
-constexpr int kInner = kRatios - 2;  // nodes with a neighbour on either side
-constexpr int kCellColumns = 3 * kInner * kInner, kCells = kLargest - 1;
-constexpr float kLeastRatio = 0.25f, kLeastRoot = 0.5f;  // and its square root
-constexpr float kRootScale = (kRatios - 1) / (1 - kLeastRoot);
+constexpr int kColumns = kOrders * kGreys * kHues;
+// Nodes with a neighbour on either side.
+constexpr int kInnerGreys = kGreys - 2, kInnerHues = kHues - 2;
+constexpr int kCellColumns = kOrders * kInnerGreys * kInnerHues, kCells = kLargest - 1;
+constexpr float kLeastGrey = 0.25f, kLeastRoot = 0.5f;  // and its square root
+constexpr float kRootScale = (kGreys - 1) / (1 - kLeastRoot), kHueScale = kHues - 1;
 constexpr float kWhite = 65535;
 
-int column_of(int face, int i, int j) { return (face * kRatios + i) * kRatios + j; }
+// The channels from the largest to the least, for each order: its number is that of
+// (r >= g) + 2 (g >= b) + 4 (b >= r), less 1.
+constexpr int kChannels[kOrders][3] = {{0, 2, 1}, {1, 0, 2}, {0, 1, 2},
+                                       {2, 1, 0}, {2, 0, 1}, {1, 2, 0}};
+
+int column_of(int order, int i, int j) { return (order * kGreys + i) * kHues + j; }
 
 float value_of(int bits) {
   Imath::half h;
@@ -33,55 +39,57 @@ float value_of(int bits) {
   return h;
 }
 
-float ratio_at(double node) {
-  const double root = kLeastRoot + node / static_cast<double>(kRootScale);
-  return static_cast<float>(root * root);
+// A pixel by its largest channel and by its place between nodes.
+void put_pixel(int order, float largest, float grey, float hue, float* rgb) {
+  const float root = kLeastRoot + grey / kRootScale, least = root * root * largest;
+  rgb[kChannels[order][0]] = largest;
+  rgb[kChannels[order][1]] = least + hue / kHueScale * (largest - least);
+  rgb[kChannels[order][2]] = least;
 }
 
-// A pixel whose largest channel is number `face`, and whose next ones have these ratios to it.
-void put_pixel(int face, float largest, float first, float second, float* rgb) {
-  rgb[face] = largest;
-  rgb[(face + 1) % 3] = first * largest;
-  rgb[(face + 2) % 3] = second * largest;
-}
-
-// Where pixels fall in the table: the middle one of three nodes of each ratio, and how far from it.
+// Where pixels fall in the table: the middle one of three nodes each way, and how far from it.
 struct Places {
   static constexpr int kSize = GradeTable::kMostPixels;
   alignas(64) std::array<std::int32_t, kSize> node, cell, outside, black;
-  alignas(64) std::array<float, kSize> first, second, largest;  // in steps from node to node
+  alignas(64) std::array<float, kSize> grey, hue, largest;  // in steps from node to node
 };
+
+// Shifted, a half's bits are those of a float that is 2^112 times too small.
+[[gnu::always_inline]] inline float value_of_half(std::int32_t bits) {
+  return std::bit_cast<float>(bits << 13) * 0x1p112f;
+}
+
+[[gnu::always_inline]] inline std::int32_t within(std::int32_t node, std::int32_t most) {
+  const std::int32_t bounded = node < most ? node : most;
+  return bounded > 1 ? bounded : 1;
+}
 
 [[gnu::always_inline]] inline void locate_loop(const std::uint16_t* __restrict rgb, int count,
                                                Places& __restrict places) {
   for (int k = 0; k < count; ++k) {
     const std::int32_t r = rgb[3 * k], g = rgb[3 * k + 1], b = rgb[3 * k + 2];
-    const std::int32_t rg = r > g ? r : g, most = rg > b ? rg : b;
-    const bool is_r = r == most, is_g = !is_r & (g == most);
-    const std::int32_t face = is_r ? 0 : is_g ? 1 : 2;
-    const std::int32_t first = is_r ? g : is_g ? b : r, second = is_r ? b : is_g ? r : g;
-    // Shifted, a half's bits are those of a float that is 2^112 times too small.
-    const float m = std::bit_cast<float>(most << 13) * 0x1p112f;
-    const float inverse = 1 / (m > 0 ? m : 1.0f);
-    const float one = m > 0 ? std::bit_cast<float>(first << 13) * 0x1p112f * inverse : 1.0f;
-    const float two = m > 0 ? std::bit_cast<float>(second << 13) * 0x1p112f * inverse : 1.0f;
-    const float x = (__builtin_sqrtf(one) - kLeastRoot) * kRootScale;
-    const float y = (__builtin_sqrtf(two) - kLeastRoot) * kRootScale;
-    const bool inside = (one >= kLeastRatio) & (two >= kLeastRatio) & (most < kInfinity);
+    const std::int32_t more = r > g ? r : g, less = r > g ? g : r;
+    const std::int32_t most = more > b ? more : b, least = less < b ? less : b;
+    const std::int32_t middle = r + g + b - most - least;
+    const std::int32_t code = (r >= g ? 1 : 0) + (g >= b ? 2 : 0) + (b >= r ? 4 : 0);
+    const std::int32_t order = code < kOrders ? code - 1 : kOrders - 1;
+    const float high = value_of_half(most), low = value_of_half(least);
+    const float span = high - low;
+    const float ratio = high > 0 ? low / (high > 0 ? high : 1.0f) : 1.0f;
+    const bool inside = (ratio >= kLeastGrey) & (most < kInfinity);
+    const float x = (__builtin_sqrtf(ratio) - kLeastRoot) * kRootScale;
+    const float y = (value_of_half(middle) - low) / (span > 0 ? span : 1.0f) * kHueScale;
     const float u = inside ? x : 0.0f, v = inside ? y : 0.0f;
     const std::int32_t magnitude = inside ? most : 0;
-    std::int32_t i = static_cast<std::int32_t>(u + 0.5f), j = static_cast<std::int32_t>(v + 0.5f);
-    i = i < kInner ? i : kInner;
-    j = j < kInner ? j : kInner;
-    i = i > 1 ? i : 1;
-    j = j > 1 ? j : 1;
+    const std::int32_t i = within(static_cast<std::int32_t>(u + 0.5f), kInnerGreys);
+    const std::int32_t j = within(static_cast<std::int32_t>(v + 0.5f), kInnerHues);
     const std::int32_t n = magnitude / kStep;
-    places.node[k] = ((face * kRatios + i) * kRatios + j) * kLargest + n;
-    places.cell[k] = ((face * kInner + i - 1) * kInner + j - 1) * kCells + n;
+    places.node[k] = ((order * kGreys + i) * kHues + j) * kLargest + n;
+    places.cell[k] = ((order * kInnerGreys + i - 1) * kInnerHues + j - 1) * kCells + n;
     places.outside[k] = inside ? 0 : 1;
     places.black[k] = most == 0 ? 1 : 0;
-    places.first[k] = u - static_cast<float>(i);
-    places.second[k] = v - static_cast<float>(j);
+    places.grey[k] = u - static_cast<float>(i);
+    places.hue[k] = v - static_cast<float>(j);
     places.largest[k] = static_cast<float>(magnitude % kStep) * (1.0f / kStep);
   }
 }
@@ -111,12 +119,12 @@ struct Parabola {
   row = a * w.before + b * w.middle + c * w.after;
 }
 
-// The code of a pixel, plus 0.5, in units of 1/65535: parabolas in the ratios, a line in the
+// The code of a pixel, plus 0.5, in units of 1/65535: parabolas in grey and hue, a line in the
 // largest channel.
-[[gnu::always_inline]] inline void interpolate(const float* middle, float first, float second,
+[[gnu::always_inline]] inline void interpolate(const float* middle, float grey, float hue,
                                                float largest, Node& code) {
-  constexpr int kRow = 4 * kLargest * kRatios;
-  const Parabola across = parabola(second), along = parabola(first);
+  constexpr int kRow = 4 * kLargest * kHues;
+  const Parabola across = parabola(hue), along = parabola(grey);
   Lanes a, b, c;
   load_row(middle - kRow, across, a);
   load_row(middle, across, b);
@@ -138,8 +146,8 @@ struct Parabola {
   using Words __attribute__((vector_size(16))) = std::uint16_t;
   for (int k = 0; k < count; ++k, out += 3) {
     Node code;
-    interpolate(nodes + 4 * static_cast<std::ptrdiff_t>(places.node[k]), places.first[k],
-                places.second[k], places.largest[k], code);
+    interpolate(nodes + 4 * static_cast<std::ptrdiff_t>(places.node[k]), places.grey[k],
+                places.hue[k], places.largest[k], code);
     const Integers whole = __builtin_convertvector(code, Integers);
     Words words;
     std::memcpy(&words, &whole, sizeof words);
@@ -170,14 +178,14 @@ void for_all(int count, const Step& step) {
 // Where a cell is compared: in steps from its middle node, and of the largest channel in half
 // floats' steps.
 struct Probe {
-  float first, second;
+  float grey, hue;
   int largest;
 };
 constexpr std::array kProbes{Probe{0.5f, 0.5f, kStep / 2}, Probe{-0.5f, 0.5f, kStep / 4},
                              Probe{0.5f, -0.5f, 3 * kStep / 4}, Probe{-0.5f, -0.5f, kStep / 2},
                              Probe{0, 0, kStep / 2}};
 // Between the probes an error may be larger than at them.
-constexpr double kProbedPart = 0.6;
+constexpr double kProbedPart = 0.8;
 
 }  // namespace
 
@@ -186,11 +194,11 @@ struct GradeTable::Fill {
   GradeTable& table;
 
   void nodes(int column) const {
-    const int face = column / (kRatios * kRatios), i = column / kRatios % kRatios,
-              j = column % kRatios;
+    const int order = column / (kGreys * kHues), i = column / kHues % kGreys, j = column % kHues;
     std::vector<float> rgb(3 * kLargest), codes(3 * kLargest);
     for (int n = 0; n < kLargest; ++n)
-      put_pixel(face, value_of(n * kStep), ratio_at(i), ratio_at(j), &rgb[3 * n]);
+      put_pixel(order, value_of(n * kStep), static_cast<float>(i), static_cast<float>(j),
+                &rgb[3 * n]);
     formulas(rgb.data(), kLargest, codes.data());
     float* out = &table.nodes_[static_cast<std::size_t>(4 * column) * kLargest];
     for (int n = 0; n < kLargest; ++n, out += 4)
@@ -199,21 +207,20 @@ struct GradeTable::Fill {
 
   // Sets errors[n] to the largest error at the probes of the cells of a column.
   void compare(int column, float* errors) const {
-    const int face = column / (kInner * kInner), i = column / kInner % kInner + 1,
-              j = column % kInner + 1;
+    const int order = column / (kInnerGreys * kInnerHues),
+              i = column / kInnerHues % kInnerGreys + 1, j = column % kInnerHues + 1;
     const float* nodes =
-        &table.nodes_[static_cast<std::size_t>(4 * column_of(face, i, j)) * kLargest];
+        &table.nodes_[static_cast<std::size_t>(4 * column_of(order, i, j)) * kLargest];
     std::vector<float> rgb(3 * kCells), codes(3 * kCells);
     for (const Probe& probe : kProbes) {
       for (int n = 0; n < kCells; ++n)
-        put_pixel(face, value_of(n * kStep + probe.largest),
-                  ratio_at(static_cast<float>(i) + probe.first),
-                  ratio_at(static_cast<float>(j) + probe.second), &rgb[3 * n]);
+        put_pixel(order, value_of(n * kStep + probe.largest), static_cast<float>(i) + probe.grey,
+                  static_cast<float>(j) + probe.hue, &rgb[3 * n]);
       formulas(rgb.data(), kCells, codes.data());
       for (int n = 0; n < kCells; ++n) {
         Node code;
-        interpolate(nodes + 4 * n, probe.first, probe.second,
-                    static_cast<float>(probe.largest) / kStep, code);
+        interpolate(nodes + 4 * n, probe.grey, probe.hue, static_cast<float>(probe.largest) / kStep,
+                    code);
         for (int c = 0; c < 3; ++c)
           errors[n] = std::max(errors[n], std::abs((code[c] - 0.5f) / kWhite -
                                                    std::clamp(codes[3 * n + c], 0.0f, 1.0f)));
@@ -237,22 +244,23 @@ GradeTable::GradeTable(const Formulas& formulas)
 // A kink of the formulas passes through cells next to each other, and the probes of some of them
 // miss it.  So a cell is held only if its neighbours are as good.
 void GradeTable::hold(const std::vector<float>& errors) {
-  const auto worst_about = [&errors](int face, int i, int j, int n) {
+  const auto worst_about = [&errors](int order, int i, int j, int n) {
     float worst = 0;
-    for (int a = std::max(i - 1, 0); a <= std::min(i + 1, kInner - 1); ++a)
-      for (int b = std::max(j - 1, 0); b <= std::min(j + 1, kInner - 1); ++b) {
-        const auto column = static_cast<std::size_t>((face * kInner + a) * kInner + b) * kCells;
+    for (int a = std::max(i - 1, 0); a <= std::min(i + 1, kInnerGreys - 1); ++a)
+      for (int b = std::max(j - 1, 0); b <= std::min(j + 1, kInnerHues - 1); ++b) {
+        const auto column =
+            static_cast<std::size_t>((order * kInnerGreys + a) * kInnerHues + b) * kCells;
         for (int m = std::max(n - 1, 0); m <= std::min(n + 1, kCells - 1); ++m)
           worst = std::max(worst, errors[column + static_cast<std::size_t>(m)]);
       }
     return worst;
   };
   std::size_t held = 0, cell = 0;
-  for (int face = 0; face < 3; ++face)
-    for (int i = 0; i < kInner; ++i)
-      for (int j = 0; j < kInner; ++j)
+  for (int order = 0; order < kOrders; ++order)
+    for (int i = 0; i < kInnerGreys; ++i)
+      for (int j = 0; j < kInnerHues; ++j)
         for (int n = 0; n < kCells; ++n, ++cell) {
-          if (!(worst_about(face, i, j, n) <= kProbedPart * kMostError)) continue;
+          if (!(worst_about(order, i, j, n) <= kProbedPart * kMostError)) continue;
           holds_[cell] = 1;
           ++held;
           error_ = std::max<double>(error_, errors[cell]);
