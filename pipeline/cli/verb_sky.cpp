@@ -26,7 +26,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 // V that is fainter than every catalogue's last star.
-constexpr double kEveryStar = 30;
+constexpr double kEveryStar = 40;
 
 struct BuildOptions {
   std::string stars, out;
@@ -69,7 +69,7 @@ void build(const BuildOptions& o) {
       stars.size(), o.fainter_than, o.blur_deg, o.smooth_to, o.gain,
       std::filesystem::path(o.stars).filename().string());
   NewSkyFile file(out.path(), SkyMapKind::kThermal, sky_unit(o.gain * light.greatest()), size,
-                  {about, std::nullopt});
+                  {about, std::nullopt, o.fainter_than});
   light.write(file.pyramid(), o.gain);
   file.finish();
   out.finish();
@@ -128,8 +128,7 @@ void add_info(CLI::App& sky) {
   verb->callback([file, verify] { info(*file, *verify); });
 }
 
-// The stars to check with: those named or, where none are, the naked-eye stars that come with
-// Domefall.
+// The stars to check with: those named or, where none are, those that come with Domefall.
 StarCatalogue check_stars(const std::string& file) {
   if (!file.empty()) require_file(file);
   return read_star_catalogue(file.empty() ? shipped_asset(kNakedEyeStars).string() : file,
@@ -153,7 +152,7 @@ void add_check_of_sky(CLI::App& sky) {
       "check", "Tell by stars and Milky Way whether a map lies on the sky as it is said to");
   auto file = std::make_shared<std::string>(), stars = std::make_shared<std::string>();
   verb->add_option("FILE", *file, "a .sky file, or a panorama as shows take it")->required();
-  verb->add_option("--stars", *stars, "a catalogue [the naked-eye stars]");
+  verb->add_option("--stars", *stars, "a catalogue [that which comes with Domefall]");
   verb->callback([file, stars] { check_map(*file, *stars); });
 }
 
@@ -161,7 +160,7 @@ struct ImportOptions {
   SkyImport import;
   std::string image, out, projection = "auto", frame, licence, stars;
   bool left = false, right = false, linear = false, srgb = false, cmb = false;
-  double unit = 0;
+  double unit = 0, fainter_than = kEveryStar;
   CmbSettings background;
 };
 
@@ -180,6 +179,7 @@ SkyImport import_of(const ImportOptions& o) {
   if (o.srgb) import.encoding = PixelEncoding::kSrgb;
   if (o.unit > 0) import.unit = o.unit;
   if (o.cmb) import.cmb = o.background;
+  if (o.fainter_than < kEveryStar) import.fainter_than = o.fainter_than;
   if (!o.licence.empty()) import.text = "licence: " + o.licence + "\n";
   return import;
 }
@@ -244,10 +244,14 @@ void add_import(CLI::App& sky) {
   verb->add_flag("--srgb", o->srgb, "values are sRGB-encoded [integers are]")->excludes(linear);
   verb->add_option("--size", o->import.size,
                    "texels along a cube face, a power of two [as fine as the picture]");
+  verb->add_option("--fainter-than", o->fainter_than,
+                   "it holds the light of stars fainter than this V, and of no others [unknown]")
+      ->check(number_in(-30.0, kEveryStar));
   verb->add_option("--column", o->import.column, "of a HEALPix file")->capture_default_str();
   add_cmb(*verb, *o);
   verb->add_option("--licence", o->licence, "a line to keep in the file: credit and terms");
-  verb->add_option("--stars", o->stars, "the catalogue to check with [the naked-eye stars]");
+  verb->add_option("--stars", o->stars,
+                   "the catalogue to check with [that which comes with Domefall]");
   verb->callback([o] { import_map(*o); });
 }
 

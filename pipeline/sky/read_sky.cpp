@@ -37,7 +37,7 @@ constexpr std::uint64_t kReadWhole = std::uint64_t{256} << 20;
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
     const SkyFile opened(file);
-    if (opened.bytes() <= kReadWhole) opened.verify();
+    if (opened.bytes() <= kReadWhole) opened.verify(largest_face);
     return std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face));
   }
   return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));

@@ -26,8 +26,8 @@ bool is_fits(const std::filesystem::path& path) {
 }
 
 SkyOrigin origin_of(const SkyImport& import, const Orientation& orientation) {
-  return {fmt::format("source: {}\n{}", import.image.filename().string(), import.text),
-          orientation};
+  return {fmt::format("source: {}\n{}", import.image.filename().string(), import.text), orientation,
+          import.fainter_than};
 }
 
 Orientation import_panorama(const SkyImport& import) {

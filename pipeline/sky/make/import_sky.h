@@ -33,7 +33,8 @@ struct SkyImport {
   int size = 0;    // of a face; 0 for the image's own detail
   int column = 1;  // of a HEALPix file
   std::optional<CmbSettings> cmb;
-  std::string text;  // lines that are added to the file's own: licence, credit
+  std::string text;                    // lines that are added to the file's own: licence, credit
+  std::optional<double> fainter_than;  // SkyOrigin::fainter_than
 };
 
 // Writes the file and returns the orientation that it states.  Throws InputError naming the image

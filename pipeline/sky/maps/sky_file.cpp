@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -26,6 +27,22 @@ constexpr std::size_t kPage = 4096, kMostText = 65536;
 constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPicture = 8;
 
 constexpr std::string_view kExtension = ".sky";
+constexpr std::string_view kLimitLine = "stars: fainter than V = ";
+
+// Puts the limit into the text as its first line.
+SkyOrigin with_limit_line(SkyOrigin origin) {
+  if (origin.fainter_than)
+    origin.text = fmt::format("{}{:g}\n{}", kLimitLine, *origin.fainter_than, origin.text);
+  return origin;
+}
+
+std::optional<double> limit_of(std::string_view text) {
+  double limit = 0;
+  if (!text.starts_with(kLimitLine)) return std::nullopt;
+  text.remove_prefix(kLimitLine.size());
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), limit);
+  return read.ec == std::errc() && std::isfinite(limit) ? std::optional(limit) : std::nullopt;
+}
 
 struct Header {
   std::array<char, 8> magic = kMagic;
@@ -181,7 +198,7 @@ LevelEntry entry_of(const SkyLevel& level, const std::byte* file) {
 
 NewSkyFile::NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, double unit, int size,
                        SkyOrigin origin)
-    : origin_(std::move(origin)),
+    : origin_(with_limit_line(std::move(origin))),
       file_(std::make_shared<NewMappedFile>(path, file_bytes(size, origin_.text.size()))),
       pyramid_(kind, unit, lay_out(file_->data(), size, origin_.text.size()), file_) {
   if (origin_.text.size() > kMostText)
@@ -243,17 +260,18 @@ SkyFile::SkyFile(const Opened& opened)
       checksum_(opened.header.checksum),
       map_(static_cast<SkyMapKind>(opened.header.kind), opened.header.unit, opened.levels(),
            opened.file),
-      origin_{opened.text(), panorama_of(opened.header)} {
+      origin_{opened.text(), panorama_of(opened.header), limit_of(opened.text())} {
   face_checksums_.reserve(opened.entries.size());
   for (const LevelEntry& e : opened.entries) face_checksums_.push_back(e.checksum);
 }
 
 std::string SkyFile::digest() const { return fmt::format("{:016x}", checksum_); }
 
-void SkyFile::verify() const {
+void SkyFile::verify(int largest_face) const {
   for (std::size_t k = 0; k < face_checksums_.size(); ++k)
     for (int face = 0; face < 6; ++face) {
       const SkyLevel& level = map_.levels()[k];
+      if (level.size > largest_face) break;
       if (face_checksum(level, face) == face_checksums_[k][static_cast<std::size_t>(face)])
         continue;
       const auto* start = reinterpret_cast<const char*>(level.face(face));

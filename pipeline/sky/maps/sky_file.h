@@ -10,7 +10,8 @@
 //   16 u64      checksum of the header           4 south up, 8 not from a picture
 //   24 u64      bytes of the file       52  u32  bytes of the text    56  f64  centre_deg
 //   64 and on: per level u32 size, u32 0, u64 place in the file, 6 x u64 checksums of its faces;
-//   then the text (UTF-8, lines "source: ...", "licence: ..."), then zeros.
+//   then the text (UTF-8, lines "stars: fainter than V = ...", where that is known, "source: ...",
+//   "licence: ..."), then zeros.
 //
 // Checksums are XXH3, 64 bits.  That of the header is taken with 0 in its own place.
 #pragma once
@@ -35,6 +36,9 @@ namespace domefall {
 struct SkyOrigin {
   std::string text;                     // source and licence, for people; up to 64 KiB
   std::optional<Orientation> panorama;  // of the panorama it was made from, if it was one
+  // The map holds the light of stars fainter than this V, and of no others; nothing where that is
+  // not known.
+  std::optional<double> fainter_than = {};
 };
 
 // A file in the making.  Its user fills the finest level of pyramid(), border and all, then calls
@@ -75,9 +79,10 @@ class SkyFile {
   // the whole file in the keys of frames.
   std::string digest() const;
 
-  // Reads the whole file.  Throws InputError with file and byte of the first face whose checksum is
-  // off.
-  void verify() const;
+  // Reads the levels that have at most `largest_face` texels along an edge, which are all of them
+  // unless a limit is given.  Throws InputError with file and byte of the first face whose checksum
+  // is off.
+  void verify(int largest_face = kLargestFace) const;
 
  private:
   struct Opened;

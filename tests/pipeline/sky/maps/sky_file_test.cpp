@@ -57,6 +57,33 @@ class SkyFiles : public testing::Test {
       fs::temp_directory_path() / ("domefall_sky_files_" + std::to_string(getpid()));
 };
 
+TEST_F(SkyFiles, TheFaintestStarsThatAMapLeavesOutAreKept) {
+  for (const double limit : {9.0, 12.5, -1.0}) {
+    NewSkyFile file(folder_ / "limited.sky", SkyMapKind::kColour, 1, 4,
+                    {"source: a test\n", std::nullopt, limit});
+    file.finish();
+    EXPECT_EQ(SkyFile(folder_ / "limited.sky").origin().fainter_than, limit);
+  }
+  EXPECT_EQ(SkyFile(folder_ / "limited.sky").origin().text,
+            "stars: fainter than V = -1\nsource: a test\n");
+  write(folder_ / "unlimited.sky", 4);
+  EXPECT_FALSE(SkyFile(folder_ / "unlimited.sky").origin().fainter_than);
+}
+
+TEST_F(SkyFiles, OnlyTheLevelsThatAreUsedAreVerified) {
+  const fs::path path = folder_ / "fine.sky";
+  write(path, 64);
+  std::fstream damaged(path, std::ios::binary | std::ios::in | std::ios::out);
+  damaged.seekp(5000);  // in the finest level
+  damaged.put('x');
+  damaged.close();
+  const SkyFile file(path);
+  EXPECT_THROW(file.verify(), InputError);
+  EXPECT_NO_THROW(file.verify(32));
+  EXPECT_THROW(read_sky(path), InputError);
+  EXPECT_EQ(read_sky(path, 32)->levels().front().size, 32);
+}
+
 TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
   const fs::path path = folder_ / "map.sky";
   write(path, 32);
