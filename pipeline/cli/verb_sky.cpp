@@ -30,7 +30,7 @@ constexpr double kEveryStar = 40;
 
 struct BuildOptions {
   std::string stars, out;
-  double fainter_than = 6.5, blur_deg = 0.7, smooth_to = 10, gain = 1;
+  double fainter_than = 9, blur_deg = 0.7, smooth_to = 10, gain = 1;
   int size = 0;
 };
 
@@ -131,7 +131,7 @@ void add_info(CLI::App& sky) {
 // The stars to check with: those named or, where none are, those that come with Domefall.
 StarCatalogue check_stars(const std::string& file) {
   if (!file.empty()) require_file(file);
-  return read_star_catalogue(file.empty() ? shipped_asset(kNakedEyeStars).string() : file,
+  return read_star_catalogue(file.empty() ? shipped_asset(kStandardStars).string() : file,
                              kEveryStar);
 }
 

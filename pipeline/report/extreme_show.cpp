@@ -16,7 +16,7 @@ Show extreme_show(const Trajectory& trajectory, const Projection& projection,
   show.projection = projection;
   show.hole_at = {V3d(0, 0, 1)};
   show.sky[SkyRegion::kI].background = GridSky{};
-  show.sky[SkyRegion::kI].stars = StarField{shipped_asset(kNakedEyeStars), 5};
+  show.sky[SkyRegion::kI].stars = StarField{shipped_asset(kStandardStars), 5};
   show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   show.sky[SkyRegion::kIV].background = GridSky{};
   show.point_spread.min_sigma = 0.002;

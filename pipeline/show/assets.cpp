@@ -4,21 +4,40 @@
 #include <system_error>
 
 namespace domefall {
+namespace fs = std::filesystem;
+namespace {
 
-std::filesystem::path assets_folder() {
-  // getenv is safe among threads, since nothing in Domefall changes its environment.
-  if (const char* named = std::getenv("DOMEFALL_ASSETS"); named && *named)  // NOLINT
-    return named;
+// getenv is safe among threads, since nothing in Domefall changes its environment.
+fs::path named_folder() {
+  const char* named = std::getenv("DOMEFALL_ASSETS");  // NOLINT(concurrency-mt-unsafe)
+  return named ? named : "";
+}
+
+// The folder of the running program; empty where the system does not tell.
+fs::path program_folder() {
   std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    const auto prefix = program.parent_path().parent_path();
-    auto installed = prefix / "share" / "domefall" / "assets";
-    if (std::filesystem::is_directory(installed, error)) return installed;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+}  // namespace
+
+fs::path assets_folder() {
+  if (fs::path named = named_folder(); !named.empty()) return named;
+  std::error_code error;
+  if (const fs::path program = program_folder(); !program.empty()) {
+    fs::path installed = program.parent_path() / "share" / "domefall" / "assets";
+    if (fs::is_directory(installed, error)) return installed;
   }
   return DOMEFALL_SOURCE_ASSETS;
 }
 
-std::filesystem::path shipped_asset(std::string_view name) { return assets_folder() / name; }
+fs::path shipped_asset(std::string_view name) {
+  std::error_code error;
+  fs::path file = assets_folder() / name;
+  if (!named_folder().empty() || fs::exists(file, error)) return file;
+  for (const fs::path& folder : {program_folder() / "assets", fs::path(DOMEFALL_BUILT_ASSETS)})
+    if (fs::path built = folder / name; fs::exists(built, error)) return built;
+  return file;
+}
 
 }  // namespace domefall

@@ -13,7 +13,7 @@ namespace domefall {
 struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
-    double max_magnitude = 6.5;
+    double max_magnitude = 9;
     // True if the limit is keyframed.  Stars then fade in over the last half magnitude before it,
     // so that none appears at once.  Otherwise all up to the limit have their whole light.
     bool soft_limit = false;

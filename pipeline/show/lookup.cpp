@@ -44,9 +44,16 @@ std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name)
   return std::nullopt;
 }
 
+std::optional<fs::path> Lookup::deepest_stars(const Item& item) const {
+  if (auto found = find(std::string(kDeepestStars))) return found;
+  const fs::path among_assets = shipped_asset(kDeepestStars);
+  if (is_readable_file(among_assets)) return among_assets;
+  return shipped(item, kStandardStars);
+}
+
 bool Lookup::read_places(const Item& item, int table) {
   const bool stars = table == 0;
-  const auto file = shipped(item, stars ? kNakedEyeStars : kSkyPlaces);
+  const auto file = shipped(item, stars ? kStandardStars : kSkyPlaces);
   if (!file) return false;
   try {
     places_.add(stars ? read_star_catalogue(*file, std::numeric_limits<double>::infinity()).names

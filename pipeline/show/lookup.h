@@ -24,7 +24,11 @@ class Lookup {
   // it.
   std::optional<std::filesystem::path> shipped(const Item& item, std::string_view name) const;
 
-  // The place of a name: of a star of the shipped naked-eye catalogue, which is read when the first
+  // The catalogue that fetch_stars makes, beside the show, in the working folder or among the
+  // shipped files; where it is in none of them, the one that comes with Domefall.
+  std::optional<std::filesystem::path> deepest_stars(const Item& item) const;
+
+  // The place of a name: of a star of the shipped catalogue, which is read when the first
   // place is named, or else of the shipped table of places, which is read when a name is no star's.
   // `words` are what the item could have been besides, for the message about an unknown name.
   std::optional<SkyDirection> place(const Item& item, std::span<const std::string_view> words = {});

@@ -111,7 +111,7 @@ struct Segment {
 
 struct StarField {
   std::filesystem::path catalogue;
-  double max_magnitude = 6.5;
+  double max_magnitude = 9;
 };
 
 struct RegionSky {

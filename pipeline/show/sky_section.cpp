@@ -1,11 +1,13 @@
 #include "pipeline/show/sky_section.h"
 
 #include <array>
+#include <stdexcept>
 #include <system_error>
 
 #include "pipeline/show/assets.h"
 #include "pipeline/show/channel_values.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/make/panorama.h"
 #include "pipeline/sky/maps/sky_file.h"
 
@@ -15,6 +17,40 @@ namespace {
 std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   if (const auto file = lookup.shipped(item, kMilkyWay)) return PanoramaSky{*file};
   return std::nullopt;
+}
+
+// So many stars are those of V < 10.3.  With more of them, milky_way is the map that has no star of
+// kDeepestStars in it.
+constexpr std::size_t kDeepCount = 500'000;
+
+// What is asked of a catalogue's header.  A damaged one says nothing here: it is told when its stars
+// are read, with the byte.
+template <class Ask>
+auto of_header(const Ask& ask) -> decltype(ask()) {
+  try {
+    return ask();
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+// Gives a background that is the shipped Milky Way the map that suits the region's stars, so that
+// none is seen both as a star and in the map.
+void suit_milky_way(const Item& item, const Lookup& lookup, const std::optional<StarField>& stars,
+                    SkyBackground& background) {
+  auto* panorama = std::get_if<PanoramaSky>(&background);
+  if (!panorama) return;
+  const auto name = panorama->image.filename();
+  if ((name != kMilkyWay && name != kDeepMilkyWay) ||
+      panorama->image != shipped_asset(name.string()))
+    return;
+  std::size_t count = 0;
+  if (stars && !stars->catalogue.empty())
+    count = of_header([&] {
+              return star_file_count(stars->catalogue, stars->max_magnitude);
+            }).value_or(0);
+  if (const auto file = lookup.shipped(item, count > kDeepCount ? kDeepMilkyWay : kMilkyWay))
+    panorama->image = *file;
 }
 
 // Beyond these years a star's motion is no straight line.
@@ -46,12 +82,13 @@ std::optional<SkyBackground> read_background(const Item& item, const Lookup& loo
   return std::nullopt;
 }
 
-// Whether a background is an image that the show names, whose values have no unit of their own.
+// Whether a background is an image of the show's, whose values have no unit of their own.  Those
+// that come with Domefall have.
 bool is_own_image(const SkyBackground& background) {
   const auto* panorama = std::get_if<PanoramaSky>(&background);
   std::error_code error;
   return panorama &&
-         !std::filesystem::equivalent(panorama->image, shipped_asset(kMilkyWay), error) &&
+         !std::filesystem::equivalent(panorama->image.parent_path(), shipped_asset("."), error) &&
          !is_sky_file(panorama->image);
 }
 
@@ -101,15 +138,33 @@ void read_background_keys(const BackgroundKeys& keys, const Lookup& lookup,
     keys.period->fail("is the period of rings; the background must be rings");
 }
 
-std::optional<std::filesystem::path> read_catalogue(const Item& item, const Lookup& lookup) {
-  static constexpr std::array<std::string_view, 2> kWords{"naked_eye", "none"};
+std::optional<StarField> field_of(const std::optional<std::filesystem::path>& catalogue,
+                                  double max_magnitude) {
+  if (!catalogue) return std::nullopt;
+  return StarField{*catalogue, max_magnitude};
+}
+
+// All stars of a .stars file, and of a table those of the limit that a show has without one.
+std::optional<StarField> whole_field(const std::optional<std::filesystem::path>& catalogue) {
+  if (!catalogue) return std::nullopt;
+  return field_of(catalogue, of_header([&] {
+                               return star_file_faintest(*catalogue);
+                             }).value_or(kStandardLimit));
+}
+
+// Reads a catalogue, with the faintest stars that it stands for.
+std::optional<StarField> read_catalogue(const Item& item, const Lookup& lookup) {
+  static constexpr std::array<std::string_view, 4> kWords{"standard", "naked_eye", "deepest",
+                                                          "none"};
   const auto text = read_text(item);
   if (!text) return std::nullopt;
-  if (*text == kWords[0]) return lookup.shipped(item, kNakedEyeStars);
+  if (*text == kWords[0]) return field_of(lookup.shipped(item, kStandardStars), kStandardLimit);
+  if (*text == kWords[1]) return field_of(lookup.shipped(item, kStandardStars), kNakedEyeLimit);
+  if (*text == kWords[2]) return whole_field(lookup.deepest_stars(item));
   const bool looks_like_file = text->find_first_of("./") != std::string::npos;
-  if (looks_like_file || lookup.find(*text)) return lookup.file(item, *text);
-  item.fail("must be naked_eye, none or a star catalogue (.stars, .csv), got '" + shown(*text) +
-            "'" + did_you_mean(*text, kWords));
+  if (looks_like_file || lookup.find(*text)) return whole_field(lookup.file(item, *text));
+  item.fail("must be standard, naked_eye, deepest, none or a star catalogue (.stars, .csv), got '" +
+            shown(*text) + "'" + did_you_mean(*text, kWords));
   return std::nullopt;
 }
 
@@ -117,19 +172,18 @@ void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (item.node.IsScalar()) {
     if (item.node.Scalar() == "none") {
       sky.stars.reset();
-    } else if (const auto file = read_catalogue(item, lookup)) {
-      sky.stars = StarField{*file, sky.stars.value_or(StarField{}).max_magnitude};
+    } else if (const auto field = read_catalogue(item, lookup)) {
+      sky.stars = *field;
     }
     return;
   }
   const Section section(item, {"catalogue", "max_magnitude", "gain"});
   StarField field = sky.stars.value_or(StarField{});
   const Item* catalogue = section.find("catalogue");
-  if (catalogue || field.catalogue.empty()) {
-    const auto file =
-        catalogue ? read_catalogue(*catalogue, lookup) : lookup.shipped(item, kNakedEyeStars);
-    field.catalogue = file.value_or("");
-  }
+  if (catalogue || field.catalogue.empty())
+    field = (catalogue ? read_catalogue(*catalogue, lookup)
+                       : field_of(lookup.shipped(item, kStandardStars), kStandardLimit))
+                .value_or(StarField{});
   field.max_magnitude = section.number("max_magnitude", kMagnitudes, field.max_magnitude);
   sky.star_gain = section.number("gain", kGain, sky.star_gain);
   sky.stars = field;
@@ -164,7 +218,8 @@ RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup
   if (!own.find("background"))
     if (const auto background = milky_way(root, lookup)) sky.background = *background;
   if (!own.find("stars"))
-    if (const auto file = lookup.shipped(root, kNakedEyeStars)) sky.stars = StarField{*file};
+    if (const auto file = lookup.shipped(root, kStandardStars))
+      sky.stars = StarField{*file, kStandardLimit};
   return sky;
 }
 
@@ -179,6 +234,7 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
                                    {"background", "gain", "black_cd_m2", "stars", "white_cd_m2"});
     if (region == SkyRegion::kI) before = default_sky(root, own, lookup);
     read_region(own, lookup, before);
+    suit_milky_way(root, lookup, before.stars, before.background);
     show.sky[region] = before;
   }
   if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV]))
@@ -201,6 +257,7 @@ void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<Region
     read_background_keys(
         {item(background), item(white), item(black), item(period), region == SkyRegion::kIV},
         lookup, *backgrounds[region]);
+    suit_milky_way(sky, lookup, of_show[region].stars, *backgrounds[region]);
   }
 }
 

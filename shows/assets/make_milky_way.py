@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Makes milky_way.exr, the sky behind the stars, from a panorama and a catalogue.
+"""Makes the sky behind the stars from a panorama, a catalogue, and lists of nebulae and galaxies.
 
-    make_milky_way.py milkyway.png TYCHO2_FOLDER milky_way.exr
-    make_milky_way.py --check milky_way.exr
+    make_milky_way.py milkyway.png TYCHO2_FOLDER FOLDER
+    make_milky_way.py --check FOLDER
 
 milkyway.png: textures/milkyway.png of Debian's stellarium-data 0.22 (Axel Mellinger's panorama).
-TYCHO2_FOLDER: tyc2.dat.00 to .19 of Debian's source package tycho2 2-4.
+TYCHO2_FOLDER: tyc2.dat.00 to .19 and suppl_1.dat of Debian's source package tycho2 2-4.
+FOLDER receives milky_way.exr, 4096 x 2048, the sky without the stars of V <= 9, and
+milky_way_deep.exr, 2048 x 1024, the sky without any star that Tycho-2 has.
 Needs python3-numpy and python3-openimageio. PROVENANCE.md says what is done and why.
 
 Out: linear Rec.709, equirectangular, J2000, RA 0h in the middle and growing to the left, Dec +90 at
@@ -18,96 +20,35 @@ import sys
 import numpy as np
 import OpenImageIO as oiio
 
+import deep_sky
 import milky_way_check
-from sphere_image import (GALACTIC_POLE, HEIGHT, LUMA, SOLID_ANGLE, WIDTH, blurred, column_row,
-                          decoded, directions, encoded, mean_over_sky, separation)
+from panorama import read_panorama
+from sphere_image import LUMA, blurred, galactic_latitude, halved, mean_over_sky, separation
+from starlight import glow, read_tycho2
+
+HEIGHT = 2048
+DRAWN = 9.0  # V to which the catalogue that comes with Domefall draws stars
 
 # One star of V = 10 in a square degree, S10(V), is 27.78 mag/arcsec^2; L = 10.8e4 10^(-0.4 mu)
 # cd/m^2 gives 8.3e-7 cd/m^2.
 S10 = 8.3e-7 / 1e-4
 
-# The catalogue's stars that are run together: V from, V to, and over how many degrees, so that some
-# tens of stars share each place. Brighter ones are drawn as stars, fainter ones it does not hold.
-GLOW = [(6.5, 8.0, 5.0), (8.0, 9.5, 2.5), (9.5, 10.5, 1.5), (10.5, 11.5, 0.9)]
-# Light of the fainter ones beyond the band, as a share of it. Above 60 degrees of galactic latitude
-# half a magnitude of stars gives 2.1 S10(V) at V = 9, 1.5 at 11.25; the decline, continued, sums up
-# to 9 for 19 in GLOW.
-FAINTER_SHARE = 0.45
+# Light of the stars that Tycho-2 does not hold, beyond the band, as a share of its stars' beyond
+# V = 9. Above 60 degrees of galactic latitude half a magnitude of stars gives 2.1 S10(V) at V = 9,
+# 1.5 at 11.25; the decline, continued, sums up to 9 beyond 11.5.
+FAINTER_SHARE = 0.8
 BAND_S10 = 60  # where the panorama, blurred, has this much, it has half of that light already
-FAINTER_REDDENING = 0.25  # of B-V, in the band, where the fainter stars are the farther ones
+FAINTER_REDDENING = 0.65  # of B-V, in the bulge, where the fainter stars are old and far
 
 CLOUD = (271.0, -28.5)  # the Large Sagittarius Star Cloud
 CLOUD_S10 = 640  # with 20.8 mag/arcsec^2, the brightest part of the Milky Way
 # The rest was judged by eye.
 PANORAMA_GAMMA = 0.8  # its contrast is a print's
-DUST_IN_GLOW = 0.9  # how far the panorama's dust, sharp, shows in the catalogue's light, blurred
-STAR_SATURATION, STAR_CONTRAST = 0.9, 1.5  # of the colours of starlight; in B-V, about 0.7
-HUE_DETAIL, HUE_LARGE = 1.0, 0.5  # what is kept of the panorama's hues below and above 8 degrees
-GREEN = 0.4  # what is kept of its green, which no starlight is
-
-# Not stars though small (degrees): left where stars are taken out. A globular cluster, here a few
-# pixels with an edge, is softened.
-NEBULAE = [(10.68, 41.27, 1.8), (13.2, -72.8, 2.2), (80.9, -69.8, 4.5), (161.3, -59.7, 1.3),
-           (274.7, -13.8, 0.5), (270.9, -24.4, 0.6)]
-CLUSTERS = [(6.02, -72.08, 0.8), (201.70, -47.48, 0.8)]
-
-
-def read_panorama(path):
-    """Linear, RA 0h in the middle (the file has RA 18h there)."""
-    image = oiio.ImageBuf(path).get_pixels(oiio.FLOAT)[..., :3].astype(np.float64)
-    if image.shape != (HEIGHT, WIDTH, 3):
-        sys.exit(f"{path}: expected {WIDTH} x {HEIGHT} pixels")
-    return np.roll(decoded(image), WIDTH // 4, axis=1)
-
-
-def without_specks(image):
-    """Where a pixel stands far above the median of those around it, it takes that median."""
-    padded = np.pad(np.concatenate([image[:, -3:], image, image[:, :3]], axis=1),
-                    ((3, 3), (0, 0), (0, 0)), mode="reflect")
-    ring = [(j, i) for j in range(7) for i in range(7) if max(abs(j - 3), abs(i - 3)) >= 2]
-    around = np.stack([padded[j:j + HEIGHT, i:i + WIDTH] @ LUMA for j, i in ring])
-    median = np.median(around, axis=0)
-    luma = image @ LUMA
-    speck = luma > 1.3 * median + 0.001
-    for ra, dec, radius in NEBULAE + CLUSTERS:
-        speck &= separation(ra, dec) > radius
-    # A star's colour is not the sky's: that comes from around.
-    hue = blurred(np.where(speck[..., None], 0, image), 0.6)
-    hue /= np.maximum(hue @ LUMA, 1e-9)[..., None]
-    print(f"{speck.mean():.1%} of the panorama's pixels are stars' and filled in")
-    image = np.where(speck[..., None], hue * median[..., None], image)
-    soft = blurred(image, 0.25)
-    for ra, dec, radius in CLUSTERS:
-        share = np.clip(2 - 2 * separation(ra, dec) / radius, 0, 1)[..., None]
-        image = (1 - share) * image + share * soft
-    return image
-
-
-def between_like(image, code):
-    """Each pixel's mean with those within about 1 degree and 2 codes: steps go, edges stay."""
-    levels = np.arange(0, 33, 2.0)
-    out, total = np.zeros_like(image), np.zeros(code.shape)
-    for level in levels:
-        like = np.exp(-0.5 * ((code - level) / 2) ** 2)
-        sums = blurred(np.concatenate([image * like[..., None], like[..., None]], axis=2), 1.0)
-        here = np.maximum(1 - np.abs(code - level) / 2, 0)
-        out += here[..., None] * sums[..., :3] / np.maximum(sums[..., 3:], 1e-6)
-        total += here
-    return out / np.maximum(total, 1e-6)[..., None]
-
-
-def debanded(image):
-    """The fewer of 8 bits' steps there are to show a shape, the more it is blurred."""
-    code = encoded(blurred(image, 0.2) @ LUMA)
-    grain = np.clip((blurred(code, 0.5) - 25) / 50, 0, 1)[..., None]
-    fine = grain * blurred(image, 0.07) + (1 - grain) * blurred(image, 0.2)
-    middle = between_like(blurred(image, 0.15), np.minimum(code, 32))
-    share = np.clip((blurred(code, 0.5) - 10) / 14, 0, 1)
-    share = (share * share * (3 - 2 * share))[..., None]
-    mixed = share * fine + (1 - share) * middle
-    # Where nearly all is clipped, specks and noise are all there is.
-    wide = np.clip((encoded(blurred(image, 1.5) @ LUMA) - 3) / 5, 0, 1)[..., None]
-    return np.maximum(wide * mixed + (1 - wide) * blurred(image, 2.5), 0)
+DUST_IN_GLOW = 0.8  # how far the panorama's dust, sharp, shows in the catalogue's light, blurred
+DUST_REDDENING = 0.06  # of B-V, where dust takes a factor of e of the light around
+STAR_SATURATION, STAR_CONTRAST = 1.0, 1.3  # of the colours of starlight; in B-V, about 0.65
+BLUER = 0.14  # in B-V, so that the darkest parts of the sky are near white
+MANTISSA = 7  # bits that are kept of halves' 10: steps of 0.8 %, a third of an eye's
 
 
 def temperature(b_v):
@@ -133,105 +74,83 @@ def blackbody_rgb(t):
 
 
 def starlight_rgb(b_v):
-    """Linear Rec.709 of luminance 1 for each pixel's mean B-V."""
-    b_v = 0.7 + STAR_CONTRAST * (b_v - 0.7)
+    """Linear Rec.709 of luminance 1 for light of that mean B-V, of each pixel or of an object."""
+    b_v = 0.65 - BLUER + STAR_CONTRAST * (np.asarray(b_v) - 0.65)
     known = np.linspace(-0.3, 1.6, 39)
     table = np.array([blackbody_rgb(temperature(c)) for c in known])
-    rgb = np.stack([np.interp(b_v, known, table[:, k]) for k in range(3)], axis=2)
-    return 1 + STAR_SATURATION * (rgb - 1)
+    rgb = np.stack([np.interp(b_v, known, table[:, k]) for k in range(3)], axis=-1)
+    rgb = 1 + STAR_SATURATION * (rgb - 1)
+    return rgb / (rgb @ LUMA)[..., None]
 
 
-def read_catalogue(folder):
-    """RA, Dec (degrees), V and B-V of the stars with both magnitudes."""
-    parts = []
-    for part in range(20):
-        text = np.fromfile(f"{folder}/tyc2.dat.{part:02d}", np.uint8).reshape(-1, 207)
-
-        def column(first, last, rows=text):
-            cut = np.ascontiguousarray(rows[:, first - 1:last])
-            return np.char.strip(cut.view(f"S{last - first + 1}")[:, 0])
-        bt, vt = column(111, 116), column(124, 129)
-        # A row without mean place (flag X) has the observed one.
-        observed = text[:, 13] == ord("X")
-        ra = np.where(observed, column(153, 164), column(16, 27))
-        dec = np.where(observed, column(166, 177), column(29, 40))
-        whole = (bt != b"") & (vt != b"")
-        ra, dec, bt, vt = (x[whole].astype(float) for x in (ra, dec, bt, vt))
-        parts.append(np.stack([ra, dec, vt - 0.09 * (bt - vt), 0.85 * (bt - vt)]))
-    return np.concatenate(parts, axis=1)
+def band_of(luma):
+    """The panorama's luminance as light of its own scale."""
+    return np.maximum(luma, 0) ** PANORAMA_GAMMA
 
 
-def catalogue_glow(folder):
-    """The light of GLOW's stars run together, in S10(V), and its mean B-V."""
-    ra, dec, v, b_v = read_catalogue(folder)
-    column, row = column_row(ra, dec)
-    row = np.clip(np.round(row), 0, HEIGHT - 1).astype(int)
-    pixel = row * WIDTH + np.round(column).astype(int) % WIDTH
-    light, count = 0, 0
-    for brightest, faintest, degrees in GLOW:
-        chosen = (v >= brightest) & (v < faintest)
-        count += chosen.sum()
-        magnitudes = v[chosen], v[chosen] + np.clip(b_v[chosen], -0.4, 2.0)
-        maps = np.stack([np.bincount(pixel[chosen], 10 ** (-0.4 * (m - 10)), WIDTH * HEIGHT)
-                         for m in magnitudes], axis=1).reshape(HEIGHT, WIDTH, 2)
-        light = light + blurred(maps / (SOLID_ANGLE * math.degrees(1) ** 2)[..., None], degrees)
-    light = np.maximum(light, 1e-3)
-    print(f"{count} stars run together, mean {mean_over_sky(light[..., 0]):.1f} S10(V)")
-    return light[..., 0], -2.5 * np.log10(light[..., 1] / light[..., 0])
+def dust_beyond(band, latitude):
+    """A function of sigma: what the panorama's light, sharp, is of itself blurred by that sigma,
+    within 25 degrees of the galactic equator (beyond, a galaxy would cast a shadow)."""
+    faintest = 0.004 ** PANORAMA_GAMMA
+    flat = np.minimum(band, 1.5 * blurred(band, 2.0))  # nor may a cluster
+    power = DUST_IN_GLOW * np.clip((25 - np.abs(latitude)) / 10, 0, 1)
 
-
-def panorama_hue(detail):
-    """The panorama's departure from the hue of the whole, tempered, grey where it is dark."""
-    whole = np.array([mean_over_sky(detail[..., k]) for k in range(3)])
-    whole /= whole @ LUMA
-
-    def hue(image, darkest):
-        image = image + darkest * whole
-        ratio = np.log(np.maximum(image / (image @ LUMA)[..., None] / whole, 1e-3))
-        green = ratio[..., 1] - (ratio[..., 0] + ratio[..., 2]) / 2
-        ratio[..., 1] -= (1 - GREEN) * np.maximum(green, 0)
-        return ratio
-    large = hue(blurred(detail, 8.0), 0.004)
-    return np.exp(HUE_DETAIL * (hue(detail, 0.008) - large) + HUE_LARGE * large)
-
-
-def dust_in_glow(band):
-    """What the panorama's dust leaves of light that is blurred over it, within 25 degrees of the
-    galactic equator (beyond, a galaxy would cast a shadow around itself)."""
-    faintest = 0.003 ** PANORAMA_GAMMA
-    band = np.minimum(band, 1.5 * blurred(band, 2.0))  # nor may a cluster
-    dust = (blurred(band, 0.3) + faintest) / (blurred(band, 2.0) + faintest)
-    latitude = np.abs(np.degrees(np.arcsin(directions() @ GALACTIC_POLE)))
-    return np.clip(dust, 0.15, 1.3) ** (DUST_IN_GLOW * np.clip((25 - latitude) / 10, 0, 1))
+    def dust(sigma):
+        ratio = (flat + faintest) / (blurred(flat, sigma) + faintest)
+        return np.clip(ratio, 0.15, 1.5) ** power
+    return dust
 
 
 def make(panorama, folder):
-    glow, b_v = catalogue_glow(folder)
-    detail = debanded(without_specks(read_panorama(panorama)))
-    band = np.maximum(detail @ LUMA, 0) ** PANORAMA_GAMMA
-    glow = glow * dust_in_glow(band)
-    cloud = separation(*CLOUD) < 1
-    band *= (CLOUD_S10 - glow[cloud].mean()) / band[cloud].mean()
-    glow *= 1 + FAINTER_SHARE / (1 + blurred(band, 2.0) / BAND_S10)
+    """The sky without stars of V <= DRAWN, and without all of Tycho-2's, in S10(V)."""
+    luma, clouds, red = read_panorama(panorama, HEIGHT)
+    latitude = galactic_latitude(HEIGHT)
+    band = band_of(luma)
+    dust = dust_beyond(band, latitude)
+    light = glow(read_tycho2(folder), DRAWN, HEIGHT, dust)
+    stars = light[..., 0]
+    # Colours need wider means than light.
+    ratio = blurred(light, 0.6)
+    b_v = -2.5 * np.log10(ratio[..., 1] / ratio[..., 0])
 
-    stars = starlight_rgb(b_v) * glow[..., None]
-    far = starlight_rgb(b_v + FAINTER_REDDENING) * panorama_hue(detail)
-    far *= (band / np.maximum(far @ LUMA, 1e-9))[..., None]
-    return (stars + far) * S10
+    cloud = separation(*CLOUD, HEIGHT) < 1
+    share = FAINTER_SHARE
+    band *= (CLOUD_S10 - stars[cloud].mean()) / band[cloud].mean()
+    wide = blurred(band, 2.0)
+    even = blurred(stars, 1.0) * share / (1 + wide / BAND_S10)
+    faint = band + even * dust(1.0)
+    reddened = -np.log(np.clip(dust(1.5), 0.3, 1.5)) * DUST_REDDENING
+    bulge = wide / (wide + 3 * BAND_S10)
+    catalogued = starlight_rgb(b_v + reddened) * stars[..., None]
+    beyond = starlight_rgb(b_v + reddened + FAINTER_REDDENING * bulge) * faint[..., None]
+    print(f"Tycho-2 beyond V = {DRAWN}: {mean_over_sky(stars):.1f} S10(V); fainter: "
+          f"{mean_over_sky(faint):.1f}")
+    objects = (deep_sky.nebulae(red, HEIGHT) + deep_sky.galaxies(starlight_rgb, HEIGHT)
+               + deep_sky.clusters(starlight_rgb, HEIGHT)
+               + deep_sky.magellanic(clouds, starlight_rgb, HEIGHT))
+    print(f"nebulae, galaxies, clusters: {deep_sky.mean_s10(objects):.1f}")
+    deep = beyond + objects
+    return catalogued + deep, deep
 
 
-def write(sky, out):
-    spec = oiio.ImageSpec(WIDTH, HEIGHT, 3, oiio.HALF)
+def rounded(sky):
+    """Halves of fewer digits, which a file holds in fewer bytes."""
+    bits = np.ascontiguousarray(sky, dtype=np.float32).view(np.uint32)
+    drop = 23 - MANTISSA
+    return ((bits + (1 << (drop - 1))) >> drop << drop).view(np.float32)
+
+
+def write(sky, out, without):
+    spec = oiio.ImageSpec(sky.shape[1], sky.shape[0], 3, oiio.HALF)
     spec.attribute("compression", "zip")
     spec.attribute("oiio:ColorSpace", "lin_srgb")
-    spec.attribute("ImageDescription",
-                   "Milky Way without stars, linear Rec.709, 1 = 1e-4 cd/m^2; see PROVENANCE.md")
+    spec.attribute("ImageDescription", f"The sky without {without}, linear Rec.709, "
+                   "1 = 1e-4 cd/m^2; see PROVENANCE.md")
     spec.attribute("Copyright", "Axel Mellinger, Univ. of Potsdam (panorama); "
                                 "ESA, Tycho-2 (light of the stars)")
-    spec.attribute("DateTime", "2026:11:21 00:00:00")  # else that of writing
-    pixels = np.ascontiguousarray(sky, dtype=np.float32)
+    spec.attribute("DateTime", "2026:11:22 00:00:00")  # else that of writing
     file = oiio.ImageOutput.create(out)
-    if not (file and file.open(out, spec) and file.write_image(pixels) and file.close()):
+    if not (file and file.open(out, spec) and file.write_image(rounded(sky)) and file.close()):
         sys.exit(oiio.geterror() or file.geterror())
 
 
@@ -240,9 +159,11 @@ def main():
         sys.exit(milky_way_check.check(sys.argv[2]))
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    panorama, folder, out = sys.argv[1:]
-    write(make(panorama, folder), out)
-    sys.exit(milky_way_check.check(out))
+    panorama, catalogue, folder = sys.argv[1:]
+    whole, deep = make(panorama, catalogue)
+    write(whole * S10, f"{folder}/milky_way.exr", "stars of V <= 9")
+    write(halved(deep) * S10, f"{folder}/milky_way_deep.exr", "the stars of Tycho-2")
+    sys.exit(milky_way_check.check(folder))
 
 
 if __name__ == "__main__":

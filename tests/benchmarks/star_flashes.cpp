@@ -123,7 +123,7 @@ Show random_orbit(std::mt19937& random) {
   show.projection = Domemaster{kSize};
   show.hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()};
   for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
-    show.sky[sky].stars = StarField{source_file("shows/assets/naked_eye_stars.csv"), 6.5};
+    show.sky[sky].stars = StarField{source_file("shows/assets/stars_to_9.stars"), 6.5};
   Segment segment;
   segment.duration_s = 20;
   const CircularOrbit orbit{4 + 30 * part(random) * part(random)};

@@ -31,6 +31,7 @@ title: A short fall
 frames_per_second: 12
 size: 96
 black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {stars: naked_eye}}
 timeline:
   - {duration_s: 1, trajectory: {type: infall, from_r: 6, to_r: 2.5}}
   - {duration_s: 1, trajectory: {type: infall, from_r: 2.5, to_r: 1}}

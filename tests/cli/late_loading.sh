@@ -14,9 +14,9 @@ loads() {
 }
 
 write_show show.yaml
-sed 's/^timeline/sky: {region_I: {background: grid, stars: none}}\n&/' show.yaml >grid.yaml
-sed 's/^timeline/output: {graded: none}\n&/' grid.yaml >linear.yaml
-for command in "--version" "render --help" "probe grid.yaml --pixel 40,50" "check grid.yaml" \
+sed 's/stars: naked_eye/background: grid, stars: none/' show.yaml >grid.yaml
+sed 's/^timeline/output: {graded: none}\n&/' show.yaml >linear.yaml
+for command in "--version" "render --help" "probe grid.yaml --pixel 40,50" "check show.yaml" \
   "render linear.yaml --frames 3 --out linear"; do
   # shellcheck disable=SC2086
   ! loads "$DOMEFALL" $command || fail "$command loads the libraries of images"

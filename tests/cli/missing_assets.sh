@@ -23,7 +23,7 @@ missing 75 "^show.yaml:1:25: .* 'none.stars'"
 shown 'grade: {config: none.ocio}'
 missing 75 "^show.yaml:1:17: .* 'none.ocio'"
 shown 'title: No assets'
-DOMEFALL_ASSETS=$folder missing 75 'milky_way.exr, which is missing from '
+DOMEFALL_ASSETS=$folder missing 75 'milky_way.sky, which is missing from '
 
 # Mistakes count for more than missing files, and both are listed.
 shown 'sky: {region_I: {background: none.exr, stars: 3}}'

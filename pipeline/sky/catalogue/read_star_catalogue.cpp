@@ -92,4 +92,15 @@ std::optional<std::string> star_file_fingerprint(const std::filesystem::path& fi
   return StarFile(file).fingerprint();
 }
 
+std::optional<double> star_file_faintest(const std::filesystem::path& file) {
+  if (!begins_as_star_file(file)) return std::nullopt;
+  return StarFile(file).faintest();
+}
+
+std::optional<std::size_t> star_file_count(const std::filesystem::path& file,
+                                           double max_magnitude) {
+  if (!begins_as_star_file(file)) return std::nullopt;
+  return StarFile(file).at_least_to(max_magnitude);
+}
+
 }  // namespace domefall

@@ -33,4 +33,9 @@ StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch)
 // Throws InputError as read_star_catalogue does.
 std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file);
 
+// What a .stars file says of all its stars without reading them, or nothing for another kind of
+// file.  Both throw InputError as read_star_catalogue does.
+std::optional<double> star_file_faintest(const std::filesystem::path& file);  // V
+std::optional<std::size_t> star_file_count(const std::filesystem::path& file, double max_magnitude);
+
 }  // namespace domefall

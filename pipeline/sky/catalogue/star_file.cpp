@@ -201,6 +201,21 @@ std::span<const StarRecord> StarFile::up_to(double limit) const {
   return {records, stars_};
 }
 
+std::size_t StarFile::at_least_to(double limit) const {
+  const auto faintest = static_cast<float>(limit);
+  const std::size_t blocks = block_count(stars_);
+  std::size_t whole = 0;
+  while (whole < blocks && at<StarBlock>(index_, whole * sizeof(StarBlock)).faintest <= faintest)
+    ++whole;
+  return std::min<std::size_t>(whole * kBlockStars, stars_);
+}
+
+double StarFile::faintest() const {
+  const std::size_t blocks = block_count(stars_);
+  if (blocks == 0) return kBrightestV;
+  return double{at<StarBlock>(index_, (blocks - 1) * sizeof(StarBlock)).faintest};
+}
+
 std::vector<StarName> StarFile::names(std::size_t stars) const {
   std::vector<StarName> found;
   for (std::size_t i = 0; i < names_.size();) {

@@ -65,6 +65,10 @@ class StarFile {
   // Returns the stars of V <= limit, both as floats.  Throws InputError where one of their blocks
   // is damaged.
   std::span<const StarRecord> up_to(double limit) const;
+  // Returns how many stars at least are of V <= limit, from the index alone: those in whole blocks.
+  std::size_t at_least_to(double limit) const;
+  // Returns V of the faintest star, from the index alone.
+  double faintest() const;
   // Returns the names of the first `stars` stars.
   std::vector<StarName> names(std::size_t stars) const;
 

@@ -66,7 +66,7 @@ template <class T>
 void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
                  const SkyPyramid::Level& level) {
   const ColourMatrix& m = working_from_rec709();
-  const int across = std::max(panorama_face(image.width) / level.size, 1);
+  const int across = std::max(panorama_face(image.width) / 2 / level.size, 1);
   const auto painter = [&image, &to_picture, &m, scale](const V3d& d, float* channel) {
     const auto c = equirectangular_at(image, apply(to_picture, d));
     for (int k = 0; k < 3; ++k)

@@ -43,7 +43,7 @@ inline Show show_of(const Trajectory& trajectory, const Projection& projection) 
 
 inline Show starry(Show show) {
   show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
-  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
   show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
   return show;
 }

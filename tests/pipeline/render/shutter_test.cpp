@@ -11,7 +11,7 @@ namespace {
 // For 30 frames the dome turns about its zenith by `degrees` a frame.
 Show turning(double degrees, const Projection& projection) {
   Show show = show_of(StaticObserver{kFlatSpace}, projection);
-  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
   show.timeline[0].camera.elevation = 90 * kDegree;
   show.timeline[0].curves[Channel::kRoll] =
       Curve{{{0, 0, Ease::kLinear}, {1, 30 * degrees * kDegree, Ease::kLinear}}};

@@ -119,8 +119,8 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
        "3:37: sky.region_I.stars.catalogue names the file 'hip.csv', which is neither beside the "
        "show nor in the working folder"},
       {"CatalogueMisspelt", kShow + "sky: {region_I: {stars: naked_eyes}}\n",
-       "3:25: sky.region_I.stars must be naked_eye, none or a star catalogue (.stars, .csv), got "
-       "'naked_eyes'; did you mean naked_eye?"},
+       "3:25: sky.region_I.stars must be standard, naked_eye, deepest, none or a star catalogue "
+       "(.stars, .csv), got 'naked_eyes'; did you mean naked_eye?"},
       {"NegativeGain", kShow + "sky: {region_I: {gain: -0.5}}\n",
        "3:24: sky.region_I.gain must be at least 0, got -0.5"},
       {"RingsOutside", kShow + "sky: {region_I: {background: rings}}\n",

@@ -212,9 +212,9 @@ TEST_F(ShowErrorsInYaml, DeepNestingIsRefusedWhereItBecomesTooDeep) {
 }
 
 TEST_F(ShowErrorsInYaml, MissingShippedFilesAreNamedWithTheirFolder) {
-  std::filesystem::remove(folder_ / "assets/milky_way.exr");
+  std::filesystem::remove(folder_ / "assets/milky_way.sky");
   EXPECT_EQ(complaint(kShow),
-            "show.yaml:1:1: the show needs Domefall's own file milky_way.exr, which is missing "
+            "show.yaml:1:1: the show needs Domefall's own file milky_way.sky, which is missing "
             "from assets (the variable DOMEFALL_ASSETS can name another folder)");
 }
 

@@ -9,20 +9,19 @@
 
 #include "pipeline/image/errors.h"
 #include "pipeline/show/read_show.h"
+#include "pipeline/sky/catalogue/star_file.h"
 #include "tests/pipeline/image/test_folder.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 
 class ShowFile : public TestFolder {
  protected:
   ShowFile() {
-    write("assets/milky_way.exr", "");
+    write("assets/milky_way.sky", "");
+    write("assets/milky_way_deep.sky", "");
     write("assets/dome.ocio", "");
-    write("assets/naked_eye_stars.csv",
-          "ra_deg,dec_deg,v_mag,b_v,name,designation\n"
-          "101.287,-16.716,-1.44,0.009,Sirius,alpha CMa\n"
-          "88.793,7.407,0.45,1.5,Betelgeuse,alpha Ori\n"
-          "279.235,38.784,0.03,-0.001,Vega,alpha Lyr\n");
+    write_star_file(folder_ / "assets/stars_to_9.stars", three_stars());
     write("assets/sky_places.csv",
           "name,ra_deg,dec_deg\n"
           "Orion,85.39,5.69\nM 31,10.6847,41.2687\nAndromeda Galaxy,10.6847,41.2687\n"
@@ -32,6 +31,24 @@ class ShowFile : public TestFolder {
   ~ShowFile() override { unsetenv("DOMEFALL_ASSETS"); }
   ShowFile(const ShowFile&) = delete;
   ShowFile& operator=(const ShowFile&) = delete;
+
+  static RawCatalogue three_stars() {
+    RawCatalogue catalogue;
+    const auto add = [&catalogue](double ra, double dec, float v, float b_v, const char* name,
+                                  const char* designation) {
+      const auto number = static_cast<std::uint32_t>(catalogue.stars.size());
+      CatalogueStar star{};
+      star.direction = sky_direction(ra, dec);
+      star.v = v;
+      star.colour = b_v;
+      catalogue.stars.push_back(star);
+      for (const char* each : {name, designation}) catalogue.names.push_back({number, each});
+    };
+    add(101.287, -16.716, -1.44f, 0.009f, "Sirius", "alpha CMa");
+    add(279.235, 38.784, 0.03f, -0.001f, "Vega", "alpha Lyr");
+    add(88.793, 7.407, 0.45f, 1.5f, "Betelgeuse", "alpha Ori");
+    return catalogue;
+  }
 
   std::filesystem::path write(const std::string& name, const std::string& bytes) {
     const auto file = folder_ / name;

@@ -29,6 +29,9 @@ class ShowKeys : public ShowFile {
   std::filesystem::path asset(const std::string& name) { return folder_ / "assets" / name; }
 };
 
+// A .stars file rounds the components of directions to 2^-31.
+inline constexpr double kStarPlace = 1e-9;
+
 // This allows for products and quotients of a few rounded numbers.
 inline void expect_near(const V3d& a, const V3d& b, double tolerance = 1e-14) {
   EXPECT_LE((a - b).length(), tolerance * std::max(1.0, b.length())) << a << " and " << b;

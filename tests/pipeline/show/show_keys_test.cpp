@@ -35,14 +35,14 @@ TEST_F(ShowKeys, SixLinesMakeAShowForADome) {
   EXPECT_EQ(s.camera.dome_tilt, 0);
 }
 
-TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndTheNakedEyeStarsPlainly) {
+TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
   const Show show = read(kSixLines);
   for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]}) {
-    EXPECT_EQ(std::get<PanoramaSky>(sky.background).image, asset("milky_way.exr"));
+    EXPECT_EQ(std::get<PanoramaSky>(sky.background).image, asset("milky_way.sky"));
     EXPECT_EQ(sky.background_gain, 1);
     ASSERT_TRUE(sky.stars);
-    EXPECT_EQ(sky.stars->catalogue, asset("naked_eye_stars.csv"));
-    EXPECT_EQ(sky.stars->max_magnitude, 6.5);
+    EXPECT_EQ(sky.stars->catalogue, asset("stars_to_9.stars"));
+    EXPECT_EQ(sky.stars->max_magnitude, 9);
     EXPECT_EQ(sky.star_gain, 1);
   }
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
@@ -100,7 +100,7 @@ TEST_F(ShowKeys, TheHolesPlaceIsGivenInDegreesOrByAStar) {
   for (const char* star : {"Betelgeuse", "betelgeuse", "alpha Ori", "{star: Betelgeuse}"})
     expect_near(with("", "{type: static, r: 9}", "{mass_solar: 10, at: " + std::string(star) + "}")
                     .hole_at.v,
-                place(88.793, 7.407).v);
+                place(88.793, 7.407).v, kStarPlace);
 }
 
 TEST_F(ShowKeys, WithoutAMassSpaceIsFlatAndASegmentMayRest) {
@@ -123,7 +123,8 @@ TEST_F(ShowKeys, CamerasLookAtTheHoleTheMotionOrAPlace) {
   };
   EXPECT_TRUE(std::holds_alternative<LookAtHole>(attitude("hole")));
   EXPECT_TRUE(std::holds_alternative<LookAlongMotion>(attitude("motion")));
-  expect_near(std::get<LookAtSky>(attitude("Sirius")).target.v, place(101.287, -16.716).v);
+  expect_near(std::get<LookAtSky>(attitude("Sirius")).target.v, place(101.287, -16.716).v,
+              kStarPlace);
   expect_near(std::get<LookAtSky>(attitude("{ra_deg: 12, dec_deg: -90}")).target.v,
               place(12, -90).v);
 }
@@ -219,8 +220,40 @@ TEST_F(ShowKeys, SkiesMayBeBlackAndStarless) {
       "sky: {region_I: {background: black, stars: none},"
       " region_III: {background: milky_way, stars: naked_eye}}\n");
   EXPECT_EQ(std::get<PanoramaSky>(back.sky[SkyRegion::kIII].background).image,
-            asset("milky_way.exr"));
-  EXPECT_EQ(back.sky[SkyRegion::kIII].stars->catalogue, asset("naked_eye_stars.csv"));
+            asset("milky_way.sky"));
+  EXPECT_EQ(back.sky[SkyRegion::kIII].stars->catalogue, asset("stars_to_9.stars"));
+}
+
+TEST_F(ShowKeys, ACatalogueIsTakenWhole) {
+  const auto stars = [this](const std::string& value) {
+    return with("sky: {region_I: {stars: " + value + "}}\n").sky[SkyRegion::kI].stars.value();
+  };
+  EXPECT_EQ(stars("standard").catalogue, asset("stars_to_9.stars"));
+  EXPECT_EQ(stars("standard").max_magnitude, 9);
+  EXPECT_EQ(stars("naked_eye").catalogue, asset("stars_to_9.stars"));
+  EXPECT_EQ(stars("naked_eye").max_magnitude, 6.5);
+  EXPECT_EQ(stars("{catalogue: naked_eye, max_magnitude: 5}").max_magnitude, 5);
+  EXPECT_EQ(stars("{max_magnitude: 5}").catalogue, asset("stars_to_9.stars"));
+  write_star_file(folder_ / "own.stars", three_stars());
+  EXPECT_EQ(stars("own.stars").max_magnitude, double{0.45f});  // of its faintest
+}
+
+TEST_F(ShowKeys, TheDeepestStarsAreThoseThatWereFetchedAndTakeTheMapWithoutThem) {
+  const auto sky = [this](const std::string& stars) {
+    return with("sky: {region_I: {stars: " + stars + "}}\n").sky[SkyRegion::kI];
+  };
+  EXPECT_EQ(sky("deepest").stars->catalogue, asset("stars_to_9.stars"));
+  EXPECT_EQ(std::get<PanoramaSky>(sky("deepest").background).image, asset("milky_way.sky"));
+  RawCatalogue many = three_stars();
+  many.names.clear();
+  many.stars.resize(600'000, many.stars.back());
+  for (const char* place : {"assets/tycho2.stars", "tycho2.stars"}) {  // the show's own goes first
+    write_star_file(folder_ / place, many);
+    EXPECT_EQ(sky("deepest").stars->catalogue, folder_ / place);
+    EXPECT_EQ(std::get<PanoramaSky>(sky("deepest").background).image, asset("milky_way_deep.sky"));
+  }
+  for (const char* fewer : {"standard", "none", "{catalogue: deepest, max_magnitude: 0}"})
+    EXPECT_EQ(std::get<PanoramaSky>(sky(fewer).background).image, asset("milky_way.sky")) << fewer;
 }
 
 TEST_F(ShowKeys, TheSingularityMayGlowInRings) {

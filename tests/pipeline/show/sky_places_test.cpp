@@ -14,7 +14,7 @@ namespace {
 
 SkyPlaces shipped_places() {
   SkyPlaces places;
-  places.add(read_star_catalogue(source_file("shows/assets/naked_eye_stars.csv"), 99).names);
+  places.add(read_star_catalogue(source_file("shows/assets/stars_to_9.stars"), 99).names);
   places.add(read_sky_places(source_file("shows/assets/sky_places.csv")));
   return places;
 }

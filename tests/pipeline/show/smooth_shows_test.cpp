@@ -161,7 +161,7 @@ std::string text_of(const std::string& name) {
 
 class SmoothShows : public ShowFile, public testing::WithParamInterface<const char*> {
  protected:
-  SmoothShows() { setenv("DOMEFALL_ASSETS", source_file("shows/assets").c_str(), 1); }
+  SmoothShows() { unsetenv("DOMEFALL_ASSETS"); }
 };
 
 void expect_within(const char* what, const Worst& worst, const Bounds& bounds) {

@@ -80,7 +80,7 @@ TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
 // Bright stars glow all around the silhouette, and not into it.
 TEST(SkyBorders, EndTheBlobsOfStars) {
   Show show = show_of(StaticObserver{8}, Domemaster{256});
-  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "naked_eye_stars.csv", 6.5};
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
   show.point_spread.halo = 0.5;
   show.point_spread.halo_sigma = 1 * kDegree;
   show.exposure.ev = 8;

@@ -92,6 +92,18 @@ TEST_F(StarFiles, AreBrightestFirstAndCutAtTheLimit) {
   }
 }
 
+TEST_F(StarFiles, SayHowManyAndHowFaintTheirStarsAreWithoutReadingThem) {
+  bytes_.back() ^= 1;  // the last star is damaged
+  std::ofstream(file_, std::ios::binary) << bytes_;
+  EXPECT_EQ(star_file_count(file_, 40), 10000u);
+  EXPECT_EQ(star_file_count(file_, 8.9), 8192u);  // two whole blocks
+  EXPECT_EQ(star_file_count(file_, -2), 0u);
+  EXPECT_EQ(star_file_faintest(file_), double{written_.stars.back().v});
+  std::ofstream(folder_ / "table.csv") << "ra_deg,dec_deg,v_mag,b_v\n1,2,3,0.5\n";
+  EXPECT_FALSE(star_file_count(folder_ / "table.csv", 9));
+  EXPECT_FALSE(star_file_faintest(folder_ / "table.csv"));
+}
+
 TEST_F(StarFiles, AreFoundByTheNamesOfThoseWithinTheLimit) {
   const StarCatalogue all = read_star_catalogue(file_, kAll);
   const auto place_of = [](const StarCatalogue& stars, std::string_view name) {

@@ -59,7 +59,7 @@ TEST(SkyMap, HasNoSeamAndNoPole) {
 
 // Filtered over some degrees, a map of means is the map that they were taken from.
 TEST(MilkyWay, IsTheSameFromAfarWhereItsFineLevelsAreLeftOut) {
-  const FloatImage image = read_image(source_file("shows/assets/milky_way.exr"));
+  const FloatImage image = read_image(source_file("shows/assets/milky_way_deep.exr"));
   const SkyMap whole = map_of_panorama(image), coarse = map_of_panorama(image, 64);
   EXPECT_EQ(whole.levels().front().size, 1024);
   EXPECT_EQ(coarse.levels().front().size, 64);
@@ -67,12 +67,13 @@ TEST(MilkyWay, IsTheSameFromAfarWhereItsFineLevelsAreLeftOut) {
     for (double dec = -85; dec < 90; dec += 17) {
       const V3d d = sky_direction(ra, dec).v;
       const double light = luminance_of(whole.sample(d, 0.1));
-      EXPECT_NEAR(luminance_of(coarse.sample(d, 0.1)), light, 0.05 * light) << ra << " " << dec;
+      // The most is beside the Large Magellanic Cloud, whose bar is brighter than all around.
+      EXPECT_NEAR(luminance_of(coarse.sample(d, 0.1)), light, 0.15 * light) << ra << " " << dec;
     }
 }
 
 TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
-  const SkyMap map = map_of_panorama(read_image(source_file("shows/assets/milky_way.exr")));
+  const SkyMap map = map_of_panorama(read_image(source_file("shows/assets/milky_way.exr")), 512);
   const auto light = [&map](double ra, double dec) {
     return luminance_of(map.sample(sky_direction(ra, dec).v, 0.02)) / kPanoramaUnit;
   };
@@ -84,9 +85,10 @@ TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
   EXPECT_GT(eta_carinae, 1);
   EXPECT_LT(coalsack, beside_coalsack);
   EXPECT_GT(large_cloud, 1.5 * light(100, -80));
-  // 30 S10(V), as measured skies have it, are 0.25.
-  EXPECT_LT(galactic_pole, 0.3);
-  EXPECT_GT(galactic_pole, 0.15);
+  // Measured skies have 30 S10(V), of which the stars of V = 6.5 to 9 are 11, which are drawn as
+  // stars.  The rest is 0.16.
+  EXPECT_LT(galactic_pole, 0.2);
+  EXPECT_GT(galactic_pole, 0.13);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr double kDegree = pi / 180;
 const std::string kAssets = source_file("shows/assets/");
 
 const StarCatalogue& stars() {
-  static const StarCatalogue catalogue = read_star_catalogue(kAssets + "naked_eye_stars.csv", 6.5);
+  static const StarCatalogue catalogue = read_star_catalogue(kAssets + "stars_to_9.stars", 6.5);
   return catalogue;
 }
 
@@ -83,7 +83,7 @@ TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
 
 // The shipped sky has no stars: its Milky Way has to tell.
 TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
-  const FloatImage whole = read_image(kAssets + "milky_way.exr");
+  const FloatImage whole = read_image(kAssets + "milky_way_deep.exr");
   LightImage image{{whole.width / 4, whole.height / 4}, 1};
   for (int y = 0; y < image.pixels.height; ++y)
     for (int x = 0; x < 3 * image.pixels.width; ++x)
@@ -105,7 +105,7 @@ TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
 // A band along the middle row is much the same mirrored or upside down: what differs are its
 // clouds.
 TEST(SkyChecks, AMilkyWayAlongTheEquatorTellsItsOrientationToo) {
-  const SkyMap sky = map_of_panorama(read_image(kAssets + "milky_way.exr"));
+  const SkyMap sky = map_of_panorama(read_image(kAssets + "milky_way_deep.exr"));
   const Orientation truth{SkyFrame::kGalactic, false, false, 0};
   const M33d panorama = panorama_from_equatorial(truth);
   LightImage image{{512, 256}, kPanoramaUnit};

@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
-"""Makes star catalogues from the star data of d3-celestial.
+"""Makes a table of stars from the star data of d3-celestial.
 
-    make_naked_eye_stars.py [d3-celestial-0.7.35.tgz] > naked_eye_stars.csv
-    make_naked_eye_stars.py --faintest 8.5 [d3-celestial-0.7.35.tgz] > stars_to_8.csv
+    make_stars_to_8.py [d3-celestial-0.7.35.tgz] > stars_to_8.csv
 
-The first has the stars of V <= 6.5, the second every star of the source, which ends at V = 8 or so.
-The archive is the npm package of that name and version; without one it is fetched with `npm pack`.
+It has every star of the source, which ends at V = 8. The archive is the npm package of that name and version; without one it is fetched with `npm pack`.
 Its SHA-256 is checked. Stars without a colour get an empty b_v. Standard library only.
 """
 
@@ -23,7 +21,6 @@ import tempfile
 
 PACKAGE = "d3-celestial@0.7.35"
 SHA256 = "490796718c201e15f38c324bda5458fc4de22519313093bf261b628185eaae81"
-NAKED_EYE = 6.5
 
 GREEK = dict(zip(
     "αβγδεζηθικλμνξοπρστυφχψω",
@@ -55,11 +52,9 @@ def angle(a, b):
     return math.hypot((ra - ra2) * math.cos(math.radians(dec)), dec - dec2)
 
 
-def rows(stars, names, faintest):
+def rows(stars, names):
     for star in stars:
         v_mag = star["properties"]["mag"]
-        if v_mag > faintest:
-            continue
         ra, dec = star["geometry"]["coordinates"]
         entry = names.get(str(star["id"]), {})
         yield [star["id"], f"{ra % 360:.4f}", f"{dec:.4f}", f"{v_mag:.2f}",
@@ -92,18 +87,13 @@ def read_package(archive):
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("archive", nargs="?", help="the package; fetched if not given")
-    parser.add_argument("--faintest", type=float, default=NAKED_EYE, metavar="V",
-                        help="leave out fainter stars (default: %(default)s)")
     return parser.parse_args()
 
 
 def check_places(table):
     """Stops if one of CHECKS that should be in the table is elsewhere or missing."""
     places = {name: (float(row[1]), float(row[2])) for row in table for name in row[5:] if name}
-    faintest = float(table[-1][3])
     for name, place in CHECKS.items():
-        if name in FAINT_NAMES.values() and faintest <= NAKED_EYE:
-            continue
         off = angle(places[name], place)
         print(f"{name}: {off * 3600:.1f} arcsec off", file=sys.stderr)
         if off > 2e-4:
@@ -117,7 +107,7 @@ def main():
     else:
         with tempfile.TemporaryDirectory() as folder:
             stars, names = read_package(fetched(folder))
-    table = sorted(rows(stars, names, options.faintest), key=lambda row: (float(row[3]), row[0]))
+    table = sorted(rows(stars, names), key=lambda row: (float(row[3]), row[0]))
     check_places(table)
 
     out = csv.writer(sys.stdout, lineterminator="\n")
