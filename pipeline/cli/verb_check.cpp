@@ -52,7 +52,7 @@ void check(const std::string& file, bool json) {
   std::optional<Grader> grader;
   if (show.graded_format != GradedFormat::kNone) grader.emplace(show.grade);
   const Grader* grade = grader ? &*grader : nullptr;
-  Renderer renderer(show, 0, {}, kSurveyFace);
+  Renderer renderer(show, 0, {}, kSurveyDetail);
   const ShowSurvey found = survey(show);
   CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
   report.black = load_skies(show, found, renderer);

@@ -66,10 +66,10 @@ struct Renderer::Memory {
   BandMemory bands{};
 };
 
-Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, int largest_face)
+Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, SkyDetail detail)
     : show_(show),
       anti_aliasing_(anti_aliasing),
-      skies_(show, largest_face),
+      skies_(show, detail),
       memory_(new Memory{tbb::task_arena(threads_of(threads))}) {
   if (anti_aliasing.samples < 1 || anti_aliasing.samples > kMostSamples)
     throw InputError(

@@ -15,12 +15,11 @@ namespace domefall {
 class Renderer {
  public:
   // `threads` is the number of threads, at most one for each processor, or 0 for that many.  The
-  // show must outlive the renderer.  Maps are loaded without levels that have more than
-  // `largest_face` texels along an edge (read_sky).  Throws InputError unless
+  // show must outlive the renderer.  Throws InputError unless
   // 1 <= anti_aliasing.samples <= kMostSamples, and TemporaryError where so many threads cannot be
   // started.
   explicit Renderer(const Show& show, int threads = 0, AntiAliasing anti_aliasing = {},
-                    int largest_face = kLargestFace);
+                    SkyDetail detail = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer(Renderer&&) = delete;

@@ -25,6 +25,12 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
 
 }  // namespace
 
+bool SkyStore::limit_changes(SkyRegion which) const {
+  return std::any_of(show_.timeline.begin(), show_.timeline.end(), [which](const Segment& segment) {
+    return segment.curves[max_magnitude_channel(which)].has_value();
+  });
+}
+
 double SkyStore::faintest_magnitude(SkyRegion which) const {
   double faintest = show_.sky[which].stars.value_or(StarField{}).max_magnitude;
   for (const Segment& segment : show_.timeline)
@@ -41,7 +47,7 @@ void SkyStore::load_background(Kept& kept) {
   const auto* panorama = std::get_if<PanoramaSky>(&*kept.background);
   if (!panorama) return;
   auto& map = maps_[panorama->image];
-  if (!map) map = read_sky(panorama->image, largest_face_);
+  if (!map) map = read_sky(panorama->image, detail_.largest_face);
   background = map;
   kept.sky.black = black_of(*panorama, *map);
 }
@@ -58,8 +64,10 @@ void SkyStore::load_stars(SkyRegion which, Kept& kept) {
         kept.sky.stars = loaded.sky.stars;
         return;
       }
-  kept.sky.stars = std::make_shared<const SceneStars>(
-      read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch).stars);
+  StarCatalogue catalogue = read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch);
+  if (detail_.whole_stars > 0 && !limit_changes(which))
+    catalogue.stars = thinned(catalogue.stars, detail_.whole_stars);
+  kept.sky.stars = std::make_shared<const SceneStars>(catalogue.stars);
 }
 
 const Sky& SkyStore::sky(SkyRegion which, const std::optional<SkyBackground>& background,

@@ -1,6 +1,7 @@
 // The backgrounds and stars of a show's skies, each loaded when a frame first needs it.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <filesystem>
 #include <map>
@@ -31,14 +32,21 @@ struct Sky {
   DarkLevel black;
 };
 
+// How much of the files is loaded.  A frame of few pixels needs less than is there.
+struct SkyDetail {
+  int largest_face = kLargestFace;  // no level of a map has more texels along an edge (read_sky)
+  // That many stars are loaded as they are, and fewer of the rest (thinned), unless a show changes
+  // the faintest magnitude as it goes on; 0 for all as they are.
+  std::size_t whole_stars = 0;
+};
+
 class SkyStore {
  public:
-  // The show must outlive the store.  Maps are loaded without their levels of more than
-  // `largest_face` texels along an edge of a face (read_sky).
-  explicit SkyStore(const Show& show, int largest_face = kLargestFace)
-      : show_(show), largest_face_(largest_face) {}
+  // The show must outlive the store.
+  explicit SkyStore(const Show& show, SkyDetail detail = {}) : show_(show), detail_(detail) {}
 
-  // A sky with this background, if any, and with its stars.  What an earlier call loaded is kept, and a file that several skies name is
+  // A sky with this background, if any, and with its stars.  What an earlier call loaded is kept,
+  // and a file that several skies name is
   // loaded once.  Throws InputError if a file cannot be read.
   const Sky& sky(SkyRegion which, const std::optional<SkyBackground>& background, bool stars);
   // Loads all that any frame of the show may need of a region's sky.
@@ -54,11 +62,12 @@ class SkyStore {
   };
   void load_background(Kept& kept);
   void load_stars(SkyRegion which, Kept& kept);
+  bool limit_changes(SkyRegion which) const;
   // The magnitude of the faintest stars that any frame of the show draws.
   double faintest_magnitude(SkyRegion which) const;
 
   const Show& show_;
-  int largest_face_;
+  SkyDetail detail_;
   std::mutex loading_;
   PerSky<std::deque<Kept>> skies_;  // whose elements stay where they are
   std::map<std::filesystem::path, std::shared_ptr<const SkyMap>> maps_;

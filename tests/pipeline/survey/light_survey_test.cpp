@@ -36,5 +36,28 @@ TEST(LightSurvey, FindsTheBrightestFrameAndKeepsItsMean) {
   EXPECT_NEAR(found.brightest.mean / (sum / count), 1, 0.1);
 }
 
+// Blobs of a small frame are so wide that faint stars drop below what is drawn at all.
+TEST(LightSurvey, SeesTheLightOfFaintStarsByFewerBrighterOnes) {
+  Show show = starry(show_of(StaticObserver{12}, Domemaster{512}));
+  show.mass_solar = 1e6;
+  show.sky[SkyRegion::kI].background = BlackSky{};
+  show.sky[SkyRegion::kI].stars->max_magnitude = 9;
+  show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
+  show.timeline[0].timing.tau_end = 1e-3;
+  Renderer small(show, 2, {}, kSurveyDetail), large(show, 2);
+  const LightSurvey found = survey_light(show, small, nullptr);
+  const HalfFrame frame = large.render(frame_state(show, 0));
+  double sum = 0;
+  int count = 0;
+  for (int row = 0; row < 512; ++row) {
+    const ColumnRange range = inside_columns(show.projection, row);
+    for (int k = range.first; k <= range.last; ++k, ++count) {
+      const Imath::half* rgb = frame.row(row) + 3 * k;
+      sum += luminance({rgb[0], rgb[1], rgb[2]});
+    }
+  }
+  EXPECT_NEAR(found.brightest.mean / (sum / count), 1, 0.05);
+}
+
 }  // namespace
 }  // namespace domefall
