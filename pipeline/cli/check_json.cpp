@@ -116,6 +116,15 @@ Json json_of_head(const CheckReport& report) {
           {"mass_solar", number(show.mass_solar)}};
 }
 
+Json json_of(const SkySources& s) {
+  return {{"region", s.region == SkyRegion::kI ? "I" : "III"},
+          {"map", s.map.empty() ? Json() : Json(s.map)},
+          {"map_fainter_than", number(s.map_fainter_than)},
+          {"catalogue", s.catalogue.empty() ? Json() : Json(s.catalogue)},
+          {"stars", s.stars},
+          {"faintest", s.stars > 0 ? number(s.faintest) : Json()}};
+}
+
 // Of the whole show, after its segments and joints.
 void add_whole(const CheckReport& report, Json& json) {
   const ShowSurvey& survey = report.survey;
@@ -140,6 +149,8 @@ void add_whole(const CheckReport& report, Json& json) {
 
 std::string check_json(const CheckReport& report) {
   Json json = json_of_head(report);
+  json["skies"] = Json::array();
+  for (const SkySources& s : report.skies) json["skies"].push_back(json_of(s));
   json["segments"] = Json::array();
   for (const SegmentSurvey& s : report.survey.segments)
     json["segments"].push_back(json_of(s, report.show.mass_solar));

@@ -10,6 +10,7 @@
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/show_time.h"
+#include "pipeline/sky/catalogue/count_text.h"
 
 namespace domefall {
 namespace {
@@ -22,6 +23,7 @@ class Page {
     head();
     fades(show_.fades, "fading");
     markers();
+    skies();
     effects();
     for (std::size_t k = 0; k < r_.survey.segments.size(); ++k) segment(k);
     whole();
@@ -52,6 +54,20 @@ class Page {
                                      duration_text(*show_.mass_solar * kSecondsPerSolarMass)));
     else
       line("black hole", "none: flat space");
+  }
+
+  void skies() {
+    for (const SkySources& sky : r_.skies) {
+      std::string text;
+      if (!sky.map.empty()) add(text, sky.map);
+      if (sky.map_fainter_than)
+        text += fmt::format(", the light of stars fainter than V = {:g}", *sky.map_fainter_than);
+      if (!sky.catalogue.empty())
+        add(text, fmt::format("{}, {} to V = {:.3g}", sky.catalogue, counted(sky.stars, "star"),
+                              sky.faintest));
+      if (text.empty()) continue;
+      line(sky.region == SkyRegion::kI ? "sky" : "region III", text);
+    }
   }
 
   // What the frames leave out of nature, or add to it.

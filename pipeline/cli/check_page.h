@@ -9,6 +9,7 @@
 #include "pipeline/survey/render_time.h"
 #include "pipeline/survey/show_jumps.h"
 #include "pipeline/survey/show_survey.h"
+#include "pipeline/survey/sky_survey.h"
 
 namespace domefall {
 
@@ -19,8 +20,9 @@ struct CheckReport {
   std::vector<SegmentJoint> joints;
   std::vector<ShowWarning> warnings;
   LightSurvey light;
+  std::optional<RenderTime> time;  // none where it was not measured
+  std::vector<SkySources> skies;
   PerSky<std::optional<double>> black;  // of the maps of the skies that are visited, cd/m^2
-  std::optional<RenderTime> time;       // none where it was not measured
 };
 
 // What the frames take on the disk, in bytes: as estimated from a few of them, or else without any

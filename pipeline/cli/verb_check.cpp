@@ -13,6 +13,12 @@
 namespace domefall {
 namespace {
 
+// Whether a show sees the sky of a region, from there or from inside the hole.
+bool sees(const ShowSurvey& survey, Region region) {
+  return std::any_of(survey.regions.begin(), survey.regions.end(),
+                     [region](Region r) { return r == region || r == Region::kII; });
+}
+
 // Loads all that the frames will read, since a file may be damaged and none of the frames that are
 // measured need show it.  Returns the blacks of the maps.
 PerSky<std::optional<double>> load_skies(const Show& show, const ShowSurvey& survey,
@@ -23,12 +29,8 @@ PerSky<std::optional<double>> load_skies(const Show& show, const ShowSurvey& sur
     if (std::holds_alternative<PanoramaSky>(show.sky[sky].background))
       blacks[sky] = renderer.sky_black(sky);
   };
-  const auto visits = [&survey](Region region) {
-    return std::find(survey.regions.begin(), survey.regions.end(), region) != survey.regions.end();
-  };
-  const bool inside = visits(Region::kII);
-  if (inside || visits(Region::kI)) load(SkyRegion::kI);
-  if (inside || visits(Region::kIII)) load(SkyRegion::kIII);
+  if (sees(survey, Region::kI)) load(SkyRegion::kI);
+  if (sees(survey, Region::kIII)) load(SkyRegion::kIII);
   if (show.mass_solar) load(SkyRegion::kIV);
   return blacks;
 }
@@ -54,8 +56,12 @@ void check(const std::string& file, bool json) {
   const Grader* grade = grader ? &*grader : nullptr;
   Renderer renderer(show, 0, {}, kSurveyDetail);
   const ShowSurvey found = survey(show);
-  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
+  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show),
+                     {},   {}, {}, {}};
   report.black = load_skies(show, found, renderer);
+  report.skies = survey_skies(show, sees(found, Region::kIII));
+  for (const SkySources& sky : report.skies)
+    if (sky.twice > kMuchTwice) report.warnings.push_back({0, 0, 0, counted_twice_text(sky)});
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);

@@ -64,6 +64,15 @@ show thermal ./starlight.sky
 for name in mapped pictured thermal; do
   exits 0 "$DOMEFALL" render "$name.yaml" --frames 0 --out "$name"
 done
+# Stars that are drawn though a map has their light are told.
+sed 's/stars: none/stars: standard/' thermal.yaml >twice.yaml
+exits 0 "$DOMEFALL" check twice.yaml
+grep -q 'stars_to_9.stars from V = 6.5 to 9 are seen twice: .* give max_magnitude: 6.5' stdout || fail "$(cat stdout)"
+grep -q '^sky  *starlight.sky, .* fainter than V = 6.5; stars_to_9.stars, 131,085 stars to V = 9$' stdout ||
+  fail "$(cat stdout)"
+sed 's/stars: none/stars: naked_eye/' thermal.yaml >once.yaml
+exits 0 "$DOMEFALL" check once.yaml
+grep -q '^no warnings' stdout || fail "$(cat stdout)"
 show broken ./short.sky
 exits 2 "$DOMEFALL" render broken.yaml --frames 0 --out broken
 says 'short.sky: byte 100000'
