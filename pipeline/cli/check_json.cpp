@@ -101,6 +101,11 @@ Json json_of(const ShowWarning& w) {
           {"text", w.text}};
 }
 
+void add_fades(const Fades& fades, Json& json) {
+  json["fade_in_s"] = number(fades.in_s);
+  json["fade_out_s"] = number(fades.out_s);
+}
+
 Json json_of_head(const CheckReport& report) {
   const Show& show = report.show;
   const bool graded = !report.display.empty();
@@ -151,9 +156,12 @@ std::string check_json(const CheckReport& report) {
   Json json = json_of_head(report);
   json["skies"] = Json::array();
   for (const SkySources& s : report.skies) json["skies"].push_back(json_of(s));
+  add_fades(report.show.fades, json);
   json["segments"] = Json::array();
-  for (const SegmentSurvey& s : report.survey.segments)
-    json["segments"].push_back(json_of(s, report.show.mass_solar));
+  for (std::size_t k = 0; k < report.survey.segments.size(); ++k) {
+    json["segments"].push_back(json_of(report.survey.segments[k], report.show.mass_solar));
+    add_fades(report.show.timeline[k].fades, json["segments"].back());
+  }
   json["markers"] = Json::array();
   for (const Marker& m : report.show.markers) json["markers"].push_back(json_of(report.show, m));
   json["joints"] = Json::array();

@@ -19,8 +19,8 @@ import unicodedata
 
 from make_naked_eye_stars import GREEK, angle, check_package, fetched
 
-# Degrees, J2000. Sagittarius A*: Reid and Brunthaler 2004 (ApJ 616, 872). The others are the axes of
-# the IAU's galactic coordinates, and the axes of the earth and of its orbit.
+# Degrees, J2000. Sagittarius A*: Reid and Brunthaler 2004 (ApJ 616, 872). The others are the axes
+# of the IAU's galactic coordinates, and the axes of the earth and of its orbit.
 OTHER_PLACES = {
     "Sgr A*": (266.41684, -29.00781), "Sagittarius A*": (266.41684, -29.00781),
     "galactic centre": (266.40499, -28.93617), "galactic anticentre": (86.40499, 28.93617),
@@ -95,8 +95,8 @@ def constellations(load):
         names = [feature["properties"]["name"] for feature in found]
         if len(found) > 1:
             for feature in found:
-                label = feature["geometry"]["coordinates"]
-                yield feature["properties"]["name"], min(parts, key=lambda p: abs(p[0] - label[0] % 360))
+                ra = feature["geometry"]["coordinates"][0] % 360  # of the label beside the figure
+                yield feature["properties"]["name"], min(parts, key=lambda p: abs(p[0] - ra))
             names = [names[0].split()[0]]
         whole = middle([end for ends in figures[short] for end in ends])
         for name in dict.fromkeys((names[0], ascii_text(names[0]), short)):
@@ -142,6 +142,10 @@ def folded(name):
     return re.sub(r"[ _'.*-]", "", name.lower())
 
 
+def short(degrees):
+    return f"{degrees:.4f}".rstrip("0").rstrip(".")
+
+
 def main():
     if len(sys.argv) > 1:
         found = read_package(sys.argv[1])
@@ -160,11 +164,12 @@ def main():
         print(f"{name}: {off:.3f} degrees off", file=sys.stderr)
         if off > tolerance:
             sys.exit(f"{name} is not where it should be")
-    print("# Places on the sky, J2000: from d3-celestial 0.7.35 (BSD-3-Clause) and, the last ones, written by hand.")
+    print("# Places on the sky, J2000: from d3-celestial 0.7.35 (BSD-3-Clause) and, the last ones,"
+          " written by hand.")
     out = csv.writer(sys.stdout, lineterminator="\n")
     out.writerow("name ra_deg dec_deg".split())
     for name, ra, dec in places.values():
-        out.writerow([name, f"{ra % 360:.4f}".rstrip("0").rstrip("."), f"{dec:.4f}".rstrip("0").rstrip(".")])
+        out.writerow([name, short(ra % 360), short(dec)])
     print(f"{len(places)} names", file=sys.stderr)
 
 

@@ -54,6 +54,7 @@ with open(sys.argv[1]) as f:
     facts = json.load(f, parse_constant=lambda name: sys.exit('not JSON: ' + name))
 assert facts['title'] == 'Around "it"'
 assert facts['frames'] == 130 and facts['duration_s'] == 13 and facts['width'] == 256
+assert facts['fade_in_s'] == 1 and facts['segments'][3]['fade_out_s'] == 1.5
 assert [s['type'] for s in facts['segments']] == ['parabolic', 'parabolic', 'infall', 'static']
 closest = facts['segments'][0]['closest']
 assert abs(closest['value'] - 6) < 1e-9 and abs(closest['time_s'] - 3) < 1e-5, closest
