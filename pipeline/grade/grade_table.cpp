@@ -59,7 +59,10 @@ struct Places {
   return std::bit_cast<float>(bits << 13) * 0x1p112f;
 }
 
-[[gnu::always_inline]] inline std::int32_t within(std::int32_t node, std::int32_t most) {
+// The node next to a place that is not negative, but none at either end.
+[[gnu::always_inline]] inline std::int32_t middle_node(float place, std::int32_t most) {
+  const float beyond = place + 0.5f;
+  const auto node = static_cast<std::int32_t>(beyond);
   const std::int32_t bounded = node < most ? node : most;
   return bounded > 1 ? bounded : 1;
 }
@@ -81,8 +84,8 @@ struct Places {
     const float y = (value_of_half(middle) - low) / (span > 0 ? span : 1.0f) * kHueScale;
     const float u = inside ? x : 0.0f, v = inside ? y : 0.0f;
     const std::int32_t magnitude = inside ? most : 0;
-    const std::int32_t i = within(static_cast<std::int32_t>(u + 0.5f), kInnerGreys);
-    const std::int32_t j = within(static_cast<std::int32_t>(v + 0.5f), kInnerHues);
+    const std::int32_t i = middle_node(u, kInnerGreys);
+    const std::int32_t j = middle_node(v, kInnerHues);
     const std::int32_t n = magnitude / kStep;
     places.node[k] = ((order * kGreys + i) * kHues + j) * kLargest + n;
     places.cell[k] = ((order * kInnerGreys + i - 1) * kInnerHues + j - 1) * kCells + n;

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/simd/dispatch.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -131,15 +132,21 @@ TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
   }
 }
 
-TEST(LargeFrames, HaveTheSameBytesForAnySplitIntoRows) {
+TEST(LargeFrames, HaveTheSameBytesForAnySplitIntoRowsAndAnyInstructionSet) {
   HalfFrame large(2048, 1024);
   put_colours(large);
   const Grader grader(shipped());
   const GradedFrame whole = grader.grade(large);
-  GradedFrame parts(large.width, large.height);
-  for (int y = 0; y < large.height; y += 10)
-    grader.grade_rows(large, y, std::min(y + 10, large.height), parts.row(y));
-  EXPECT_EQ(whole.pixels, parts.pixels);
+  const Simd before = simd_in_use();
+  for (const Simd level : kEverySimd) {
+    if (!processor_has(level)) continue;
+    use_simd(level);
+    GradedFrame parts(large.width, large.height);
+    for (int y = 0; y < large.height; y += 10)
+      grader.grade_rows(large, y, std::min(y + 10, large.height), parts.row(y));
+    EXPECT_EQ(whole.pixels, parts.pixels) << name_of(level);
+  }
+  use_simd(before);
 }
 
 TEST(Grader, IsTheSameWhateverTheUserSetForOtherPrograms) {
