@@ -13,7 +13,7 @@ namespace {
 // of true colour at their edge.
 constexpr double kPaperWhiteCore = 10, kSaturation = 0.8;
 constexpr double kMinSigmaDeg = 0.04, kMaxSigmaDeg = 0.3;
-constexpr double kHalo = 0.2, kHaloSigmaDeg = 0.1;
+constexpr double kHalo = 0.12, kHaloSigmaDeg = 0.08;
 constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};

@@ -48,8 +48,8 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
   EXPECT_EQ(show.star_epoch, 2000);
   EXPECT_DOUBLE_EQ(show.point_spread.min_sigma, 0.04 * kDegree);
-  EXPECT_EQ(show.point_spread.halo, 0.2);
-  EXPECT_DOUBLE_EQ(show.point_spread.halo_sigma, 0.1 * kDegree);
+  EXPECT_EQ(show.point_spread.halo, 0.12);
+  EXPECT_DOUBLE_EQ(show.point_spread.halo_sigma, 0.08 * kDegree);
   EXPECT_EQ(show.point_spread.white_core, 0);
   EXPECT_EQ(show.star_saturation, 0.8);
   EXPECT_DOUBLE_EQ(show.least_star_radius, 1e-4 * kDegree);
@@ -332,8 +332,8 @@ TEST_F(ShowKeys, StarsByTheLawOfThePaper) {
 
 TEST_F(ShowKeys, StarsWithAHalo) {
   const PointSpreadLaw own = with("stars: {law: psf}\n").point_spread;
-  EXPECT_EQ(own.halo, 0.2);
-  EXPECT_DOUBLE_EQ(own.halo_sigma, 0.1 * kDegree);
+  EXPECT_EQ(own.halo, 0.12);
+  EXPECT_DOUBLE_EQ(own.halo_sigma, 0.08 * kDegree);
   const Show dim = with("stars: {saturation: 0.3, least_radius_deg: 0.01}\n");
   EXPECT_EQ(dim.star_saturation, 0.3);
   EXPECT_DOUBLE_EQ(dim.least_star_radius, 0.01 * kDegree);
