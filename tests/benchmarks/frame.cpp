@@ -1,5 +1,5 @@
 // What a dome frame costs, as multiples of copying it: first light at r = 7 M, the Milky Way and
-// 8,874 stars with every image that matters.  Files and grading are measured apart, at 4k.
+// the 131,085 standard stars with every image that matters.  Files and grading are measured apart, at 4k.
 //
 //     build/release/tests/bench_frame
 #include <benchmark/benchmark.h>
