@@ -42,8 +42,8 @@ TEST(RateLaws, HaveTheRatesThatAreGivenAtBothEndsAndNoKinkThere) {
     EXPECT_NEAR(part_passed(begin, end, step) / step, begin, 1e-5 * (1 + begin)) << begin << end;
     EXPECT_NEAR(part_passed(end, begin, step) / step, end, 1e-5 * (1 + end)) << begin << end;
     // The rate of the stretch from h to 2 h differs from that at 0 by the square of h only.
-    const auto bend = [&](double h) {
-      return part_passed(begin, end, 2 * h) / h - 2 * part_passed(begin, end, h) / h;
+    const auto bend = [first = begin, last = end](double h) {
+      return part_passed(first, last, 2 * h) / h - 2 * part_passed(first, last, h) / h;
     };
     const double h = 1e-4 / (1 + begin + end);
     if (std::abs(bend(h)) > 1e-9) {
