@@ -119,11 +119,11 @@ double largest_flash(const StarScene& scene, double from_axis, double step) {
   double most = 0;
   for (std::size_t k = 1; k + 1 < frames.size(); ++k)
     for (const auto& [cell, light_now] : frames[k]) {
-      const auto in = [&](std::size_t f) {
-        const auto found = frames[f].find(cell);
-        return found == frames[f].end() ? 0 : found->second;
+      const auto in = [at = cell](const Cells& cells) {
+        const auto found = cells.find(at);
+        return found == cells.end() ? 0 : found->second;
       };
-      most = std::max(most, light_now - std::max(in(k - 1), in(k + 1)));
+      most = std::max(most, light_now - std::max(in(frames[k - 1]), in(frames[k + 1])));
     }
   double before = 0;
   for (const auto& [cell, light_now] : frames.front()) before = std::max(before, light_now);
