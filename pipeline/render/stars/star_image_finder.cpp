@@ -29,11 +29,14 @@ constexpr int kOrdersWithoutAmplification = 2;
 // 2 exp(-2 pi^2/1.5^2) = 3e-4.
 constexpr double kPieceSigmas = 1.5;
 
-// With a closed shutter an image is a trail where the source comes nearer to the axis than so many
-// times its way from frame to frame, and an image of the instant beyond kInstant times.  Between
-// them the window shrinks, so that nothing snaps.  Its half is kWindow frames at first: a shorter
-// one would show half a ring in one frame and nothing in its neighbours.
-constexpr double kTrail = 4, kInstant = 24, kWindow = 2;
+// With a closed shutter, what is the mean over a window of time depends on the ratio of a source's
+// distance from the axis to its way from frame to frame.  Up to kRacing the window falls evenly to 0
+// within kWindow frames to either side: a shorter one would show half a ring in one frame and nothing
+// in its neighbours.  Beyond, the window becomes the more peaked, so that a slower image is a dot with
+// faint tails and not a bar, until at kSlow its sharpness is kSharpest.  From kShrinking to kInstant
+// it shrinks to the instant.
+constexpr double kWindow = 2, kRacing = 3, kSlow = 12, kShrinking = 8, kInstant = 24;
+constexpr double kSharpest = 5;
 // With an open shutter images that move by less than so many pixels from one instant to the next
 // are left to the mean of instants: their sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
 constexpr double kTrailPixels = 1.5;
@@ -150,12 +153,15 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   way.x = 0;
   const double length = way.length(), radius = radius_of(star);
   if (!(length > radius)) return std::nullopt;
-  double window = 1;
-  if (!scene_.motion.shutter_open)
-    window = kWindow * (1 - smooth_step((sine / length - kTrail) / (kInstant - kTrail)));
+  double window = 1, sharpness = 1;
+  if (!scene_.motion.shutter_open) {
+    const double ratio = sine / length;
+    window = kWindow * (1 - smooth_step((ratio - kShrinking) / (kInstant - kShrinking)));
+    sharpness += (kSharpest - 1) * smooth_step((ratio - kRacing) / (kSlow - kRacing));
+  }
   window = std::min(window, kLongestWay / length);
   if (!(window * length > radius)) return std::nullopt;
-  return AxisPassage(source, way * window, radius);
+  return AxisPassage(source, way * window, radius, sharpness);
 }
 
 // The image of one order in the frame of the tetrad.

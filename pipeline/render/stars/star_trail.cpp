@@ -53,8 +53,10 @@ Node between(const std::vector<Node>& nodes, std::size_t k, double x) {
 
 }  // namespace
 
-AxisPassage::AxisPassage(const V3d& source, const V3d& half_way, double radius)
-    : side_(source.x < 0 ? -1 : 1), half_way_(std::hypot(half_way.y, half_way.z)) {
+AxisPassage::AxisPassage(const V3d& source, const V3d& half_way, double radius, double sharpness)
+    : side_(source.x < 0 ? -1 : 1),
+      half_way_(std::hypot(half_way.y, half_way.z)),
+      sharpness_(sharpness) {
   along_ = V3d(0, half_way.y, half_way.z) / half_way_;
   const V3d across(0, -along_.z, along_.y);
   const double offset = source.y * across.y + source.z * across.z;
@@ -74,16 +76,17 @@ V3d AxisPassage::source(double x) const {
 
 double AxisPassage::u(double x) const { return u_least_ + least_ / half_way_ * std::sinh(x); }
 
-// Since du/distance = dx/half_way, it is the integral of 1 - |u| over x by the rule of Gauss and
-// Legendre with three points, which is exact to 1e-4 for a step of 1.
+// Since du/distance = dx/half_way, it is the integral of the weight over x by the rule of Gauss and
+// Legendre with three points.
 double AxisPassage::mean_inverse_distance(double from, double to) const {
   constexpr std::array<double, 3> kNodes{-0.7745966692414834, 0, 0.7745966692414834};
   constexpr std::array<double, 3> kWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    sum +=
-        kWeights[k] * std::max(0.0, 1 - std::abs(u((from + to) / 2 + kNodes[k] * (to - from) / 2)));
-  return sum * (to - from) / half_way_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double rest = 1 - std::abs(u((from + to) / 2 + kNodes[k] * (to - from) / 2));
+    if (rest > 0) sum += kWeights[k] * std::pow(rest, sharpness_);
+  }
+  return (sharpness_ + 1) / 2 * sum * (to - from) / half_way_;
 }
 
 std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,

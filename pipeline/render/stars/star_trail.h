@@ -4,8 +4,8 @@
 // As a source passes the hole at the angle b from the axis, its image races around the ring, by
 // half of it within the time in which the source moves by a few b.  No single instant stands for
 // that time.  So an image near the axis is the mean over a window of time about the frame's
-// instant.  Its weight falls evenly to 0 at both ends, so that the windows of successive instants
-// add up to an even exposure, and the trail tapers.
+// instant.  Its weight falls to 0 at both ends, so that the trail tapers.  If it falls evenly, the
+// windows of successive instants add up to an even exposure.
 //
 // Near the axis the sky is flat and the source moves along a line.  With x = asinh(s/b), where s is
 // the way from the point closest to the axis, the distance from the axis is b cosh(x).  The
@@ -26,8 +26,9 @@ namespace domefall {
 class AxisPassage {
  public:
   // `source` is a unit vector along R, Theta, Phi, and `half_way` what is added to it from u = 0 to
-  // u = 1, small against 1 and not along R.  The radius is in radians, > 0.
-  AxisPassage(const V3d& source, const V3d& half_way, double radius);
+  // u = 1, small against 1 and not along R.  The radius is in radians, > 0.  The weight is
+  // (sharpness + 1)/2 (1 - |u|)^sharpness, whose integral is 1; the sharpness is at least 1.
+  AxisPassage(const V3d& source, const V3d& half_way, double radius, double sharpness = 1);
 
   double begin() const { return begin_; }    // the x of u = -1
   double middle() const { return middle_; }  // the x of u = 0
@@ -35,18 +36,20 @@ class AxisPassage {
   double distance(double x) const;           // from the axis: the sine of the angle
   V3d source(double x) const;                // unit vector along R, Theta, Phi
 
-  // The integral of (1 - |u|)/distance over u between two x, which lie on one side of the middle.
-  // Over the whole way 1 - |u| has the integral 1.
+  // The integral of weight/distance over u between two x, which lie on one side of the middle.
   double mean_inverse_distance(double from, double to) const;
   // At least the same over the whole way.
-  double most_inverse_distance() const { return (end_ - begin_) / half_way_; }
+  double most_inverse_distance() const {
+    return (sharpness_ + 1) / 2 * (end_ - begin_) / half_way_;
+  }
 
  private:
   double u(double x) const;
 
-  double side_;          // the sign of the source's component along R
-  double least_;         // distance from the axis at x = 0
-  double half_way_;      // the length of the way from u = 0 to u = 1
+  double side_;      // the sign of the source's component along R
+  double least_;     // distance from the axis at x = 0
+  double half_way_;  // the length of the way from u = 0 to u = 1
+  double sharpness_;
   double u_least_;       // u at x = 0
   V3d outward_, along_;  // unit vectors across R: from the axis to x = 0, and along the way
   double begin_, middle_, end_;

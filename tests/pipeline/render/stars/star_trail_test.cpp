@@ -60,6 +60,21 @@ TEST(StarTrail, IsTheMeanOverManyInstants) {
     }
 }
 
+// However the window falls, its weights add up to 1: far from the axis the mean is the instant's.
+TEST(StarTrail, HasTheLightOfTheInstantFarFromTheAxis) {
+  const SkyTable table = table_at(10);
+  const V3d source = V3d(-1, 0.2, 0.1).normalized();
+  const double instant = image_of(&table, source, 0, 0).amplification;
+  for (const double sharpness : {1.0, 1.7, 3.0, 5.0}) {
+    double sum = 0;
+    for (const SkyImage& piece :
+         trail_of(table, AxisPassage(source, V3d(0, 0.002, -0.003), kRadius, sharpness), 0,
+                  [](const V3d&) { return 1e-4; }))
+      sum += piece.amplification;
+    EXPECT_NEAR(sum / instant, 1, 2e-3) << sharpness;
+  }
+}
+
 TEST(StarTrail, HasNoGaps) {
   for (const Case& c : kCases) {
     const SkyTable table = table_at(c.r);
