@@ -55,7 +55,7 @@ TEST(OrbitBounds, RefusalsNameTheQuantityTheBoundAndTheValue) {
        "141323.5",
        [] { return hyperbolic_by_periastron(0.47, 3.5); }},
       {"v_inf must be below", [] { return hyperbolic_by_periastron(1, 5); }},
-      {"v_inf must be at least 1e-09 (fraction of c), got 0: slower is a parabolic orbit",
+      {"v_inf must be at least 1e-9 (fraction of c), got 0: slower is a parabolic orbit",
        [] { return hyperbolic_by_periastron(0, 5); }},
       {"periastron must be below 4", [] { return hyperbolic_by_speed_excess(4, 1e-3); }},
       {"excess must be at least 1e-20", [] { return hyperbolic_by_speed_excess(3.5, 0); }},
