@@ -1,11 +1,11 @@
 // A grade as a table, which is several times as quick as to follow its formulas for each pixel.
 //
-// A pixel is split into its largest channel M, the ratio of its least channel to M, which is how grey
-// it is, and the place of the third between the two, which is a hue; for each of the six orders of
-// the channels, so that what a view does at M, at the least channel or at the grey axis is no kink
-// within a cell.  M is a half float, and there is a node at each 32nd of its bits' steps, 32 to the
-// octave; the ratio has 21 nodes, even in its square root, from 0.25 to 1, and the hue 9.  Codes are
-// interpolated by parabolas in ratio and hue and linearly in M.
+// A pixel is split into its largest channel M, the ratio of its least channel to M, which is how
+// grey it is, and the place of the third between the two, which is a hue; for each of the six
+// orders of the channels, so that what a view does at M, at the least channel or at the grey axis
+// is no kink within a cell.  M is a half float, and there is a node at each 32nd of its bits'
+// steps, 32 to the octave; the ratio has 21 nodes, even in its square root, from 0.25 to 1, and the
+// hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
 //
 // When the table is made, each of its cells is compared with the formulas at five places.  One that
 // errs by more than 0.8 kMostError there is left out with its neighbours, and so are ratios below

@@ -178,7 +178,8 @@ std::string FrameKeys::instant(const FrameState& state) const {
     add_settings(digest, state.settings.sky[SkyRegion::kIV]);
   }
   // Stars that race around the ring are drawn by how far the sky turns until the next frame.
-  if (!is_flat(o) && !(show_.exposure.shutter > 0)) {
+  const bool starry = show_.sky[SkyRegion::kI].stars || show_.sky[SkyRegion::kIII].stars;
+  if (starry && !is_flat(o) && !(show_.exposure.shutter > 0)) {
     const V3d turn = sky_turn(show_, state);
     for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }

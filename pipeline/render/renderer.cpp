@@ -148,7 +148,7 @@ void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame
   times.tables_made = optics_.tables_made();
   times.table_nodes = node_count(optics);
   SkyMotion motion;
-  if (plan.gravity) motion = {sky_turn(show_, state) * gap, show_.exposure.shutter > 0};
+  if (plan.gravity) motion = {sky_turn(show_, state), gap};
   const FrameScene scene(show_, state, plan, optics, skies, motion);
   times.tables_s = watch.lap();
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))

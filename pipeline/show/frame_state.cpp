@@ -92,10 +92,11 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
 }
 
 // A direction d of the sky has the components S^T d along the tetrad's axes, so they change by
-// (S'^T S) S^T d, where S'^T S is antisymmetric.  The difference is taken over a quarter of a frame.
-// It is rounded, since its last bits differ between processors.
+// (S'^T S) S^T d, where S'^T S is antisymmetric.  The difference is taken over a 64th of a frame,
+// so that it holds up to some 60 radians a frame; no film shows more.  It is rounded, since its
+// last bits differ between processors.
 V3d sky_turn(const Show& show, const FrameState& state) {
-  constexpr double kHalf = 0.125, kSteps = 1e9;
+  constexpr double kHalf = 1.0 / 128, kSteps = 1e9;
   const auto axes = [&](double frames) {
     const double t = state.show_time_s + frames / show.frames_per_second;
     return observer_at(show, state.segment, part_at(show, state.segment, t)).sky_from_tetrad;

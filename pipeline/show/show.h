@@ -127,8 +127,8 @@ struct PanoramaShift {
   double blueshift_power = 2;
 };
 
-// The default of Show::least_star_radius: 0.4 arc seconds, by which catalogues place their stars.
-inline constexpr double kLeastStarRadiusDeg = 1e-4;
+// The default of Show::least_star_radius: a ninth of a pixel of a 4k dome.
+inline constexpr double kLeastStarRadiusDeg = 0.005;
 
 // The law by which stars are spread over pixels.  Each is a truncated Gaussian in angle.  Without a
 // halo its width grows with its observed magnitude m,
@@ -220,8 +220,8 @@ struct Show {
   PointSpreadLaw point_spread;
   // How far the colours of stars are from grey: 0 grey, 1 as the CIE's standard observer sees them.
   double star_saturation = 1;
-  // The angular radius that a star has at least, in radians.  It bounds the light of one on the axis
-  // of the lens, and makes an arc or a ring of one that stays there.
+  // The angular radius that a star has at least, in radians.  It bounds the light of one on the
+  // axis of the lens, and makes an arc or a ring of one that stays there.
   double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;
   Exposure exposure;
   GradeSettings grade;

@@ -23,8 +23,8 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
 // kDeepestStars in it.
 constexpr std::size_t kDeepCount = 500'000;
 
-// What is asked of a catalogue's header.  A damaged one says nothing here: it is told when its stars
-// are read, with the byte.
+// What is asked of a catalogue's header.  A damaged one says nothing here: it is told when its
+// stars are read, with the byte.
 template <class Ask>
 auto of_header(const Ask& ask) -> decltype(ask()) {
   try {

@@ -289,8 +289,10 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
                     short_number(1 / show.frames_per_second)));
   if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
   // Where a segment is in error the end of the show is not known.
-  if (list->problems->count() == reported) check_markers(section, show.markers, reader.end());
-  check_fades(section, show.fades, reader.end(), "the show");
+  if (list->problems->count() == reported) {
+    check_markers(section, show.markers, reader.end());
+    check_fades(section, show.fades, reader.end(), "the show");
+  }
   return reader.take();
 }
 

@@ -16,8 +16,8 @@ namespace domefall {
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file,
                                        int largest_face = kLargestFace);
 
-// Whether the file is a .sky file of the cosmic microwave background, as `domefall sky import --cmb`
-// makes it and says in its header's text.
+// Whether the file is a .sky file of the cosmic microwave background, as `domefall sky import
+// --cmb` makes it and says in its header's text.
 bool is_microwave_background(const std::filesystem::path& file);
 
 // Returns a digest of what decides how the sky looks.  A .sky file is not read whole for it.

@@ -30,8 +30,8 @@ struct LightSurvey {
   int frames = 0;  // how many were measured
 };
 
-// What the renderer of survey_light needs: texels of 0.7 degrees, where a pixel of its frames has 4,
-// and some thousand stars, since each of them covers several pixels.
+// What the renderer of survey_light needs: texels of 0.7 degrees, where a pixel of its frames has
+// 4, and some thousand stars, since each of them covers several pixels.
 inline constexpr SkyDetail kSurveyDetail{128, 512};
 
 // Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.

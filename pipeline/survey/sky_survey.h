@@ -18,8 +18,8 @@ struct SkySources {
   std::string catalogue;                   // name of the file; empty without one
   std::size_t stars = 0;                   // so many are drawn
   double faintest = 0;                     // V of the faintest of them
-  // Light of the stars that are drawn though the map has theirs, as a mean over the sky, in stars of
-  // V = 10 per square degree.
+  // Light of the stars that are drawn though the map has theirs, as a mean over the sky, in stars
+  // of V = 10 per square degree.
   double twice = 0;
 };
 

@@ -5,7 +5,7 @@
 
 Constellations by the middle of their figures, Messier's objects, all objects of the NGC and the IC
 that the source has, objects with a proper name, and the few places below. The archive is the one
-that make_naked_eye_stars.py takes; without one it is fetched. Standard library only.
+that make_stars_to_8.py takes; without one it is fetched. Standard library only.
 """
 
 import csv
@@ -17,7 +17,7 @@ import tarfile
 import tempfile
 import unicodedata
 
-from make_naked_eye_stars import GREEK, angle, check_package, fetched
+from make_stars_to_8 import GREEK, angle, check_package, fetched
 
 # Degrees, J2000. Sagittarius A*: Reid and Brunthaler 2004 (ApJ 616, 872). The others are the axes
 # of the IAU's galactic coordinates, and the axes of the earth and of its orbit.

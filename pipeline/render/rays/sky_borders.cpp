@@ -55,7 +55,8 @@ void SkyBorders::find_box(const Projection& projection) {
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
   const Circle& c = circles_.front();
-  if (c.cosine < 0) return;
+  // A rim around the one direction without an image, -Z, has what it holds outside its image.
+  if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;
   const V3d e1 = c.axis.cross(std::abs(c.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d e2 = c.axis.cross(e1);
   double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;

@@ -14,10 +14,11 @@ namespace domefall {
 
 // How the sky moves while a frame lasts.
 struct SkyMotion {
-  // By what it turns against the axes R, Theta, Phi of the tetrad from this instant to the next one
-  // that is seen: the rotation vector, radians.
+  // By what it turns against the axes R, Theta, Phi of the tetrad from frame to frame: the rotation
+  // vector, radians.
   V3d turn{0, 0, 0};
-  bool shutter_open = false;  // whether that instant belongs to the same frame
+  // Frames to the next instant that is seen: 1 with a closed shutter, less with an open one.
+  double gap = 1;
 };
 
 struct FrameScene {

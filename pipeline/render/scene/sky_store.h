@@ -27,8 +27,8 @@ using Rings = RingsSky;
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
   std::shared_ptr<const SceneStars> stars;  // never null, but empty if there are none
-  // What is taken from a map's light as its black (PanoramaSky::black), in the unit of its texels and
-  // as luminance.
+  // What is taken from a map's light as its black (PanoramaSky::black), in the unit of its texels
+  // and as luminance.
   DarkLevel black;
 };
 

@@ -29,28 +29,31 @@ constexpr int kOrdersWithoutAmplification = 2;
 // 2 exp(-2 pi^2/1.5^2) = 3e-4.
 constexpr double kPieceSigmas = 1.5;
 
-// With a closed shutter, what is the mean over a window of time depends on the ratio of a source's
-// distance from the axis to its way from frame to frame.  Up to kRacing the window falls evenly to 0
-// within kWindow frames to either side: a shorter one would show half a ring in one frame and nothing
-// in its neighbours.  Beyond, the window becomes the more peaked, so that a slower image is a dot with
-// faint tails and not a bar, until at kSlow its sharpness is kSharpest.  From kShrinking to kInstant
-// it shrinks to the instant.
-constexpr double kWindow = 2, kRacing = 3, kSlow = 12, kShrinking = 8, kInstant = 24;
-constexpr double kSharpest = 5;
-// With an open shutter images that move by less than so many pixels from one instant to the next
-// are left to the mean of instants: their sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
+// What is the mean over a window of time depends on the ratio of a source's distance from the axis
+// to its way from frame to frame.  Up to kRacing the window reaches kWindow frames to either side
+// and falls to 0 like the power kSharpness: the ring of a bright star fades in and out over several
+// frames.  Beyond, the window becomes the more peaked, so that a slower image is a dot with faint
+// tails and not a bar, until at kSlow its sharpness is kSharpest.  From a third of kInstant to
+// kInstant the window shrinks to the instant.
+constexpr double kWindow = 5, kSharpness = 3, kSharpest = 8;
+constexpr double kRacing = 3, kSlow = 12, kInstant = 24;
+// With an open shutter an image is at least the mean over the gap between two instants.  Images
+// that move by less than so many pixels meanwhile are left to the mean of instants: their sum
+// ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
 constexpr double kTrailPixels = 1.5;
-// The farthest that a passage reaches from the axis (as a sine), and the longest half of its way.
-// The sky is taken as flat so far.
-constexpr double kFarthestPassage = 0.5, kLongestWay = 0.3;
+// The farthest that a passage is from the axis (as a sine), and the longest half of its way.  The
+// sky is taken as flat so far.
+constexpr double kFarthestPassage = 0.25, kLongestWay = 0.3;
 
 // The sine of the angle from the axis within which images may be trails.
 double farthest_passage(const FrameScene& scene, double stretch) {
-  const double way =
-      std::hypot(scene.motion.turn.y, scene.motion.turn.z) + std::abs(scene.motion.turn.x);
-  if (!scene.motion.shutter_open) return std::min(kInstant * way, kFarthestPassage);
-  return std::min(way * stretch / (kTrailPixels * central_pixel_angle(scene.projection())),
-                  kFarthestPassage);
+  const V3d& turn = scene.motion.turn;
+  const double way = std::hypot(turn.y, turn.z) + std::abs(turn.x);
+  double farthest = kInstant * way;
+  if (scene.motion.gap < 1)
+    farthest = std::max(farthest, way * scene.motion.gap * stretch /
+                                      (kTrailPixels * central_pixel_angle(scene.projection())));
+  return std::min(farthest, kFarthestPassage);
 }
 
 // The part of a star's light that the frame's limit of magnitude leaves.  Magnitudes are floats, so
@@ -153,11 +156,13 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   way.x = 0;
   const double length = way.length(), radius = radius_of(star);
   if (!(length > radius)) return std::nullopt;
-  double window = 1, sharpness = 1;
-  if (!scene_.motion.shutter_open) {
-    const double ratio = sine / length;
-    window = kWindow * (1 - smooth_step((ratio - kShrinking) / (kInstant - kShrinking)));
-    sharpness += (kSharpest - 1) * smooth_step((ratio - kRacing) / (kSlow - kRacing));
+  const double ratio = sine / length, instant = std::min(kInstant, near_ / length);
+  double window = kWindow * (1 - smooth_step((3 * ratio / instant - 1) / 2));
+  double sharpness =
+      kSharpness + (kSharpest - kSharpness) * smooth_step((ratio - kRacing) / (kSlow - kRacing));
+  if (scene_.motion.gap < 1 && window < scene_.motion.gap * (sharpness + 1) / 2) {
+    window = scene_.motion.gap;
+    sharpness = 1;
   }
   window = std::min(window, kLongestWay / length);
   if (!(window * length > radius)) return std::nullopt;

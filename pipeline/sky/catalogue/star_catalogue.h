@@ -29,9 +29,9 @@ struct StarCatalogue {
 };
 
 // Returns fewer stars that send the same light, for pictures too small to tell them apart.  The
-// `whole` brightest are kept.  Of the next as many, every second is, for two; of twice as many beyond
-// them, every fourth, for four; and so on.  The stars that are kept shine for those that are not, and
-// are sorted like all others.  `stars` are sorted by magnitude; whole >= 1.
+// `whole` brightest are kept.  Of the next as many, every second is, for two; of twice as many
+// beyond them, every fourth, for four; and so on.  The stars that are kept shine for those that are
+// not, and are sorted like all others.  `stars` are sorted by magnitude; whole >= 1.
 std::vector<Star> thinned(const std::vector<Star>& stars, std::size_t whole);
 
 // Returns a name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen"

@@ -26,8 +26,8 @@ int panorama_face(int width);
 // `luminance` cd/m^2.
 double panorama_unit(const LightImage& image, double luminance);
 
-// Sets the finest level of such a map, border and all.  If it is coarser than the image's pixels, its
-// texels are means of several samples.
+// Sets the finest level of such a map, border and all.  If it is coarser than the image's pixels,
+// its texels are means of several samples.
 void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
                     const SkyPyramid& pyramid);
 

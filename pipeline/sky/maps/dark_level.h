@@ -17,7 +17,8 @@ struct DarkLevel {
 // The light that 1 % of the sphere falls below, each texel counting as its solid angle.  It is
 // measured on the first level of at most 64 texels along an edge of a face, which are 1.4 degrees,
 // so that neither a star's gap nor the noise of a picture decides.  It follows from the map alone.
-// It is 0 if it exceeds 3/4 of what half of the sphere falls below: a sky so even has no dark parts.
+// It is 0 if it exceeds 3/4 of what half of the sphere falls below: a sky so even has no dark
+// parts.
 DarkLevel dark_level(const SkyMap& map);
 
 // The light (in the unit of DarkLevel::light) that has this luminance in cd/m^2, if it has the

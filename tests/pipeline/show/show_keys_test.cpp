@@ -52,7 +52,7 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
   EXPECT_DOUBLE_EQ(show.point_spread.halo_sigma, 0.08 * kDegree);
   EXPECT_EQ(show.point_spread.white_core, 0);
   EXPECT_EQ(show.star_saturation, 0.8);
-  EXPECT_DOUBLE_EQ(show.least_star_radius, 1e-4 * kDegree);
+  EXPECT_DOUBLE_EQ(show.least_star_radius, 0.005 * kDegree);
   EXPECT_EQ(show.exposure.ev, 0);
   EXPECT_EQ(show.grade.config, asset("dome.ocio"));
   EXPECT_EQ(show.grade.display, "");
@@ -188,6 +188,18 @@ TEST_F(ShowKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 3);
   EXPECT_EQ(show.panorama_shift.blueshift_power, 3.5);
   EXPECT_EQ(show.star_epoch, 2026.5);
+}
+
+TEST_F(ShowKeys, ASegmentSaysTheBlackOfItsSky) {
+  const Show show = read(
+      "sky: {region_I: {black_cd_m2: 1e-5}}\n"
+      "timeline:\n"
+      "  - {duration_s: 1}\n"
+      "  - {duration_s: 1, sky: {region_I: {black_cd_m2: none}}}\n");
+  EXPECT_EQ(std::get<PanoramaSky>(show.sky[SkyRegion::kI].background).black, 1e-5);
+  EXPECT_FALSE(show.timeline[0].backgrounds[SkyRegion::kI]);
+  ASSERT_TRUE(show.timeline[1].backgrounds[SkyRegion::kI]);
+  EXPECT_EQ(std::get<PanoramaSky>(*show.timeline[1].backgrounds[SkyRegion::kI]).black, 0);
 }
 
 TEST_F(ShowKeys, TheBlackOfAMapIsItsOwnUnlessTheShowSaysIt) {

@@ -78,6 +78,33 @@ TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
 }
 
 // Bright stars glow all around the silhouette, and not into it.
+// The hole stands where the projection has its antipode, or below the rim of a dome.
+TEST(SkyBorders, BoxHoldsAHoleBehindTheCamera) {
+  for (const auto& [projection, attitude, elevation] :
+       {std::tuple(Projection(Stereographic{160, 90, 5.6}), Attitude(LookOutward{}), 0.0),
+        std::tuple(Projection(Domemaster{128}), Attitude(LookAtHole{}), -30.0),
+        std::tuple(Projection(Domemaster{128}), Attitude(LookOutward{}), 80.0)})
+    for (const double r : {3.3, 8.0}) {
+      Show show = show_of(StaticObserver{r}, projection);
+      show.timeline[0].camera.attitude = attitude;
+      show.timeline[0].camera.elevation = elevation * kDegree;
+      const FrameState state = frame_state(show, 0);
+      const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
+      const ViewTracer tracer(state, optics);
+      const auto box = SkyBorders(state, optics, tracer.vantage()).box_without_sky();
+      for (int row = 0; row < rows(projection); ++row)
+        for (int column = 0; column < columns(projection); ++column) {
+          const PixelPosition pixel{column + 1.0, row + 1.0};
+          if (!is_inside(projection, pixel) ||
+              tracer.trace(direction_at(projection, pixel)).sky != SkyRegion::kIV)
+            continue;
+          ASSERT_TRUE(box && column >= box->first_column && column <= box->last_column &&
+                      row >= box->first_row && row <= box->last_row)
+              << "r " << r << ", " << column << " " << row;
+        }
+    }
+}
+
 TEST(SkyBorders, EndTheBlobsOfStars) {
   Show show = show_of(StaticObserver{8}, Domemaster{256});
   show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};

@@ -153,7 +153,7 @@ TEST(StarTrail, MakesNoFrameFlash) {
   for (const double from_axis : {1e-6, 1e-4, 2e-3}) {
     scene.motion = {};
     const double still = largest_flash(scene, from_axis, step);
-    scene.motion = {V3d(0, -step, 0), false};
+    scene.motion = {V3d(0, -step, 0)};
     EXPECT_LT(largest_flash(scene, from_axis, step), std::min(4.0, 0.3 * still)) << from_axis;
   }
 }
@@ -163,7 +163,7 @@ TEST(StarTrail, IsOneImageWhereTheSkyMovesLittle) {
   StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
   const SceneStar star{scene.sky(V3d(-1, 0.05, 0.02)), 4, 1e-10, 6000, 1e-9};
   const auto still = all_images(scene.images(), SceneStars({star}));
-  scene.motion = {V3d(0, 0.001, 0), false};
+  scene.motion = {V3d(0, 0.001, 0)};
   const auto moving = all_images(scene.images(), SceneStars({star}));
   ASSERT_EQ(moving.size(), still.size());
   for (std::size_t k = 0; k < still.size(); ++k) {
@@ -179,7 +179,7 @@ TEST(StarTrail, HasTheSameLightAtEverySize) {
       double small = 0;
       for (const int size : {512, 1024, 4096}) {
         StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{size});
-        scene.motion = {turn, false};
+        scene.motion = {turn};
         const SceneStar star{scene.sky(V3d(-1, from_axis, 0.001)), 4, 1e-10, 6000, 1e-9};
         const double total = total_light(all_images(scene.images(), SceneStars({star})));
         if (small == 0) small = total;
