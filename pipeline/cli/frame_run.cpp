@@ -238,12 +238,19 @@ class Run {
         kCodes * table->error, 100 * (1 - table->held));
   }
 
-  // Writes a graded file, of which some rows are graded while those before are packed.  Returns the
-  // seconds spent waiting for grades.
+  // Writes a graded file.  Returns the seconds spent waiting for grades.
   double write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
                             const GradedInfo& info) const {
-    constexpr int kRows = GradedFile::kRows;
     GradedFile file(path, frame.width, frame.height, info);
+    const double waited_s =
+        grader_->dome_light() ? add_dome(file, frame) : add_rows_as_graded(file, frame);
+    file.finish();
+    return waited_s;
+  }
+
+  // Some rows are graded while those before are packed.
+  double add_rows_as_graded(GradedFile& file, const HalfFrame& frame) const {
+    constexpr int kRows = GradedFile::kRows;
     const auto graded_from = [&](int first) {
       return std::async(std::launch::async, [this, &frame, first] {
         return graded_rows(frame, first, std::min(first + kRows, frame.height));
@@ -258,22 +265,45 @@ class Run {
       if (first + kRows < frame.height) next = graded_from(first + kRows);
       file.add(rows.row(0), rows.height);
     }
-    file.finish();
+    return waited_s;
+  }
+
+  // All rows are graded before the first is packed, since the light of each falls on all others.
+  double add_dome(GradedFile& file, const HalfFrame& frame) const {
+    const Stopwatch watch;
+    GradedFrame whole = graded_rows(frame, 0, frame.height);
+    std::vector<DomeCodes> parts(static_cast<std::size_t>(file_threads()));
+    in_parts(whole.height, [&](int part, int first, int end) {
+      parts[static_cast<std::size_t>(part)].add_rows(whole, first, end);
+    });
+    for (std::size_t k = 1; k < parts.size(); ++k) parts[0].add(parts[k]);
+    const CodeMap map = grader_->dome_light()->map_for(parts[0]);
+    in_parts(whole.height, [&](int, int first, int end) { map.change_rows(whole, first, end); });
+    const double waited_s = watch.seconds();
+    for (int first = 0; first < whole.height; first += GradedFile::kRows)
+      file.add(whole.row(first), std::min(GradedFile::kRows, whole.height - first));
     return waited_s;
   }
 
   // The rows y0 <= y < y1, of which each thread grades a part.
   GradedFrame graded_rows(const HalfFrame& frame, int y0, int y1) const {
     GradedFrame out(frame.width, y1 - y0);
+    in_parts(out.height, [&](int, int first, int end) {
+      grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
+    });
+    return out;
+  }
+
+  // Calls step(part, first, end) for as many parts of the rows as there are threads, side by side.
+  template <class Step>
+  void in_parts(int rows, const Step& step) const {
     const int parts = file_threads();
     std::vector<std::future<void>> others(static_cast<std::size_t>(parts));
     for (int part = 0; part < parts; ++part)
       others[static_cast<std::size_t>(part)] = std::async(std::launch::async, [&, part] {
-        const int first = out.height * part / parts, end = out.height * (part + 1) / parts;
-        grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
+        step(part, rows * part / parts, rows * (part + 1) / parts);
       });
     for (auto& other : others) other.get();
-    return out;
   }
 
   GradedInfo graded_info(const FrameState& state, const std::string& key) const {

@@ -17,6 +17,7 @@
 #include "pipeline/show/assets.h"
 #include "pipeline/show/camera_track.h"
 #include "pipeline/show/read_show.h"
+#include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
 namespace {
@@ -57,6 +58,18 @@ void flatten(const Show& show, FrameState& state, const Projection& flat) {
       from_columns(column(dome_axes, 0), (front - zenith) * half, (front + zenith) * half);
 }
 
+// Does to a flat picture of a dome what its own light does, which that of the whole dome decides.
+// A small dome has the light of a large one but for what is white in it.
+void change_as_in_dome(const DomeLight& light, const Grader& grader, Renderer& renderer,
+                       const FrameState& dome, GradedFrame& picture) {
+  constexpr int kDomeWidth = 512;
+  const GradedFrame small = grader.grade(renderer.render(reduced(dome, kDomeWidth)));
+  DomeCodes codes;
+  codes.add_rows(small, 0, small.height);
+  light.map_for(codes).change(picture.row(0),
+                              static_cast<std::ptrdiff_t>(picture.width) * picture.height);
+}
+
 void preview(const Options& o) {
   check_graded_name(o.out);
   Show show = read_show(o.show);
@@ -64,14 +77,18 @@ void preview(const Options& o) {
   OutputFile out(o.out);
   const Projection flat =
       resized(Stereographic{16, 16, o.fov_deg * std::numbers::pi / 180}, o.size);
-  FrameState state = frame_state(show, number);
+  const FrameState dome = frame_state(show, number);
+  FrameState state = dome;
   flatten(show, state, flat);
   // The default display is for domes, and a preview for screens.  The displays of a show's own
   // configuration are not known.
   if (show.grade.display.empty() && show.grade.config == shipped_asset(kDomeConfig))
     show.grade.display = "sRGB - Display";
   const Grader grader(show.grade);
-  const HalfFrame frame = Renderer(show, o.threads).render(state);
+  Renderer renderer(show, o.threads);
+  GradedFrame picture = grader.grade(renderer.render(state));
+  if (const DomeLight* light = grader.dome_light())
+    change_as_in_dome(*light, grader, renderer, dome, picture);
   const FrameKeys keys(show, grader.transform_id());
   GradedInfo info;
   info.key = keys.graded(keys.scene(state));
@@ -81,7 +98,7 @@ void preview(const Options& o) {
   info.view = grader.view();
   info.software = kSoftware;
   info.projection = projection_name(state.projection);
-  write_graded(out.path(), grader.grade(frame), info);
+  write_graded(out.path(), picture, info);
   out.finish();
 }
 

@@ -8,6 +8,17 @@
 
 namespace domefall {
 
+// What is done about the light that a dome throws upon itself (dome_light.h).
+struct DomeSettings {
+  enum class Light {
+    kNone,
+    kSimulate,   // it is added, so that a screen shows the picture as the dome will
+    kCompensate  // it is taken away, so that the dome shows the picture as it was made
+  };
+  Light light = Light::kNone;
+  double reflectance = 0.45;  // of the dome's surface, from 0 to 1
+};
+
 struct GradeSettings {
   std::filesystem::path config;  // of OpenColorIO
   bool shipped = false;          // it is Domefall's own, and need not be tried before it is used
@@ -16,6 +27,7 @@ struct GradeSettings {
   // The ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.
   std::array<double, 3> slope{1, 1, 1}, offset{0, 0, 0}, power{1, 1, 1};
   double saturation = 1;
+  DomeSettings dome;  // for domemasters alone
 };
 
 }  // namespace domefall

@@ -12,6 +12,7 @@
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/grade/config_check.h"
+#include "pipeline/grade/display_curves.h"
 #include "pipeline/grade/grade_table.h"
 #include "pipeline/grade/trial.h"
 #include "pipeline/image/errors.h"
@@ -293,6 +294,13 @@ Grader::Grader(const GradeSettings& settings) {
     const auto floats = processor->getOptimizedCPUProcessor(
         ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_DEFAULT);
     processor_ = std::make_shared<const Processor>(cpu, floats, graded_black(*cpu));
+    if (settings.dome.light == DomeSettings::Light::kNone) return;
+    dome_light_ = std::make_shared<const DomeLight>(
+        settings.dome, display_curves(*view.config, display_, view_, file));
+    transform_id_ += fmt::format(
+        " dome light: {} {}",
+        settings.dome.light == DomeSettings::Light::kSimulate ? "simulate" : "compensate",
+        settings.dome.reflectance);
   });
 }
 

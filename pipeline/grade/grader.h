@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/grade/dome_light.h"
 #include "pipeline/grade/grade_settings.h"
 #include "pipeline/image/frame_buffer.h"
 
@@ -33,10 +34,13 @@ class Grader {
   // it has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
-  // Grades the rows y0 <= y < y1 into out[y1 - y0][width][3].  Any split into rows gives the same
-  // values.
+  // What is done about a dome's own light once a frame is graded; null if nothing is.
+  const DomeLight* dome_light() const { return dome_light_.get(); }
+
+  // Grades the rows y0 <= y < y1, without the dome's own light, into out[y1 - y0][width][3].  Any
+  // split into rows gives the same values.
   void grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out) const;
-  // Grades the whole frame on the calling thread.
+  // Grades the whole frame on the calling thread, in the same way.
   GradedFrame grade(const HalfFrame& in) const;
 
   // How far a table's grade of such a frame is from the formulas; nothing for one that is graded by
@@ -44,7 +48,7 @@ class Grader {
   std::optional<TableError> table_error(const HalfFrame& in) const;
 
   // A digest of what it does to a pixel: of all transforms and of the contents of the files they
-  // read.
+  // read, and of what is done about the dome's own light.
   const std::string& transform_id() const { return transform_id_; }
 
   // Those of the settings, or the configuration's defaults.
@@ -56,6 +60,7 @@ class Grader {
 
   struct Processor;
   std::shared_ptr<const Processor> processor_;
+  std::shared_ptr<const DomeLight> dome_light_;
   std::string display_, view_, transform_id_;
 };
 

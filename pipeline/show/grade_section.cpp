@@ -41,6 +41,20 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup) {
   return grade;
 }
 
+DomeSettings read_dome(const Section& show, const Projection& projection) {
+  const Section s = subsection(show, "dome", {"light", "reflectance"});
+  DomeSettings dome;
+  using enum DomeSettings::Light;
+  dome.light =
+      s.word<DomeSettings::Light>(
+           "light", {{"none", kNone}, {"simulate", kSimulate}, {"compensate", kCompensate}})
+          .value_or(kNone);
+  dome.reflectance = s.number("reflectance", kPureNumber.within(0, 1), dome.reflectance);
+  if (dome.light != kNone && !std::holds_alternative<Domemaster>(projection))
+    s.find("light")->fail("is for domes; this projection is flat");
+  return dome;
+}
+
 GradedFormat read_graded_format(const Section& show) {
   using enum GradedFormat;
   return subsection(show, "output", {"graded"})

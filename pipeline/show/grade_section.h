@@ -1,4 +1,4 @@
-// The show's `grade` and `output`: what is made of scene-linear frames.
+// The show's `grade`, `dome` and `output`: what is made of scene-linear frames.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -9,6 +9,9 @@ namespace domefall {
 
 // Reads `grade`; the shipped configuration stands in for one that is not named.
 GradeSettings read_grade(const Section& show, const Lookup& lookup);
+
+// Reads `dome: {light, reflectance}` for a show of this projection, which must be a dome's.
+DomeSettings read_dome(const Section& show, const Projection& projection);
 
 // Reads `output: {graded}`.
 GradedFormat read_graded_format(const Section& show);

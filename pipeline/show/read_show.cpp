@@ -44,7 +44,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(
       root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
              "keyframes", "markers", "fade_in_s", "fade_out_s", "effects", "sky", "stars",
-             "exposure", "grade", "output"});
+             "exposure", "grade", "dome", "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -61,6 +61,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.effects = read_effects(section);
   show.timeline = read_timeline(section, show, camera, lookup);
   show.grade = read_grade(section, lookup);
+  show.grade.dome = read_dome(section, show.projection);
   show.graded_format = read_graded_format(section);
 }
 

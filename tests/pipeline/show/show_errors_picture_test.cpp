@@ -220,6 +220,13 @@ TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
       {"MissingConfig", kShow + "grade: {config: house.ocio}\n",
        "3:17: grade.config names the file 'house.ocio', which is neither beside the show nor in "
        "the working folder"},
+      {"DomeLightOnAFlatPicture",
+       kShow + "camera: {projection: stereographic}\ndome: {light: simulate}\n",
+       "4:15: dome.light is for domes; this projection is flat"},
+      {"DomeLightUnknown", kShow + "dome: {light: on}\n",
+       "3:15: dome.light must be none, simulate or compensate, got 'on'"},
+      {"MoreThanAllReflected", kShow + "dome: {light: simulate, reflectance: 1.1}\n",
+       "3:38: dome.reflectance must be at most 1, got 1.1"},
       {"PowerZero", kShow + "grade: {cdl: {power: 0}}\n",
        "3:22: grade.cdl.power must exceed 0, got 0"},
       {"SlopeOfTwo", kShow + "grade: {cdl: {slope: [1, 1]}}\n",

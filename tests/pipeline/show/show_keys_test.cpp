@@ -382,6 +382,15 @@ TEST_F(ShowKeys, StarsExposureAndGrade) {
   EXPECT_EQ(show.grade.saturation, 0.8);
 }
 
+TEST_F(ShowKeys, ADomesOwnLight) {
+  using enum DomeSettings::Light;
+  EXPECT_EQ(with("").grade.dome.light, kNone);
+  EXPECT_EQ(with("dome: {light: simulate}\n").grade.dome.light, kSimulate);
+  EXPECT_EQ(with("dome: {light: simulate}\n").grade.dome.reflectance, 0.45);
+  EXPECT_EQ(with("dome: {light: compensate, reflectance: 0.3}\n").grade.dome.light, kCompensate);
+  EXPECT_EQ(with("dome: {light: compensate, reflectance: 0.3}\n").grade.dome.reflectance, 0.3);
+}
+
 // ---- YAML ----
 
 TEST_F(ShowKeys, ByteOrderMarksCrlfAnchorsAndDocumentMarksChangeNothing) {
