@@ -87,7 +87,7 @@ class Run {
       const std::string key = keys_->scene(state);
       const bool linear_good = is_good(folder_.linear(number), key, run_.render);
       const bool graded_good =
-          !grader_ || is_good(folder_.graded(number), keys_->graded(key), true);
+          !grader_ || is_good(folder_.graded(number), keys_->graded(key, state), true);
       if (linear_good && graded_good) {
         progress.skipped();
         continue;
@@ -205,7 +205,7 @@ class Run {
   // Writes the files that are asked for.  Packing pixels is most of the work, so the two are made
   // side by side.
   void write(const FrameState& state, const std::string& key, const HalfFrame& frame, bool linear,
-             bool graded) const {
+             bool graded) {
     double linear_s = 0, grade_s = 0, graded_s = 0;
     std::future<void> other;
     if (linear)
@@ -216,6 +216,7 @@ class Run {
       });
     if (graded) {
       const Stopwatch watch;
+      frame_grader_ = frame_grader_.value_or(*grader_).with(state.cdl, !state.cdl_changes);
       grade_s = write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
       graded_s = watch.seconds();
     }
@@ -230,7 +231,7 @@ class Run {
 
   // By what the frame was graded, and how exactly.
   std::string describe_grade(const HalfFrame& frame) const {
-    const auto table = grader_->table_error(frame);
+    const auto table = frame_grader_->table_error(frame);
     if (!table) return "grade by formulas\n";
     constexpr double kCodes = 4095;
     return fmt::format(
@@ -289,7 +290,7 @@ class Run {
   GradedFrame graded_rows(const HalfFrame& frame, int y0, int y1) const {
     GradedFrame out(frame.width, y1 - y0);
     in_parts(out.height, [&](int, int first, int end) {
-      grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
+      frame_grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
     });
     return out;
   }
@@ -308,7 +309,7 @@ class Run {
 
   GradedInfo graded_info(const FrameState& state, const std::string& key) const {
     GradedInfo info;
-    info.key = keys_->graded(key);
+    info.key = keys_->graded(key, state);
     info.title = run_.show.title;
     info.frame = state.frame;
     info.display = grader_->display();
@@ -325,7 +326,8 @@ class Run {
 
   const FrameRun& run_;
   FrameFolder folder_;
-  std::optional<Grader> grader_;
+  std::optional<Grader> grader_;        // of the show
+  std::optional<Grader> frame_grader_;  // of the frame that is written, and kept for those after it
   std::optional<FrameKeys> keys_;
   std::optional<Renderer> renderer_;
 };

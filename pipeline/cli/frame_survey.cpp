@@ -82,7 +82,7 @@ FrameSurvey survey_frames(const FrameFolder& folder, const Show& show, const Fra
     auto linear = FrameCondition::kGood, graded = FrameCondition::kGood;
     if (renders) linear = surveyor.look(folder.linear(number), folder.wanted(key));
     if (folder.has_graded())
-      graded = surveyor.look(folder.graded(number), folder.wanted(keys.graded(key)));
+      graded = surveyor.look(folder.graded(number), folder.wanted(keys.graded(key, state)));
     if (linear == FrameCondition::kOther || graded == FrameCondition::kOther) ++survey.others;
     if (linear == FrameCondition::kOlder)
       ++survey.older[state.segment];

@@ -84,14 +84,14 @@ void preview(const Options& o) {
   // configuration are not known.
   if (show.grade.display.empty() && show.grade.config == shipped_asset(kDomeConfig))
     show.grade.display = "sRGB - Display";
-  const Grader grader(show.grade);
+  const Grader of_show(show.grade), grader = of_show.with(state.cdl, false);
   Renderer renderer(show, o.threads);
   GradedFrame picture = grader.grade(renderer.render(state));
   if (const DomeLight* light = grader.dome_light())
     change_as_in_dome(*light, grader, renderer, dome, picture);
   const FrameKeys keys(show, grader.transform_id());
   GradedInfo info;
-  info.key = keys.graded(keys.scene(state));
+  info.key = keys.graded(keys.scene(state), state);
   info.title = show.title;
   info.frame = number;
   info.display = grader.display();

@@ -8,6 +8,14 @@
 
 namespace domefall {
 
+// An ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.
+struct Cdl {
+  std::array<double, 3> slope{1, 1, 1}, offset{0, 0, 0}, power{1, 1, 1};
+  double saturation = 1;
+
+  bool operator==(const Cdl&) const = default;
+};
+
 // What is done about the light that a dome throws upon itself (dome_light.h).
 struct DomeSettings {
   enum class Light {
@@ -24,9 +32,7 @@ struct GradeSettings {
   bool shipped = false;          // it is Domefall's own, and need not be tried before it is used
   std::string display;           // empty for the configuration's default
   std::string view;              // empty for the display's default
-  // The ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.
-  std::array<double, 3> slope{1, 1, 1}, offset{0, 0, 0}, power{1, 1, 1};
-  double saturation = 1;
+  Cdl cdl;
   DomeSettings dome;  // for domemasters alone
 };
 

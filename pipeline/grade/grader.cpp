@@ -154,11 +154,6 @@ std::string view_name(const ocio::Config& config, const GradeSettings& settings,
                                listed(count, at)));
 }
 
-bool changes_anything(const GradeSettings& s) {
-  const std::array<double, 3> zeros{0, 0, 0}, ones{1, 1, 1};
-  return s.slope != ones || s.offset != zeros || s.power != ones || s.saturation != 1;
-}
-
 using Direction = ocio::TransformDirection;
 
 void append_builtin(ocio::GroupTransform& group, const char* style,
@@ -172,12 +167,12 @@ void append_builtin(ocio::GroupTransform& group, const char* style,
 constexpr const char *kToAp0 = "ACEScg_to_ACES2065-1", *kAcescct = "ACEScct_to_ACES2065-1";
 
 // Appends the CDL in ACEScct, which OpenColorIO knows whatever the configuration has.
-void append_cdl(ocio::GroupTransform& group, const GradeSettings& settings) {
+void append_cdl(ocio::GroupTransform& group, const Cdl& values) {
   auto cdl = ocio::CDLTransform::Create();
-  cdl->setSlope(settings.slope.data());
-  cdl->setOffset(settings.offset.data());
-  cdl->setPower(settings.power.data());
-  cdl->setSat(settings.saturation);
+  cdl->setSlope(values.slope.data());
+  cdl->setOffset(values.offset.data());
+  cdl->setPower(values.power.data());
+  cdl->setSat(values.saturation);
   append_builtin(group, kToAp0);
   append_builtin(group, kAcescct, ocio::TRANSFORM_DIR_INVERSE);
   group.appendTransform(cdl);
@@ -234,7 +229,7 @@ View chosen_view(const ocio::ConstConfigRcPtr& config, const GradeSettings& sett
   View chosen{config, chosen_display(*config, settings), {}, {}};
   chosen.name = view_name(*config, settings, chosen.display);
   auto group = ocio::GroupTransform::Create();
-  if (changes_anything(settings)) append_cdl(*group, settings);
+  if (settings.cdl != Cdl{}) append_cdl(*group, settings.cdl);
   auto view = ocio::DisplayViewTransform::Create();
   // From one space of data to another nothing is changed.
   const std::string source =
@@ -277,23 +272,26 @@ void check(const GradeSettings& settings) {
 
 }  // namespace
 
+// What further graders of the show are made from.
+struct Grader::Source {
+  ocio::ConstConfigRcPtr config;
+  GradeSettings settings;
+};
+
 Grader::Grader(const GradeSettings& settings) {
   const std::string file = settings.config.string();
   if (file.empty()) throw InputError("no OpenColorIO configuration is named");
   if (RegularFile(settings.config).size() == 0) throw InputError(file + ": the file is empty");
   ignore_environment();
   if (!settings.shipped) try_elsewhere(file, [&] { check(settings); });
-  const View view = chosen_view(read_config(file), settings);
+  GradeSettings plain = settings;
+  plain.cdl = {};
+  const View view = chosen_view(read_config(file), plain);
+  source_ = std::make_shared<const Source>(Source{view.config, settings});
   display_ = view.display;
   view_ = view.name;
   explained(view, file, [&] {
-    const auto processor = view.config->getProcessor(view.transform);
-    transform_id_ = processor->getCacheID();
-    const auto cpu = processor->getOptimizedCPUProcessor(
-        ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
-    const auto floats = processor->getOptimizedCPUProcessor(
-        ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_DEFAULT);
-    processor_ = std::make_shared<const Processor>(cpu, floats, graded_black(*cpu));
+    transform_id_ = view.config->getProcessor(view.transform)->getCacheID();
     if (settings.dome.light == DomeSettings::Light::kNone) return;
     dome_light_ = std::make_shared<const DomeLight>(
         settings.dome, display_curves(*view.config, display_, view_, file));
@@ -302,11 +300,31 @@ Grader::Grader(const GradeSettings& settings) {
         settings.dome.light == DomeSettings::Light::kSimulate ? "simulate" : "compensate",
         settings.dome.reflectance);
   });
+  *this = with(settings.cdl, true);
 }
 
-bool Grader::by_table(const HalfFrame& in) {
+Grader Grader::with(const Cdl& cdl, bool lasts) const {
+  Grader other = *this;
+  other.lasts_ = lasts;
+  if (processor_ && cdl == cdl_) return other;
+  other.cdl_ = cdl;
+  GradeSettings settings = source_->settings;
+  settings.cdl = cdl;
+  const View view = chosen_view(source_->config, settings);
+  explained(view, settings.config.string(), [&] {
+    const auto processor = view.config->getProcessor(view.transform);
+    const auto cpu = processor->getOptimizedCPUProcessor(
+        ocio::BIT_DEPTH_F16, ocio::BIT_DEPTH_UINT16, ocio::OPTIMIZATION_DEFAULT);
+    const auto floats = processor->getOptimizedCPUProcessor(
+        ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32, ocio::OPTIMIZATION_DEFAULT);
+    other.processor_ = std::make_shared<const Processor>(cpu, floats, graded_black(*cpu));
+  });
+  return other;
+}
+
+bool Grader::by_table(const HalfFrame& in) const {
   constexpr long kMany = 1L << 21;
-  return static_cast<long>(in.width) * in.height >= kMany;
+  return lasts_ && static_cast<long>(in.width) * in.height >= kMany;
 }
 
 std::optional<TableError> Grader::table_error(const HalfFrame& in) const {

@@ -17,7 +17,7 @@ struct TableError {
   double held;   // the part of the table's cells that were not left out for a larger one
 };
 
-// The grade of a show.  It takes ACEScg through the show's ASC CDL in ACEScct, unless that changes
+// The grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the show's ASC CDL in ACEScct, unless that changes
 // nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
 // rounded.  A pixel depends on its own input and the frame's size alone.  Copies share one
 // processor, and any number of threads may use it.
@@ -34,6 +34,10 @@ class Grader {
   // it has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
+  // The same grade with another CDL, made anew unless it is this one.  `lasts` says whether many
+  // frames have it, so that a table is worth its making; without it all are graded by the formulas.
+  Grader with(const Cdl& cdl, bool lasts) const;
+
   // What is done about a dome's own light once a frame is graded; null if nothing is.
   const DomeLight* dome_light() const { return dome_light_.get(); }
 
@@ -47,8 +51,9 @@ class Grader {
   // the formulas.
   std::optional<TableError> table_error(const HalfFrame& in) const;
 
-  // A digest of what it does to a pixel: of all transforms and of the contents of the files they
-  // read, and of what is done about the dome's own light.
+  // A digest of what it does to a pixel, but for the CDL, which frames may have of their own: of all
+  // transforms and of the contents of the files they read, and of what is done about the dome's own
+  // light.
   const std::string& transform_id() const { return transform_id_; }
 
   // Those of the settings, or the configuration's defaults.
@@ -56,9 +61,13 @@ class Grader {
   const std::string& view() const { return view_; }
 
  private:
-  static bool by_table(const HalfFrame& in);
+  bool by_table(const HalfFrame& in) const;
 
   struct Processor;
+  struct Source;
+  std::shared_ptr<const Source> source_;
+  Cdl cdl_;
+  bool lasts_ = true;
   std::shared_ptr<const Processor> processor_;
   std::shared_ptr<const DomeLight> dome_light_;
   std::string display_, view_, transform_id_;

@@ -192,8 +192,18 @@ std::string FrameKeys::instant(const FrameState& state) const {
   return digest.hex();
 }
 
-std::string FrameKeys::graded(const std::string& scene_key) const {
-  return Digest().add(scene_key).add(grade_).hex();
+std::string FrameKeys::graded(const std::string& scene_key, const FrameState& state) const {
+  Digest digest;
+  digest.add(scene_key).add(grade_);
+  const Cdl& cdl = state.cdl;
+  if (cdl != Cdl{}) {
+    digest.add("cdl");
+    for (const auto& colours : {cdl.slope, cdl.offset, cdl.power})
+      for (const double v : colours) digest.add(steady(v));
+    digest.add(steady(cdl.saturation));
+  }
+  if (state.cdl_changes) digest.add("by formulas");
+  return digest.hex();
 }
 
 }  // namespace domefall

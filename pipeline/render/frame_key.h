@@ -37,8 +37,8 @@ class FrameKeys {
   const std::string& show() const { return common_; }
   // The key of a scene-linear frame.
   std::string scene(const FrameState& state) const;
-  // The key of the graded frame that is made from the one with this key.
-  std::string graded(const std::string& scene_key) const;
+  // The key of the graded frame that is made, by the CDL of this state, from the one with this key.
+  std::string graded(const std::string& scene_key, const FrameState& state) const;
 
  private:
   void stamp(const std::filesystem::path& file);

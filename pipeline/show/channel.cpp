@@ -20,6 +20,20 @@ std::string key_of(Channel channel) {
       return "dome_tilt_deg";
     case Channel::kFov:
       return "fov_deg";
+    case Channel::kSlopeR:
+    case Channel::kSlopeG:
+    case Channel::kSlopeB:
+      return "grade.cdl.slope";
+    case Channel::kOffsetR:
+    case Channel::kOffsetG:
+    case Channel::kOffsetB:
+      return "grade.cdl.offset";
+    case Channel::kPowerR:
+    case Channel::kPowerG:
+    case Channel::kPowerB:
+      return "grade.cdl.power";
+    case Channel::kSaturation:
+      return "grade.cdl.saturation";
     default:
       return "exposure.ev";
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/grade/grade_settings.h"
 #include "trajectories/sky_region.h"
 
 namespace domefall {
@@ -25,9 +26,19 @@ enum class Channel {
   kStarGainIV,
   kMaxMagnitudeI,  // of the faintest stars taken
   kMaxMagnitudeIII,
-  kMaxMagnitudeIV
+  kMaxMagnitudeIV,
+  kSlopeR,  // of the CDL; each triple is red, green and blue
+  kSlopeG,
+  kSlopeB,
+  kOffsetR,
+  kOffsetG,
+  kOffsetB,
+  kPowerR,
+  kPowerG,
+  kPowerB,
+  kSaturation
 };
-inline constexpr std::size_t kChannels = 14;
+inline constexpr std::size_t kChannels = 24;
 
 inline constexpr std::array<Channel, kChannels> kEveryChannel = [] {
   std::array<Channel, kChannels> all{};
@@ -45,6 +56,11 @@ constexpr Channel star_gain_channel(SkyRegion sky) {
 constexpr Channel max_magnitude_channel(SkyRegion sky) {
   return kEveryChannel[static_cast<std::size_t>(Channel::kMaxMagnitudeI) +
                        static_cast<std::size_t>(sky)];
+}
+
+// The channel of red, green or blue (0, 1, 2) in one of the CDL's triples, which begins with `red`.
+constexpr Channel colour_channel(Channel red, std::size_t colour) {
+  return kEveryChannel[static_cast<std::size_t>(red) + colour];
 }
 
 // One value for each channel.
@@ -65,6 +81,20 @@ using ChannelValues = PerChannel<std::optional<double>>;
 inline void lay_over(ChannelValues& below, const ChannelValues& above) {
   for (const Channel channel : kEveryChannel)
     if (above[channel]) below[channel] = above[channel];
+}
+
+// The CDL of which value(channel, neutral) gives each number; `neutral` is what leaves a picture as it
+// is.
+template <class Value>
+Cdl cdl_from(const Value& value) {
+  Cdl cdl;
+  for (std::size_t k = 0; k < 3; ++k) {
+    cdl.slope[k] = value(colour_channel(Channel::kSlopeR, k), 1.0);
+    cdl.offset[k] = value(colour_channel(Channel::kOffsetR, k), 0.0);
+    cdl.power[k] = value(colour_channel(Channel::kPowerR, k), 1.0);
+  }
+  cdl.saturation = value(Channel::kSaturation, 1.0);
+  return cdl;
 }
 
 // The keys of the skies in the section `sky` of show files.

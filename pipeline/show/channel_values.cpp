@@ -12,11 +12,33 @@ constexpr std::array<std::string_view, 5> kOutsideKeys{"gain", "stars", "backgro
 constexpr std::array<std::string_view, 5> kSingularityKeys{"gain", "background", "white_cd_m2",
                                                            "black_cd_m2", "period_m"};
 
+// Reads one number for all colours, or a list of red, green and blue.
+void read_colours(const Section& cdl, std::string_view key, const Range& range, Channel red,
+                  ChannelValues& values) {
+  const Item* item = cdl.find(key);
+  if (!item) return;
+  if (item->node.IsSequence()) {
+    if (const auto numbers = read_numbers(*item, 3, range))
+      for (std::size_t k = 0; k < 3; ++k) values[colour_channel(red, k)] = (*numbers)[k];
+  } else if (const auto number = read_number(*item, range)) {
+    for (std::size_t k = 0; k < 3; ++k) values[colour_channel(red, k)] = *number;
+  }
+}
+
 }  // namespace
+
+void read_cdl(const Section& grade, ChannelValues& values) {
+  const Section cdl = subsection(grade, "cdl", {"slope", "offset", "power", "saturation"});
+  read_colours(cdl, "slope", kPureNumber.within(0, 1e6), Channel::kSlopeR, values);
+  read_colours(cdl, "offset", kPureNumber.within(-1e6, 1e6), Channel::kOffsetR, values);
+  read_colours(cdl, "power", kPureNumber.above(0).at_most(100), Channel::kPowerR, values);
+  values[Channel::kSaturation] = cdl.number("saturation", kPureNumber.within(0, 100));
+}
 
 ChannelValues read_values(const Section& section, bool has_backgrounds) {
   ChannelValues values;
   values[Channel::kEv] = subsection(section, "exposure", {"ev"}).number("ev", kStops);
+  read_cdl(subsection(section, "grade", {"cdl"}), values);
   const Section sky = subsection(section, "sky", kSkyKeys.values);
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
     const Section own =

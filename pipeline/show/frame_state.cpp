@@ -25,6 +25,38 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   return settings;
 }
 
+Cdl cdl_at(const Show& show, const Segment& s, double t) {
+  const Cdl& of_show = show.grade.cdl;
+  Cdl cdl;
+  for (std::size_t k = 0; k < 3; ++k) {
+    cdl.slope[k] = value_at(s, colour_channel(Channel::kSlopeR, k), t, of_show.slope[k]);
+    cdl.offset[k] = value_at(s, colour_channel(Channel::kOffsetR, k), t, of_show.offset[k]);
+    cdl.power[k] = value_at(s, colour_channel(Channel::kPowerR, k), t, of_show.power[k]);
+  }
+  cdl.saturation = value_at(s, Channel::kSaturation, t, of_show.saturation);
+  return cdl;
+}
+
+bool cdl_changes(const Segment& s) {
+  for (auto k = static_cast<std::size_t>(Channel::kSlopeR); k < kChannels; ++k)
+    if (const auto& curve = s.curves[kEveryChannel[k]]; curve && curve->keys.size() > 1)
+      return true;
+  return false;
+}
+
+// The CDL of a dissolve, in which the part `vanishing` is left of another.
+Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
+  const auto mix = [vanishing](double a, double b) { return a + (b - a) * vanishing; };
+  Cdl between;
+  for (std::size_t k = 0; k < 3; ++k) {
+    between.slope[k] = mix(cdl.slope[k], other.slope[k]);
+    between.offset[k] = mix(cdl.offset[k], other.offset[k]);
+    between.power[k] = mix(cdl.power[k], other.power[k]);
+  }
+  between.saturation = mix(cdl.saturation, other.saturation);
+  return between;
+}
+
 // The light at t between `begin` and `end`.  To the eye, which sees a quarter of the light as half,
 // it changes evenly.
 double faded(const Fades& fades, double begin, double end, double t) {
@@ -51,6 +83,8 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   if (auto* flat = std::get_if<Stereographic>(&state.projection))
     flat->fov = value_at(s, Channel::kFov, t, flat->fov);
   state.settings = settings_at(show, s, t);
+  state.cdl = cdl_at(show, s, t);
+  state.cdl_changes = cdl_changes(s);
   state.fade = fade_at(show, segment, t);
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =
@@ -66,6 +100,10 @@ FrameState state_at(const Show& show, int segment, int frame, double t) {
   if (segment == 0 || !(faded < dissolve)) return state;
   state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
   state.vanishing_part = 1 - smooth_step(faded / dissolve);
+  if (state.cdl != state.vanishing->cdl) {
+    state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
+    state.cdl_changes = true;
+  }
   return state;
 }
 

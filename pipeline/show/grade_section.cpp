@@ -1,27 +1,9 @@
 #include "pipeline/show/grade_section.h"
 
-#include <array>
-
 #include "pipeline/show/assets.h"
+#include "pipeline/show/channel_values.h"
 
 namespace domefall {
-namespace {
-
-// Reads one number for all channels, or a list of red, green and blue.
-void read_channels(const Section& cdl, std::string_view key, const Range& range,
-                   std::array<double, 3>& channels) {
-  const Item* item = cdl.find(key);
-  if (!item) return;
-  if (item->node.IsSequence()) {
-    const auto values = read_numbers(*item, 3, range);
-    if (values) channels = {(*values)[0], (*values)[1], (*values)[2]};
-  } else if (const auto value = read_number(*item, range)) {
-    channels.fill(*value);
-  }
-}
-
-}  // namespace
-
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {
   const Section s = subsection(show, "grade", {"config", "display", "view", "cdl"});
   GradeSettings grade;
@@ -33,11 +15,10 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup) {
         grade.config = *file, grade.shipped = false;
   if (const Item* display = s.find("display")) grade.display = read_text(*display).value_or("");
   if (const Item* view = s.find("view")) grade.view = read_text(*view).value_or("");
-  const Section cdl = subsection(s, "cdl", {"slope", "offset", "power", "saturation"});
-  read_channels(cdl, "slope", kPureNumber.within(0, 1e6), grade.slope);
-  read_channels(cdl, "offset", kPureNumber.within(-1e6, 1e6), grade.offset);
-  read_channels(cdl, "power", kPureNumber.above(0).at_most(100), grade.power);
-  grade.saturation = cdl.number("saturation", kPureNumber.within(0, 100), grade.saturation);
+  ChannelValues values;
+  read_cdl(s, values);
+  grade.cdl =
+      cdl_from([&](Channel channel, double neutral) { return values[channel].value_or(neutral); });
   return grade;
 }
 

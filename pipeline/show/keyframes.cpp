@@ -7,7 +7,7 @@ namespace {
 
 Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
                        const std::vector<Marker>& markers, ShowCamera& camera, Lookup& lookup) {
-  const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "sky"});
+  const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "grade", "sky"});
   Keyframe keyframe;
   const Item* time = s.require("at_s", " (seconds)");
   const auto at =

@@ -59,8 +59,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_stars(section, show);
   show.exposure = read_exposure(section);
   show.effects = read_effects(section);
-  show.timeline = read_timeline(section, show, camera, lookup);
   show.grade = read_grade(section, lookup);
+  show.timeline = read_timeline(section, show, camera, lookup);
   show.grade.dome = read_dome(section, show.projection);
   show.graded_format = read_graded_format(section);
 }

@@ -64,7 +64,7 @@ class TimelineReader {
 
   void read(const Item& item) {
     const Section section(item, {"duration_s", "dissolve_s", "fade_in_s", "fade_out_s",
-                                 "trajectory", "camera", "exposure", "sky", "keyframes"});
+                                 "trajectory", "camera", "exposure", "grade", "sky", "keyframes"});
     Segment segment;
     const double dissolve = read_dissolve(section);
     segment.duration_s = read_duration(section, end_ - dissolve);
@@ -126,6 +126,13 @@ class TimelineReader {
     if (const auto* flat = std::get_if<Stereographic>(&show_.projection))
       values[Channel::kFov] = flat->fov;
     values[Channel::kEv] = show_.exposure.ev;
+    const Cdl& cdl = show_.grade.cdl;
+    for (std::size_t k = 0; k < 3; ++k) {
+      values[colour_channel(Channel::kSlopeR, k)] = cdl.slope[k];
+      values[colour_channel(Channel::kOffsetR, k)] = cdl.offset[k];
+      values[colour_channel(Channel::kPowerR, k)] = cdl.power[k];
+    }
+    values[Channel::kSaturation] = cdl.saturation;
     for (const SkyRegion region : kEverySky) {
       const RegionSky& sky = show_.sky[region];
       values[gain_channel(region)] = sky.background_gain;
@@ -135,7 +142,7 @@ class TimelineReader {
     return values;
   }
 
-  // Reads camera, exposure and skies.  Each value is taken from the first of these that gives it:
+  // Reads camera, exposure, CDL and skies.  Each value is taken from the first of these that gives it:
   // the segment's keyframes, the segment, the show's keyframes, the show.
   void read_view(const Section& section, double begin, Segment& segment) {
     CameraKeys own;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pipeline/colour/colour_space.h"
 #include "pipeline/survey/reduced_frame.h"
@@ -36,23 +37,28 @@ std::vector<std::size_t> inside_pixels(const Projection& p) {
 
 class LightMeter {
  public:
-  explicit LightMeter(const Grader* grader) : grader_(grader) {
-    if (grader) white_ = white_of(*grader);
+  explicit LightMeter(const Grader* grader) {
+    if (grader) grader_ = *grader;
   }
 
-  void measure(const HalfFrame& frame, const Projection& p, FrameLight& light) const {
-    const std::vector<std::size_t> inside = inside_pixels(p);
+  void measure(const HalfFrame& frame, const FrameState& state, FrameLight& light) {
+    const std::vector<std::size_t> inside = inside_pixels(state.projection);
     std::vector<double> values;
     std::size_t white = 0;
     GradedFrame graded;
-    if (grader_) graded = grader_->grade(frame);
+    double brightest = 0;
+    if (grader_) {
+      grader_ = grader_->with(state.cdl, false);
+      graded = grader_->grade(frame);
+      brightest = white_of(*grader_);
+    }
     for (const std::size_t k : inside) {
       const Imath::half* rgb = &frame.pixels[3 * k];
       values.push_back(luminance({rgb[0], rgb[1], rgb[2]}));
       light.mean += values.back() / static_cast<double>(inside.size());
       if (grader_) {
         const unsigned short* code = &graded.pixels[3 * k];
-        white += std::max({code[0], code[1], code[2]}) >= kNearWhite * white_;
+        white += std::max({code[0], code[1], code[2]}) >= kNearWhite * brightest;
       } else {
         white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
       }
@@ -64,8 +70,7 @@ class LightMeter {
   }
 
  private:
-  const Grader* grader_;
-  double white_ = 0;
+  std::optional<Grader> grader_;  // with the CDL of the frame measured last
 };
 
 }  // namespace
@@ -74,14 +79,14 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   const int count = frame_count(show);
   const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
   const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostInstants));
-  const LightMeter meter(grader);
+  LightMeter meter(grader);
   std::vector<FrameLight> lights;
   for (int k = 0; k < samples; ++k) {
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
     const FrameState state = reduced(frame_state(show, frame), kWidth);
     FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
-    meter.measure(renderer.render(state), state.projection, light);
+    meter.measure(renderer.render(state), state, light);
     lights.push_back(light);
   }
   const auto darker = [](const FrameLight& a, const FrameLight& b) { return a.mean < b.mean; };

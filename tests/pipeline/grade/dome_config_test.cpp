@@ -256,21 +256,21 @@ double linear_from(double code) { return std::exp2(17.52 * code - 9.72); }
 
 TEST(Cdl, WorksOnAcescct) {
   GradeSettings s = settings("Raw");
-  s.slope = {1.1, 1, 0.9};
-  s.offset = {0.01, -0.05, 1 / 17.52};
-  s.power = {1, 1.2, 0.95};
+  s.cdl.slope = {1.1, 1, 0.9};
+  s.cdl.offset = {0.01, -0.05, 1 / 17.52};
+  s.cdl.power = {1, 1.2, 0.95};
   const Triple in{0.05, 0.125, 0.1}, out = graded(s, in);
   for (std::size_t c = 0; c < 3; ++c) {
     const double half = static_cast<float>(Imath::half(static_cast<float>(in[c])));
     const double expected =
-        linear_from(std::pow(acescct(half) * s.slope[c] + s.offset[c], s.power[c]));
+        linear_from(std::pow(acescct(half) * s.cdl.slope[c] + s.cdl.offset[c], s.cdl.power[c]));
     EXPECT_NEAR(out[c], expected, 2e-4 * expected + 1e-5);
   }
 }
 
 TEST(Cdl, WithoutSaturationIsGreyOfRec709sWeights) {
   GradeSettings s = settings("Raw");
-  s.saturation = 0;
+  s.cdl.saturation = 0;
   const Triple in{0.5, 0.125, 0.03125};
   const double luma = 0.2126 * acescct(in[0]) + 0.7152 * acescct(in[1]) + 0.0722 * acescct(in[2]);
   for (const double code : graded(s, in)) EXPECT_NEAR(code, linear_from(luma), 1e-4);
@@ -278,9 +278,9 @@ TEST(Cdl, WithoutSaturationIsGreyOfRec709sWeights) {
 
 TEST(Cdl, ThatChangesNothingLeavesTheBytes) {
   GradeSettings identity = settings("Dome");
-  identity.slope = identity.power = {1, 1, 1};
-  identity.offset = {0, 0, 0};
-  identity.saturation = 1;
+  identity.cdl.slope = identity.cdl.power = {1, 1, 1};
+  identity.cdl.offset = {0, 0, 0};
+  identity.cdl.saturation = 1;
   EXPECT_EQ(Grader(identity).grade(all_greys()).pixels,
             Grader(settings("Dome")).grade(all_greys()).pixels);
 }
@@ -288,7 +288,7 @@ TEST(Cdl, ThatChangesNothingLeavesTheBytes) {
 // Black at the ends of rows takes a short cut; here it has a colour of its own and light inside it.
 TEST(GradeRows, GivesEachPixelWhatItHasAloneWhateverIsAroundIt) {
   GradeSettings lifted = settings("Raw");
-  lifted.offset = {0.2, 0.15, 0.1};
+  lifted.cdl.offset = {0.2, 0.15, 0.1};
   const Grader grader(lifted);
   const GradedFrame black = grader.grade(one_pixel({0, 0, 0}));
   ASSERT_GT(black.pixels[2], 0);

@@ -35,7 +35,7 @@ GradedFrame random_dome(int size, unsigned seed, int least, int most) {
   for (int y = 0; y < size; ++y) {
     const ColumnRange inside = inside_columns(Domemaster{size}, y);
     for (int k = 3 * inside.first; k < 3 * inside.last + 3; ++k) {
-      const unsigned code = static_cast<unsigned>(least) + random() % range;
+      const unsigned code = static_cast<unsigned>(least) + static_cast<unsigned>(random()) % range;
       frame.row(y)[k] = static_cast<unsigned short>(random() % 10 == 0 ? 2 * code : code);
     }
   }

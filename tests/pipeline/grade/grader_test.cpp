@@ -89,11 +89,26 @@ TEST(Grader, UnToneMappedIsTheDisplaysGamma) {
 // An ACEScct code step of 1/17.52 is one stop (S-2016-001): so is that offset in the CDL.
 TEST(Grader, ACdlOffsetOfOneStopIsOneStop) {
   GradeSettings brighter = shipped("Un-tone-mapped");
-  brighter.offset = {1 / 17.52, 1 / 17.52, 1 / 17.52};
+  brighter.cdl.offset = {1 / 17.52, 1 / 17.52, 1 / 17.52};
   const GradedFrame plain = Grader(shipped("Un-tone-mapped")).grade(greys()),
                     graded = Grader(brighter).grade(greys());
   for (int i = 10; i < 15; ++i)
     EXPECT_NEAR(graded.row(0)[3 * i], plain.row(0)[3 * (i + 1)], 20) << i;
+}
+
+TEST(Grader, WithAnotherCdlIsThatOfAShowWithThatCdl) {
+  GradeSettings settings = shipped();
+  settings.cdl.slope = {1.1, 1, 0.9};
+  const Grader of_show(settings);
+  GradeSettings changed = settings;
+  changed.cdl.offset = {0.05, 0, -0.05};
+  changed.cdl.saturation = 0.5;
+  const Grader other = of_show.with(changed.cdl, true);
+  EXPECT_EQ(other.grade(greys()).pixels, Grader(changed).grade(greys()).pixels);
+  EXPECT_NE(other.grade(greys()).pixels, of_show.grade(greys()).pixels);
+  EXPECT_EQ(other.with(settings.cdl, true).grade(greys()).pixels, of_show.grade(greys()).pixels);
+  EXPECT_EQ(other.transform_id(), of_show.transform_id()) << "frames name their CDLs themselves";
+  EXPECT_EQ(other.view(), of_show.view());
 }
 
 // Rows of colours from a red star's to a hot one's, of all brightness, and some that no star has.
@@ -130,6 +145,19 @@ TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
       worst = std::max(worst, std::abs(exact.pixels[k] - quick.pixels[k]));
     EXPECT_LE(worst, 8) << view;
   }
+}
+
+// A table would take longer to make than a frame to grade.
+TEST(LargeFrames, AreGradedByTheFormulasWhereTheCdlDoesNotLast) {
+  HalfFrame large(2048, 1024), small(2048, kColouredRows);
+  put_colours(large);
+  put_colours(small);
+  Cdl cdl;
+  cdl.offset = {0.05, 0.05, 0.05};
+  const Grader grader = Grader(shipped()).with(cdl, false);
+  EXPECT_FALSE(grader.table_error(large));
+  const GradedFrame exact = grader.grade(small), whole = grader.grade(large);
+  EXPECT_TRUE(std::equal(exact.pixels.begin(), exact.pixels.end(), whole.pixels.begin()));
 }
 
 TEST(LargeFrames, HaveTheSameBytesForAnySplitIntoRowsAndAnyInstructionSet) {

@@ -73,6 +73,49 @@ TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
   EXPECT_DOUBLE_EQ(std::get<Stereographic>(frame_state(s, 2).projection).fov, 30 * kDegree);
 }
 
+TEST_F(Keyframes, TheCdlChangesWithSegmentsAndKeyframes) {
+  const Show s = show(
+      "frames_per_second: 1\n"
+      "grade: {cdl: {slope: [1.2, 1, 0.8], offset: 0.1}}\n"
+      "timeline:\n"
+      "  - {duration_s: 2, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 4, trajectory: {type: static, r: 9}, grade: {cdl: {slope: 2, power: 3}}}\n"
+      "  - duration_s: 4\n"
+      "    trajectory: {type: static, r: 9}\n"
+      "    keyframes: [{at_s: 2, grade: {cdl: {offset: [0.3, 0.5, 0.1], saturation: 0.5}}}]\n");
+  using Colours = std::array<double, 3>;
+  const FrameState plain = frame_state(s, 0), own = frame_state(s, 3);
+  EXPECT_EQ(plain.cdl, s.grade.cdl);
+  EXPECT_FALSE(plain.cdl_changes);
+  EXPECT_EQ(own.cdl.slope, (Colours{2, 2, 2}));
+  EXPECT_EQ(own.cdl.offset, (Colours{0.1, 0.1, 0.1})) << "what a segment does not name stays";
+  EXPECT_EQ(own.cdl.power, (Colours{3, 3, 3}));
+  EXPECT_FALSE(own.cdl_changes);
+  const FrameState first = frame_state(s, 6), between = frame_state(s, 7), last = frame_state(s, 9);
+  EXPECT_EQ(first.cdl, s.grade.cdl);
+  EXPECT_TRUE(first.cdl_changes);
+  EXPECT_DOUBLE_EQ(between.cdl.offset[0], 0.2);
+  EXPECT_DOUBLE_EQ(between.cdl.offset[1], 0.3);
+  EXPECT_DOUBLE_EQ(between.cdl.offset[2], 0.1);
+  EXPECT_DOUBLE_EQ(between.cdl.saturation, 0.75);
+  EXPECT_EQ(between.cdl.slope, (Colours{1.2, 1, 0.8}));
+  EXPECT_DOUBLE_EQ(last.cdl.offset[1], 0.5);
+}
+
+TEST_F(Keyframes, ADissolveMixesTheCdlsOfItsSegments) {
+  const Show s = show(
+      "frames_per_second: 1\n"
+      "timeline:\n"
+      "  - {duration_s: 4, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 6, dissolve_s: 2, trajectory: {type: static, r: 9}, grade: {cdl: "
+      "{saturation: 0.5}}}\n");
+  EXPECT_EQ(frame_state(s, 1).cdl.saturation, 1);
+  EXPECT_DOUBLE_EQ(frame_state(s, 3).cdl.saturation, 0.75);
+  EXPECT_TRUE(frame_state(s, 3).cdl_changes);
+  EXPECT_DOUBLE_EQ(frame_state(s, 5).cdl.saturation, 0.5);
+  EXPECT_FALSE(frame_state(s, 5).cdl_changes);
+}
+
 TEST_F(Keyframes, ARollIsAsManyTurnsAsItSays) {
   const Show s = show(
       "timeline:\n"

@@ -227,6 +227,14 @@ TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
        "3:15: dome.light must be none, simulate or compensate, got 'on'"},
       {"MoreThanAllReflected", kShow + "dome: {light: simulate, reflectance: 1.1}\n",
        "3:38: dome.reflectance must be at most 1, got 1.1"},
+      {"ViewInASegment",
+       kHole + "timeline:\n"
+               "  - duration_s: 1\n"
+               "    trajectory: {type: static, r: 9}\n"
+               "    grade: {view: Dome}\n",
+       "5:13: timeline[1].grade.view is an unknown key; known here: cdl"},
+      {"PowerZeroInAKeyframe", kShow + "keyframes: [{at_s: 1, grade: {cdl: {power: 0}}}]\n",
+       "3:44: keyframes[1].grade.cdl.power must exceed 0, got 0"},
       {"PowerZero", kShow + "grade: {cdl: {power: 0}}\n",
        "3:22: grade.cdl.power must exceed 0, got 0"},
       {"SlopeOfTwo", kShow + "grade: {cdl: {slope: [1, 1]}}\n",

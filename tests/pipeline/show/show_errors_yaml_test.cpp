@@ -55,7 +55,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"CyclicAlias", "timeline: &t [*t]\n",
        "1:11: timeline[1] must be a map of keys (duration_s, dissolve_s, fade_in_s, fade_out_s, "
        "trajectory, camera, "
-       "exposure, sky or keyframes), got a list"},
+       "exposure, grade, sky or keyframes), got a list"},
       {"CyclicTrajectory",
        kHole + "timeline:\n"
                "  - &s {duration_s: 1, trajectory: *s}\n",

@@ -144,8 +144,8 @@ void expect_finite_numbers(const Show& show) {
                               show.point_spread.halo_sigma,
                               show.point_spread.white_core,
                               show.exposure.ev,
-                              show.grade.saturation};
-  for (const auto& channels : {show.grade.slope, show.grade.offset, show.grade.power})
+                              show.grade.cdl.saturation};
+  for (const auto& channels : {show.grade.cdl.slope, show.grade.cdl.offset, show.grade.cdl.power})
     numbers.insert(numbers.end(), channels.begin(), channels.end());
   for (const RegionSky& sky : {show.sky[SkyRegion::kI], show.sky[SkyRegion::kIII]})
     numbers.insert(numbers.end(), {sky.background_gain, sky.star_gain,

@@ -57,8 +57,8 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
   EXPECT_EQ(show.grade.config, asset("dome.ocio"));
   EXPECT_EQ(show.grade.display, "");
   EXPECT_EQ(show.grade.view, "");
-  EXPECT_EQ(show.grade.slope, (std::array<double, 3>{1, 1, 1}));
-  EXPECT_EQ(show.grade.saturation, 1);
+  EXPECT_EQ(show.grade.cdl.slope, (std::array<double, 3>{1, 1, 1}));
+  EXPECT_EQ(show.grade.cdl.saturation, 1);
   EXPECT_EQ(show.graded_format, GradedFormat::kPng);
 }
 
@@ -376,10 +376,10 @@ TEST_F(ShowKeys, StarsExposureAndGrade) {
   EXPECT_EQ(show.grade.config, folder_ / "house.ocio");
   EXPECT_EQ(show.grade.display, "Dome");
   EXPECT_EQ(show.grade.view, "Dark");
-  EXPECT_EQ(show.grade.slope, (std::array<double, 3>{1.1, 1, 0.9}));
-  EXPECT_EQ(show.grade.offset, (std::array<double, 3>{0.01, 0.01, 0.01}));
-  EXPECT_EQ(show.grade.power, (std::array<double, 3>{1, 1.2, 1}));
-  EXPECT_EQ(show.grade.saturation, 0.8);
+  EXPECT_EQ(show.grade.cdl.slope, (std::array<double, 3>{1.1, 1, 0.9}));
+  EXPECT_EQ(show.grade.cdl.offset, (std::array<double, 3>{0.01, 0.01, 0.01}));
+  EXPECT_EQ(show.grade.cdl.power, (std::array<double, 3>{1, 1.2, 1}));
+  EXPECT_EQ(show.grade.cdl.saturation, 0.8);
 }
 
 TEST_F(ShowKeys, ADomesOwnLight) {
