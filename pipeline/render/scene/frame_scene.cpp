@@ -1,5 +1,7 @@
 #include "pipeline/render/scene/frame_scene.h"
 
+#include <utility>
+
 #include "pipeline/render/scene/exposure.h"
 
 namespace domefall {
@@ -34,7 +36,7 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-                       const SkyMotion& sky_motion)
+                       SkyMotion sky_motion)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
@@ -44,7 +46,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       point_spread(show.point_spread, frame.projection, exposure),
       star_saturation(static_cast<float>(show.star_saturation)),
       least_star_radius(show.least_star_radius),
-      motion(sky_motion),
+      motion(std::move(sky_motion)),
       stars(stars_of(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)) {}
 

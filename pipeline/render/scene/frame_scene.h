@@ -26,7 +26,7 @@ struct FrameScene {
   // plan, must outlive the scene.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-             const SkyMotion& sky_motion = {});
+             SkyMotion sky_motion = {});
 
   const FrameState& state;
   const Effects& effects;

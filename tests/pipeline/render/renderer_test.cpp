@@ -235,6 +235,7 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
 // different speeds have different frames there.
 TEST(FrameKeys, KnowHowFastTheSkyTurns) {
   Show show = show_of(CircularOrbit{10}, Domemaster{64});
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
   show.timeline[0].timing = {0, 10};
   Show faster = show;
   faster.timeline[0].timing = {0, 20};

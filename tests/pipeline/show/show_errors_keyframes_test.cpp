@@ -76,8 +76,8 @@ TEST_F(ShowErrorsInKeyframes, AreToldWithTheirPlace) {
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, sky: {region_I: "
                "{epoch: 2100}}}]\n",
        "2:79: timeline[1].sky.region_I.epoch is an unknown key; known here: gain, stars, "
-       "background "
-       "or white_cd_m2"},
+       "background, "
+       "white_cd_m2 or black_cd_m2"},
       {"BehindTheSegment",
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, keyframes: [{at_s: 3, "
                "exposure: {ev: 2}}]}]\n",

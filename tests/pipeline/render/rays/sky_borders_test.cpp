@@ -81,7 +81,7 @@ TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
 // The hole stands where the projection has its antipode, or below the rim of a dome.
 TEST(SkyBorders, BoxHoldsAHoleBehindTheCamera) {
   for (const auto& [projection, attitude, elevation] :
-       {std::tuple(Projection(Stereographic{160, 90, 5.6}), Attitude(LookOutward{}), 0.0),
+       {std::tuple(Projection(Stereographic{960, 540, 5.6}), Attitude(LookOutward{}), 0.0),
         std::tuple(Projection(Domemaster{128}), Attitude(LookAtHole{}), -30.0),
         std::tuple(Projection(Domemaster{128}), Attitude(LookOutward{}), 80.0)})
     for (const double r : {3.3, 8.0}) {
