@@ -155,7 +155,7 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   V3d way = scene_.motion.turn.cross(source);
   way.x = 0;
   const double length = way.length(), radius = radius_of(star);
-  if (!(length > radius)) return std::nullopt;
+  if (!(kWindow * length > radius)) return std::nullopt;
   const double ratio = sine / length, instant = std::min(kInstant, near_ / length);
   double window = kWindow * (1 - smooth_step((3 * ratio / instant - 1) / 2));
   double sharpness =
