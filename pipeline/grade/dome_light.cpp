@@ -28,7 +28,9 @@ void pixel_areas(int size, int row, ColumnRange range, std::uint32_t* areas) {
   const int count = range.last - range.first + 1;
   for (int k = 0; k < (count + 1) / 2; ++k) {
     const float x = (first + static_cast<float>(k)) * step;
-    const auto area = static_cast<std::int32_t>(kAreaUnits * sine_over_angle(x * x + y2) + 0.5f);
+    // The loop becomes SIMD code, which lround would not.  The number is positive.
+    const float rounded = kAreaUnits * sine_over_angle(x * x + y2) + 0.5f;
+    const auto area = static_cast<std::int32_t>(rounded);
     areas[k] = areas[count - 1 - k] = static_cast<std::uint32_t>(area);
   }
 }
