@@ -142,6 +142,21 @@ class Piece {
   V3d direction_{0, 0, 0};
 };
 
+// Lets the light of an arc fall towards its ends by (1 - t^2)^(kTaper part), t from -1 to 1 along it,
+// and keeps its sum.  An even disc ends so abruptly that a bright arc would seem cut off.
+void taper(double part, std::vector<SkyImage>& arc) {
+  constexpr double kTaper = 6;
+  const auto count = static_cast<double>(arc.size());
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < arc.size(); ++k) {
+    const double t = (2 * static_cast<double>(k) + 1) / count - 1;
+    before += arc[k].amplification;
+    arc[k].amplification *= std::pow((1 - t) * (1 + t), kTaper * part);
+    after += arc[k].amplification;
+  }
+  for (SkyImage& image : arc) image.amplification *= before / after;
+}
+
 }  // namespace
 
 std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order, double radius,
@@ -158,6 +173,7 @@ std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order
       piece.add(caustic.image(disc.chord(k, count * each)));
     if (piece.lit()) arc.push_back(piece.image(pi * radius * radius));
   }
+  if (!disc.is_ring()) taper(std::min(1.0, from_axis / radius - 1), arc);
   return arc;
 }
 
