@@ -201,8 +201,7 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
       "in every pixel, graded\nas they go to the projector, values from 0 to 1 (one step of 8 bits "
       "is 0.0039). Time is CPU time of\nrendering, in seconds and in copies of the frame's own "
       "memory. Where the view of a map is smooth, the default\ninterpolates most view rays between "
-      "those of a coarse grid; *1 view ray*, *none interpolated* and *everywhere*\ntrace them in "
-      "every pixel.\n\n"
+      "those of a coarse grid; *none interpolated* and *everywhere* trace them in every pixel.\n\n"
       "| scene | pixels | setting | rms | worst | s | copies |\n|---|---|---|---|---|---|---|\n";
   for (const FrameErrorRow& r : rows)
     page += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", r.scene, r.size, r.setting,

@@ -42,7 +42,7 @@ struct Setting {
 };
 
 std::vector<Setting> settings(bool quick) {
-  std::vector<Setting> all{{"1 view ray", {1, false, true}},
+  std::vector<Setting> all{{"1 view ray", {1, false}},
                            {"2 x 2 in difficult pixels", {2, false}},
                            {"4 x 4 in difficult pixels (default)", {}},
                            {"4 x 4 in difficult pixels, none interpolated", {4, false, true}},

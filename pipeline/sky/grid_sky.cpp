@@ -55,4 +55,19 @@ WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g)
   return light;
 }
 
+bool grid_is_even(const SkyDirection& direction, double reach) {
+  const V3d& d = direction.v;
+  const double across = std::hypot(d.x, d.y);
+  const double from_disc = std::atan2(across, std::abs(d.z)) - kPolarRadius;
+  if (std::abs(from_disc) < reach) return false;
+  if (from_disc < 0) return true;
+  const auto to_border = [](double angle) {
+    return std::abs(angle - kCell * std::round(angle / kCell));
+  };
+  // Of a small circle of declination `across` is the radius, so an angle along it is longer than
+  // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
+  return to_border(std::atan2(d.z, across)) >= reach &&
+         to_border(std::atan2(d.y, d.x)) * across >= reach;
+}
+
 }  // namespace domefall

@@ -13,4 +13,8 @@ namespace domefall {
 // is seen at g T.
 WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g);
 
+// Returns whether no border of a square or disc is within `reach` (>= 0) radians of a direction, so
+// that grid_light is right for any footprint of that radius, whatever its shape.
+bool grid_is_even(const SkyDirection& direction, double reach);
+
 }  // namespace domefall

@@ -4,8 +4,8 @@
 namespace domefall {
 
 // A difficult pixel is the mean of `samples` by `samples` view rays, which stand in an evenly
-// spaced square.  Difficult are pixels near the edge of a sky, and those with a long and narrow
-// footprint on a grid.  All others have one view ray, whose light is filtered by its footprint.
+// spaced square.  Difficult are pixels near the edge of a sky, and those that a border between two
+// squares of a grid may cross.  All others have one view ray, whose light is filtered by its footprint.
 //
 // Frames are rendered with the defaults, and frame keys do not contain these settings.  A setting
 // that a user may choose has to enter the keys first.

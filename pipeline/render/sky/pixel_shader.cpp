@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "pipeline/render/rays/footprint_batch.h"
 #include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/sky/grid_sky.h"
 
 namespace domefall {
 namespace {
@@ -15,10 +17,11 @@ static_assert(kMostSamples <= SampleBatch::kSize);  // a batch holds at least on
 static_assert(ViewRayBatch::kSize <= SkyLight::kMostShifts);
 // A pixel nearer than this to the edge of a sky, in pixels, is supersampled.
 constexpr double kEdgePixels = 4;
-// On a grid, so is a pixel whose footprint is longer than this (radians on the sky) and that
-// elongated.  A blur of the footprint's length would lose the sharp lines that it still resolves
-// across.
-constexpr double kLongOnGrid = 0.0005, kElongation = 3;
+// So is one whose footprint is that elongated, where backgrounds are amplified.
+constexpr double kElongation = 3;
+// On a grid, so is a pixel that a border may cross: its corners are that far from its middle, in
+// edges.  A blur by the footprint knows neither the slope of a border nor how the pixel lies on it.
+constexpr double kCorner = std::numbers::sqrt2 / 2;
 // The most taps along the footprint of one of many samples in a pixel, which do most of the
 // blurring.
 constexpr int kTapsOfSample = 4;
@@ -78,10 +81,9 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
   if (!background || std::holds_alternative<Rings>(background->sky().background)) return false;
   const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
   const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
-  if (!(longer > kElongation * shorter)) return false;
-  return scene_.amplifies_backgrounds() ||
-         (std::holds_alternative<Grid>(background->sky().background) &&
-          longer * pixel_angle > kLongOnGrid);
+  if (longer > kElongation * shorter && scene_.amplifies_backgrounds()) return true;
+  return std::holds_alternative<Grid>(background->sky().background) &&
+         !grid_is_even({rays.sky_direction(k)}, kCorner * longer * pixel_angle);
 }
 
 // Positions in the image that are sampled, and the light found there.

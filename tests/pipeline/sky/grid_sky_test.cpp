@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <random>
+
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -32,6 +36,43 @@ TEST(Grid, BlurredByItsFootprintKeepsItsMean) {
   for (const double footprint : {0.8, 10.0})
     EXPECT_NEAR(luminance(grid_light(sky_direction(33, 21), footprint, 1)),
                 (sharp_light + sharp_dark) / 2, 0.02 * sharp_light);
+}
+
+// The oracle goes all round the direction and looks for another light.
+TEST(Grid, IsEvenWhereAllWithinReachHasOneLight) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> logarithm(-4, -1);
+  int even = 0, uneven = 0;
+  for (int k = 0; k < 2000; ++k) {
+    // A third lies near a pole, with its disc.
+    V3d d(normal(random), normal(random), normal(random) * (k % 3 == 0 ? 30 : 1));
+    d.normalize();
+    const double reach = std::pow(10, logarithm(random));
+    const float light = grid_light({d}, 0, 1).g;
+    const V3d a = d.cross(std::abs(d.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized(),
+              b = d.cross(a);
+    // How far the nearest other light is, as a part of the reach.
+    double nearest = 2;
+    for (const double part : {0.2, 0.4, 0.6, 0.8, 0.98, 1.02, 1.2, 1.4})
+      for (int at = 0; at < 90; ++at) {
+        const double angle = at * std::numbers::pi / 45, away = part * reach;
+        const V3d there =
+            d * std::cos(away) + (a * std::cos(angle) + b * std::sin(angle)) * std::sin(away);
+        if (std::abs(grid_light({there}, 0, 1).g - light) > 0.01f * light)
+          nearest = std::min(nearest, part);
+      }
+    // Pixels that reach no border at all are not to be sampled for nothing, either.
+    const bool is_even = grid_is_even({d}, reach);
+    if (nearest < 1) {
+      EXPECT_FALSE(is_even) << d.x << ' ' << d.y << ' ' << d.z << ", reach " << reach;
+      ++uneven;
+    } else if (nearest > 1.3) {
+      even += is_even;
+    }
+  }
+  EXPECT_GT(even, 800);
+  EXPECT_GT(uneven, 500);
 }
 
 }  // namespace
