@@ -71,6 +71,7 @@ title: A fall for the farm
 frames_per_second: 10
 size: 64
 black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {stars: naked_eye}}
 camera: {look_at: hole, elevation_deg: 45}
 timeline:
   - {duration_s: 2, trajectory: {type: infall, from_r: 30, to_r: 4}}

@@ -108,7 +108,7 @@ a_full_disk_is_tried_again() {
 a_wrong_input_is_not_tried_again() {
   sed 's/from_r: 4/from_r: -4/' fall.yaml >wrong.yaml
   expect 2 wrong.log "$farm/render-local" wrong.yaml --out wrong.d
-  says wrong.log "wrong.yaml:8:"
+  says wrong.log "wrong.yaml:9:"
   [[ ! -e wrong.d ]] || fail "a wrong show left a folder"
   expect 2 size.log "${launch[@]}" --out wrong.d --size 5 --chunk 2
   says size.log "--size 5:"

@@ -41,7 +41,7 @@ a_wrong_show_is_not_submitted() {
   sed 's/from_r: 4/from_r: -4/' fall.yaml >wrong.yaml
   "$farm/render-slurm" wrong.yaml --out wrong >wrong.log 2>&1 || code=$?
   [[ $code == 2 ]] || fail "a wrong show: exit code $code, not 2"
-  says wrong.log "wrong.yaml:8:"
+  says wrong.log "wrong.yaml:9:"
   [[ -z $(squeue -h -t all) ]] || fail "a wrong show was submitted"
   [[ ! -e wrong ]] || fail "a wrong show left a folder"
 }
