@@ -12,5 +12,6 @@ endif()
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n(.*)\\.$" "\\1" suite "${suite}")
   add_test(${NAME}.${suite} ${PROGRAM} --gtest_brief=1 --gtest_filter=${suite}.*)
-  set_tests_properties(${NAME}.${suite} PROPERTIES LABELS unit TIMEOUT 900)
+  # A processor is two slots: see tests/CMakeLists.txt.
+  set_tests_properties(${NAME}.${suite} PROPERTIES LABELS unit TIMEOUT 900 PROCESSORS 2)
 endforeach()
