@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "pipeline/optics/traced_ray.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -16,18 +17,8 @@ namespace {
 using std::numbers::pi;
 
 // Of 100 observers, so many rays each: of 150,000, 100,000 and more are far enough from an edge for
-// all three ways.  The instrumented build takes a tenth.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kRaysEach = 150;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr int kRaysEach = 150;
-#else
-constexpr int kRaysEach = 1500;
-#endif
-#else
-constexpr int kRaysEach = 1500;
-#endif
+// all three ways.
+constexpr int kRaysEach = tries(1500, 150);
 
 // The same rays in every run, unless the environment asks for others.
 const int kSeeded = setenv("RC_PARAMS", "seed=20151106 noshrink=1", 0);

@@ -11,6 +11,7 @@
 #include "pipeline/optics/emission_time_table.h"
 #include "pipeline/optics/exact_azimuth.h"
 #include "tests/pipeline/optics/singularity_rays.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -83,7 +84,7 @@ TEST(EmissionTime, IsThatOfARayFollowedBackward) {
        {Case{0.3, false}, Case{1.2, false}, Case{1.9, false}, Case{2.5, false}, Case{2.9, false},
         Case{8.0, false}, Case{0.3, true}, Case{1.7, true}, Case{2.6, true}, Case{8.0, true}}) {
     Rays rays(c, 3, kOffTheAxis, 1e-4);
-    for (int n = 0; n < 20; ++n) {
+    for (int n = 0; n < tries(20, 4); ++n) {
       const NullRay ray = rays.next();
       const RayInvariants k = invariants(ray);
       const double b = k.angular_momentum / std::abs(k.energy);

@@ -5,6 +5,7 @@
 
 #include "pipeline/colour/blackbody.h"
 #include "tests/pipeline/render/effect_shows.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -189,7 +190,7 @@ TEST(Effects, LeaveNoPixelThatIsNotFinite) {
   for (const Trajectory& t : observers())
     for (const Effects& effects : combinations(is_outside(t)))
       for (const bool grid : {true, false}) {
-        Show show = starry(show_of(t, Domemaster{48}));
+        Show show = starry(show_of(t, Domemaster{tries(48, 20)}));
         if (grid)
           show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
         show.sky[SkyRegion::kI].stars->max_magnitude =

@@ -9,6 +9,7 @@
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/render/scenes.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -19,7 +20,7 @@ bool same_bytes(const HalfFrame& a, const HalfFrame& b) {
 }
 
 TEST(Renderer, AFrameIsTheSameBytesForAnyNumberOfThreadsAloneOrInARun) {
-  Show show = starry(show_of(RadialInfall{2.5}, Domemaster{200}));
+  Show show = starry(show_of(RadialInfall{2.5}, Domemaster{tries(200, 100)}));
   show.timeline[0].timing.tau_end = 1.6;
   Renderer run(show, 1);
   for (const int frame : {3, 14, 15, 29}) {
@@ -139,7 +140,7 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
         Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.0000001, V3d(-1e6, 0, 0)}),
         Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1e9, 0)})}) {
     for (const bool grid : {false, true}) {
-      Show show = starry(show_of(trajectory, Domemaster{48}));
+      Show show = starry(show_of(trajectory, Domemaster{tries(48, 24)}));
       if (grid)
         show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background =
             show.sky[SkyRegion::kIV].background = GridSky{};

@@ -7,26 +7,15 @@
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/sky/catalogue/star_colour.h"
 #include "tests/pipeline/render/stars/star_scene.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-#if defined(__SANITIZE_ADDRESS__)
-#define DOMEFALL_SLOW_BUILD
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define DOMEFALL_SLOW_BUILD
-#endif
-#endif
-#ifdef DOMEFALL_SLOW_BUILD
-constexpr int kStars = 50'000, kSize = 256;
-constexpr double kTolerance = 0.04, kNoise = 0.02;
-#else
-constexpr int kStars = 1'000'000, kSize = 1024;
-constexpr double kTolerance = 0.01, kNoise = 0.005;
-#endif
+constexpr int kStars = tries(1'000'000, 50'000), kSize = tries(1024, 256);
+constexpr double kTolerance = kSanitized ? 0.04 : 0.01, kNoise = kTolerance / 2;
 constexpr int kDrawn = kStars / 3;  // the stars of a whole frame
 constexpr double kMagnitude = 8, kColour = 0.6;
 // Stops of exposure.  With so many the ghosts that are left out as too faint, millions of them,
