@@ -216,7 +216,7 @@ class Run {
       });
     if (graded) {
       const Stopwatch watch;
-      frame_grader_ = frame_grader_.value_or(*grader_).with(state.cdl, !state.cdl_changes);
+      frame_grader_ = frame_grader_.value_or(*grader_).with(state.cdl);
       grade_s = write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
       graded_s = watch.seconds();
     }

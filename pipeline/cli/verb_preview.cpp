@@ -84,7 +84,7 @@ void preview(const Options& o) {
   // configuration are not known.
   if (show.grade.display.empty() && show.grade.config == shipped_asset(kDomeConfig))
     show.grade.display = "sRGB - Display";
-  const Grader of_show(show.grade), grader = of_show.with(state.cdl, false);
+  const Grader of_show(show.grade), grader = of_show.with(state.cdl);
   Renderer renderer(show, o.threads);
   GradedFrame picture = grader.grade(renderer.render(state));
   if (const DomeLight* light = grader.dome_light())

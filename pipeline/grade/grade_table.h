@@ -1,23 +1,25 @@
-// A grade as a table, which is several times as quick as to follow its formulas for each pixel.
+// A view as a table, which is several times as quick as to follow its formulas for each pixel.
 //
 // A pixel is split into its largest channel M, the ratio of its least channel to M, which is how
 // grey it is, and the place of the third between the two, which is a hue; for each of the six
 // orders of the channels, so that what a view does at M, at the least channel or at the grey axis
-// is no kink within a cell.  M is a half float, and there is a node at each 32nd of its bits'
-// steps, 32 to the octave; the ratio has 21 nodes, even in its square root, from 0.25 to 1, and the
-// hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
+// is no kink within a cell.  M has 32 nodes to the octave, evenly spaced within each, down to 2^-14
+// and 32 evenly spaced ones below; the ratio has 21, even in its square root, from 0.25 to 1, and
+// the hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
 //
 // When the table is made, each of its cells is compared with the formulas at five places.  One that
 // errs by more than 0.8 kMostError there is left out with its neighbours, and so are ratios below
-// 0.25, negative values and what is no number.  Those pixels are for the caller to grade by the
-// formulas.
+// 0.25, values that are negative or above 65504, and what is no number.  Those pixels are for the
+// caller to grade by the formulas.
 #pragma once
 
-#include <Imath/half.h>
-
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include "pipeline/grade/pixel_planes.h"
+#include "pipeline/grade/shared_steps.h"
 
 namespace domefall {
 
@@ -29,14 +31,16 @@ class GradeTable {
   // Grades pixels of three floats to codes from 0 to 1.  Several threads call it at once.
   using Formulas = std::function<void(const float* rgb, int pixels, float* codes)>;
 
-  // Takes 0.5 s of processor time, on as many threads as there are processors, and 19 MB.
-  explicit GradeTable(const Formulas& formulas);
+  explicit GradeTable(Formulas formulas);
 
-  // Grades pixels to 16 bits, and writes the numbers of those that it does not hold, in ascending
-  // order, to missed[].  Returns how many those are; their codes are not set.  `count` is at most
-  // kMostPixels.  out[] has room for one value more, which is overwritten.
-  static constexpr int kMostPixels = 512;
-  int look_up(const Imath::half* rgb, int count, unsigned short* out, int* missed) const;
+  // Makes the table, which takes up to 0.7 s of processor time and 19 MB, unless it is made.  Threads that
+  // call this at the same time share the work, so that no more of them are busy than grade.
+  void make();
+
+  // Of a table that is made.  Grades `count` pixels to 16 bits, and writes the numbers of those
+  // that it does not hold, in ascending order, to missed[].  Returns how many those are; their codes
+  // are not set.  out[] and missed[] have room for one value more, which is overwritten.
+  int look_up(const PixelPlanes& planes, int count, unsigned short* out, int* missed) const;
 
   // The largest error found in the cells that are held, as a part of white, and the part of all
   // cells that is held.
@@ -44,12 +48,15 @@ class GradeTable {
   double held() const { return held_; }
 
  private:
-  struct Fill;
-  // Decides, by the errors of all cells, which are held.
-  void hold(const std::vector<float>& errors);
+  void fill(int block);
+  void compare(int block);
+  void hold();
 
-  std::vector<float> nodes_;         // of four floats: 65535 times the codes, plus 0.5 to round; 0
-  std::vector<std::uint8_t> holds_;  // one for each cell
+  Formulas formulas_;
+  std::vector<float> nodes_;   // grade_cells.h
+  std::vector<float> errors_;  // of each cell, until it is decided which are held
+  SharedSteps allocating_{1}, filling_, comparing_, holding_;
+  std::atomic<bool> made_ = false;
   double error_ = 0, held_ = 0;
 };
 

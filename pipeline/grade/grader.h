@@ -11,19 +11,23 @@
 
 namespace domefall {
 
+class GradeTable;
+
 // What is known of a grade by table.
 struct TableError {
   double error;  // the largest one measured, as a part of white
   double held;   // the part of the table's cells that were not left out for a larger one
 };
 
-// The grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the show's ASC CDL in ACEScct, unless that changes
-// nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
+// The grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the show's ASC
+// CDL in ACEScct, unless that changes nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
 // rounded.  A pixel depends on its own input and the frame's size alone.  Copies share one
 // processor, and any number of threads may use it.
 //
-// Frames of 2^21 pixels and more, from 2k domes on, are graded by a table (grade_table.h), which is
-// made when the first one comes.
+// Frames of 2^21 pixels and more, from 2k domes on, are graded by a table of the view
+// (grade_table.h), before which the CDL is a step of its own (cdl_step.h).  It is made when the
+// first such frame comes, by the threads that grade it.  Where a CDL makes it err by more than half
+// a step of 12 bits, the formulas are followed.
 class Grader {
  public:
   // A configuration that is not the shipped one is first read in a process of its own (trial.h),
@@ -34,9 +38,8 @@ class Grader {
   // it has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
-  // The same grade with another CDL, made anew unless it is this one.  `lasts` says whether many
-  // frames have it, so that a table is worth its making; without it all are graded by the formulas.
-  Grader with(const Cdl& cdl, bool lasts) const;
+  // The same grade with another CDL, which shares the table.
+  Grader with(const Cdl& cdl) const;
 
   // What is done about a dome's own light once a frame is graded; null if nothing is.
   const DomeLight* dome_light() const { return dome_light_.get(); }
@@ -61,13 +64,13 @@ class Grader {
   const std::string& view() const { return view_; }
 
  private:
-  bool by_table(const HalfFrame& in) const;
+  // The table by which such a frame is graded; null for the formulas.
+  const GradeTable* table_for(const HalfFrame& in) const;
 
   struct Processor;
   struct Source;
   std::shared_ptr<const Source> source_;
   Cdl cdl_;
-  bool lasts_ = true;
   std::shared_ptr<const Processor> processor_;
   std::shared_ptr<const DomeLight> dome_light_;
   std::string display_, view_, transform_id_;

@@ -202,7 +202,6 @@ std::string FrameKeys::graded(const std::string& scene_key, const FrameState& st
       for (const double v : colours) digest.add(steady(v));
     digest.add(steady(cdl.saturation));
   }
-  if (state.cdl_changes) digest.add("by formulas");
   return digest.hex();
 }
 

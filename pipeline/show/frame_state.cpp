@@ -37,13 +37,6 @@ Cdl cdl_at(const Show& show, const Segment& s, double t) {
   return cdl;
 }
 
-bool cdl_changes(const Segment& s) {
-  for (auto k = static_cast<std::size_t>(Channel::kSlopeR); k < kChannels; ++k)
-    if (const auto& curve = s.curves[kEveryChannel[k]]; curve && curve->keys.size() > 1)
-      return true;
-  return false;
-}
-
 // The CDL of a dissolve, in which the part `vanishing` is left of another.
 Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
   const auto mix = [vanishing](double a, double b) { return a + (b - a) * vanishing; };
@@ -84,7 +77,6 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
     flat->fov = value_at(s, Channel::kFov, t, flat->fov);
   state.settings = settings_at(show, s, t);
   state.cdl = cdl_at(show, s, t);
-  state.cdl_changes = cdl_changes(s);
   state.fade = fade_at(show, segment, t);
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =
@@ -100,10 +92,7 @@ FrameState state_at(const Show& show, int segment, int frame, double t) {
   if (segment == 0 || !(faded < dissolve)) return state;
   state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
   state.vanishing_part = 1 - smooth_step(faded / dissolve);
-  if (state.cdl != state.vanishing->cdl) {
-    state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
-    state.cdl_changes = true;
-  }
+  state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
   return state;
 }
 

@@ -29,9 +29,7 @@ struct FrameState {
   ObserverState observer;
   Projection projection;
   FrameSettings settings;
-  // The frame's CDL, and whether other frames of the segment have another.
   Cdl cdl;
-  bool cdl_changes = false;
   double fade = 1;  // the part of its light that is left in a fade from or to black
   // During a dissolve: the state in the segment that vanishes, and the part of the light that is
   // still its.  Null and 0 otherwise.

@@ -45,4 +45,38 @@ template <int kCount>
   return p * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
 }
 
+// 2^x for x <= 120, where arguments below -120 count as -120.  Measured: its relative error is below
+// 2e-7.  What is left of x next to an integer, half at most, goes into the Taylor series to the
+// seventh power.
+[[gnu::always_inline]] inline float power_of_two(float x) {
+  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
+  const float bounded = x > -120.0f ? x : -120.0f;
+  const float shifted = bounded + kRound;
+  const float y = (bounded - (shifted - kRound)) * 0.693147181f;
+  float p = 1.0f / 5040;
+  p = p * y + 1.0f / 720;
+  p = p * y + 1.0f / 120;
+  p = p * y + 1.0f / 24;
+  p = p * y + 1.0f / 6;
+  p = p * y + 0.5f;
+  p = p * y * y + y;
+  return (p + 1.0f) * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
+}
+
+// log2(x) for finite x >= 2^-126.  Measured: its error is below 1.5e-7 of max(1, |log2 x|).  With
+// x = 2^n m and m between sqrt(1/2) and sqrt(2) it is n + 2/ln 2 artanh((m - 1)/(m + 1)), whose
+// series is cut off where the next term is below 4e-9.
+[[gnu::always_inline]] inline float binary_logarithm(float x) {
+  constexpr std::int32_t kRootHalf = 0x3f3504f3, kMantissa = 0x007fffff;
+  constexpr float kTwoOverLn2 = 2.885390082f;
+  const std::int32_t bits = std::bit_cast<std::int32_t>(x) - kRootHalf;
+  const auto m = std::bit_cast<float>((bits & kMantissa) + kRootHalf);
+  const float s = (m - 1.0f) / (m + 1.0f), t = s * s;
+  float p = kTwoOverLn2 / 9;
+  p = p * t + kTwoOverLn2 / 7;
+  p = p * t + kTwoOverLn2 / 5;
+  p = p * t + kTwoOverLn2 / 3;
+  return static_cast<float>(bits >> 23) + (s * kTwoOverLn2 + s * t * p);
+}
+
 }  // namespace domefall

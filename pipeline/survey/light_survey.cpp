@@ -48,7 +48,7 @@ class LightMeter {
     GradedFrame graded;
     double brightest = 0;
     if (grader_) {
-      grader_ = grader_->with(state.cdl, false);
+      grader_ = grader_->with(state.cdl);
       graded = grader_->grade(frame);
       brightest = white_of(*grader_);
     }

@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -125,10 +126,19 @@ void load_and_render_frame(benchmark::State& state) {
 
 HalfFrame rendered(const Show& show) { return Renderer(show, 0).render(frame_state(show, kFrame)); }
 
+// A view of the shipped configuration, without and with a CDL.
+Grader grader_of(const Show& show, const benchmark::State& state) {
+  GradeSettings settings = show.grade;
+  settings.view = std::array{"Dome", "ACES SDR", "Star field",
+                             "Un-tone-mapped"}[static_cast<std::size_t>(state.range(0))];
+  if (state.range(1) != 0) settings.cdl.slope = {1.05, 1, 0.95}, settings.cdl.saturation = 0.9;
+  return Grader(settings);
+}
+
 void grade_frame(benchmark::State& state) {
   const Show show = first_light(4096);
   const HalfFrame frame = rendered(show);
-  const Grader grader(show.grade);
+  const Grader grader = grader_of(show, state);
   GradedFrame out;
   Stopwatch watch;
   for (auto _ : state) watch.time([&] { out = grader.grade(frame); });
@@ -140,7 +150,7 @@ void grade_frame(benchmark::State& state) {
 void grade_by_formulas(benchmark::State& state) {
   const Show show = first_light(4096);
   const HalfFrame frame = rendered(show);
-  const Grader grader(show.grade);
+  const Grader grader = grader_of(show, state);
   constexpr int kRows = 256;
   HalfFrame part(frame.width, kRows);
   GradedFrame out(frame.width, kRows);
@@ -202,8 +212,16 @@ BENCHMARK(render_sky)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(load_and_render_frame)->Arg(4096)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(grade_frame)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(grade_by_formulas)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(grade_frame)
+    ->ArgNames({"view", "cdl"})
+    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(grade_by_formulas)
+    ->ArgNames({"view", "cdl"})
+    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(write_linear)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(write_png)->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -103,10 +104,10 @@ TEST(Grader, WithAnotherCdlIsThatOfAShowWithThatCdl) {
   GradeSettings changed = settings;
   changed.cdl.offset = {0.05, 0, -0.05};
   changed.cdl.saturation = 0.5;
-  const Grader other = of_show.with(changed.cdl, true);
+  const Grader other = of_show.with(changed.cdl);
   EXPECT_EQ(other.grade(greys()).pixels, Grader(changed).grade(greys()).pixels);
   EXPECT_NE(other.grade(greys()).pixels, of_show.grade(greys()).pixels);
-  EXPECT_EQ(other.with(settings.cdl, true).grade(greys()).pixels, of_show.grade(greys()).pixels);
+  EXPECT_EQ(other.with(settings.cdl).grade(greys()).pixels, of_show.grade(greys()).pixels);
   EXPECT_EQ(other.transform_id(), of_show.transform_id()) << "frames name their CDLs themselves";
   EXPECT_EQ(other.view(), of_show.view());
 }
@@ -147,14 +148,44 @@ TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
   }
 }
 
-// A table would take longer to make than a frame to grade.
-TEST(LargeFrames, AreGradedByTheFormulasWhereTheCdlDoesNotLast) {
+// A moving CDL: a gentle one, one whose slope, power and saturation all differ from 1, and one that
+// takes all colour.  What it makes negative or too colourful goes by the formulas.
+TEST(LargeFrames, WithAnyCdlAreGradedToHalfATwelveBitCode) {
+  HalfFrame large(2048, 1024), small(2048, kColouredRows);
+  put_colours(large);
+  put_colours(small);
+  std::array<Cdl, 3> cdls;
+  cdls[0].offset = {0.05, 0.05, 0.05};
+  cdls[1].slope = {1.1, 1, 0.93}, cdls[1].offset = {0.02, -0.01, 0};
+  cdls[1].power = {1.1, 1, 0.9}, cdls[1].saturation = 0.7;
+  cdls[2].saturation = 0;
+  const Grader of_show(shipped());
+  for (const Cdl& cdl : cdls) {
+    const Grader grader = of_show.with(cdl);
+    const auto table = grader.table_error(large);
+    ASSERT_TRUE(table);
+    EXPECT_LT(table->error, 0.5 / 4095);
+    const GradedFrame exact = grader.grade(small), quick = grader.grade(large);
+    int worst = 0;
+    for (std::size_t k = 0; k < exact.pixels.size(); ++k)
+      worst = std::max(worst, std::abs(exact.pixels[k] - quick.pixels[k]));
+    EXPECT_LE(worst, 8);
+    EXPECT_GT(worst, 0) << "the formulas were followed";
+    const std::size_t black = 3 * 2048 * (kColouredRows + 1);
+    const GradedFrame blacks = grader.grade(HalfFrame(1, 1));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(quick.pixels[black + c], blacks.pixels[c]);
+  }
+}
+
+// So steep is this CDL about a light of 1 that a float's last digit there becomes several codes.
+TEST(LargeFrames, AreGradedByTheFormulasWhereACdlMakesTheTableErr) {
   HalfFrame large(2048, 1024), small(2048, kColouredRows);
   put_colours(large);
   put_colours(small);
   Cdl cdl;
-  cdl.offset = {0.05, 0.05, 0.05};
-  const Grader grader = Grader(shipped()).with(cdl, false);
+  const double offset = 0.5 - 3000 * 9.72 / 17.52;
+  cdl.slope = {3000, 3000, 3000}, cdl.offset = {offset, offset, offset};
+  const Grader grader = Grader(shipped()).with(cdl);
   EXPECT_FALSE(grader.table_error(large));
   const GradedFrame exact = grader.grade(small), whole = grader.grade(large);
   EXPECT_TRUE(std::equal(exact.pixels.begin(), exact.pixels.end(), whole.pixels.begin()));
@@ -163,7 +194,9 @@ TEST(LargeFrames, AreGradedByTheFormulasWhereTheCdlDoesNotLast) {
 TEST(LargeFrames, HaveTheSameBytesForAnySplitIntoRowsAndAnyInstructionSet) {
   HalfFrame large(2048, 1024);
   put_colours(large);
-  const Grader grader(shipped());
+  Cdl cdl;
+  cdl.offset = {0.02, 0, -0.01}, cdl.power = {1.1, 1, 0.9};
+  const Grader grader = Grader(shipped()).with(cdl);
   const GradedFrame whole = grader.grade(large);
   const Simd before = simd_in_use();
   for (const Simd level : kEverySimd) {

