@@ -121,8 +121,13 @@ Json json_of_head(const CheckReport& report) {
           {"mass_solar", number(show.mass_solar)}};
 }
 
-Json json_of(const SkySources& s) {
-  return {{"region", s.region == SkyRegion::kI ? "I" : "III"},
+Json json_of(const CheckedSky& sky) {
+  const SkySources& s = sky.sources;
+  std::vector<int> segments = s.segments;
+  for (int& segment : segments) ++segment;
+  return {{"region", name_of(s.region)},
+          {"segments", segments},
+          {"black_cd_m2", number(sky.black)},
           {"map", s.map.empty() ? Json() : Json(s.map)},
           {"map_fainter_than", number(s.map_fainter_than)},
           {"catalogue", s.catalogue.empty() ? Json() : Json(s.catalogue)},
@@ -141,9 +146,6 @@ void add_whole(const CheckReport& report, Json& json) {
   json["fastest_lorentz_factor"] = extreme(survey.fastest, gamma);
   json["least_one_plus_z"] = extreme(survey.bluest);
   json["largest_one_plus_z"] = extreme(survey.reddest);
-  for (const SkyRegion sky : kEverySky)
-    if (report.black[sky])
-      json["black_cd_m2"][fmt::format("region_{}", name_of(sky))] = number(report.black[sky]);
   json["brightest"] = json_of(report.light.brightest);
   json["darkest"] = json_of(report.light.darkest);
   json["render"] = report.time ? json_of(*report.time) : Json();
@@ -155,7 +157,7 @@ void add_whole(const CheckReport& report, Json& json) {
 std::string check_json(const CheckReport& report) {
   Json json = json_of_head(report);
   json["skies"] = Json::array();
-  for (const SkySources& s : report.skies) json["skies"].push_back(json_of(s));
+  for (const CheckedSky& sky : report.skies) json["skies"].push_back(json_of(sky));
   add_fades(report.show.fades, json);
   json["segments"] = Json::array();
   for (std::size_t k = 0; k < report.survey.segments.size(); ++k) {

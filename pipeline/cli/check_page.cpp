@@ -57,7 +57,7 @@ class Page {
   }
 
   void skies() {
-    for (const SkySources& sky : r_.skies) {
+    for (const auto& [sky, black] : r_.skies) {
       std::string text;
       if (!sky.map.empty()) add(text, sky.map);
       if (sky.map_fainter_than)
@@ -66,7 +66,9 @@ class Page {
         add(text, fmt::format("{}, {} to V = {:.3g}", sky.catalogue, counted(sky.stars, "star"),
                               sky.faintest));
       if (text.empty()) continue;
-      line(sky.region == SkyRegion::kI ? "sky" : "region III", text);
+      const bool is_home = sky.region == SkyRegion::kI;
+      line(is_home ? "sky" : fmt::format("region {}", name_of(sky.region)),
+           text + segments_text(sky));
     }
   }
 
@@ -151,14 +153,12 @@ class Page {
 
   // What is taken from maps as their black.
   void black() {
-    for (const SkyRegion sky : kEverySky) {
-      const auto& level = r_.black[sky];
+    for (const auto& [sky, level] : r_.skies) {
       if (!level) continue;
-      const auto* map = std::get_if<PanoramaSky>(&show_.sky[sky].background);
-      const char* by = map && map->black ? "as the show says" : "the map's own darkest 1 %";
-      line(fmt::format("black of {}", name_of(sky)),
-           fmt::format("{:.3g} cd/m^2, {}, {:.3g} as a pixel value at 0 EV", *level, by,
-                       *level / kReferenceLuminance));
+      const char* by = sky.panorama->black ? "as the show says" : "the map's own darkest 1 %";
+      line(fmt::format("black of {}", name_of(sky.region)),
+           fmt::format("{:.3g} cd/m^2, {}, {:.3g} as a pixel value at 0 EV{}", *level, by,
+                       *level / kReferenceLuminance, segments_text(sky)));
     }
   }
 

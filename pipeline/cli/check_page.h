@@ -13,6 +13,11 @@
 
 namespace domefall {
 
+struct CheckedSky {
+  SkySources sources;
+  std::optional<double> black;  // of its map, cd/m^2
+};
+
 struct CheckReport {
   const Show& show;
   std::string display, view;  // empty without a grade
@@ -21,8 +26,7 @@ struct CheckReport {
   std::vector<ShowWarning> warnings;
   LightSurvey light;
   std::optional<RenderTime> time;  // none where it was not measured
-  std::vector<SkySources> skies;
-  PerSky<std::optional<double>> black;  // of the maps of the skies that are visited, cd/m^2
+  std::vector<CheckedSky> skies;  // those that are visited
 };
 
 // What the frames take on the disk, in bytes: as estimated from a few of them, or else without any

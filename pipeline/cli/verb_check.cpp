@@ -20,19 +20,11 @@ bool sees(const ShowSurvey& survey, Region region) {
 }
 
 // Loads all that the frames will read, since a file may be damaged and none of the frames that are
-// measured need show it.  Returns the blacks of the maps.
-PerSky<std::optional<double>> load_skies(const Show& show, const ShowSurvey& survey,
-                                         Renderer& renderer) {
-  PerSky<std::optional<double>> blacks;
-  const auto load = [&](SkyRegion sky) {
-    renderer.load_sky(sky);
-    if (std::holds_alternative<PanoramaSky>(show.sky[sky].background))
-      blacks[sky] = renderer.sky_black(sky);
-  };
-  if (sees(survey, Region::kI)) load(SkyRegion::kI);
-  if (sees(survey, Region::kIII)) load(SkyRegion::kIII);
-  if (show.mass_solar) load(SkyRegion::kIV);
-  return blacks;
+// measured need show it.
+void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
+  if (sees(survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
+  if (sees(survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
+  if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
 }
 
 // The time to render; nothing where it is not worth measuring, or where no temporary file can be
@@ -56,12 +48,13 @@ void check(const std::string& file, bool json) {
   const Grader* grade = grader ? &*grader : nullptr;
   Renderer renderer(show, 0, {}, kSurveyDetail);
   const ShowSurvey found = survey(show);
-  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show),
-                     {},   {}, {}, {}};
-  report.black = load_skies(show, found, renderer);
-  report.skies = survey_skies(show, sees(found, Region::kIII));
-  for (const SkySources& sky : report.skies)
+  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
+  load_skies(show, found, renderer);
+  for (const SkySources& sky : survey_skies(show, found)) {
+    report.skies.push_back({sky, {}});
+    if (sky.panorama) report.skies.back().black = renderer.sky_black(sky.region, *sky.panorama);
     if (sky.twice > kMuchTwice) report.warnings.push_back({0, 0, 0, counted_twice_text(sky)});
+  }
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);

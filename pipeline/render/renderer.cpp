@@ -85,8 +85,8 @@ int Renderer::threads() const { return memory_->arena.max_concurrency(); }
 
 void Renderer::load_sky(SkyRegion sky) { skies_.load(sky); }
 
-double Renderer::sky_black(SkyRegion sky) {
-  return skies_.sky(sky, show_.sky[sky].background, false).black.luminance;
+double Renderer::sky_black(SkyRegion sky, const PanoramaSky& map) {
+  return skies_.sky(sky, map, false).black.luminance;
 }
 
 void Renderer::load(const FramePlan& plan) { skies_.skies_of(plan); }

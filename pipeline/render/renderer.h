@@ -41,9 +41,9 @@ class Renderer {
   // Reads the files of a sky before any frame shows it.  Throws InputError if one cannot be read.
   void load_sky(SkyRegion sky);
 
-  // Returns the luminance (cd/m^2, before the gain) that is taken as black from the map of a sky; 0
-  // for a sky without a map.  Loads the sky's background.
-  double sky_black(SkyRegion sky);
+  // Returns the luminance (cd/m^2, before the gain) that is taken as black from a map of a sky,
+  // which it loads.
+  double sky_black(SkyRegion sky, const PanoramaSky& map);
 
   int threads() const;
 

@@ -112,6 +112,8 @@ struct Segment {
 struct StarField {
   std::filesystem::path catalogue;
   double max_magnitude = 9;
+
+  bool operator==(const StarField&) const = default;
 };
 
 struct RegionSky {
@@ -119,6 +121,8 @@ struct RegionSky {
   double background_gain = 1;  // artistic; 1 is physical
   std::optional<StarField> stars;
   double star_gain = 1;  // artistic; 1 is physical
+
+  bool operator==(const RegionSky&) const = default;
 };
 
 // The intensity of a panorama, which has no spectra, at the frequency ratio g = 1/(1+z): g^power

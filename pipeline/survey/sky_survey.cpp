@@ -1,8 +1,12 @@
 #include "pipeline/survey/sky_survey.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <numbers>
 
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
@@ -14,51 +18,148 @@ namespace {
 // Of the whole sky.
 constexpr double kSquareDegrees = 360 * 360 / std::numbers::pi;
 
-SkySources sources_of(SkyRegion region, const RegionSky& sky, double epoch) {
-  SkySources found{region, {}, {}, {}};
-  if (const auto* panorama = std::get_if<PanoramaSky>(&sky.background)) {
-    found.map = panorama->image.filename().string();
-    if (is_sky_file(panorama->image))
-      found.map_fainter_than = SkyFile(panorama->image).origin().fainter_than;
+// A background of a region, with the segments that have it.
+struct ShownSky {
+  SkyRegion region;
+  const SkyBackground* background;
+  std::vector<int> segments;
+  double max_magnitude;  // the deepest that any of them reaches
+};
+
+// A segment inside the hole sees both skies.
+bool sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
+  if (region == SkyRegion::kIV) return show.mass_solar.has_value();
+  const Region home = region == SkyRegion::kI ? Region::kI : Region::kIII;
+  return std::any_of(segment.regions.begin(), segment.regions.end(),
+                     [home](Region r) { return r == home || r == Region::kII; });
+}
+
+// The deepest limit between a segment's first and last instant.  Between keys a curve passes beyond
+// neither.
+double deepest_limit(const Show& show, int segment, SkyRegion region) {
+  const Segment& s = segment_of(show, segment);
+  const double own = show.sky[region].stars.value_or(StarField{}).max_magnitude;
+  const auto& curve = s.curves[max_magnitude_channel(region)];
+  if (!curve) return own;
+  const double begin = segment_times(show)[static_cast<std::size_t>(segment)],
+               end = begin + s.duration_s;
+  double deepest = std::max(value_at(*curve, begin), value_at(*curve, end));
+  for (const CurveKey& key : curve->keys)
+    if (begin <= key.at_s && key.at_s <= end) deepest = std::max(deepest, key.value);
+  return deepest;
+}
+
+std::vector<ShownSky> shown_skies(const Show& show, const ShowSurvey& survey) {
+  std::vector<ShownSky> shown;
+  for (const SkyRegion region : kEverySky)
+    for (std::size_t k = 0; k < survey.segments.size(); ++k) {
+      if (!sees(show, survey.segments[k], region)) continue;
+      const int segment = static_cast<int>(k);
+      const SkyBackground& background = background_of(show, segment, region);
+      const double limit = deepest_limit(show, segment, region);
+      const auto same = std::find_if(shown.begin(), shown.end(), [&](const ShownSky& s) {
+        return s.region == region && *s.background == background;
+      });
+      if (same == shown.end()) {
+        shown.push_back({region, &background, {segment}, limit});
+      } else {
+        same->segments.push_back(segment);
+        same->max_magnitude = std::max(same->max_magnitude, limit);
+      }
+    }
+  return shown;
+}
+
+// The V of a catalogue's stars, ascending; a file is read once.
+class Magnitudes {
+ public:
+  Magnitudes(const Show& show, const std::vector<ShownSky>& shown) : epoch_(show.star_epoch) {
+    for (const ShownSky& sky : shown)
+      if (const auto& stars = show.sky[sky.region].stars)
+        limits_[stars->catalogue] = std::max(
+            limits_.try_emplace(stars->catalogue, -HUGE_VAL).first->second, sky.max_magnitude);
   }
-  if (!sky.stars) return found;
-  found.catalogue = sky.stars->catalogue.filename().string();
-  const auto stars =
-      read_star_catalogue(sky.stars->catalogue, sky.stars->max_magnitude, epoch).stars;
-  found.stars = stars.size();
-  if (stars.empty()) return found;
-  found.faintest = stars.back().v_magnitude;
+
+  const std::vector<double>& of(const std::filesystem::path& catalogue) {
+    const auto [known, is_new] = read_.try_emplace(catalogue);
+    if (is_new)
+      for (const auto& star : read_star_catalogue(catalogue, limits_.at(catalogue), epoch_).stars)
+        known->second.push_back(star.v_magnitude);
+    return known->second;
+  }
+
+ private:
+  double epoch_;
+  std::map<std::filesystem::path, double> limits_;
+  std::map<std::filesystem::path, std::vector<double>> read_;
+};
+
+SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitudes) {
+  SkySources found;
+  found.region = sky.region;
+  found.segments = sky.segments;
+  found.panorama = std::get_if<PanoramaSky>(sky.background);
+  if (found.panorama) {
+    found.map = found.panorama->image.filename().string();
+    if (is_sky_file(found.panorama->image))
+      found.map_fainter_than = SkyFile(found.panorama->image).origin().fainter_than;
+  }
+  const auto& stars = show.sky[sky.region].stars;
+  if (!stars) return found;
+  found.catalogue = stars->catalogue.filename().string();
+  const std::vector<double>& all = magnitudes.of(stars->catalogue);
+  const auto end = std::upper_bound(all.begin(), all.end(), sky.max_magnitude);
+  found.stars = static_cast<std::size_t>(end - all.begin());
+  if (found.stars == 0) return found;
+  found.faintest = *(end - 1);
   if (!found.map_fainter_than) return found;
-  for (auto s = stars.rbegin(); s != stars.rend() && s->v_magnitude > *found.map_fainter_than; ++s)
-    found.twice += std::pow(10, 0.4 * (10 - double{s->v_magnitude})) / kSquareDegrees;
+  for (auto v = std::upper_bound(all.begin(), end, *found.map_fainter_than); v != end; ++v)
+    found.twice += std::pow(10, 0.4 * (10 - *v)) / kSquareDegrees;
   return found;
 }
 
-bool same(const RegionSky& a, const RegionSky& b) {
-  const auto *p = std::get_if<PanoramaSky>(&a.background),
-             *q = std::get_if<PanoramaSky>(&b.background);
-  const bool same_stars = a.stars.has_value() == b.stars.has_value() &&
-                          (!a.stars || (a.stars->catalogue == b.stars->catalogue &&
-                                        a.stars->max_magnitude == b.stars->max_magnitude));
-  return same_stars && a.background.index() == b.background.index() && (!p || p->image == q->image);
+// Whether a sky of region III is one of region I, seen from the other side.
+bool is_as_in_region_one(const Show& show, const ShownSky& sky,
+                         const std::vector<ShownSky>& shown) {
+  if (sky.region != SkyRegion::kIII ||
+      show.sky[SkyRegion::kI].stars != show.sky[SkyRegion::kIII].stars)
+    return false;
+  return std::any_of(shown.begin(), shown.end(), [&](const ShownSky& other) {
+    return other.region == SkyRegion::kI && *other.background == *sky.background &&
+           other.max_magnitude >= sky.max_magnitude;
+  });
 }
 
 }  // namespace
 
-std::vector<SkySources> survey_skies(const Show& show, bool sees_region_three) {
-  const RegionSky &one = show.sky[SkyRegion::kI], &three = show.sky[SkyRegion::kIII];
-  std::vector<SkySources> found{sources_of(SkyRegion::kI, one, show.star_epoch)};
-  if (sees_region_three && !same(one, three))
-    found.push_back(sources_of(SkyRegion::kIII, three, show.star_epoch));
+std::vector<SkySources> survey_skies(const Show& show, const ShowSurvey& survey) {
+  const std::vector<ShownSky> shown = shown_skies(show, survey);
+  Magnitudes magnitudes(show, shown);
+  std::vector<SkySources> found;
+  for (const ShownSky& sky : shown) {
+    if (is_as_in_region_one(show, sky, shown)) continue;
+    if (sky.region == SkyRegion::kIV && !std::holds_alternative<PanoramaSky>(*sky.background))
+      continue;
+    found.push_back(sources_of(show, sky, magnitudes));
+    found.back().throughout = 1 == std::count_if(shown.begin(), shown.end(), [&](const auto& s) {
+                                return s.region == sky.region;
+                              });
+  }
   return found;
+}
+
+std::string segments_text(const SkySources& s) {
+  if (s.throughout) return "";
+  std::vector<int> numbers = s.segments;
+  for (int& number : numbers) ++number;
+  return fmt::format(", in segment{} {}", numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "));
 }
 
 std::string counted_twice_text(const SkySources& s) {
   return fmt::format(
-      "the stars of {} from V = {:g} to {:.4g} are seen twice: as stars, and in {}, which holds "
-      "the "
-      "light of stars fainter than {:g}; give max_magnitude: {:g}, or another map",
-      s.catalogue, *s.map_fainter_than, s.faintest, s.map, *s.map_fainter_than,
+      "the stars of {} from V = {:g} to {:.4g} are seen twice{}: as stars, and in {}, which holds "
+      "the light of stars fainter than {:g}; give max_magnitude: {:g}, or another map",
+      s.catalogue, *s.map_fainter_than, s.faintest, segments_text(s), s.map, *s.map_fainter_than,
       *s.map_fainter_than);
 }
 

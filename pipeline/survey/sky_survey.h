@@ -7,13 +7,17 @@
 #include <vector>
 
 #include "pipeline/show/show.h"
+#include "pipeline/survey/show_survey.h"
 #include "trajectories/sky_region.h"
 
 namespace domefall {
 
 struct SkySources {
   SkyRegion region;
-  std::string map;                         // name of the file; empty without one
+  std::vector<int> segments;               // that see it, ascending from 0
+  bool throughout = true;                  // no segment has another background in this region
+  const PanoramaSky* panorama = nullptr;   // the show's own; null without one
+  std::string map;                         // name of its file; empty without one
   std::optional<double> map_fainter_than;  // SkyOrigin::fainter_than
   std::string catalogue;                   // name of the file; empty without one
   std::size_t stars = 0;                   // so many are drawn
@@ -26,11 +30,16 @@ struct SkySources {
 // More light than this is worth a warning: 1 % of all starlight.
 inline constexpr double kMuchTwice = 1;
 
-// What region I shows and, of a show that sees it and where it differs, region III.  A catalogue is
-// counted to the magnitude that the show begins with.  Throws InputError if a file cannot be read.
-std::vector<SkySources> survey_skies(const Show& show, bool sees_region_three);
+// The sky of region I, that of region III where it differs, and a panorama of region IV, in the
+// segments that see them: once for each of the backgrounds that segments have.  A catalogue is
+// counted to the deepest limit that keyframes reach in those segments.  Throws InputError if a file
+// cannot be read.
+std::vector<SkySources> survey_skies(const Show& show, const ShowSurvey& survey);
 
-// "the stars of region_I from V = 6.5 on are also in the map x.sky ...": what a warning says.
+// ", in segments 1 and 3", or nothing for a sky that the region has throughout.
+std::string segments_text(const SkySources& sources);
+
+// "the stars of stars.csv from V = 6.5 to 8 are seen twice: ...": what a warning says.
 std::string counted_twice_text(const SkySources& sources);
 
 }  // namespace domefall
