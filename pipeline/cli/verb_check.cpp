@@ -9,6 +9,7 @@
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/show/read_show.h"
+#include "pipeline/survey/axis_stars.h"
 
 namespace domefall {
 namespace {
@@ -47,7 +48,8 @@ void check(const std::string& file, bool json) {
   if (show.graded_format != GradedFormat::kNone) grader.emplace(show.grade);
   const Grader* grade = grader ? &*grader : nullptr;
   Renderer renderer(show, 0, {}, kSurveyDetail);
-  const ShowSurvey found = survey(show);
+  AxisStars axis(show);
+  const ShowSurvey found = survey(show, [&axis](const FrameState& state) { axis.add(state); });
   CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
   load_skies(show, found, renderer);
   for (const SkySources& sky : survey_skies(show, found)) {
@@ -55,6 +57,9 @@ void check(const std::string& file, bool json) {
     if (sky.panorama) report.skies.back().black = renderer.sky_black(sky.region, *sky.panorama);
     if (sky.twice > kMuchTwice) report.warnings.push_back({0, 0, 0, counted_twice_text(sky)});
   }
+  for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
+  std::stable_sort(report.warnings.begin(), report.warnings.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);

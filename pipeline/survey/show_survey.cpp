@@ -161,7 +161,7 @@ double clock_rate(const Segment& segment, double part) {
          (kStep * segment.duration_s);
 }
 
-ShowSurvey survey(const Show& show) {
+ShowSurvey survey(const Show& show, const std::function<void(const FrameState&)>& see) {
   ShowSurvey found;
   const std::vector<double> times = segment_times(show);
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
@@ -180,6 +180,7 @@ ShowSurvey survey(const Show& show) {
   const int frames = frame_count(show);
   for (int n = 0; n < frames; ++n) {
     const FrameState state = frame_state(without_targets, n);
+    if (see) see(state);
     extremes.add(state);
     if (state.vanishing) extremes.add(*state.vanishing);
   }

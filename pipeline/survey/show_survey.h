@@ -2,6 +2,7 @@
 // skies is shifted.  No frame is rendered for it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,9 @@ struct ShowSurvey {
 };
 
 // The survey of every segment and every frame.  It takes about 5 microseconds a frame and 5 ms a
-// segment.
-ShowSurvey survey(const Show& show);
+// segment.  Calls `see`, where there is one, for the state of each frame, whose camera does not
+// follow keyframed targets.
+ShowSurvey survey(const Show& show, const std::function<void(const FrameState&)>& see = {});
 
 // M of proper time per second of show (seconds in flat space) when `part` of a segment, 0 to 1, has
 // passed.  It is the quotient of differences over 1e-6 of the segment.

@@ -1,0 +1,196 @@
+#include "pipeline/survey/axis_stars.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "pipeline/colour/colour_space.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/scene/frame_scene.h"
+#include "pipeline/render/scene/optics_store.h"
+#include "pipeline/render/scene/sky_store.h"
+#include "pipeline/render/stars/star_image_finder.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+
+namespace domefall {
+namespace {
+
+constexpr std::size_t kMostWarnings = 50;
+// The amplification of all images of a star is this over the sine of its angle from the axis, at
+// most, and their blueshift makes them so much brighter.  Both are more than any show was seen to
+// have.
+constexpr double kMostPerSine = 4, kMostBlueshift = 10;
+
+double magnitudes(double factor) { return 2.5 * std::log10(factor); }
+
+double largest_value(const Show& show, Channel channel, double own) {
+  double most = own;
+  for (const Segment& segment : show.timeline)
+    if (const auto& curve = segment.curves[channel]) most = std::max(most, largest(*curve));
+  return most;
+}
+
+// By how much the exposure and the gain of a show make stars brighter at most.
+double largest_gain(const Show& show, SkyRegion region) {
+  return std::exp2(largest_value(show, Channel::kEv, show.exposure.ev)) *
+         largest_value(show, star_gain_channel(region), show.sky[region].star_gain);
+}
+
+// The light of images in the picture.
+double light_of(const std::vector<StarImage>& images, const Projection& projection) {
+  double sum = 0;
+  for (const StarImage& image : images) {
+    const bool inside = image.x > -1 && image.y > -1 &&
+                        image.x < static_cast<float>(columns(projection)) &&
+                        image.y < static_cast<float>(rows(projection));
+    if (inside) sum += luminance({image.rgb[0], image.rgb[1], image.rgb[2]});
+  }
+  return sum;
+}
+
+}  // namespace
+
+AxisStars::AxisStars(const Show& show) : show_(show) {
+  if (!show.mass_solar || !show.effects.lensing ||
+      show.effects.amplification == Amplification::kNone)
+    return;
+  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) read(region);
+}
+
+void AxisStars::read(SkyRegion region) {
+  const auto& field = show_.sky[region].stars;
+  const double gain = largest_gain(show_, region);
+  if (!field || !(gain > 0)) return;
+  const double most = 2 * kMostPerSine / show_.least_star_radius * gain * kMostBlueshift;
+  const double limit =
+      std::min(kBlindingMagnitude + magnitudes(most),
+               largest_value(show_, max_magnitude_channel(region), field->max_magnitude));
+  StarCatalogue catalogue = read_star_catalogue(field->catalogue, limit, show_.star_epoch);
+  const SceneStars stars(catalogue.stars);
+  std::vector<Class>& classes = stars_[region];
+  for (std::size_t k = 0; k < stars.size(); ++k) {
+    const SceneStar star = stars[k];
+    const double window = kMostPerSine * gain * kMostBlueshift *
+                          std::pow(10, 0.4 * (kBlindingMagnitude - star.magnitude));
+    // Each class has windows within a factor of 2, and the brightest come first.
+    if (classes.empty() || window < classes.back().window / 2) classes.push_back({{}, window});
+    classes.back().stars.push_back({star, window});
+  }
+  for (Class& each : classes)
+    std::sort(each.stars.begin(), each.stars.end(), [](const Candidate& a, const Candidate& b) {
+      return a.star.direction.v.z < b.star.direction.v.z;
+    });
+  names_[region] = std::move(catalogue.names);
+}
+
+void AxisStars::add(const FrameState& state) {
+  std::erase_if(recent_, [&](std::size_t k) { return passages_[k].last_frame < state.frame - 1; });
+  add(state, false);
+  if (state.vanishing) add(*state.vanishing, true);
+}
+
+// A star may stand near either end of the axis.
+void AxisStars::add(const FrameState& state, bool vanishes) {
+  const ObserverState& o = state.observer;
+  if (is_flat(o)) return;
+  const M33d& axes = o.sky_from_tetrad;
+  const V3d behind(-axes[0][0], -axes[1][0], -axes[2][0]);
+  const bool inside = o.region == Region::kII && o.r < 2;
+  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
+    if (region != home_sky(o.tetrad) && !(inside && region == far_sky(o.tetrad))) continue;
+    for (const Class& each : stars_[region])
+      for (const double side : {1.0, -1.0}) {
+        const V3d axis = behind * side;
+        auto star = std::partition_point(each.stars.begin(), each.stars.end(), [&](const auto& c) {
+          return c.star.direction.v.z < axis.z - each.window;
+        });
+        for (; star != each.stars.end() && star->star.direction.v.z <= axis.z + each.window;
+             ++star) {
+          const double sine = star->star.direction.v.cross(axis).length();
+          if (sine > star->window || star->star.direction.v.dot(axis) < 0) continue;
+          const double least = std::max(show_.least_star_radius, star->star.angular_radius) / 2;
+          note({region, &*star, state.frame, state.frame, vanishes,
+                star->star.flux / std::max(sine, least) * std::exp2(state.settings.ev)});
+        }
+      }
+  }
+}
+
+// Adds the frame to the star's passage, or begins another.
+void AxisStars::note(const Passage& found) {
+  for (const std::size_t k : recent_) {
+    Passage& passage = passages_[k];
+    if (passage.star != found.star || passage.vanishes != found.vanishes) continue;
+    passage.last_frame = found.frame;
+    if (found.light > passage.light) passage.frame = found.frame, passage.light = found.light;
+    return;
+  }
+  recent_.push_back(passages_.size());
+  passages_.push_back(found);
+}
+
+// Of all images of the star together, at 0 EV.
+double AxisStars::magnitude(const Show& show, const Passage& passage) const {
+  const FrameState whole = frame_state(show_, passage.frame);
+  const FrameState& state = passage.vanishes ? *whole.vanishing : whole;
+  FramePlan plan = plan_frame(show, state);
+  for (const SkyRegion region : kEverySky)
+    plan.sky[region] = {false, region == passage.region && plan.sky[region].stars, false, nullptr};
+  const Sky sky{Black{}, std::make_shared<const SceneStars>(std::vector{passage.star->star}), {}};
+  PerSky<const Sky*> skies{};
+  skies[passage.region] = &sky;
+  OpticsStore optics;
+  const FrameScene scene(show, state, plan, optics.optics_for(state.observer, plan), skies,
+                         {sky_turn(show_, state), 1});
+  std::vector<StarImage> images;
+  if (plan[passage.region].stars)
+    StarImageFinder(scene, passage.region).append(passage.star->star, images);
+  const double left =
+      passage.vanishes ? whole.vanishing_part : 1 - (whole.vanishing ? whole.vanishing_part : 0);
+  const double pixel_value = light_of(images, state.projection) * state.fade * left;
+  return -magnitudes(std::max(pixel_value * kReferenceLuminance / kMagnitudeZeroLux, 1e-30));
+}
+
+std::string AxisStars::name_of(const Passage& passage) const {
+  constexpr double kSame = 1e-12;  // directions are rounded to floats
+  for (const NamedStar& named : names_[passage.region])
+    if ((named.direction.v - passage.star->star.direction.v).length2() < kSame) return named.name;
+  return fmt::format("a star of V = {:.2g}", passage.star->star.magnitude);
+}
+
+std::vector<ShowWarning> AxisStars::warnings() const {
+  std::vector<Passage> brightest = passages_;
+  std::sort(brightest.begin(), brightest.end(),
+            [](const Passage& a, const Passage& b) { return a.light > b.light; });
+  brightest.resize(std::min(brightest.size(), 2 * kMostWarnings));
+  std::vector<ShowWarning> found;
+  for (const Passage& passage : brightest) {
+    const double bright = magnitude(show_, passage);
+    if (bright > kBlindingMagnitude || found.size() == kMostWarnings) continue;
+    Show dimmed = show_;
+    std::string cure =
+        "not even with stars.least_radius_deg: 1 would it be dim: lower the stars' "
+        "gain, or place the hole elsewhere";
+    for (const double degrees : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0}) {
+      dimmed.least_star_radius = degrees * std::numbers::pi / 180;
+      if (dimmed.least_star_radius <= show_.least_star_radius ||
+          !(magnitude(dimmed, passage) > kBlindingMagnitude))
+        continue;
+      cure = fmt::format("stars.least_radius_deg: {} dims it", degrees);
+      break;
+    }
+    const FrameState state = frame_state(show_, passage.frame);
+    found.push_back({state.show_time_s, passage.frame, state.segment,
+                     fmt::format("{} stands straight behind the hole, and its ring blinds like a "
+                                 "star of magnitude {:.3g}; {}",
+                                 name_of(passage), bright, cure)});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const ShowWarning& a, const ShowWarning& b) { return a.frame < b.frame; });
+  return found;
+}
+
+}  // namespace domefall

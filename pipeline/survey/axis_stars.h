@@ -1,0 +1,65 @@
+// Stars straight behind the hole, whose rings blind where the sky stands still or moves slowly.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/render/scene/scene_stars.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/survey/show_jumps.h"
+
+namespace domefall {
+
+// The magnitude, at 0 EV, from which on a star's images together are told.  Those of a star of first
+// magnitude behind a hole at 14 M have -6.4 with a radius of 0.05 degrees, which is a calm ring.
+inline constexpr double kBlindingMagnitude = -7.5;
+
+// Is shown the states of a show one by one, in the order of frames, and remembers those in which a
+// star comes so near to the axis of the lens that its light may blind.  That takes a microsecond a
+// state.  Of each such passage the frame with the most light is then looked at in full.
+class AxisStars {
+ public:
+  // Reads the bright stars of the show's catalogues; the show must outlive this object.  Throws
+  // InputError if a catalogue cannot be read.
+  explicit AxisStars(const Show& show);
+
+  void add(const FrameState& state);
+
+  // One warning for each passage, in the order of time, but 50 at most, with the radius
+  // (stars.least_radius_deg) that would dim it enough.
+  std::vector<ShowWarning> warnings() const;
+
+ private:
+  struct Candidate {
+    SceneStar star;
+    double window;  // the largest sine of its angle from the axis at which it may blind
+  };
+  // Stars of about one brightness, by the z of their directions.
+  struct Class {
+    std::vector<Candidate> stars;
+    double window = 0;  // the largest of them
+  };
+  struct Passage {
+    SkyRegion region;
+    const Candidate* star;
+    int frame, last_frame;
+    bool vanishes;  // whether it is in the view that vanishes in that frame
+    double light;   // about proportional to that of the frame
+  };
+
+  void read(SkyRegion region);
+  std::string name_of(const Passage& passage) const;
+  void add(const FrameState& state, bool vanishes);
+  void note(const Passage& found);
+  double magnitude(const Show& show, const Passage& passage) const;
+
+  const Show& show_;
+  PerSky<std::vector<Class>> stars_;
+  PerSky<std::vector<NamedStar>> names_;
+  std::vector<Passage> passages_;
+  std::vector<std::size_t> recent_;  // those of the last two frames
+};
+
+}  // namespace domefall
