@@ -9,21 +9,22 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/image/encode/byte_sink.h"
 #include "pipeline/image/temporary_file.h"
 
 namespace domefall {
 
 // A file in the making that appears under its name when it is whole (temporary_file.h).
-class NewFile {
+class NewFile : public ByteSink {
  public:
   // Throws as TemporaryFile does.
   explicit NewFile(const std::filesystem::path& path) : file_(path) {}
 
   // Encoders that call these expect no exceptions: after an error, which commit() throws, what is
   // written goes nowhere.  Not for two threads at once.
-  void write(std::string_view piece) noexcept;
-  void seek(std::uint64_t position) noexcept;
-  std::uint64_t position() const { return written_to_ + pending_.size(); }
+  void write(std::string_view piece) noexcept override;
+  void seek(std::uint64_t position) noexcept override;
+  std::uint64_t position() const override { return written_to_ + pending_.size(); }
   std::uint64_t size() const { return std::max(size_, position()); }
   bool failed() const { return error_ != nullptr; }
 

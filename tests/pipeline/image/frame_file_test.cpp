@@ -89,6 +89,29 @@ TEST_F(FrameFile, SaysWhatItsPixelsAre) {
   EXPECT_FLOAT_EQ(c[7], 0.33767f);
 }
 
+// As other programs ask for it: exact, and counted as editors count.
+TEST_F(FrameFile, SaysItsRateAndItsTime) {
+  FrameInfo info = sample_info();
+  info.frame = 30 * (3600 * 25 + 60 * 2 + 3) + 4;
+  write_frame(folder_ / "a.exr", sample_frame(), info);
+  const auto spec_of = [this](const char* name) {
+    return OIIO::ImageInput::open((folder_ / name).string())->spec();
+  };
+  OIIO::ImageSpec spec = spec_of("a.exr");
+  int rate[2] = {};
+  ASSERT_TRUE(spec.getattribute("framesPerSecond", OIIO::TypeRational, rate));
+  EXPECT_EQ(rate[0], 30);
+  EXPECT_EQ(rate[1], 1);
+  EXPECT_EQ(spec.find_attribute("smpte:TimeCode")->get_string(), "01:02:03:04");
+  info.frames_per_second = 59.94;
+  write_frame(folder_ / "b.exr", sample_frame(), info);
+  spec = spec_of("b.exr");
+  ASSERT_TRUE(spec.getattribute("framesPerSecond", OIIO::TypeRational, rate));
+  EXPECT_EQ(rate[0], 60000);
+  EXPECT_EQ(rate[1], 1001);
+  EXPECT_FALSE(spec.find_attribute("smpte:TimeCode"));
+}
+
 TEST_F(FrameFile, OfAnotherProgramIsRefusedByName) {
   put(folder_ / "f.exr", "not an image");
   try {

@@ -1,0 +1,45 @@
+// OpenEXR files of scan lines: channels R, G, B of half floats.
+#pragma once
+
+#include <Imath/half.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pipeline/image/encode/byte_sink.h"
+
+namespace domefall {
+
+// Lossless ones: in blocks of 16 rows, of 1 row, of 32 rows by wavelets, or not at all.
+enum class ExrCompression { kZip, kZips, kPiz, kNone };
+
+// CIE x, y of red, green, blue and white.
+struct ExrChromaticities {
+  float xy[8];
+};
+struct ExrRational {
+  int numerator;
+  unsigned denominator;
+};
+struct ExrTimeCode {
+  unsigned time_and_flags;  // as SMPTE ST 12-1 packs them for 60-field television
+};
+
+using ExrValue =
+    std::variant<std::string, int, double, ExrChromaticities, ExrRational, ExrTimeCode>;
+
+struct ExrPicture {
+  int width = 0, height = 0;
+  const Imath::half* rgb = nullptr;  // [height][width][3]
+  ExrCompression compression = ExrCompression::kZip;
+  std::vector<std::pair<std::string, ExrValue>> attributes;  // beside those of every file
+};
+
+// Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the picture
+// alone.  Throws std::runtime_error with OpenEXR's reason.
+void write_exr(ByteSink& sink, const ExrPicture& picture);
+
+}  // namespace domefall

@@ -1,0 +1,24 @@
+// The ZIP compression of OpenEXR, packed by ISA-L.
+#pragma once
+
+#include <Imath/half.h>
+
+#include <string_view>
+
+#include "pipeline/image/encode/deflate.h"
+
+namespace domefall {
+
+class ExrZip {
+ public:
+  // A block of rows rgb[height][width][3] as it stands in a file of channels B, G, R: as a zlib
+  // stream of the bytes' differences ("OpenEXR File Layout"), or as they are where that would be no
+  // smaller.  The bytes are there until the next block.
+  std::string_view pack(const Imath::half* rgb, int width, int height);
+
+ private:
+  Deflater deflater_;
+  ByteBlock bytes_, packed_;
+};
+
+}  // namespace domefall

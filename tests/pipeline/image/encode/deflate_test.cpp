@@ -1,0 +1,135 @@
+#include "pipeline/image/encode/deflate.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <random>
+#include <string>
+
+#include "pipeline/image/digest.h"
+
+namespace domefall {
+namespace {
+
+// Bytes like those of a picture: slow changes with some noise.
+std::string sample(std::size_t count) {
+  std::mt19937 random(11);
+  std::string bytes(count, '\0');
+  unsigned value = 0;
+  for (char& byte : bytes) {
+    const auto chance = static_cast<unsigned>(random());
+    value += chance % 64 < 8 ? chance >> 8 & 7 : 0;
+    byte = static_cast<char>(value);
+  }
+  return bytes;
+}
+
+std::string noise(std::size_t count) {
+  std::mt19937 random(5);
+  std::string bytes(count, '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random());
+  return bytes;
+}
+
+std::string unpacked(std::string_view stream, std::size_t size) {
+  std::string bytes(size, '\0');
+  auto length = static_cast<uLongf>(size);
+  const int result =
+      uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length,
+                 reinterpret_cast<const Bytef*>(stream.data()), static_cast<uLong>(stream.size()));
+  EXPECT_EQ(result, Z_OK);
+  EXPECT_EQ(length, size);
+  return bytes;
+}
+
+std::string big_endian_text(unsigned number) {
+  std::string text;
+  for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xff);
+  return text;
+}
+
+TEST(Deflate, IsUnpackedByZlib) {
+  Deflater deflater;
+  ByteBlock out;
+  for (const std::string& bytes : {std::string(), std::string("x"), sample(1 << 20),
+                                   std::string(100'000, 'a'), noise(200'000)}) {
+    deflater.pack_stream(bytes, out);
+    EXPECT_EQ(unpacked(out.view(), bytes.size()), bytes) << bytes.size();
+  }
+}
+
+// What cannot be packed grows by a few bytes, and does not overrun the memory.
+TEST(Deflate, StoresNoiseAsItIs) {
+  Deflater deflater;
+  ByteBlock out;
+  for (const std::size_t size : {1U, 100U, 65'535U, 65'536U, 1'000'000U}) {
+    deflater.pack_stream(noise(size), out);
+    EXPECT_LT(out.size(), size + size / 1000 + 32) << size;
+  }
+}
+
+TEST(Deflate, PartsMakeOneStream) {
+  const std::string bytes = sample(300'000);
+  Deflater deflater;
+  ByteBlock out;
+  std::string stream(kStreamStart);
+  unsigned sum = 1;
+  for (std::size_t at = 0, count = 1; at < bytes.size(); at += count, count = 7 * count + 3) {
+    const std::string_view part = std::string_view(bytes).substr(at, count);
+    deflater.pack_part(part, out);
+    stream += out.view();
+    sum = adler32_joined(sum, adler32_of(part), part.size());
+  }
+  EXPECT_EQ(sum, adler32_of(bytes));
+  stream += kStreamEnd;
+  stream += big_endian_text(sum);
+  EXPECT_TRUE(unpacked(stream, bytes.size()) == bytes);
+}
+
+TEST(Deflate, SumsAreThoseOfZlib) {
+  const std::string bytes = noise(123'457);
+  const auto theirs = [](unsigned long before, std::string_view text) {
+    return static_cast<unsigned>(adler32(before, reinterpret_cast<const Bytef*>(text.data()),
+                                         static_cast<uInt>(text.size())));
+  };
+  EXPECT_EQ(adler32_of(bytes), theirs(1, bytes));
+  for (const std::size_t cut :
+       {std::size_t{0}, std::size_t{1}, std::size_t{70'000}, bytes.size()}) {
+    const std::string_view first = std::string_view(bytes).substr(0, cut),
+                           second = std::string_view(bytes).substr(cut);
+    EXPECT_EQ(adler32_joined(adler32_of(first), adler32_of(second), second.size()),
+              theirs(1, bytes));
+    EXPECT_EQ(adler32_of(second, adler32_of(first)), theirs(1, bytes));
+  }
+}
+
+// The memory of one picture is that of the next, and each thread has its own.
+TEST(Deflate, GivesTheSameBytesWhateverWasPackedBefore) {
+  const std::string bytes = sample(400'000);
+  Deflater fresh, used;
+  ByteBlock first, second;
+  fresh.pack_stream(bytes, first);
+  for (const std::string& before : {noise(500'000), sample(3), std::string(90'000, 'z')})
+    used.pack_part(before, second);
+  // The packer need not begin at an address like that of the first.
+  const std::string shifted = "123" + bytes;
+  used.pack_stream(std::string_view(shifted).substr(3), second);
+  EXPECT_TRUE(first.view() == second.view());
+}
+
+// cli/packed_bytes.sh runs this for other processors.
+TEST(Deflate, GivesTheBytesThatItGivesElsewhere) {
+  Deflater deflater;
+  ByteBlock out;
+  Digest digest;
+  for (const std::size_t size : {std::size_t{1000}, std::size_t{100'000}, std::size_t{1} << 20}) {
+    deflater.pack_stream(sample(size), out);
+    digest.add(out.view());
+    deflater.pack_part(sample(size), out);
+    digest.add(out.view());
+  }
+  EXPECT_EQ(digest.hex(), "bd888e53b08af35e76efbe972f3ffd82");
+}
+
+}  // namespace
+}  // namespace domefall

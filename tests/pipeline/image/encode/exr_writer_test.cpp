@@ -1,0 +1,99 @@
+#include "pipeline/image/encode/exr_writer.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/new_file.h"
+#include "tests/pipeline/image/test_folder.h"
+
+namespace domefall {
+namespace {
+
+struct Compression {
+  ExrCompression ours;
+  const char* name;  // OpenImageIO's
+};
+constexpr Compression kCompressions[] = {{ExrCompression::kZip, "zip"},
+                                         {ExrCompression::kZips, "zips"},
+                                         {ExrCompression::kPiz, "piz"},
+                                         {ExrCompression::kNone, "none"}};
+
+class ExrWriter : public TestFolder {
+ protected:
+  ~ExrWriter() override { set_encoder_threads(0); }
+
+  std::filesystem::path written(const HalfFrame& frame, ExrCompression compression) const {
+    const auto path = folder_ / "f.exr";
+    NewFile file(path);
+    write_exr(file, {frame.width,
+                     frame.height,
+                     frame.pixels.data(),
+                     compression,
+                     {{"digest", std::string("0123")}, {"rate", ExrRational{30000, 1001}}}});
+    file.commit();
+    return path;
+  }
+};
+
+HalfFrame smooth(int width, int height) {
+  HalfFrame frame(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int k = 0; k < 3 * width; ++k)
+      frame.row(y)[k] = 0.01f * static_cast<float>(k) + 0.3f * static_cast<float>(y);
+  return frame;
+}
+
+HalfFrame random_bits(int width, int height) {
+  HalfFrame frame(width, height);
+  std::mt19937 random(3);
+  for (auto& value : frame.pixels)
+    value.setBits(static_cast<unsigned short>(random() & 0xfbff));  // none of them is no number
+  return frame;
+}
+
+// Read by another program's reader.
+TEST_F(ExrWriter, GivesBackEveryBitInEveryCompression) {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(70, 67), std::pair(5, 16)})
+    for (const HalfFrame& frame : {smooth(width, height), random_bits(width, height)})
+      for (const Compression& compression : kCompressions) {
+        const auto in = OIIO::ImageInput::open(written(frame, compression.ours).string());
+        ASSERT_TRUE(in) << OIIO::geterror();
+        HalfFrame read(width, height);
+        ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::HALF, read.pixels.data()))
+            << in->geterror();
+        EXPECT_EQ(std::memcmp(read.pixels.data(), frame.pixels.data(), 2 * frame.pixels.size()), 0)
+            << compression.name << " " << width << " x " << height;
+        EXPECT_EQ(in->spec().get_string_attribute("compression"), compression.name);
+        EXPECT_EQ(in->spec().get_string_attribute("digest"), "0123");
+      }
+}
+
+// Blocks are written in the order in which they lie in the picture, whoever is ready first.
+TEST_F(ExrWriter, HasTheSameBytesForAnyNumberOfThreads) {
+  const HalfFrame frame = smooth(90, 700);
+  for (const Compression& compression : kCompressions) {
+    set_encoder_threads(0);
+    const std::string alone = contents(written(frame, compression.ours));
+    for (const int threads : {1, 2, 4}) {
+      set_encoder_threads(threads);
+      EXPECT_TRUE(contents(written(frame, compression.ours)) == alone) << compression.name;
+    }
+  }
+}
+
+TEST_F(ExrWriter, MakesNoBlockLargerThanItsPixels) {
+  const HalfFrame frame = random_bits(300, 64);
+  const auto size = [&](ExrCompression compression) {
+    return std::filesystem::file_size(written(frame, compression));
+  };
+  EXPECT_EQ(size(ExrCompression::kZips), size(ExrCompression::kNone));
+  EXPECT_LE(size(ExrCompression::kZip), size(ExrCompression::kNone));
+}
+
+}  // namespace
+}  // namespace domefall
