@@ -101,8 +101,8 @@ fs::path FrameFolder::linear(int frame) const {
 }
 
 fs::path FrameFolder::graded(int frame) const {
-  const char* extension = show_.graded_format == GradedFormat::kTiff ? "tif" : "png";
-  return folder_ / kGraded / fmt::format("{}_{:05d}.{}", name_, frame, extension);
+  const GradedFormat format = show_.output.graded.value_or(GradedFormat{});
+  return folder_ / kGraded / fmt::format("{}_{:05d}.{}", name_, frame, extension_of(format.kind));
 }
 
 WantedFrame FrameFolder::wanted(std::string key) const {

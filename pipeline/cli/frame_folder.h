@@ -19,7 +19,7 @@ class FrameFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path linear(int frame) const;  // linear/NAME_00000.exr
   std::filesystem::path graded(int frame) const;  // graded/NAME_00000.png or .tif
-  bool has_graded() const { return show_.graded_format != GradedFormat::kNone; }
+  bool has_graded() const { return show_.output.graded.has_value(); }
 
   // The frame with this key as the folder is to hold it.
   WantedFrame wanted(std::string key) const;

@@ -114,11 +114,13 @@ class Run {
 
  private:
   static std::optional<Grader> grader_of(const Show& show) {
-    if (show.graded_format == GradedFormat::kNone) return std::nullopt;
+    if (!show.output.graded) return std::nullopt;
     return Grader(show.grade);
   }
 
-  std::string grade_id() const { return grader_ ? grader_->transform_id() : std::string(); }
+  std::string grade_id() const {
+    return grader_ ? grader_->transform_id() + format_id(*run_.show.output.graded) : std::string();
+  }
 
   bool is_good(const std::filesystem::path& file, const std::string& key, bool replaces) const {
     const WantedFrame wanted = folder_.wanted(key);
@@ -202,11 +204,11 @@ class Run {
     return info;
   }
 
-  // Writes the files that are asked for.  Packing pixels is most of the work, so the two are made
-  // side by side.
+  // Writes the files that are asked for, side by side: while one waits for the disk, the other is
+  // packed.
   void write(const FrameState& state, const std::string& key, const HalfFrame& frame, bool linear,
              bool graded) {
-    double linear_s = 0, grade_s = 0, graded_s = 0;
+    double linear_s = 0, graded_s = 0;
     std::future<void> other;
     if (linear)
       other = std::async(std::launch::async, [&] {
@@ -217,16 +219,13 @@ class Run {
     if (graded) {
       const Stopwatch watch;
       frame_grader_ = frame_grader_.value_or(*grader_).with(state.cdl);
-      grade_s = write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
+      write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
       graded_s = watch.seconds();
     }
     if (other.valid()) other.get();
     if (run_.explain)
-      std::fprintf(stderr,
-                   "frame %d: linear file %.3f s, graded file %.3f s, %.3f s of it waiting for the "
-                   "grade\n%s",
-                   state.frame, linear_s, graded_s, grade_s,
-                   graded ? describe_grade(frame).c_str() : "");
+      std::fprintf(stderr, "frame %d: linear file %.3f s, graded file %.3f s\n%s", state.frame,
+                   linear_s, graded_s, graded ? describe_grade(frame).c_str() : "");
   }
 
   // By what the frame was graded, and how exactly.
@@ -239,39 +238,24 @@ class Run {
         kCodes * table->error, 100 * (1 - table->held));
   }
 
-  // Writes a graded file.  Returns the seconds spent waiting for grades.
-  double write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
-                            const GradedInfo& info) const {
-    GradedFile file(path, frame.width, frame.height, info);
-    const double waited_s =
-        grader_->dome_light() ? add_dome(file, frame) : add_rows_as_graded(file, frame);
-    file.finish();
-    return waited_s;
-  }
-
-  // Some rows are graded while those before are packed.
-  double add_rows_as_graded(GradedFile& file, const HalfFrame& frame) const {
-    constexpr int kRows = GradedFile::kRows;
-    const auto graded_from = [&](int first) {
-      return std::async(std::launch::async, [this, &frame, first] {
-        return graded_rows(frame, first, std::min(first + kRows, frame.height));
-      });
+  // Rows are graded by the threads that pack them.  With the dome's own light all are graded before
+  // the first is packed, since the light of each falls on all others.
+  void write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
+                          const GradedInfo& info) const {
+    const auto write = [&](const RowSource& rows) {
+      write_graded(path, {frame.width, frame.height, rows}, info, *run_.show.output.graded);
     };
-    double waited_s = 0;
-    std::future<GradedFrame> next = graded_from(0);
-    for (int first = 0; first < frame.height; first += kRows) {
-      const Stopwatch watch;
-      const GradedFrame rows = next.get();
-      waited_s += watch.seconds();
-      if (first + kRows < frame.height) next = graded_from(first + kRows);
-      file.add(rows.row(0), rows.height);
-    }
-    return waited_s;
+    if (!grader_->dome_light())
+      return write([&](int first, int end, unsigned short* rgb) {
+        frame_grader_->grade_rows(frame, first, end, rgb);
+      });
+    const GradedFrame whole = with_dome_light(frame);
+    write([&](int first, int end, unsigned short* rgb) {
+      std::copy(whole.row(first), whole.row(end), rgb);
+    });
   }
 
-  // All rows are graded before the first is packed, since the light of each falls on all others.
-  double add_dome(GradedFile& file, const HalfFrame& frame) const {
-    const Stopwatch watch;
+  GradedFrame with_dome_light(const HalfFrame& frame) const {
     GradedFrame whole = graded_rows(frame, 0, frame.height);
     std::vector<DomeCodes> parts(static_cast<std::size_t>(file_threads()));
     in_parts(whole.height, [&](int part, int first, int end) {
@@ -280,10 +264,7 @@ class Run {
     for (std::size_t k = 1; k < parts.size(); ++k) parts[0].add(parts[k]);
     const CodeMap map = grader_->dome_light()->map_for(parts[0]);
     in_parts(whole.height, [&](int, int first, int end) { map.change_rows(whole, first, end); });
-    const double waited_s = watch.seconds();
-    for (int first = 0; first < whole.height; first += GradedFile::kRows)
-      file.add(whole.row(first), std::min(GradedFile::kRows, whole.height - first));
-    return waited_s;
+    return whole;
   }
 
   // The rows y0 <= y < y1, of which each thread grades a part.

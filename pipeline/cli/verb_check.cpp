@@ -45,7 +45,7 @@ std::optional<RenderTime> time_to_render(const Show& show, const Grader* grader)
 void check(const std::string& file, bool json) {
   const Show show = read_show(file);
   std::optional<Grader> grader;
-  if (show.graded_format != GradedFormat::kNone) grader.emplace(show.grade);
+  if (show.output.graded) grader.emplace(show.grade);
   const Grader* grade = grader ? &*grader : nullptr;
   Renderer renderer(show, 0, {}, kSurveyDetail);
   AxisStars axis(show);

@@ -71,7 +71,7 @@ void change_as_in_dome(const DomeLight& light, const Grader& grader, Renderer& r
 }
 
 void preview(const Options& o) {
-  check_graded_name(o.out);
+  const GradedFormat format = format_by_name(o.out);
   Show show = read_show(o.show);
   const int number = chosen_frame(o.choice, show);
   OutputFile out(o.out);
@@ -98,7 +98,7 @@ void preview(const Options& o) {
   info.view = grader.view();
   info.software = kSoftware;
   info.projection = projection_name(state.projection);
-  write_graded(out.path(), picture, info);
+  write_graded(out.path(), picture, info, format);
   out.finish();
 }
 

@@ -12,6 +12,7 @@ namespace {
 FrameFormat format_of(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".exr") return FrameFormat::kExr;
+  if (extension == ".jpg" || extension == ".jpeg") return FrameFormat::kJpeg;
   return extension == ".png" ? FrameFormat::kPng : FrameFormat::kTiff;
 }
 
@@ -21,6 +22,8 @@ const char* name_of(FrameFormat format) {
       return "an OpenEXR file";
     case FrameFormat::kPng:
       return "a PNG";
+    case FrameFormat::kJpeg:
+      return "a JPEG";
     case FrameFormat::kTiff:
       break;
   }
@@ -58,9 +61,10 @@ bool has_right_digest(const FileBytes& file, const FrameHead& head) {
   }
 }
 
-FrameCondition headless_condition(const FileBytes& file) {
+FrameCondition headless_condition(const std::filesystem::path& path, const FileBytes& file) {
   try {
-    return may_be_rest_of_frame(file) ? FrameCondition::kDamaged : FrameCondition::kOther;
+    return may_be_rest_of_frame(file, format_of(path)) ? FrameCondition::kDamaged
+                                                       : FrameCondition::kOther;
   } catch (const DamagedFile&) {  // shortened meanwhile
     return FrameCondition::kOther;
   }
@@ -68,7 +72,7 @@ FrameCondition headless_condition(const FileBytes& file) {
 
 FrameCondition claimed_condition(const std::filesystem::path& path, const FileBytes& file,
                                  const std::optional<FrameHead>& head, const WantedFrame& wanted) {
-  if (!head) return headless_condition(file);
+  if (!head) return headless_condition(path, file);
   if (difference(path, *head, wanted)) return FrameCondition::kOther;
   const bool same = head->key == wanted.key && head->digest.size() == kBlankDigest.size();
   return same ? FrameCondition::kGood : FrameCondition::kOlder;

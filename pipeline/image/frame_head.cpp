@@ -1,16 +1,18 @@
 #include "pipeline/image/frame_head.h"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <iterator>
 #include <map>
 #include <string_view>
+
+#include "pipeline/image/encode/png_writer.h"
 
 namespace domefall {
 namespace {
 
 constexpr std::string_view kExrStart = "\x76\x2f\x31\x01", kPngStart = "\x89PNG\r\n\x1a\n",
-                           kTiffLittle{"II*\0", 4}, kTiffBig{"MM\0*", 4};
+                           kTiffLittle{"II*\0", 4}, kTiffBig{"MM\0*", 4},
+                           kJpegStart = "\xff\xd8\xff";
 
 // Frames of earlier versions had a digest of their pixels alone.
 constexpr const char* kFormerExrDigest = "pixelDigest";
@@ -21,7 +23,7 @@ void check_digest(const FrameHead& head, bool has_former_digest) {
     throw DamagedFile("its digest is gone");
 }
 
-// ---- the description of a PNG or TIFF: lines of "name: value" ----
+// ---- the description of a PNG, TIFF or JPEG: lines of "name: value" ----
 
 // Where the line's value begins, or npos.
 std::size_t value_of(std::string_view text, std::string_view line) {
@@ -156,7 +158,7 @@ void take_size(std::string_view data, FrameHead& head) {
 // All chunks before the pixels are held against their checksums.
 FrameHead read_png_head(const FileBytes& file) {
   constexpr std::uint64_t kNumber = 4, kHeader = 13;
-  constexpr std::string_view kKeyword{"tEXtDescription\0", 16};
+  const std::string keyword = "tEXt" + std::string(kPngKeyword);
   FrameHead head;
   head.format = FrameFormat::kPng;
   for (std::uint64_t chunk = kPngStart.size();;) {
@@ -172,9 +174,8 @@ FrameHead read_png_head(const FileBytes& file) {
     if (png_checksum(data) != file.at(end, kNumber))
       throw DamagedFile("the checksum of a chunk is off");
     if (first) take_size(std::string_view(data).substr(kNumber), head);
-    if (data.starts_with(kKeyword)) {
-      take_description(std::string_view(data).substr(kKeyword.size()), name + kKeyword.size(),
-                       head);
+    if (data.starts_with(keyword)) {
+      take_description(std::string_view(data).substr(keyword.size()), name + keyword.size(), head);
       head.chunk_at = name, head.checksum_at = end;
     }
     chunk = end + kNumber;
@@ -261,16 +262,36 @@ FrameHead read_tiff_head(const FileBytes& file, bool big) {
   return head;
 }
 
-}  // namespace
+// ---- JPEG: ISO/IEC 10918-1, annex B: 0xff and a code, then a length, itself included, and data ----
 
-std::string png_checksum(std::string_view name_and_data) {
-  boost::crc_32_type checksum;
-  checksum.process_bytes(name_and_data.data(), name_and_data.size());
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8)
-    bytes += static_cast<char>(checksum.checksum() >> shift & 0xff);
-  return bytes;
+// All that stands before the pixels.  Nothing but the digest holds it against damage.
+FrameHead read_jpeg_head(const FileBytes& file) {
+  constexpr unsigned char kFirstFrame = 0xc0, kLastFrame = 0xcf, kHuffman = 0xc4,
+                          kArithmetic = 0xcc, kExtension = 0xc8, kScan = 0xda, kComment = 0xfe;
+  FrameHead head;
+  head.format = FrameFormat::kJpeg;
+  for (std::uint64_t at = 2;;) {
+    const std::string start = file.at(at, 4);
+    const auto code = static_cast<unsigned char>(start[1]);
+    const auto length = big_endian<std::uint16_t>(std::string_view(start).substr(2));
+    if (start[0] != '\xff' || length < 2) throw DamagedFile("its header does not fit together");
+    if (code == kScan) break;
+    const std::string data = file.at(at + 4, length - std::uint64_t{2});
+    if (code >= kFirstFrame && code <= kLastFrame && code != kHuffman && code != kArithmetic &&
+        code != kExtension) {
+      constexpr std::size_t kSizes = 5;
+      if (data.size() < kSizes) throw DamagedFile("its header has no size");
+      head.height = big_endian<std::uint16_t>(std::string_view(data).substr(1));
+      head.width = big_endian<std::uint16_t>(std::string_view(data).substr(3));
+    }
+    if (code == kComment) take_description(data, at + 4, head);
+    at += 2 + std::uint64_t{length};
+  }
+  if (!head.ours && holds_our_lines(file)) throw DamagedFile("its header is broken");
+  return head;
 }
+
+}  // namespace
 
 std::string one_line(std::string title) {
   std::replace_if(
@@ -278,12 +299,14 @@ std::string one_line(std::string title) {
   return title;
 }
 
-bool may_be_rest_of_frame(const FileBytes& file) {
+bool may_be_rest_of_frame(const FileBytes& file, FrameFormat wanted) {
   constexpr std::uint64_t kBlock = 512;
   const std::string start = file.at(0, std::min(file.size(), kBlock));
   if (start.find_first_not_of('\0') == std::string::npos) return true;
-  for (const std::string_view magic : {kExrStart, kPngStart, kTiffLittle, kTiffBig})
-    if (start.starts_with(magic) || magic.starts_with(start)) return true;
+  for (const std::string_view magic : {kExrStart, kPngStart, kTiffLittle, kTiffBig, kJpegStart})
+    if ((start.starts_with(magic) || magic.starts_with(start)) &&
+        (magic != kJpegStart || wanted == FrameFormat::kJpeg))
+      return true;
   return holds_text(file, kExrKey) || holds_text(file, kSoftwareLine);
 }
 
@@ -293,6 +316,7 @@ std::optional<FrameHead> read_frame_head(const FileBytes& file) {
   if (start == kPngStart) return read_png_head(file);
   if (start.starts_with(kTiffLittle)) return read_tiff_head(file, false);
   if (start.starts_with(kTiffBig)) return read_tiff_head(file, true);
+  if (start.starts_with(kJpegStart)) return read_jpeg_head(file);
   return std::nullopt;
 }
 

@@ -11,7 +11,7 @@
 
 namespace domefall {
 
-enum class FrameFormat { kExr, kPng, kTiff };
+enum class FrameFormat { kExr, kPng, kTiff, kJpeg };
 
 struct FrameHead {
   FrameFormat format{};
@@ -27,26 +27,27 @@ struct FrameHead {
   std::uint64_t digest_at = 0, chunk_at = 0, checksum_at = 0;
 };
 
-// Nothing if the file begins neither as EXR nor as PNG or TIFF.  Throws DamagedFile where what
+// Nothing if the file begins neither as EXR nor as PNG, TIFF or JPEG.  Throws DamagedFile where what
 // stands before the pixels is broken off or does not fit together, and as FileBytes::at.
 std::optional<FrameHead> read_frame_head(const FileBytes& file);
 
 // Of a file without a readable head: whether it may be what is left of a frame.  It is empty,
-// begins with zeros, as after a power cut, or as a frame does, or holds a field of Domefall's.
+// begins with zeros, as after a power cut, or as a frame does, or holds a field of Domefall's.  Many
+// programs write files that begin as a JPEG, so that beginning counts only where a JPEG is wanted.
 // Throws as FileBytes::at.
-bool may_be_rest_of_frame(const FileBytes& file);
-
-// The CRC-32 of a PNG's chunk, big-endian as it stands in the file.
-std::string png_checksum(std::string_view name_and_data);
+bool may_be_rest_of_frame(const FileBytes& file, FrameFormat wanted);
 
 // A title as it stands in a description, where each line is a field.
 std::string one_line(std::string title);
 
-// The names of fields: of attributes in an EXR, of lines in the description of a PNG or TIFF.
+// The names of fields: of attributes in an EXR, of lines in the description of another file.
 inline constexpr const char *kExrTitle = "showTitle", *kExrProjection = "projection",
                             *kExrKey = "frameKey", *kExrDigest = "fileDigest";
 inline constexpr std::string_view kTitleLine = "show: ", kProjectionLine = "projection: ",
                                   kKeyLine = "key: ", kDigestLine = "digest: ",
                                   kSoftwareLine = "software: Domefall";
+
+// The name under which a PNG holds the description, and the zero behind it.
+inline constexpr std::string_view kPngKeyword{"Description\0", 12};
 
 }  // namespace domefall

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/image/encode/png_writer.h"
 
 namespace domefall {
 namespace {

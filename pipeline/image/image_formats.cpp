@@ -14,7 +14,7 @@ constexpr const char *kLibrary = "libdomefall_image_formats.so", *kEntry = "dome
 [[noreturn]] void fail() {
   const char* reason = dlerror();
   throw TemporaryError(
-      std::string("the part of this program that reads and writes images cannot be loaded: ") +
+      std::string("the part of this program that reads images cannot be loaded: ") +
       (reason ? reason : kLibrary));
 }
 

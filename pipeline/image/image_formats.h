@@ -1,14 +1,13 @@
 // What the program asks of OpenImageIO and CFITSIO.  The first brings some 240 other libraries, and
 // to load them all takes 0.17 s of CPU; the second brings 25 for files on servers.  Whatever calls
 // them is therefore a library of its own, libdomefall_image_formats.so (pipeline/image_formats),
-// which is loaded when the first image is read or written.
+// which is loaded when the first image is read.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 
 namespace domefall {
 
@@ -53,35 +52,11 @@ class ImageReader : public Interface {
   virtual void read(unsigned short* rgb) = 0;
 };
 
-// Where an encoder puts the bytes of a file.  It sees no errors of the disk: NewFile keeps them.
-class ImageSink : public Interface {
- public:
-  virtual void write(std::string_view piece) = 0;
-  virtual void seek(std::uint64_t position) = 0;
-  virtual std::uint64_t position() const = 0;
-  virtual std::uint64_t size() const = 0;
-};
-
-// An image of 16 bits and three channels, whose rows are given from the top.
-class ImageWriter : public Interface {
- public:
-  // rgb[count][width][3].  Throws std::runtime_error with the library's reason.
-  virtual void write(const unsigned short* rgb, int count) = 0;
-  // Once all rows are there.  Throws as above.
-  virtual void close() = 0;
-};
-
 class ImageFormats : public Interface {
  public:
   // A picture as InputImage takes it, and with its bounds.  Throws as RegularFile, and otherwise
   // std::runtime_error with a reason that does not name the file.
   virtual std::unique_ptr<ImageReader> open(const std::filesystem::path& file) const = 0;
-
-  // PNG or TIFF by the file's extension.  The bytes go to `sink`, which must outlive the writer.
-  // They depend on the arguments and the rows alone.  Throws as above.
-  virtual std::unique_ptr<ImageWriter> create(const std::filesystem::path& file, ImageSink& sink,
-                                              int width, int height,
-                                              const std::string& description) const = 0;
 
   // read_healpix.h
   virtual HealpixFile read_healpix(const std::filesystem::path& path, int column) const = 0;

@@ -36,11 +36,4 @@ DomeSettings read_dome(const Section& show, const Projection& projection) {
   return dome;
 }
 
-GradedFormat read_graded_format(const Section& show) {
-  using enum GradedFormat;
-  return subsection(show, "output", {"graded"})
-      .word<GradedFormat>("graded", {{"png", kPng}, {"tiff", kTiff}, {"none", kNone}})
-      .value_or(kPng);
-}
-
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The show's `grade`, `dome` and `output`: what is made of scene-linear frames.
+// The show's `grade` and `dome`: what is made of scene-linear frames.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -12,8 +12,5 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup);
 
 // Reads `dome: {light, reflectance}` for a show of this projection, which must be a dome's.
 DomeSettings read_dome(const Section& show, const Projection& projection);
-
-// Reads `output: {graded}`.
-GradedFormat read_graded_format(const Section& show);
 
 }  // namespace domefall

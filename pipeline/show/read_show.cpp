@@ -7,6 +7,7 @@
 #include "pipeline/show/exposure_section.h"
 #include "pipeline/show/grade_section.h"
 #include "pipeline/show/observer_track.h"
+#include "pipeline/show/output_section.h"
 #include "pipeline/show/show_time.h"
 #include "pipeline/show/sky_section.h"
 #include "pipeline/show/stars_section.h"
@@ -62,7 +63,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.grade = read_grade(section, lookup);
   show.timeline = read_timeline(section, show, camera, lookup);
   show.grade.dome = read_dome(section, show.projection);
-  show.graded_format = read_graded_format(section);
+  show.output = read_output(section);
 }
 
 }  // namespace

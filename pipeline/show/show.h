@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/grade/grade_settings.h"
+#include "pipeline/image/graded_format.h"
 #include "pipeline/show/camera.h"
 #include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
@@ -186,7 +187,10 @@ struct Marker {
   double at_s = 0;  // show seconds
 };
 
-enum class GradedFormat { kNone, kPng, kTiff };
+// The files that are made of a frame.
+struct Output {
+  std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
+};
 
 // What a segment takes over from those before it.
 struct Joint {
@@ -229,7 +233,7 @@ struct Show {
   double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;
   Exposure exposure;
   GradeSettings grade;
-  GradedFormat graded_format = GradedFormat::kPng;
+  Output output;
 };
 
 // GM/c^3 of the sun (IAU 2015 nominal GM): the seconds in one M of a hole of one solar mass.

@@ -67,9 +67,7 @@ class Run {
 
  private:
   std::filesystem::path linear() const { return folder_ / "linear.exr"; }
-  std::filesystem::path graded() const {
-    return folder_ / (show_.graded_format == GradedFormat::kTiff ? "graded.tif" : "graded.png");
-  }
+  std::filesystem::path graded() const { return folder_ / "graded"; }
 
   void add_sizes(Cost& cost) const {
     cost.linear_bytes += static_cast<double>(std::filesystem::file_size(linear())) / kFrames;
@@ -80,7 +78,12 @@ class Run {
   void write(const HalfFrame& frame) const {
     std::future<void> other =
         std::async(std::launch::async, [&] { write_frame(linear(), frame, FrameInfo{}); });
-    if (grader_) write_graded(graded(), grader_->grade(frame), GradedInfo{});
+    if (grader_) {
+      const auto rows = [&](int first, int end, unsigned short* rgb) {
+        grader_->grade_rows(frame, first, end, rgb);
+      };
+      write_graded(graded(), {frame.width, frame.height, rows}, GradedInfo{}, *show_.output.graded);
+    }
     other.get();
   }
 

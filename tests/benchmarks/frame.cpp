@@ -180,7 +180,7 @@ void write_png(benchmark::State& state) {
   const GradedFrame graded = Grader(show.grade).grade(frame);
   const auto path = std::filesystem::temp_directory_path() / "domefall_bench.png";
   Stopwatch watch;
-  for (auto _ : state) watch.time([&] { write_graded(path, graded, {}); });
+  for (auto _ : state) watch.time([&] { write_graded(path, graded, {}, {}); });
   watch.report(state, frame);
   std::filesystem::remove(path);
 }

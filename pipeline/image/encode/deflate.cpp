@@ -33,7 +33,7 @@ void Deflater::pack(std::string_view bytes, bool whole, ByteBlock& out) {
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
     throw std::length_error("more bytes than ISA-L packs at once");
   out.reserve(most_packed(bytes.size()));
-  isal_zstream stream;
+  isal_zstream stream{};  // ISA-L 2.30 leaves hist_bits, a bound on distances, as it was
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = tables_.data();

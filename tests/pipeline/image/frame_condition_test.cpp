@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 
+#include "pipeline/image/encode/png_writer.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr int kWidth = 5, kHeight = 3;
-constexpr std::array kNames{"f.exr", "f.png", "f.tif"};
+constexpr std::array kNames{"f.exr", "f.png", "f.tif", "f.jpg"};
 
 WantedFrame wanted_frame() {
   return {"0123456789abcdef0123456789abcdef", "A fall", "domemaster", kWidth, kHeight};
@@ -38,7 +39,8 @@ class FrameConditions : public TestFolder {
       write_frame(path, filled<HalfFrame>(w), info);
     } else {
       write_graded(path, filled<GradedFrame>(w),
-                   {w.key, w.title, 7, "Wall", "Wall", "Domefall 0.1.0", w.projection});
+                   {w.key, w.title, 7, "Wall", "Wall", "Domefall 0.1.0", w.projection},
+                   format_by_name(name));
     }
     return path;
   }
@@ -126,8 +128,9 @@ TEST_F(FrameConditions, TellAFrameOfAnotherSizeShowOrProjectionFromAnOlderOne) {
 
 TEST_F(FrameConditions, KnowAFormatBehindAnothersName) {
   for (const auto& [from, to] :
-       {std::pair("f.exr", "g.png"), std::pair("f.png", "g.tif"), std::pair("f.tif", "g.exr")}) {
-    fs::copy_file(made(from), folder_ / to);
+       {std::pair("f.exr", "g.png"), std::pair("f.png", "g.tif"), std::pair("f.tif", "g.exr"),
+        std::pair("f.jpg", "g.png"), std::pair("f.tif", "g.jpg")}) {
+    fs::copy_file(made(from), folder_ / to, fs::copy_options::overwrite_existing);
     EXPECT_EQ(condition(folder_ / to), FrameCondition::kOther) << to;
   }
 }
@@ -136,7 +139,7 @@ TEST_F(FrameConditions, KnowAFormatBehindAnothersName) {
 TEST_F(FrameConditions, TakeAFileOfAnotherKindForAnothers) {
   using std::string_literals::operator""s;
   const std::string rest(2000, 'x');
-  for (const char* name : kNames)
+  for (const char* name : {"f.exr", "f.png", "f.tif"})
     for (const std::string& start : {"no image"s, "v"s + "iew"s, "\xff\xd8\xff\xe0\0\x10JFIF"s,
                                      "II+\0\x08\0\0\0"s, "MM\0+\0\x08\0\0"s, "GIF89a"s, "RIFF"s}) {
       put(folder_ / name, start + rest);

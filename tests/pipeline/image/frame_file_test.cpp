@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cstring>
 #include <random>
 
@@ -122,6 +123,9 @@ TEST_F(FrameFile, OfAnotherProgramIsRefusedByName) {
   }
 }
 
+constexpr GradedKind kEveryKind[] = {GradedKind::kPng16, GradedKind::kPng8, GradedKind::kTiff16,
+                                     GradedKind::kTiff8, GradedKind::kJpeg};
+
 GradedFrame graded_sample() {
   GradedFrame frame(33, 21);
   std::mt19937 random(5);
@@ -149,9 +153,9 @@ TEST_F(GradedFiles, KeepsEveryBitAsPngAndAsTiff) {
   const GradedFrame frame = graded_sample();
   for (const char* name : {"g.png", "g.tif"}) {
     const auto path = folder_ / name;
-    write_graded(path, frame, graded_info());
+    write_graded(path, frame, graded_info(), format_by_name(path));
     const std::string once = contents(path);
-    write_graded(path, frame, graded_info());
+    write_graded(path, frame, graded_info(), format_by_name(path));
     EXPECT_EQ(contents(path), once) << "the same frame has the same bytes";
     EXPECT_EQ(examine_frame(path, wanted_graded(33, 21)), FrameCondition::kGood);
     const auto in = OIIO::ImageInput::open(path.string());
@@ -164,31 +168,51 @@ TEST_F(GradedFiles, KeepsEveryBitAsPngAndAsTiff) {
   }
 }
 
-// As a frame is graded, in rows that need not be the encoders' own.
-TEST_F(GradedFiles, HaveTheSameBytesInWhateverRowsTheyCome) {
-  GradedFrame frame(50, 700);
+// As a frame is graded: each row once, whoever asks for it.
+TEST_F(GradedFiles, HaveTheSameBytesForAnyNumberOfThreads) {
+  GradedFrame frame(300, 900);
   std::mt19937 random(5);
   for (auto& v : frame.pixels) v = static_cast<unsigned short>(random() % 1000);
-  for (const char* kind : {".png", ".tif"}) {
-    const auto whole = folder_ / (std::string("whole") + kind),
-               rows = folder_ / (std::string("rows") + kind);
-    write_graded(whole, frame, graded_info());
-    GradedFile file(rows, frame.width, frame.height, graded_info());
-    for (int row = 0, count = 1; row < frame.height; row += count, count = 3 * count + 1)
-      file.add(frame.row(row), std::min(count, frame.height - row));
-    EXPECT_FALSE(std::filesystem::exists(rows));
-    file.finish();
-    EXPECT_TRUE(contents(rows) == contents(whole)) << kind;
-    EXPECT_EQ(examine_frame(rows, wanted_graded(50, 700)), FrameCondition::kGood) << kind;
+  for (const GradedKind kind : kEveryKind) {
+    const auto whole = folder_ / "whole", rows = folder_ / "rows";
+    write_graded(whole, frame, graded_info(), {kind});
+    for (const int threads : {1, 2, 4}) {
+      set_file_threads(threads);
+      std::vector<std::atomic<int>> asked(static_cast<std::size_t>(frame.height));
+      const auto source = [&](int first, int end, unsigned short* rgb) {
+        for (int y = first; y < end; ++y) ++asked[static_cast<std::size_t>(y)];
+        std::copy(frame.row(first), frame.row(end), rgb);
+        EXPECT_FALSE(std::filesystem::exists(rows));
+      };
+      write_graded(rows, {frame.width, frame.height, source}, graded_info(), {kind});
+      EXPECT_TRUE(contents(rows) == contents(whole)) << static_cast<int>(kind);
+      for (const auto& count : asked) EXPECT_EQ(count, 1);
+      std::filesystem::remove(rows);
+    }
+    set_file_threads(0);
   }
+}
+
+TEST_F(GradedFiles, AreNotThereIfARowFails) {
+  const auto rows = [](int first, int, unsigned short*) {
+    if (first > 0) throw std::runtime_error("row");
+  };
+  for (const int threads : {0, 2}) {
+    set_file_threads(threads);
+    for (const GradedKind kind : kEveryKind)
+      EXPECT_THROW(write_graded(folder_ / "g", {300, 900, rows}, graded_info(), {kind}),
+                   std::runtime_error);
+  }
+  set_file_threads(0);
+  EXPECT_EQ(file_count(), 0);
 }
 
 // A PNG's readers check the sum of the chunk that holds it.
 TEST_F(GradedFiles, HaveTheDigestOfTheFileAtTheEndOfTheirDescription) {
   GradedInfo info = graded_info();
   info.title = std::string(10'000, 'x');
-  for (const char* name : {"g.png", "g.tif"}) {
-    write_graded(folder_ / name, graded_sample(), info);
+  for (const char* name : {"g.png", "g.tif", "g.jpg"}) {
+    write_graded(folder_ / name, graded_sample(), info, format_by_name(name));
     WantedFrame wanted = wanted_graded(33, 21);
     wanted.title = info.title;
     EXPECT_EQ(examine_frame(folder_ / name, wanted), FrameCondition::kGood) << name;
@@ -201,7 +225,8 @@ TEST_F(GradedFiles, HaveTheDigestOfTheFileAtTheEndOfTheirDescription) {
 }
 
 TEST_F(GradedFiles, OfAnotherKindIsRefused) {
-  EXPECT_THROW(write_graded(folder_ / "g.jpg", graded_sample(), graded_info()), InputError);
+  EXPECT_THROW(format_by_name("g.gif"), InputError);
+  EXPECT_THROW(format_by_name("png"), InputError);
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ TEST_F(InterruptedWrite, OnAFullDiskLeavesTheOldFileAndMayBeTriedAgain) {
     });
     fails_on_a_full_disk(
         file(".exr"), [](const fs::path& path) { write_frame(path, noise<HalfFrame>(400), {}); });
-    for (const char* kind : {".png", ".tif"})
+    for (const char* kind : {".png", ".tif", ".jpg"})
       fails_on_a_full_disk(file(kind), [](const fs::path& path) {
-        write_graded(path, noise<GradedFrame>(400), {});
+        write_graded(path, noise<GradedFrame>(600), {}, format_by_name(path));
       });
   }).join();
   if (!mounted) GTEST_SKIP() << "no file system can be mounted here";

@@ -88,8 +88,10 @@ TEST_F(NewFileTest, OnAFullDiskFramesAreForLaterAndLeaveNothing) {
   {
     const FullDisk limit;
     EXPECT_THROW(write_frame(folder_ / "a.exr", frame, {}), TemporaryError);
-    EXPECT_THROW(write_graded(folder_ / "a.png", graded, {}), TemporaryError);
-    EXPECT_THROW(write_graded(folder_ / "a.tif", graded, {}), TemporaryError);
+    EXPECT_THROW(write_graded(folder_ / "a.png", graded, {}, {GradedKind::kPng16}), TemporaryError);
+    EXPECT_THROW(write_graded(folder_ / "a.tif", graded, {}, {GradedKind::kTiff16}),
+                 TemporaryError);
+    EXPECT_THROW(write_graded(folder_ / "a.jpg", graded, {}, {GradedKind::kJpeg}), TemporaryError);
   }
   EXPECT_EQ(file_count(), 0);
 }

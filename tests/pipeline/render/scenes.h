@@ -29,7 +29,7 @@ inline std::filesystem::path small_panorama() {
 inline Show show_of(const Trajectory& trajectory, const Projection& projection) {
   Show show;
   show.projection = projection;
-  show.graded_format = GradedFormat::kNone;
+  show.output.graded.reset();
   show.hole_at = {V3d(-0.0547, -0.872, -0.484).normalized()};
   Segment segment;
   segment.duration_s = 1;

@@ -239,8 +239,13 @@ TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
        "3:22: grade.cdl.power must exceed 0, got 0"},
       {"SlopeOfTwo", kShow + "grade: {cdl: {slope: [1, 1]}}\n",
        "3:22: grade.cdl.slope must be a list of 3 numbers, got 2"},
-      {"UnknownFormat", kShow + "output: {graded: jpeg}\n",
-       "3:18: output.graded must be png, tiff or none, got 'jpeg'"},
+      {"UnknownFormat", kShow + "output: {graded: gif}\n",
+       "3:18: output.graded must be png16, png8, jpeg, tiff16, tiff8, png, tiff or none, got "
+       "'gif'"},
+      {"QualityOfAPng", kShow + "output: {graded: png8, quality: 90}\n",
+       "3:33: output.quality is that of a JPEG; say graded: jpeg, or leave it out"},
+      {"QualityZero", kShow + "output: {graded: jpeg, quality: 0}\n",
+       "3:33: output.quality must be at least 1, got 0"},
   });
 }
 

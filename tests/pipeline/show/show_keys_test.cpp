@@ -59,7 +59,7 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
   EXPECT_EQ(show.grade.view, "");
   EXPECT_EQ(show.grade.cdl.slope, (std::array<double, 3>{1, 1, 1}));
   EXPECT_EQ(show.grade.cdl.saturation, 1);
-  EXPECT_EQ(show.graded_format, GradedFormat::kPng);
+  EXPECT_EQ(show.output.graded, GradedFormat{GradedKind::kPng16});
 }
 
 TEST_F(ShowKeys, TheTitleIsTheFilesNameWhereNoneIsGiven) {
@@ -73,9 +73,21 @@ TEST_F(ShowKeys, FrameRateSizeAndOutput) {
        {std::pair{"1k", 1024}, {"2k", 2048}, {"4k", 4096}, {"8k", 8192}, {"16", 16}, {"777", 777}})
     EXPECT_EQ(std::get<Domemaster>(with("size: " + std::string(text) + "\n").projection).size,
               pixels);
-  EXPECT_EQ(with("output: {graded: png}\n").graded_format, GradedFormat::kPng);
-  EXPECT_EQ(with("output: {graded: tiff}\n").graded_format, GradedFormat::kTiff);
-  EXPECT_EQ(with("output: {graded: none}\n").graded_format, GradedFormat::kNone);
+  EXPECT_EQ(with("output: {graded: png}\n").output.graded, GradedFormat{GradedKind::kPng16});
+  EXPECT_EQ(with("output: {graded: tiff}\n").output.graded, GradedFormat{GradedKind::kTiff16});
+  EXPECT_EQ(with("output: {graded: none}\n").output.graded, std::nullopt);
+}
+
+TEST_F(ShowKeys, GradedFilesHaveAKindAndAJpegAQuality) {
+  using enum GradedKind;
+  for (const auto& [word, kind] : {std::pair{"png16", kPng16},
+                                   {"png8", kPng8},
+                                   {"jpeg", kJpeg},
+                                   {"tiff16", kTiff16},
+                                   {"tiff8", kTiff8}})
+    EXPECT_EQ(with("output: {graded: " + std::string(word) + "}\n").output.graded,
+              GradedFormat{kind});
+  EXPECT_EQ(with("output: {graded: jpeg, quality: 80}\n").output.graded, (GradedFormat{kJpeg, 80}));
 }
 
 TEST_F(ShowKeys, FlatPicturesAreFullHdAtNinetyDegreesOrWhatIsGiven) {

@@ -1,0 +1,21 @@
+// TIFF files of 8 or 16 bits, RGB without alpha, packed by deflate.
+#pragma once
+
+#include <string>
+
+#include "pipeline/image/encode/byte_sink.h"
+#include "pipeline/image/encode/row_source.h"
+
+namespace domefall {
+
+struct TiffHead {
+  bool eight_bits = false;  // dithered (dither.h)
+  int frame = 0;            // for the noise
+  std::string description;
+};
+
+// Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the rows and the
+// head alone.  Throws std::runtime_error with libtiff's reason.
+void write_tiff(ByteSink& sink, const RowPicture& picture, const TiffHead& head);
+
+}  // namespace domefall

@@ -1,0 +1,12 @@
+// The show's `output`: the files that are made of its frames.
+#pragma once
+
+#include "pipeline/show/section.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+// Reads `output: {graded, quality}`.
+Output read_output(const Section& show);
+
+}  // namespace domefall
