@@ -89,7 +89,7 @@ double Renderer::sky_black(SkyRegion sky, const PanoramaSky& map) {
   return skies_.sky(sky, map, false).black.luminance;
 }
 
-void Renderer::load(const FramePlan& plan) { skies_.skies_of(plan); }
+void Renderer::load(const FramePlan& plan) { skies_.load(plan); }
 
 HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
   HalfFrame frame;

@@ -43,6 +43,13 @@ std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int la
   return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));
 }
 
+void try_sky(const std::filesystem::path& file) {
+  if (is_sky_file(file))
+    read_sky(file);
+  else
+    read_panorama(file);
+}
+
 bool is_microwave_background(const std::filesystem::path& file) {
   return is_sky_file(file) && SkyFile(file).origin().text.find(
                                   std::string("\n") + kMicrowaveBackground) != std::string::npos;

@@ -16,6 +16,10 @@ namespace domefall {
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file,
                                        int largest_face = kLargestFace);
 
+// Throws as read_sky does where a .sky file cannot be opened or an image cannot be decoded, but makes
+// no map.
+void try_sky(const std::filesystem::path& file);
+
 // Whether the file is a .sky file of the cosmic microwave background, as `domefall sky import
 // --cmb` makes it and says in its header's text.
 bool is_microwave_background(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/sky/maps/sky_file.h"
 #include "pipeline/sky/read_sky.h"
 
 namespace domefall {
@@ -17,6 +18,16 @@ DarkLevel black_of(const PanoramaSky& sky, const SkyMap& map) {
   DarkLevel level = dark_level(map);
   level.luminance *= sky.brightness;
   return level;
+}
+
+std::optional<SkyBackground> shown_in(const FramePlan::Sky& plan) {
+  return plan.background ? std::optional(*plan.shown) : std::nullopt;
+}
+
+// The file of a sky that is a map; empty for another.
+std::filesystem::path map_file_of(const std::optional<SkyBackground>& background) {
+  const auto* panorama = background ? std::get_if<PanoramaSky>(&*background) : nullptr;
+  return panorama ? panorama->image : std::filesystem::path();
 }
 
 bool same_stars(const RegionSky& a, const RegionSky& b) {
@@ -46,8 +57,14 @@ void SkyStore::load_background(Kept& kept) {
   if (const auto* rings = std::get_if<RingsSky>(&*kept.background)) background = *rings;
   const auto* panorama = std::get_if<PanoramaSky>(&*kept.background);
   if (!panorama) return;
-  auto& map = maps_[panorama->image];
-  if (!map) map = read_sky(panorama->image, detail_.largest_face);
+  auto found = maps_.find(panorama->image);
+  if (found == maps_.end()) {
+    const bool is_made = !is_sky_file(panorama->image);
+    if (is_made) make_room();
+    found = maps_.emplace(panorama->image, read_sky(panorama->image, detail_.largest_face)).first;
+    if (is_made) made_.insert(panorama->image);
+  }
+  const auto& map = found->second;
   background = map;
   kept.sky.black = black_of(*panorama, *map);
 }
@@ -70,22 +87,59 @@ void SkyStore::load_stars(SkyRegion which, Kept& kept) {
   kept.sky.stars = std::make_shared<const SceneStars>(catalogue.stars);
 }
 
+SkyStore::Kept& SkyStore::kept_sky(SkyRegion which,
+                                   const std::optional<SkyBackground>& background) {
+  auto& skies = skies_[which];
+  const auto kept = std::ranges::find(skies, background, &Kept::background);
+  return kept != skies.end() ? *kept : skies.emplace_back(Kept{background});
+}
+
+bool SkyStore::has_room() const {
+  std::size_t sum = 0, largest_map = 0;
+  for (const auto& file : made_) {
+    const std::size_t bytes = maps_.at(file)->bytes();
+    sum += bytes;
+    largest_map = std::max(largest_map, bytes);
+  }
+  return sum + largest_map <= detail_.most_made_bytes;
+}
+
+// The map that was shown longest ago goes first.
+void SkyStore::make_room() {
+  while (!has_room()) {
+    std::map<std::filesystem::path, std::uint64_t> last_plan;
+    for (const auto& file : made_) last_plan[file] = 0;
+    for (const SkyRegion which : kEverySky)
+      for (const Kept& kept : skies_[which])
+        if (const auto found = last_plan.find(map_file_of(kept.background));
+            found != last_plan.end())
+          found->second = std::max(found->second, kept.plan);
+    const auto oldest = std::ranges::min_element(
+        last_plan, {}, &std::pair<const std::filesystem::path, std::uint64_t>::second);
+    if (oldest->second + 1 >= plans_) return;
+    for (const SkyRegion which : kEverySky)
+      for (Kept& kept : skies_[which])
+        if (map_file_of(kept.background) == oldest->first)
+          kept.sky.background = Black{}, kept.has_background = false;
+    maps_.erase(oldest->first);
+    made_.erase(oldest->first);
+  }
+}
+
 const Sky& SkyStore::sky(SkyRegion which, const std::optional<SkyBackground>& background,
                          bool stars) {
   const std::scoped_lock lock(loading_);
-  auto& skies = skies_[which];
-  auto kept = std::ranges::find(skies, background, &Kept::background);
-  if (kept == skies.end()) {
-    Kept added{background};
-    load_background(added);
-    skies.push_back(std::move(added));
-    kept = std::prev(skies.end());
+  Kept& kept = kept_sky(which, background);
+  kept.plan = plans_;
+  if (!kept.has_background) {
+    load_background(kept);
+    kept.has_background = true;
   }
-  if (stars && !kept->has_stars) {
-    load_stars(which, *kept);
-    kept->has_stars = true;
+  if (stars && !kept.has_stars) {
+    load_stars(which, kept);
+    kept.has_stars = true;
   }
-  return kept->sky;
+  return kept.sky;
 }
 
 void SkyStore::load(SkyRegion which) {
@@ -94,13 +148,23 @@ void SkyStore::load(SkyRegion which) {
     if (const auto& own = segment.backgrounds[which]) sky(which, own, true);
 }
 
+void SkyStore::load(const FramePlan& plan) {
+  for (const SkyRegion which : kEverySky) {
+    if (!plan[which].lit()) continue;
+    const std::optional<SkyBackground> shown = shown_in(plan[which]);
+    const auto* panorama = shown ? std::get_if<PanoramaSky>(&*shown) : nullptr;
+    if (!panorama || maps_.contains(panorama->image) || has_room())
+      sky(which, shown, plan[which].stars);
+    else if (tried_.insert(panorama->image).second)
+      try_sky(panorama->image);
+  }
+}
+
 PerSky<const Sky*> SkyStore::skies_of(const FramePlan& plan) {
+  ++plans_;
   PerSky<const Sky*> skies{};
   for (const SkyRegion which : kEverySky)
-    if (plan[which].lit())
-      skies[which] =
-          &sky(which, plan[which].background ? std::optional(*plan[which].shown) : std::nullopt,
-               plan[which].stars);
+    if (plan[which].lit()) skies[which] = &sky(which, shown_in(plan[which]), plan[which].stars);
   return skies;
 }
 
