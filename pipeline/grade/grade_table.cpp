@@ -46,6 +46,19 @@ constexpr double kProbedPart = 0.8;
 // The code of 0 to 1 that is shown.  What is no number is shown as black.
 float shown(float code) { return code > 0 ? std::min(code, 1.0f) : 0; }
 
+// Whether a channel leaves black within a cell: it is 0 at some of the cell's nodes, and not at
+// others.  The display's gamma is infinitely steep there, which probes may miss.
+bool leaves_black(const float* middle) {
+  bool some[3]{}, all[3]{true, true, true};
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int n = 0; n <= 1; ++n) {
+        const float* node = middle + i * cells::kRow + j * cells::kColumn + n * cells::kNode;
+        for (int c = 0; c < 3; ++c) some[c] |= node[c] <= 0, all[c] &= node[c] <= 0;
+      }
+  return some[0] != all[0] || some[1] != all[1] || some[2] != all[2];
+}
+
 // Replaces each value of a line by the largest of it and its neighbours.
 void spread(float* line, int count, std::ptrdiff_t step) {
   float before = 0;
@@ -136,9 +149,10 @@ void GradeTable::hold() {
   for (std::size_t cell = 0; cell < worst.size(); ++cell) {
     if (!(worst[cell] <= kProbedPart * kMostError)) continue;
     const int k = static_cast<int>(cell), plane = k / kPlaneCells, at = k % kPlaneCells;
-    nodes_[cells::node_at(plane / cells::kCells, plane % cells::kCells, at / cells::kInnerHues + 1,
-                          at % cells::kInnerHues + 1) +
-           cells::kHeld] = 1;
+    float* middle = &nodes_[cells::node_at(plane / cells::kCells, plane % cells::kCells,
+                                           at / cells::kInnerHues + 1, at % cells::kInnerHues + 1)];
+    if (leaves_black(middle)) continue;
+    middle[cells::kHeld] = 1;
     ++held;
     error_ = std::max<double>(error_, errors_[cell]);
   }

@@ -8,9 +8,9 @@
 // the hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
 //
 // When the table is made, each of its cells is compared with the formulas at five places.  One that
-// errs by more than 0.8 kMostError there is left out with its neighbours, and so are ratios below
-// 0.25, values that are negative or above 65504, and what is no number.  Those pixels are for the
-// caller to grade by the formulas.
+// errs by more than 0.8 kMostError there is left out with its neighbours, and so are cells in which
+// a channel leaves black, ratios below 0.25, values that are negative or above 65504, and what is
+// no number.  Those pixels are for the caller to grade by the formulas.
 #pragma once
 
 #include <atomic>

@@ -148,6 +148,28 @@ TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
   }
 }
 
+// Their red is at the border of the display's gamut, where the code leaves black infinitely steeply:
+// 23 of 65535 off, between the places where the table was compared.
+TEST(LargeFrames, OfDarkBluesKeepTheBoundWhereRedLeavesBlack) {
+  HalfFrame large(2048, 1024), small(2048, 48);
+  for (HalfFrame* frame : {&large, &small})
+    for (int y = 0; y < 48; ++y)
+      for (int x = 0; x < 2048; ++x) {
+        const float blue = std::exp2(static_cast<float>(y) / 8 - 11);
+        Imath::half* rgb = frame->row(y) + 3 * x;
+        rgb[0] = blue * (0.26f + 0.2f * static_cast<float>(x) / 2048);
+        rgb[1] = blue * (0.8f + 0.15f * static_cast<float>(x % 7) / 7);
+        rgb[2] = blue;
+      }
+  const Grader grader(shipped());
+  ASSERT_TRUE(grader.table_error(large));
+  const GradedFrame exact = grader.grade(small), quick = grader.grade(large);
+  int worst = 0;
+  for (std::size_t k = 0; k < exact.pixels.size(); ++k)
+    worst = std::max(worst, std::abs(exact.pixels[k] - quick.pixels[k]));
+  EXPECT_LE(worst, 8);
+}
+
 // A moving CDL: a gentle one, one whose slope, power and saturation all differ from 1, and one that
 // takes all colour.  What it makes negative or too colourful goes by the formulas.
 TEST(LargeFrames, WithAnyCdlAreGradedToHalfATwelveBitCode) {
