@@ -91,10 +91,11 @@ void GradeTable::fill(int block) {
   constexpr int kNodes = cells::kGreys * cells::kHues;
   std::vector<float> rgb(3 * kNodes), codes(3 * kNodes);
   for_planes(block, cells::kLargest, [&](int order, int n) {
-    for (int k = 0; k < kNodes; ++k)
-      cells::put_pixel(order, cells::value_of(n * cells::kStep),
-                       static_cast<float>(k / cells::kHues), static_cast<float>(k % cells::kHues),
-                       &rgb[3 * k]);
+    for (int k = 0; k < kNodes; ++k) {
+      const int grey = k / cells::kHues, hue = k % cells::kHues;
+      cells::put_pixel(order, cells::value_of(n * cells::kStep), static_cast<float>(grey),
+                       static_cast<float>(hue), &rgb[3 * k]);
+    }
     formulas_(rgb.data(), kNodes, codes.data());
     for (int k = 0; k < kNodes; ++k)
       for (int c = 0; c < 3; ++c)
