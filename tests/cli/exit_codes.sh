@@ -32,8 +32,8 @@ says '^full/(linear|graded)/fall_000.*: File too large'
 [ -z "$(find full -type f)" ] || fail "a full disk left files: $(find full -type f | head -3)"
 exits 0 "$DOMEFALL" render fall.yaml --frames 0-2 --out full
 
-# Too little memory: for the threads of the run, and for the libraries of images.
-for kilobytes in 60000 300000; do
+# Too little memory: for the program itself, for the threads of the run, and for the sky map.
+for kilobytes in 60000 100000 150000; do
   exits 75 bash -c "ulimit -v $kilobytes; exec '$DOMEFALL' render fall.yaml --frames 0 --out little"
   [ -z "$(find little -name '*.tmp' 2>/dev/null)" ] || fail "little memory left temporaries"
 done
