@@ -3,6 +3,7 @@
 Everything they know about a show they ask `domefall`; nothing is read from the YAML here.
 Needs Python 3.9 and nothing beyond its standard library.
 """
+import json
 import os
 import pathlib
 import shutil
@@ -108,11 +109,15 @@ def chunks_of(frames, size):
 def frames_without_file(show, out, frames):
     """The frames that lack their linear file, or their graded one where the show is graded. Says
     nothing about what is in the files: domefall itself looks into them when it is run again."""
-    names = {}
-    for folder in ("linear", "graded"):
-        path = pathlib.Path(out) / folder
-        names[folder] = {entry.stem for entry in path.iterdir()} if path.is_dir() else None
-    # A show that is not graded has no such folder; one without linear/ was never begun.
-    wanted = [names["linear"] or set()] + ([names["graded"]] if names["graded"] is not None else [])
-    stem = pathlib.Path(show).stem
-    return [n for n in frames if not all(f"{stem}_{n:05d}" in there for there in wanted)]
+    record = pathlib.Path(out) / (pathlib.Path(show).stem + ".json")
+    try:
+        facts = json.loads(record.read_text(encoding="utf-8"))
+        kinds = [kind for kind in ("linear", "graded") if facts[kind]]
+        name, start, digits = facts["name"], facts["start"], facts["digits"]
+    except (OSError, ValueError, TypeError, KeyError):
+        return list(frames)  # the first frame that is made writes the record
+    there = [{path.name for path in (pathlib.Path(out) / kind).rglob(f"*.{facts[kind]}")}
+             for kind in kinds]
+    return [n for n in frames
+            if not all(f"{name}_{start + n:0{digits}d}.{facts[kind]}" in names
+                       for kind, names in zip(kinds, there))]

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 #include <utility>
 
 #include "pipeline/image/atomic_file.h"
@@ -49,23 +49,20 @@ void make_folder(const fs::path& folder) {
   sweep_temporaries(folder);
 }
 
-// The number in NAME_00000.EXTENSION; nothing for other names.
-std::optional<int> frame_number(const fs::path& file, const std::string& name) {
-  const std::string stem = file.stem().string();
-  if (!stem.starts_with(name + "_")) return std::nullopt;
-  const char *begin = stem.data() + name.size() + 1, *end = stem.data() + stem.size();
-  int number = 0;
-  const auto [stop, error] = std::from_chars(begin, end, number);
-  if (error != std::errc() || stop != end || fmt::format("{}_{:05d}", name, number) != stem)
-    return std::nullopt;
-  return number;
-}
-
+// The files in a folder and in those below it.
 void for_each_file(const fs::path& folder, const std::function<void(const fs::path&)>& use) {
   std::error_code error;  // a folder that cannot be read has none
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-    if (!entry->path().filename().string().starts_with('.')) use(entry->path());
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    const bool hidden = entry->path().filename().string().starts_with('.');
+    if (hidden) entry.disable_recursion_pending();
+    if (!hidden && !entry->is_directory(ignored)) use(entry->path());
+  }
+}
+
+std::string numbered(const FrameNames& names, int number) {
+  return fmt::format("{:0{}d}", number, names.digits);
 }
 
 // Null for no record, and for one that cannot be understood.
@@ -94,15 +91,42 @@ bool is_record(const Json& j) {
 }  // namespace
 
 FrameFolder::FrameFolder(fs::path folder, const Show& show)
-    : folder_(std::move(folder)), show_(show), name_(show.file.stem().string()) {}
+    : folder_(std::move(folder)),
+      show_(show),
+      name_(show.file.stem().string()),
+      file_name_(show.output.names.name.empty() ? name_ : show.output.names.name) {}
 
-fs::path FrameFolder::linear(int frame) const {
-  return folder_ / kLinear / fmt::format("{}_{:05d}.exr", name_, frame);
+fs::path FrameFolder::path_of(const char* kind, int frame, const char* extension) const {
+  const FrameNames& names = show_.output.names;
+  fs::path folder = folder_ / kind;
+  if (names.per_folder > 0) {
+    const int first = names.start + frame / names.per_folder * names.per_folder,
+              last = first + names.per_folder - 1;
+    folder /= fmt::format("{}_{}-{}", file_name_, numbered(names, first), numbered(names, last));
+  }
+  return folder /
+         fmt::format("{}_{}.{}", file_name_, numbered(names, names.start + frame), extension);
 }
+
+fs::path FrameFolder::linear(int frame) const { return path_of(kLinear, frame, "exr"); }
 
 fs::path FrameFolder::graded(int frame) const {
   const GradedFormat format = show_.output.graded.value_or(GradedFormat{});
-  return folder_ / kGraded / fmt::format("{}_{:05d}.{}", name_, frame, extension_of(format.kind));
+  return path_of(kGraded, frame, extension_of(format.kind));
+}
+
+// The frame whose number is in NAME_00000.EXTENSION, in whatever folder; nothing for other names.
+std::optional<int> FrameFolder::frame_of(const fs::path& file) const {
+  const FrameNames& names = show_.output.names;
+  const std::string stem = file.stem().string();
+  if (!stem.starts_with(file_name_ + "_")) return std::nullopt;
+  const char *begin = stem.data() + file_name_.size() + 1, *end = stem.data() + stem.size();
+  int number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || stop != end || number < names.start ||
+      numbered(names, number) != std::string(begin, end))
+    return std::nullopt;
+  return number - names.start;
 }
 
 WantedFrame FrameFolder::wanted(std::string key) const {
@@ -113,6 +137,7 @@ WantedFrame FrameFolder::wanted(std::string key) const {
 fs::path FrameFolder::record_path() const { return folder_ / (name_ + ".json"); }
 
 std::string FrameFolder::record() const {
+  const FrameNames& names = show_.output.names;
   Json record = {{"show", name_},
                  {"title", show_.title},
                  {"projection", projection_name(show_.projection)},
@@ -120,8 +145,13 @@ std::string FrameFolder::record() const {
                  {"height", rows(show_.projection)},
                  {"frames", frame_count(show_)},
                  {"frames_per_second", show_.frames_per_second},
-                 {"linear", "exr"},
-                 {"graded", nullptr}};
+                 {"linear", nullptr},
+                 {"graded", nullptr},
+                 {"name", file_name_},
+                 {"start", names.start},
+                 {"digits", names.digits},
+                 {"per_folder", names.per_folder}};
+  if (has_linear()) record["linear"] = "exr";
   if (has_graded()) record["graded"] = graded(0).extension().string().substr(1);
   // A file's name need not be UTF-8.
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -142,29 +172,34 @@ int FrameFolder::frames_there() const {
   int count = 0;
   for (const char* kind : {kLinear, kGraded})
     for_each_file(folder_ / kind,
-                  [&](const fs::path& file) { count += frame_number(file, name_).has_value(); });
+                  [&](const fs::path& file) { count += frame_of(file).has_value(); });
   return count;
 }
 
 std::vector<fs::path> FrameFolder::strangers() const {
   std::vector<fs::path> found;
   const int count = frame_count(show_);
-  const auto look = [&](const char* kind, const std::string& extension) {
+  const auto look = [&](const char* kind, const auto& path_of_frame) {
     for_each_file(folder_ / kind, [&](const fs::path& file) {
-      const auto number = frame_number(file, name_);
-      if (!number || *number >= count || file.extension() != extension)
-        found.push_back(fs::path(kind) / file.filename());
+      const auto frame = frame_of(file);
+      if (!frame || *frame >= count || file != path_of_frame(*frame))
+        found.push_back(file.lexically_relative(folder_));
     });
   };
-  look(kLinear, ".exr");
-  look(kGraded, has_graded() ? graded(0).extension().string() : "");
+  look(kLinear, [this](int frame) { return has_linear() ? linear(frame) : fs::path(); });
+  look(kGraded, [this](int frame) { return has_graded() ? graded(frame) : fs::path(); });
   std::sort(found.begin(), found.end());
   return found;
 }
 
-void FrameFolder::prepare() const {
-  make_folder(folder_ / kLinear);
-  if (has_graded()) make_folder(folder_ / kGraded);
+void FrameFolder::prepare(const std::vector<int>& frames) const {
+  std::set<fs::path> linear_folders, graded_folders;
+  for (const int frame : frames) {
+    if (has_linear()) linear_folders.insert(linear(frame).parent_path());
+    if (has_graded()) graded_folders.insert(graded(frame).parent_path());
+  }
+  for (const fs::path& made : linear_folders) make_folder(made);
+  for (const fs::path& made : graded_folders) make_folder(made);
   sweep_temporaries(folder_);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,11 @@ class FrameFolder {
   FrameFolder(std::filesystem::path folder, const Show& show);
 
   const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path linear(int frame) const;  // linear/NAME_00000.exr
-  std::filesystem::path graded(int frame) const;  // graded/NAME_00000.png or .tif
+  // linear/NAME_00000.exr and graded/NAME_00000.png, by the show's FrameNames.  Where these ask for
+  // folders, linear/NAME_00000-09999/NAME_00000.exr.
+  std::filesystem::path linear(int frame) const;
+  std::filesystem::path graded(int frame) const;
+  bool has_linear() const { return show_.output.linear.has_value(); }
   bool has_graded() const { return show_.output.graded.has_value(); }
 
   // The frame with this key as the folder is to hold it.
@@ -32,9 +36,9 @@ class FrameFolder {
   // of another name or kind.  Hidden ones are none.
   std::vector<std::filesystem::path> strangers() const;
 
-  // Makes the folders and removes what dead writers left.  Throws InputError where the path leads
-  // through a file, else TemporaryError.
-  void prepare() const;
+  // Makes the folders that files of these frames are to be put into, and removes what dead writers
+  // left.  Throws InputError where the path leads through a file, else TemporaryError.
+  void prepare(const std::vector<int>& frames) const;
 
   // Writes the record, to which a folder has a right once a frame is there.  It depends on the show
   // and its size alone, so that any number of workers may do this at once.
@@ -44,10 +48,12 @@ class FrameFolder {
   std::filesystem::path record_path() const;
   std::string record() const;
   int frames_there() const;
+  std::filesystem::path path_of(const char* kind, int frame, const char* extension) const;
+  std::optional<int> frame_of(const std::filesystem::path& file) const;
 
   std::filesystem::path folder_;
   const Show& show_;
-  std::string name_;
+  std::string name_, file_name_;
 };
 
 }  // namespace domefall

@@ -63,7 +63,7 @@ class Run {
   void prepare() {
     require_threads(file_threads());
     set_file_threads(file_threads());
-    folder_.prepare();
+    folder_.prepare(run_.frames);
   }
 
   void all() {
@@ -85,20 +85,24 @@ class Run {
       stop_if_interrupted();
       const FrameState state = frame_state(run_.show, number);
       const std::string key = keys_->scene(state);
-      const bool linear_good = is_good(folder_.linear(number), key, run_.render);
+      const bool linear_good = has_good_linear(number, key);
       const bool graded_good =
           !grader_ || is_good(folder_.graded(number), keys_->graded(key, state), true);
-      if (linear_good && graded_good) {
+      if (graded_good && (linear_good || !folder_.has_linear() || !run_.render)) {
         progress.skipped();
         continue;
       }
       if (linear_good)
         *frame = read_frame(folder_.linear(number)).first;
-      else
+      else if (run_.render)
         render_as_keyed(state, *frame);
+      else {
+        missing_.push_back(number);
+        continue;
+      }
       finish();
       writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
-        write(state, key, *frame, !linear_good, !graded_good);
+        write(state, key, *frame, !linear_good && folder_.has_linear(), !graded_good);
       });
       if (large)
         finish();
@@ -110,6 +114,7 @@ class Run {
     std::fprintf(stderr, "%zu frames made, %zu already there, in %.1f s: %s\n",
                  progress.made_count(), progress.skipped_count(), progress.seconds(),
                  run_.folder.c_str());
+    if (!missing_.empty()) fail_for_missing();
   }
 
  private:
@@ -120,6 +125,28 @@ class Run {
 
   std::string grade_id() const {
     return grader_ ? grader_->transform_id() + format_id(*run_.show.output.graded) : std::string();
+  }
+
+  // Whether the frame can be graded from its scene-linear file.
+  bool has_good_linear(int number, const std::string& key) const {
+    return (folder_.has_linear() || !run_.render) &&
+           is_good(folder_.linear(number), key, run_.render);
+  }
+
+  // Frames that another run may yet render are for later; of a show that keeps no scene-linear
+  // files there never will be any.
+  [[noreturn]] void fail_for_missing() const {
+    const bool one = missing_.size() == 1;
+    const std::string what = fmt::format(
+        "{}: {} frame{} not graded: {}. Scene-linear files are missing, damaged, or of "
+        "another size or version of the show",
+        folder_.linear(missing_.front()).string(), missing_.size(), one ? " was" : "s were",
+        as_ranges(missing_));
+    if (!folder_.has_linear())
+      throw InputError(what +
+                       "; with output: {linear: none} domefall render makes graded frames "
+                       "alone, and makes them again where the grade is another");
+    throw TemporaryError(what + "; render them first");
   }
 
   bool is_good(const std::filesystem::path& file, const std::string& key, bool replaces) const {
@@ -161,11 +188,6 @@ class Run {
   }
 
   void render(const FrameState& state, HalfFrame& frame) {
-    if (!run_.render)
-      throw InputError(
-          folder_.linear(state.frame).string() +
-          ": the frame is missing, damaged, or of another size or version of the show; render it "
-          "first");
     if (!renderer_) {
       renderer_.emplace(run_.show, run_.threads);
       // All that the run needs is loaded at once, so that a damaged file ends it before its first
@@ -213,7 +235,7 @@ class Run {
     if (linear)
       other = std::async(std::launch::async, [&] {
         const Stopwatch watch;
-        write_frame(folder_.linear(state.frame), frame, info(state, key));
+        write_frame(folder_.linear(state.frame), frame, info(state, key), *run_.show.output.linear);
         linear_s = watch.seconds();
       });
     if (graded) {
@@ -311,6 +333,7 @@ class Run {
   std::optional<Grader> frame_grader_;  // of the frame that is written, and kept for those after it
   std::optional<FrameKeys> keys_;
   std::optional<Renderer> renderer_;
+  std::vector<int> missing_;  // frames to be graded whose scene-linear files are not good
 };
 
 }  // namespace

@@ -80,7 +80,8 @@ FrameSurvey survey_frames(const FrameFolder& folder, const Show& show, const Fra
     const FrameState state = frame_state(show, number);
     const std::string key = keys.scene(state);
     auto linear = FrameCondition::kGood, graded = FrameCondition::kGood;
-    if (renders) linear = surveyor.look(folder.linear(number), folder.wanted(key));
+    if (renders && folder.has_linear())
+      linear = surveyor.look(folder.linear(number), folder.wanted(key));
     if (folder.has_graded())
       graded = surveyor.look(folder.graded(number), folder.wanted(keys.graded(key, state)));
     if (linear == FrameCondition::kOther || graded == FrameCondition::kOther) ++survey.others;

@@ -136,10 +136,11 @@ void set_file_threads(int threads) {
   set_encoder_threads(threads);
 }
 
-void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info) {
+void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
+                 ExrCompression compression) {
   NewFile made(path);
-  write_exr(made, {frame.width, frame.height, frame.pixels.data(), ExrCompression::kZip,
-                   attributes_of(info)});
+  write_exr(made,
+            {frame.width, frame.height, frame.pixels.data(), compression, attributes_of(info)});
   seal_frame(made);
   made.commit();
 }

@@ -1,4 +1,4 @@
-// Rendered frames on the disk: scene-linear OpenEXR, half floats, channels R, G, B, lossless ZIP.
+// Rendered frames on the disk: scene-linear OpenEXR, half floats, channels R, G, B, lossless.
 //
 // The header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which
 // show this is (the fields of FrameInfo) and what the digest of the file is (frame_seal.h), but
@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/frame_buffer.h"
 
 namespace domefall {
@@ -32,7 +33,8 @@ struct FrameInfo {
 void set_file_threads(int threads);
 
 // Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
-void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info);
+void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
+                 ExrCompression compression = ExrCompression::kZip);
 
 // Reads back what write_frame wrote.  Nothing is decoded before the digest of the file is right.
 // Throws InputError naming the file if it is missing, damaged or was not written by write_frame,

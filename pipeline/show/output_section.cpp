@@ -1,5 +1,7 @@
 #include "pipeline/show/output_section.h"
 
+#include <fmt/format.h>
+
 namespace domefall {
 namespace {
 
@@ -33,19 +35,69 @@ std::optional<GradedFormat> read_graded(const Section& s) {
   return std::nullopt;
 }
 
+void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
+  const Item* item = s.find("quality");
+  if (!item) return;
+  const auto quality = read_whole_number(*item, kPureNumber.within(1, 100));
+  if (!graded || graded->kind != GradedKind::kJpeg)
+    item->fail("is that of a JPEG; say graded: jpeg, or leave it out");
+  else if (quality)
+    graded->quality = *quality;
+}
+
+std::optional<ExrCompression> read_linear(const Section& s) {
+  using enum ExrCompression;
+  const auto compression = s.word<ExrCompression>(
+      "compression", {{"zip", kZip}, {"zips", kZips}, {"piz", kPiz}, {"none", kNone}});
+  if (s.word<bool>("linear", {{"half", true}, {"none", false}}).value_or(true))
+    return compression.value_or(kZip);
+  if (const Item* item = s.find("compression"))
+    item->fail("is that of scene-linear files, of which linear: none makes none; leave it out");
+  return std::nullopt;
+}
+
+void read_name(const Section& s, FrameNames& names) {
+  const Item* item = s.find("name");
+  const auto name = item ? read_text(*item) : std::nullopt;
+  if (!name) return;
+  constexpr std::size_t kLongest = 200;  // bytes; file systems take 255 with number and kind
+  if (name->find('/') != std::string::npos)
+    item->fail("is that of a file and may have no '/'; --out names the folder");
+  else if (name->starts_with('.'))
+    item->fail("may not begin with a dot, which hides files");
+  else if (name->size() > kLongest)
+    item->fail(fmt::format("may have {} bytes, got {}", kLongest, name->size()));
+  else
+    names.name = *name;
+}
+
+FrameNames read_names(const Section& s) {
+  FrameNames names;
+  read_name(s, names);
+  const auto number = [&s](const char* key, double low, double high, int& into) {
+    if (const Item* item = s.find(key))
+      into = read_whole_number(*item, kPureNumber.within(low, high)).value_or(into);
+  };
+  constexpr double kLargestStart = 1'000'000'000, kMostDigits = 10, kMostInFolder = 10'000;
+  number("start", 0, kLargestStart, names.start);
+  number("digits", 1, kMostDigits, names.digits);
+  number("per_folder", 1, kMostInFolder, names.per_folder);
+  return names;
+}
+
 }  // namespace
 
 Output read_output(const Section& show) {
-  const Section s = subsection(show, "output", {"graded", "quality"});
+  const Section s = subsection(
+      show, "output",
+      {"linear", "compression", "graded", "quality", "name", "start", "digits", "per_folder"});
   Output output;
+  output.linear = read_linear(s);
   output.graded = read_graded(s);
-  if (const Item* item = s.find("quality")) {
-    const auto quality = read_whole_number(*item, kPureNumber.within(1, 100));
-    if (!output.graded || output.graded->kind != GradedKind::kJpeg)
-      item->fail("is that of a JPEG; say graded: jpeg, or leave it out");
-    else if (quality)
-      output.graded->quality = *quality;
-  }
+  read_quality(s, output.graded);
+  output.names = read_names(s);
+  if (!output.linear && !output.graded)
+    s.find("graded")->fail("and linear are both none, so that nothing would be made");
   return output;
 }
 

@@ -6,7 +6,7 @@
 
 namespace domefall {
 
-// Reads `output: {graded, quality}`.
+// Reads `output: {linear, compression, graded, quality, name, start, digits, per_folder}`.
 Output read_output(const Section& show);
 
 }  // namespace domefall

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/grade/grade_settings.h"
+#include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/graded_format.h"
 #include "pipeline/show/camera.h"
 #include "pipeline/show/channel.h"
@@ -187,9 +188,19 @@ struct Marker {
   double at_s = 0;  // show seconds
 };
 
-// The files that are made of a frame.
+// How the files of frames are called: NAME_00000 and so on.
+struct FrameNames {
+  std::string name;    // empty: as the show's file
+  int start = 0;       // the number of frame 0
+  int digits = 5;      // at least; a larger number has more
+  int per_folder = 0;  // frames that share a folder of their own; 0: all are in one
+};
+
+// The files that are made of a frame, at least one.
 struct Output {
-  std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
+  std::optional<ExrCompression> linear = ExrCompression::kZip;  // nothing: none
+  std::optional<GradedFormat> graded = GradedFormat{};          // nothing: none
+  FrameNames names;
 };
 
 // What a segment takes over from those before it.

@@ -70,21 +70,24 @@ class Run {
   std::filesystem::path graded() const { return folder_ / "graded"; }
 
   void add_sizes(Cost& cost) const {
-    cost.linear_bytes += static_cast<double>(std::filesystem::file_size(linear())) / kFrames;
+    if (show_.output.linear)
+      cost.linear_bytes += static_cast<double>(std::filesystem::file_size(linear())) / kFrames;
     if (grader_)
       cost.graded_bytes += static_cast<double>(std::filesystem::file_size(graded())) / kFrames;
   }
 
   void write(const HalfFrame& frame) const {
-    std::future<void> other =
-        std::async(std::launch::async, [&] { write_frame(linear(), frame, FrameInfo{}); });
+    std::future<void> other;
+    if (show_.output.linear)
+      other = std::async(std::launch::async,
+                         [&] { write_frame(linear(), frame, FrameInfo{}, *show_.output.linear); });
     if (grader_) {
       const auto rows = [&](int first, int end, unsigned short* rgb) {
         grader_->grade_rows(frame, first, end, rgb);
       };
       write_graded(graded(), {frame.width, frame.height, rows}, GradedInfo{}, *show_.output.graded);
     }
-    other.get();
+    if (other.valid()) other.get();
   }
 
   const Show& show_;

@@ -10,7 +10,7 @@ struct RenderTime {
   double seconds = 0;  // of the whole show
   double frame_s = 0;  // of one frame
   int threads = 0;
-  double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 without a grade
+  double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 where none is made
 };
 
 // Whether the estimate renders less than a twentieth of the show's pixels.  A single frame of 4096

@@ -53,7 +53,10 @@ with open(sys.argv[1], "r+b") as file:
         file.seek(exr.index(window) + len(window) + 4)
         file.write(struct.pack("<4i", 0, 0, 59999, 59999))
 END
-exits 2 "$DOMEFALL" grade fall.yaml --frames 0-2 --out out
+rm out/graded/fall_0000[12].png
+exits 75 "$DOMEFALL" grade fall.yaml --frames 0-2 --out out
+says 'fall_00001.exr: 1 frame was not graded: 1\.'
+[ -f out/graded/fall_00002.png ] || fail "what is there was not graded"
 exits 0 render --out out
 says '^1 frames made, 2 already there'
 same_frames good out

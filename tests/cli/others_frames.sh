@@ -20,7 +20,11 @@ diff out/fall.json - <<'END' || fail "the record is another"
   "frames": 24,
   "frames_per_second": 12.0,
   "linear": "exr",
-  "graded": "png"
+  "graded": "png",
+  "name": "fall",
+  "start": 0,
+  "digits": 5,
+  "per_folder": 0
 }
 END
 cp -r out kept

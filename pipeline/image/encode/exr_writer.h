@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "pipeline/image/encode/byte_sink.h"
+#include "pipeline/image/encode/exr_compression.h"
 
 namespace domefall {
-
-// Lossless ones: in blocks of 16 rows, of 1 row, of 32 rows by wavelets, or not at all.
-enum class ExrCompression { kZip, kZips, kPiz, kNone };
 
 // CIE x, y of red, green, blue and white.
 struct ExrChromaticities {

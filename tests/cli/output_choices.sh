@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# What a show's `output` says of its files: which there are, what they are called, and that each kind
+# is resumed and verified alike.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+write_output() { # write_output FILE OUTPUT [LINE...]: 4 small frames
+  cat >"$1" <<END
+frames_per_second: 4
+size: 64
+sky: {region_I: {background: grid, stars: none}}
+output: {$2}
+timeline: [{duration_s: 1}]
+END
+  printf '%s\n' "${@:3}" >>"$1"
+}
+files() { (cd "$1" && find . -type f ! -name '*.json' | sort | paste -sd' '); }
+has() { [ "$(files "$1")" = "$2" ] || fail "$1 holds $(files "$1")"; }
+
+# Each kind alone: made, known for good, known for damaged, and made again with the same bytes.
+for kind in png16:png png8:png jpeg:jpg tiff16:tif tiff8:tif; do
+  write_output a.yaml "linear: none, graded: ${kind%:*}"
+  file=graded/a_00001.${kind#*:}
+  exits 0 "$DOMEFALL" render a.yaml --frames 0-1 --threads 1 --out "${kind%:*}"
+  has "${kind%:*}" "./graded/a_00000.${kind#*:} ./$file"
+  exits 0 "$DOMEFALL" render a.yaml --frames 0-1 --threads 4 --out four
+  same_frames "${kind%:*}" four
+  truncate -s -1 "four/$file"
+  exits 0 "$DOMEFALL" render a.yaml --frames 0-1 --out four
+  says '^1 frames made, 1 already there'
+  same_frames "${kind%:*}" four
+  rm -r four
+done
+write_output a.yaml "linear: none, graded: jpeg, quality: 60"
+exits 0 "$DOMEFALL" render a.yaml --frames 0-1 --out jpeg
+says '^2 frames made'
+write_output a.yaml "linear: none, graded: png8"
+exits 0 "$DOMEFALL" render a.yaml --frames 0-1 --out png16
+says '^2 frames made' # 8 bits are no 16, though the name is the same
+same_frames png8 png16
+
+# There is nothing to be graded again, and grade says why.
+exits 2 "$DOMEFALL" grade a.yaml --out png8
+says 'a_00002.exr: 2 frames were not graded: 2-3\. .*linear: none'
+
+# The compressions hold the same pixels.
+for compression in zip zips piz none; do
+  write_output b.yaml "graded: none, compression: $compression"
+  exits 0 "$DOMEFALL" render b.yaml --frames 0 --out "$compression"
+  exits 0 oiiotool --info -v "$compression/linear/b_00000.exr"
+  grep -q "compression: \"$compression\"" stdout || fail "not $compression: $(cat stdout)"
+  exits 0 oiiotool "$compression/linear/b_00000.exr" zip/linear/b_00000.exr --diff
+done
+
+# Names, numbers and folders; a resumed run finds the frames, and grade does.
+write_output c.yaml "graded: png8, name: My Show 4K, start: 1001, digits: 6, per_folder: 3"
+exits 0 "$DOMEFALL" render c.yaml --frames 1-2 --out named
+one=My\ Show\ 4K_001001-001003 two=My\ Show\ 4K_001004-001006
+has named "./graded/$one/My Show 4K_001002.png ./graded/$one/My Show 4K_001003.png $(
+  )./linear/$one/My Show 4K_001002.exr ./linear/$one/My Show 4K_001003.exr"
+exits 0 "$DOMEFALL" render c.yaml --out named
+says '^2 frames made, 2 already there'
+[ -f "named/linear/$two/My Show 4K_001004.exr" ] || fail "the second folder was not begun"
+touch "named/graded/My Show 4K_001002.png" "named/graded/$one/stray.txt"
+printf 'grade: {cdl: {slope: 0.9}}\n' >>c.yaml
+exits 0 "$DOMEFALL" grade c.yaml --frames 3 --out named
+says 'named: 2 files are not this show.s, and are left alone: graded/My Show 4K_001001-001003/stray.txt and graded/My'
+says '^1 frames made'
+
+# grade does what is there, and says what is not.
+rm "named/linear/$one/My Show 4K_001003.exr"
+exits 75 "$DOMEFALL" grade c.yaml --out named
+says '^2 frames made, 1 already there'
+says 'My Show 4K_001003.exr: 1 frame was not graded: 2\. .*; render them first'
+
+# The farm knows the names.
+PYTHONPATH=$DOMEFALL_SOURCE/farm python3 - <<'END'
+import show_frames
+assert show_frames.frames_without_file("c.yaml", "named", range(4)) == [2]
+assert show_frames.frames_without_file("c.yaml", "nowhere", range(4)) == [0, 1, 2, 3]
+END
