@@ -80,11 +80,12 @@ Json json_of(const RenderTime& t) {
   return {{"seconds", number(t.seconds)}, {"frame_s", number(t.frame_s)}, {"threads", t.threads}};
 }
 
-Json json_of(const DiskSize& d) {
+Json json_of(const DiskSize& d, const std::optional<DiskRoom>& room) {
   return {{"bytes", number(d.total())},
           {"frame_linear_bytes", number(d.linear)},
           {"frame_graded_bytes", number(d.graded)},
-          {"measured", d.measured}};
+          {"measured", d.measured},
+          {"free_bytes", room ? number(room->free) : Json()}};
 }
 
 Json json_of(const Show& show, const Marker& m) {
@@ -149,7 +150,7 @@ void add_whole(const CheckReport& report, Json& json) {
   json["brightest"] = json_of(report.light.brightest);
   json["darkest"] = json_of(report.light.darkest);
   json["render"] = report.time ? json_of(*report.time) : Json();
-  json["disk"] = json_of(disk_size(report));
+  json["disk"] = json_of(disk_size(report), report.room);
 }
 
 }  // namespace

@@ -212,9 +212,13 @@ class Page {
   void disk() {
     const DiskSize size = disk_size(r_);
     std::string text = fmt::format("{} {}: {} frames of {}", size.measured ? "about" : "at most",
-                                   bytes_text(size.total()), size.frames, bytes_text(size.linear));
-    if (size.graded > 0)
-      text += fmt::format(" scene-linear and {} graded", bytes_text(size.graded));
+                                   bytes_text(size.total()), size.frames,
+                                   bytes_text(size.linear > 0 ? size.linear : size.graded));
+    text += size.linear > 0 ? " scene-linear" : " graded";
+    if (size.linear > 0 && size.graded > 0)
+      text += fmt::format(" and {} graded", bytes_text(size.graded));
+    if (r_.room)
+      text += fmt::format("; {} free at {}", bytes_text(r_.room->free), r_.room->folder.string());
     line("on disk", text);
   }
 
@@ -281,18 +285,6 @@ std::string bytes_text(double bytes) {
   std::size_t unit = 0;
   for (; bytes >= 1000 && unit + 1 < std::size(kUnits); ++unit) bytes /= 1000;
   return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
-}
-
-DiskSize disk_size(const CheckReport& report) {
-  const Show& show = report.show;
-  constexpr double kBytesPerPixel = 6;  // three channels of 16 bits in either file
-  DiskSize size;
-  size.frames = frame_count(show);
-  size.measured = report.time.has_value();
-  size.linear = kBytesPerPixel * columns(show.projection) * rows(show.projection);
-  size.graded = report.display.empty() ? 0 : size.linear;
-  if (report.time) size.linear = report.time->linear_bytes, size.graded = report.time->graded_bytes;
-  return size;
 }
 
 std::string check_page(const CheckReport& report) { return Page(report).text(); }

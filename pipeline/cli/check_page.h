@@ -1,6 +1,7 @@
 // What domefall check says of a show: a page to read, or the same facts as JSON.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,14 @@ struct CheckedSky {
   std::optional<double> black;  // of its map, cd/m^2
 };
 
+// The disk that a folder of frames is on, or would be on.
+struct DiskRoom {
+  std::filesystem::path folder;
+  double free = 0, taken = 0;  // bytes; taken by what is in the folder already
+};
+// Nothing where the system does not tell.
+std::optional<DiskRoom> disk_room(const std::filesystem::path& folder);
+
 struct CheckReport {
   const Show& show;
   std::string display, view;  // empty without a grade
@@ -26,7 +35,8 @@ struct CheckReport {
   std::vector<ShowWarning> warnings;
   LightSurvey light;
   std::optional<RenderTime> time;  // none where it was not measured
-  std::vector<CheckedSky> skies;  // those that are visited
+  std::vector<CheckedSky> skies;   // those that are visited
+  std::optional<DiskRoom> room;    // for the frames, where the system tells
 };
 
 // What the frames take on the disk, in bytes: as estimated from a few of them, or else without any
@@ -39,6 +49,9 @@ struct DiskSize {
   double total() const { return frames * (linear + graded); }
 };
 DiskSize disk_size(const CheckReport& report);
+
+// What to say of frames that will not fit on the disk; empty if they will.
+std::string lack_of_room(const CheckReport& report);
 
 // About 40 lines: the show, its segments and joints, its extremes, its light, its warnings.
 std::string check_page(const CheckReport& report);

@@ -90,6 +90,10 @@ bool is_record(const Json& j) {
 
 }  // namespace
 
+fs::path frames_folder(const Show& show, const std::string& out) {
+  return out.empty() ? fs::path("out") / show.file.stem() : fs::path(out);
+}
+
 FrameFolder::FrameFolder(fs::path folder, const Show& show)
     : folder_(std::move(folder)),
       show_(show),

@@ -12,6 +12,9 @@
 
 namespace domefall {
 
+// The folder of a show's frames: what --out says, or else out/NAME.
+std::filesystem::path frames_folder(const Show& show, const std::string& out);
+
 class FrameFolder {
  public:
   // The show, as large as it is rendered, must outlive this.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pipeline/cli/check_page.h"
+#include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
@@ -42,7 +43,7 @@ std::optional<RenderTime> time_to_render(const Show& show, const Grader* grader)
   return std::nullopt;
 }
 
-void check(const std::string& file, bool json) {
+void check(const std::string& file, const std::string& out, bool json) {
   const Show show = read_show(file);
   std::optional<Grader> grader;
   if (show.output.graded) grader.emplace(show.grade);
@@ -50,7 +51,16 @@ void check(const std::string& file, bool json) {
   Renderer renderer(show, 0, {}, kSurveyDetail);
   AxisStars axis(show);
   const ShowSurvey found = survey(show, [&axis](const FrameState& state) { axis.add(state); });
-  CheckReport report{show, {}, {}, found, segment_joints(show), show_warnings(show), {}, {}, {}};
+  CheckReport report{show,
+                     {},
+                     {},
+                     found,
+                     segment_joints(show),
+                     show_warnings(show),
+                     {},
+                     {},
+                     {},
+                     disk_room(frames_folder(show, out))};
   load_skies(show, found, renderer);
   for (const SkySources& sky : survey_skies(show, found)) {
     report.skies.push_back({sky, {}});
@@ -63,6 +73,8 @@ void check(const std::string& file, bool json) {
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);
+  if (const std::string lack = lack_of_room(report); !lack.empty())
+    report.warnings.push_back({0, 0, 0, lack});
   const std::string text = json ? check_json(report) : check_page(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
@@ -72,10 +84,12 @@ void check(const std::string& file, bool json) {
 void add_check(CLI::App& app) {
   auto* verb = app.add_subcommand("check", "Validate a show and say what it does, on one page");
   auto show = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   verb->add_option("show", *show, "show file (YAML)")->required();
+  verb->add_option("--out", *out, "folder that the frames are to go to; default out/NAME");
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
-  verb->callback([show, json] { check(*show, *json); });
+  verb->callback([show, out, json] { check(*show, *out, *json); });
 }
 
 }  // namespace domefall

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_size.h"
@@ -21,11 +22,8 @@ struct Options {
 void run(const Options& o, bool render) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);
-  const std::filesystem::path folder = o.out.empty()
-                                           ? std::filesystem::path("out") / show.file.stem()
-                                           : std::filesystem::path(o.out);
-  run_frames({show, parse_frames(o.frames, frame_count(show)), folder, o.threads, o.explain, render,
-              o.replace, o.dry});
+  run_frames({show, parse_frames(o.frames, frame_count(show)), frames_folder(show, o.out),
+              o.threads, o.explain, render, o.replace, o.dry});
 }
 
 void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
@@ -42,7 +40,7 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
 
 void add_render(CLI::App& app) {
   auto* verb =
-      app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG or TIFF");
+      app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG, TIFF or JPEG");
   auto o = std::make_shared<Options>();
   add_frame_options(*verb, o);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));

@@ -5,6 +5,8 @@
 source "$(dirname "$0")/common.bash"
 cd "$folder"
 write_grid_show tiny.yaml
+mkdir tiff8
+sed 's/^timeline/output: {graded: tiff8}\n&/' tiny.yaml >tiff8/tiny.yaml
 cat >killed_writers.py <<'END'
 import os, pathlib, random, shutil, signal, struct, subprocess, sys, time, zlib
 
@@ -127,9 +129,9 @@ cases = [
          '64', '--out', 'OUT/starlight.sky'),
     Case('sky_import', 13, 'sky', 'import', 'panorama.png', '--size', '128', '--stars', 'few.stars', '--out',
          'OUT/panorama.sky'),
-    Case('preview', 11, 'preview', 'tiny.yaml', '--frame', '3', '--size', '160x90', '--out', 'OUT/still.png'),
+    Case('preview', 11, 'preview', 'tiny.yaml', '--frame', '3', '--size', '160x90', '--out', 'OUT/still.jpg'),
     Case('render', 13, 'render', 'tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
-    Case('grade', 11, 'grade', 'tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
+    Case('grade', 11, 'grade', 'tiff8/tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
     Case('check', 9, 'check', 'tiny.yaml'),
     Report('report', 8, 'report', '--quick', '--figures', '--out', 'OUT'),
 ]

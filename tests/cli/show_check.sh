@@ -29,7 +29,7 @@ tells '^fading +fades in for 1 s$'
 tells '^marker +turn at 0:03 \(3 s\), frame 30, segment 1$'
 tells '^marker +plunge at 0:07\.04 \(7\.04 s\), frame 70, segment 3$'
 tells '^ +fades out for 1\.5 s$'
-tells '^on disk +about [0-9.]+ [kM]B: 130 frames of [0-9.]+ kB scene-linear and [0-9.]+ kB graded$'
+tells '^on disk +about [0-9.]+ [kM]B: 130 frames of [0-9.]+ kB scene-linear and [0-9.]+ kB graded; [0-9.]+ .B free at out/around$'
 tells '^segment 1 +parabolic, 0 s to 6 s$'
 tells '^sky +milky_way.sky, the light of stars fainter than V = 9; stars_to_9.stars, 131,085 stars to V = 9$'
 tells 'r = 20 M to 20 M, closest 6 M at 3 s; region I$'
@@ -63,6 +63,7 @@ assert abs(facts['closest_r']['value'] - 0.5) < 1e-9
 assert [(m['name'], m['time_s'], m['frame'], m['segment']) for m in facts['markers']] == [
     ('turn', 3, 30, 1), ('plunge', 7.04, 70, 3)], facts['markers']
 disk = facts['disk']
+assert disk['free_bytes'] > 0
 assert disk['measured'] and disk['frame_linear_bytes'] > 20000 and disk['frame_graded_bytes'] > 20000
 assert abs(disk['bytes'] / 130 / (disk['frame_linear_bytes'] + disk['frame_graded_bytes']) - 1) < 1e-9
 assert 0 < facts['fastest_speed']['value'] < 1 <= facts['fastest_lorentz_factor']['value']
@@ -72,6 +73,22 @@ assert len(facts['warnings']) == 1 and facts['warnings'][0]['frame'] == 60, fact
 assert facts['render']['seconds'] > 0 and facts['render']['threads'] >= 1
 assert facts['brightest']['mean'] >= facts['darkest']['mean'] > 0
 END
+
+# What is kept decides the size; where it does not fit, check says so.
+cat >small.yaml <<'END'
+size: 64
+sky: {region_I: {background: grid, stars: none}}
+output: {linear: none, graded: png8}
+timeline: [{duration_s: 10}]
+END
+exits 0 "$DOMEFALL" check small.yaml --out nowhere/yet
+tells '^on disk +about [0-9.]+ [kM]B: 300 frames of [0-9.]+ kB graded; [0-9.]+ .B free at nowhere/yet$'
+if (mkdir full && mount -t tmpfs -o size=64k none full) 2>/dev/null; then
+  exits 0 "$DOMEFALL" check small.yaml --out full/frames
+  umount full
+  tells 'warnings'
+  tells 'all 300 frames take about [0-9.]+ [kM]B, and the disk of full/frames has 65.5 kB free; another --out'
+fi
 
 # Flat space; infinities are null.
 cat >flat.yaml <<'END'

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <system_error>
+
+#include "pipeline/cli/check_page.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+double bytes_below(const fs::path& folder) {
+  double bytes = 0;
+  std::error_code error;  // what cannot be read counts for nothing
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (!entry->is_regular_file(ignored)) continue;
+    const std::uintmax_t size = entry->file_size(ignored);
+    if (!ignored) bytes += static_cast<double>(size);
+  }
+  return bytes;
+}
+
+// Without any compression.
+double pixel_bytes(GradedKind kind) {
+  constexpr double kBytes16 = 6, kBytes8 = 3;
+  return kind == GradedKind::kPng16 || kind == GradedKind::kTiff16 ? kBytes16 : kBytes8;
+}
+
+}  // namespace
+
+std::optional<DiskRoom> disk_room(const fs::path& folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (!error && !fs::exists(there, error) && there != there.root_path())
+    there = there.parent_path();
+  const fs::space_info space = fs::space(there, error);
+  if (error) return std::nullopt;
+  return DiskRoom{folder, static_cast<double>(space.available), bytes_below(folder)};
+}
+
+DiskSize disk_size(const CheckReport& report) {
+  const Show& show = report.show;
+  constexpr double kHalfPixel = 6;
+  const double pixels = 1.0 * columns(show.projection) * rows(show.projection);
+  DiskSize size;
+  size.frames = frame_count(show);
+  size.measured = report.time.has_value();
+  if (report.time) {
+    size.linear = report.time->linear_bytes, size.graded = report.time->graded_bytes;
+    return size;
+  }
+  if (show.output.linear) size.linear = kHalfPixel * pixels;
+  if (show.output.graded) size.graded = pixel_bytes(show.output.graded->kind) * pixels;
+  return size;
+}
+
+std::string lack_of_room(const CheckReport& report) {
+  const DiskSize size = disk_size(report);
+  if (!report.room || size.total() <= report.room->free + report.room->taken) return {};
+  return fmt::format(
+      "all {} frames take {} {}, and the disk of {} has {} free; another --out, or an output that "
+      "keeps less (linear: none; graded: png8 or jpeg), will do",
+      size.frames, size.measured ? "about" : "at most", bytes_text(size.total()),
+      report.room->folder.string(), bytes_text(report.room->free));
+}
+
+}  // namespace domefall
