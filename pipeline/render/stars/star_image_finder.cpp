@@ -25,9 +25,12 @@ constexpr double kBlurPixels = 4;
 constexpr int kAlwaysTried = 4;
 constexpr int kOrdersWithoutAmplification = 2;
 
-// The spacing of the pieces of an arc in sigma.  A row of Gaussians at this distance is even to
-// 2 exp(-2 pi^2/1.5^2) = 3e-4.
+// The spacing of the pieces of an arc in sigma, and the least of those of a trail.  A row of
+// Gaussians at the distance s is even to 2 exp(-2 pi^2/s^2), here to 3e-4.
 constexpr double kPieceSigmas = 1.5;
+// How much higher than its mean a row may be, as a pixel value.  In the dark a view makes half a
+// step of 8 bits of twice as much.
+constexpr double kUneven = 5e-4;
 
 // What is the mean over a window of time depends on the ratio of a source's distance from the axis
 // to its way from frame to frame.  Up to kRacing the window reaches kWindow frames to either side
@@ -61,6 +64,13 @@ double farthest_passage(const FrameScene& scene, double stretch) {
 double part_within_limit(const FrameSettings::Sky& sky, double magnitude) {
   if (!sky.soft_limit) return magnitude <= double{static_cast<float>(sky.max_magnitude)} ? 1 : 0;
   return std::clamp((sky.max_magnitude - magnitude) / kFadeMagnitudes, 0.0, 1.0);
+}
+
+// The spacing, in sigma, of a trail whose pixel value along its middle is `row`: the faintest are
+// rows of dots that no display shows.
+double spacing_of(double row) {
+  return std::max(kPieceSigmas,
+                  pi * std::numbers::sqrt2 / std::sqrt(std::log1p(2 * row / kUneven)));
 }
 
 double peak_per_lux(double exposure, const PointSpread& point_spread) {
@@ -211,17 +221,13 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
 bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
                                    const std::optional<AxisPassage>& passage, int order,
                                    std::vector<StarImage>& images) const {
-  const bool caustic = on_caustic(source, order), arc = !passage && is_arc(star, source);
-  if (caustic && (passage || arc)) {
-    // The spacing is that of the frame, carried back through the boost.
+  const bool caustic = on_caustic(source, order);
+  if (caustic && passage) return append_trail(star, StarTrail(*table_, *passage, order), images);
+  if (caustic && is_arc(star, source)) {
     const auto spacing = [&](const V3d& direction) {
-      return kPieceSigmas * scene_.point_spread.least() *
-             from_tetrad_.to_rest(direction).frequency_ratio;
+      return kPieceSigmas * least_sigma_at(direction);
     };
-    return append_pieces(star,
-                         passage ? trail_of(*table_, *passage, order, spacing)
-                                 : arc_of(*table_, source, order, radius_of(star), spacing),
-                         images);
+    return append_arc(star, arc_of(*table_, source, order, radius_of(star), spacing), images);
   }
   const Received received = receive(star, image(star, source, order));
   if (!(received.peak > kFaintestPeak)) return false;
@@ -229,8 +235,36 @@ bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
   return true;
 }
 
-bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                    std::vector<StarImage>& images) const {
+double StarImageFinder::least_sigma_at(const V3d& direction) const {
+  return scene_.point_spread.least() * from_tetrad_.to_rest(direction).frequency_ratio;
+}
+
+// Each part is split as finely as its brightness asks for.
+bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail,
+                                   std::vector<StarImage>& images) const {
+  std::vector<int> pieces;
+  double brightest = 0;
+  for (std::size_t k = 0; k < trail.parts(); ++k) {
+    const SkyImage part = trail.part(k);
+    const double sigmas = 1.1 * trail.length(k) / least_sigma_at(part.direction.v);
+    // In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
+    const double peak = receive(star, part).peak, row = peak * std::sqrt(2 * pi) / sigmas;
+    brightest = std::max(brightest, std::min(peak, row));
+    pieces.push_back(static_cast<int>(
+        std::clamp(std::ceil(sigmas / spacing_of(row)), 1.0, double{StarTrail::kMostPieces})));
+  }
+  if (!(brightest > kFaintestPeak)) return false;
+  std::vector<SkyImage> split;
+  for (std::size_t k = 0; k < trail.parts(); ++k) trail.split(k, pieces[k], split);
+  for (const SkyImage& piece : split) {
+    const Received received = receive(star, piece);
+    if (received.placed) images.push_back(received.image);
+  }
+  return true;
+}
+
+bool StarImageFinder::append_arc(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                                 std::vector<StarImage>& images) const {
   const std::size_t before = images.size();
   double peak = 0;
   for (const SkyImage& piece : pieces) {
@@ -238,7 +272,6 @@ bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<Sky
     peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);
   }
-  // In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
   const double neighbours = images.size() > before + 1 ? std::sqrt(2 * pi) / kPieceSigmas : 1;
   if (peak * neighbours > kFaintestPeak) return true;
   images.resize(before);

@@ -64,8 +64,12 @@ class StarImageFinder {
   bool append_order(const SceneStar& star, const V3d& source,
                     const std::optional<AxisPassage>& passage, int order,
                     std::vector<StarImage>& images) const;
-  bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                     std::vector<StarImage>& images) const;
+  bool append_trail(const SceneStar& star, const StarTrail& trail,
+                    std::vector<StarImage>& images) const;
+  bool append_arc(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                  std::vector<StarImage>& images) const;
+  // The least sigma of the frame about a direction, carried back through the boost: radians there.
+  double least_sigma_at(const V3d& direction) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,
                      std::vector<StarImage>& images) const;
   Received receive(const SceneStar& star, const SkyImage& at) const;

@@ -9,47 +9,6 @@ namespace {
 
 // The longest step in x from one place where the lens is evaluated to the next.
 constexpr double kStep = 0.25;
-constexpr int kMostPieces = 4096;
-
-// The image of the source at one place of its way.
-struct Node {
-  double x;
-  V3d direction;
-  double frequency_ratio;
-  double strength;  // amplification times the distance from the axis, which is finite on it
-};
-
-Node node_at(const SkyTable& table, const AxisPassage& passage, int order, double x) {
-  const SkyImage image = image_of(&table, passage.source(x), order, 0);
-  return {x, image.direction.v, image.frequency_ratio, image.amplification * passage.distance(x)};
-}
-
-// Nodes from one x to another, without the last one.
-void add_nodes(const SkyTable& table, const AxisPassage& passage, int order, double from, double to,
-               std::vector<Node>& nodes) {
-  const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
-  for (int k = 0; k < count; ++k)
-    nodes.push_back(node_at(table, passage, order, from + (to - from) * k / count));
-}
-
-// Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four around them, or
-// through all if there are fewer.  In x the images are so smooth that a step of kStep errs by less
-// than 1e-5 of the ring's radius.
-Node between(const std::vector<Node>& nodes, std::size_t k, double x) {
-  const std::size_t count = std::min<std::size_t>(4, nodes.size());
-  const std::size_t first = std::min(k > 0 ? k - 1 : 0, nodes.size() - count);
-  Node sum{x, V3d(0, 0, 0), 0, 0};
-  for (std::size_t i = first; i < first + count; ++i) {
-    double weight = 1;
-    for (std::size_t j = first; j < first + count; ++j)
-      if (j != i) weight *= (x - nodes[j].x) / (nodes[i].x - nodes[j].x);
-    sum.direction += nodes[i].direction * weight;
-    sum.frequency_ratio += nodes[i].frequency_ratio * weight;
-    sum.strength += nodes[i].strength * weight;
-  }
-  sum.direction.normalize();
-  return sum;
-}
 
 }  // namespace
 
@@ -89,29 +48,63 @@ double AxisPassage::mean_inverse_distance(double from, double to) const {
   return (sharpness_ + 1) / 2 * sum * (to - from) / half_way_;
 }
 
-std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
-                               const std::function<double(const V3d&)>& spacing) {
-  std::vector<Node> nodes;
-  add_nodes(table, passage, order, passage.begin(), passage.middle(), nodes);
-  add_nodes(table, passage, order, passage.middle(), passage.end(), nodes);
-  nodes.push_back(node_at(table, passage, order, passage.end()));
-  std::vector<SkyImage> pieces;
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    const Node &from = nodes[k], &to = nodes[k + 1];
-    // Equal steps of x between two nodes differ in length by a tenth at most.
-    const double length = 1.1 * (to.direction - from.direction).length();
-    const double wanted =
-        std::ceil(length / std::min({spacing(from.direction), spacing(to.direction)}));
-    const int count = static_cast<int>(std::clamp(wanted, 1.0, double{kMostPieces}));
-    for (int n = 0; n < count; ++n) {
-      const double step = (to.x - from.x) / count, x = from.x + n * step;
-      const Node middle = between(nodes, k, x + step / 2);
-      pieces.push_back({{middle.direction},
-                        middle.frequency_ratio,
-                        middle.strength * passage.mean_inverse_distance(x, x + step)});
-    }
+StarTrail::StarTrail(const SkyTable& table, const AxisPassage& passage, int order)
+    : passage_(passage) {
+  add_nodes(table, order, passage.begin(), passage.middle());
+  add_nodes(table, order, passage.middle(), passage.end());
+  nodes_.push_back(node_at(table, order, passage.end()));
+}
+
+StarTrail::Node StarTrail::node_at(const SkyTable& table, int order, double x) const {
+  const SkyImage image = image_of(&table, passage_.source(x), order, 0);
+  return {x, image.direction.v, image.frequency_ratio, image.amplification * passage_.distance(x)};
+}
+
+// Adds nodes from one x to another, without the last one.
+void StarTrail::add_nodes(const SkyTable& table, int order, double from, double to) {
+  const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
+  for (int k = 0; k < count; ++k)
+    nodes_.push_back(node_at(table, order, from + (to - from) * k / count));
+}
+
+// Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four around them, or
+// through all if there are fewer.  In x the images are so smooth that a step of kStep errs by less
+// than 1e-5 of the ring's radius.
+StarTrail::Node StarTrail::between(std::size_t k, double x) const {
+  const std::size_t count = std::min<std::size_t>(4, nodes_.size());
+  const std::size_t first = std::min(k > 0 ? k - 1 : 0, nodes_.size() - count);
+  Node sum{x, V3d(0, 0, 0), 0, 0};
+  for (std::size_t i = first; i < first + count; ++i) {
+    double weight = 1;
+    for (std::size_t j = first; j < first + count; ++j)
+      if (j != i) weight *= (x - nodes_[j].x) / (nodes_[i].x - nodes_[j].x);
+    sum.direction += nodes_[i].direction * weight;
+    sum.frequency_ratio += nodes_[i].frequency_ratio * weight;
+    sum.strength += nodes_[i].strength * weight;
   }
-  return pieces;
+  sum.direction.normalize();
+  return sum;
+}
+
+SkyImage StarTrail::part(std::size_t k) const {
+  std::vector<SkyImage> whole;
+  split(k, 1, whole);
+  return whole.front();
+}
+
+double StarTrail::length(std::size_t k) const {
+  return (nodes_[k + 1].direction - nodes_[k].direction).length();
+}
+
+void StarTrail::split(std::size_t k, int pieces, std::vector<SkyImage>& images) const {
+  const Node &from = nodes_[k], &to = nodes_[k + 1];
+  for (int n = 0; n < pieces; ++n) {
+    const double step = (to.x - from.x) / pieces, x = from.x + n * step;
+    const Node middle = between(k, x + step / 2);
+    images.push_back({{middle.direction},
+                      middle.frequency_ratio,
+                      middle.strength * passage_.mean_inverse_distance(x, x + step)});
+  }
 }
 
 }  // namespace domefall

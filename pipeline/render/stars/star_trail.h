@@ -13,7 +13,6 @@
 // light in equal steps of x, though its path in x is as smooth as the lens.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "pipeline/optics/hole_optics.h"
@@ -55,10 +54,37 @@ class AxisPassage {
   double begin_, middle_, end_;
 };
 
-// The image of one order of a source near the axis on its way, in pieces from one end of the trail
-// to the other, with the amplification that each adds to the mean.  Their distance is at most
-// spacing(direction).
-std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
-                               const std::function<double(const V3d&)>& spacing);
+// The image of one order of a source near the axis on its way.  It is made of parts, from one end
+// of the trail to the other, between places where the lens was evaluated.  What an image adds to
+// the mean is its amplification.
+class StarTrail {
+ public:
+  StarTrail(const SkyTable& table, const AxisPassage& passage, int order);
+
+  std::size_t parts() const { return nodes_.size() - 1; }
+  // The light of a part, as if all came from its middle.
+  SkyImage part(std::size_t k) const;
+  // How long a part is at least and at most 1.2 times, in radians.
+  double length(std::size_t k) const;
+  // Appends a part in so many pieces, between 1 and kMostPieces, whose lengths differ by a tenth.
+  void split(std::size_t k, int pieces, std::vector<SkyImage>& images) const;
+
+  static constexpr int kMostPieces = 4096;
+
+ private:
+  // The image of the source at one place of its way.
+  struct Node {
+    double x;
+    V3d direction;
+    double frequency_ratio;
+    double strength;  // amplification times the distance from the axis, which is finite on it
+  };
+  void add_nodes(const SkyTable& table, int order, double from, double to);
+  Node node_at(const SkyTable& table, int order, double x) const;
+  Node between(std::size_t k, double x) const;
+
+  AxisPassage passage_;
+  std::vector<Node> nodes_;
+};
 
 }  // namespace domefall

@@ -27,6 +27,16 @@ const std::vector<Case> kCases{
 
 SkyTable table_at(double r) { return *make_hole_optics(r, Tetrad::kRain, {}).home_sky; }
 
+// A trail in pieces that are at most so many radians apart.
+std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
+                               double spacing) {
+  const StarTrail trail(table, passage, order);
+  std::vector<SkyImage> pieces;
+  for (std::size_t k = 0; k < trail.parts(); ++k)
+    trail.split(k, static_cast<int>(std::ceil(1.1 * trail.length(k) / spacing)), pieces);
+  return pieces;
+}
+
 // The mean over many instants has the light of the trail, and its middle.
 TEST(StarTrail, IsTheMeanOverManyInstants) {
   for (const Case& c : kCases)
@@ -35,8 +45,7 @@ TEST(StarTrail, IsTheMeanOverManyInstants) {
       const SkyTable table = table_at(c.r);
       const AxisPassage passage(c.source, c.way, kRadius);
       double light = 0, red = 0;
-      for (const SkyImage& piece :
-           trail_of(table, passage, order, [](const V3d&) { return 1e-3; })) {
+      for (const SkyImage& piece : trail_of(table, passage, order, 1e-3)) {
         light += piece.amplification;
         red += piece.amplification * piece.frequency_ratio;
       }
@@ -68,8 +77,7 @@ TEST(StarTrail, HasTheLightOfTheInstantFarFromTheAxis) {
   for (const double sharpness : {1.0, 1.7, 3.0, 5.0}) {
     double sum = 0;
     for (const SkyImage& piece :
-         trail_of(table, AxisPassage(source, V3d(0, 0.002, -0.003), kRadius, sharpness), 0,
-                  [](const V3d&) { return 1e-4; }))
+         trail_of(table, AxisPassage(source, V3d(0, 0.002, -0.003), kRadius, sharpness), 0, 1e-4))
       sum += piece.amplification;
     EXPECT_NEAR(sum / instant, 1, 2e-3) << sharpness;
   }
@@ -80,8 +88,8 @@ TEST(StarTrail, HasNoGaps) {
     const SkyTable table = table_at(c.r);
     const double spacing = 2e-3;
     V3d before(0, 0, 0);
-    for (const SkyImage& piece : trail_of(table, AxisPassage(c.source, c.way, kRadius), 1,
-                                          [&](const V3d&) { return spacing; })) {
+    for (const SkyImage& piece :
+         trail_of(table, AxisPassage(c.source, c.way, kRadius), 1, spacing)) {
       if (before.length2() > 0) {
         EXPECT_LT((piece.direction.v - before).length(), spacing * 1.1);
       }
@@ -100,14 +108,32 @@ TEST(StarTrail, OfSuccessiveInstantsLoseNoLight) {
     for (int k = -40; k <= 40; ++k) {
       const V3d source(-1, from_axis, (k + first) * step);
       for (const SkyImage& piece :
-           trail_of(table, AxisPassage(source.normalized(), V3d(0, 0, 2 * step), kRadius), 0,
-                    [](const V3d&) { return 1e-3; }))
+           trail_of(table, AxisPassage(source.normalized(), V3d(0, 0, 2 * step), kRadius), 0, 1e-3))
         sum += piece.amplification;
     }
     return sum;
   };
   const double at_first = passing(0);
   for (const double first : {0.1, 0.25, 0.5, 0.7}) EXPECT_NEAR(passing(first) / at_first, 1, 5e-3);
+}
+
+// A faint star's trail takes fewer blobs than a bright one's and has as much light for its flux.
+TEST(StarTrail, OfAFaintStarIsTheSameInFewerPieces) {
+  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0.5, 0, 0)}, Domemaster{1024});
+  scene.motion.turn = V3d(0, 0, 0.004);
+  std::vector<double> per_flux;
+  std::vector<std::size_t> pieces;
+  for (const float magnitude : {0.f, 4.f, 8.f, 12.f}) {
+    const std::vector<Star> stars{{scene.sky(V3d(-1, 0.004, 0.003)), magnitude, 6000}};
+    const auto images = all_images(scene.images(), SceneStars(stars));
+    per_flux.push_back(total_light(images) * std::pow(10, 0.4 * magnitude));
+    pieces.push_back(images.size());
+  }
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    EXPECT_LT(pieces[k], 0.8 * static_cast<double>(pieces[k - 1]));
+    // Of the faintest, orders are left out that no display shows.
+    EXPECT_NEAR(per_flux[k] / per_flux[0], 1, k < 3 ? 5e-3 : 0.05) << k;
+  }
 }
 
 // The light of a star in cells about as large as a degree.
