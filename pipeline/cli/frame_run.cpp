@@ -317,6 +317,7 @@ class Run {
     info.frame = state.frame;
     info.display = grader_->display();
     info.view = grader_->view();
+    info.colour = grader_->colour();
     info.software = kSoftware;
     info.projection = projection_name(state.projection);
     return info;

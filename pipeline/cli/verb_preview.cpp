@@ -96,6 +96,7 @@ void preview(const Options& o) {
   info.frame = number;
   info.display = grader.display();
   info.view = grader.view();
+  info.colour = grader.colour();
   info.software = kSoftware;
   info.projection = projection_name(state.projection);
   write_graded(out.path(), picture, info, format);

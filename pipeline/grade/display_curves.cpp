@@ -89,4 +89,79 @@ DomeLight::Curves display_curves(const ocio::Config& config, const std::string& 
   return curves;
 }
 
+namespace {
+
+constexpr double kLikeEnough = 1e-3;  // of white
+
+std::array<double, 2> chromaticity(const Pixel& xyz, const Pixel& black) {
+  const double x = xyz[0] - black[0], y = xyz[1] - black[1], z = xyz[2] - black[2];
+  return {x / (x + y + z), y / (x + y + z)};
+}
+
+// The standard's primaries and white, or else those that were measured, of four decimals.
+std::array<double, 8> settled(std::array<double, 8> xy) {
+  constexpr double kNear = 3e-4, kSteps = 1e4;
+  for (const auto& standard : {kRec709Places, kRec2020Places, kDciP3Places, kP3D65Places})
+    if (std::ranges::equal(xy, standard,
+                           [](double a, double b) { return std::abs(a - b) < kNear; }))
+      return standard;
+  for (double& value : xy) value = std::round(kSteps * value) / kSteps;
+  return xy;
+}
+
+// Sets the curve by the light of grey codes, white being 1; false if it is of neither kind.
+bool take_curve(const std::vector<double>& greys, DisplayColour& colour) {
+  const auto last = static_cast<double>(greys.size() - 1);
+  const auto fits = [&](const auto& curve) {
+    for (std::size_t k = 0; k < greys.size(); ++k)
+      if (!(std::abs(greys[k] - curve(static_cast<double>(k) / last)) <= kLikeEnough)) return false;
+    return true;
+  };
+  const auto srgb = [](double code) {
+    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+  };
+  if (fits(srgb)) {
+    colour.curve = DisplayColour::Curve::kSrgb;
+    return true;
+  }
+  constexpr double kSteps = 1000;
+  const std::size_t middle = greys.size() / 2;
+  const double gamma = std::log(greys[middle]) / std::log(static_cast<double>(middle) / last);
+  colour.curve = DisplayColour::Curve::kPower;
+  colour.gamma = std::round(kSteps * gamma) / kSteps;
+  return fits([&](double code) { return std::pow(code, colour.gamma); });
+}
+
+}  // namespace
+
+std::optional<DisplayColour> display_colour(const ocio::Config& config, const std::string& display,
+                                            const std::string& view) {
+  const auto space = space_of(config, display, view);
+  if (!space || space->isData() || space->getReferenceSpaceType() != ocio::REFERENCE_SPACE_DISPLAY)
+    return std::nullopt;
+  const auto cpu = to_light(config, *space);
+  if (!is_sum_of_channels(*cpu)) return std::nullopt;
+  std::vector<Pixel> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 0}};
+  apply(*cpu, corners);
+  const Pixel black = corners.back();
+  DisplayColour colour;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [x, y] = chromaticity(corners[k], black);
+    colour.xy[2 * k] = x, colour.xy[2 * k + 1] = y;
+  }
+  if (!std::ranges::all_of(colour.xy, [](double v) { return std::isfinite(v); }))
+    return std::nullopt;
+  colour.xy = settled(colour.xy);
+  constexpr std::size_t kGreys = 257;
+  std::vector<Pixel> ramp(kGreys);
+  for (std::size_t k = 0; k < kGreys; ++k)
+    ramp[k].fill(static_cast<float>(k) / static_cast<float>(kGreys - 1));
+  apply(*cpu, ramp);
+  std::vector<double> greys;
+  greys.reserve(kGreys);
+  for (const Pixel& xyz : ramp)
+    greys.push_back((xyz[1] - black[1]) / static_cast<double>(corners[3][1] - black[1]));
+  return take_curve(greys, colour) ? std::optional(colour) : std::nullopt;
+}
+
 }  // namespace domefall

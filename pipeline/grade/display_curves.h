@@ -3,9 +3,11 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <optional>
 #include <string>
 
 #include "pipeline/grade/dome_light.h"
+#include "pipeline/image/encode/display_colour.h"
 
 namespace domefall {
 
@@ -15,5 +17,11 @@ namespace domefall {
 // the sum of what the three channels give, or does not rise with the codes.
 DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std::string& display,
                                  const std::string& view, const std::string& file);
+
+// What the codes of that view mean; nothing if its space is not one of a display, if its light is
+// not the sum of what the three channels give by one curve, or if the curve is neither a power nor
+// that of sRGB, to a thousandth of white.  Primaries within 3e-4 of a standard's are the standard's.
+std::optional<DisplayColour> display_colour(const OCIO_NAMESPACE::Config& config,
+                                            const std::string& display, const std::string& view);
 
 }  // namespace domefall

@@ -218,6 +218,7 @@ Grader::Grader(const GradeSettings& settings) {
     const auto processor = view.config->getProcessor(view.transform);
     transform_id_ = fmt::format("{} {}", kCodesVersion, processor->getCacheID());
     source_ = std::make_shared<const Source>(Source{view.config, settings, table_of(*processor)});
+    colour_ = display_colour(*view.config, display_, view_);
     if (settings.dome.light == DomeSettings::Light::kNone) return;
     dome_light_ = std::make_shared<const DomeLight>(
         settings.dome, display_curves(*view.config, display_, view_, file));

@@ -7,6 +7,7 @@
 
 #include "pipeline/grade/dome_light.h"
 #include "pipeline/grade/grade_settings.h"
+#include "pipeline/image/encode/display_colour.h"
 #include "pipeline/image/frame_buffer.h"
 
 namespace domefall {
@@ -62,6 +63,8 @@ class Grader {
   // Those of the settings, or the configuration's defaults.
   const std::string& display() const { return display_; }
   const std::string& view() const { return view_; }
+  // What the codes mean, where that can be said (display_curves.h).
+  const std::optional<DisplayColour>& colour() const { return colour_; }
 
  private:
   // The table by which such a frame is graded; null for the formulas.
@@ -74,6 +77,7 @@ class Grader {
   std::shared_ptr<const Processor> processor_;
   std::shared_ptr<const DomeLight> dome_light_;
   std::string display_, view_, transform_id_;
+  std::optional<DisplayColour> colour_;
 };
 
 }  // namespace domefall

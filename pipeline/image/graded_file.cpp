@@ -27,25 +27,25 @@ std::string description_of(const GradedInfo& info) {
 void write_picture(ByteSink& sink, const RowPicture& picture, const GradedInfo& info,
                    const GradedFormat& format) {
   const std::string description = description_of(info);
+  const std::string profile = info.colour ? icc_profile(*info.colour) : std::string();
   switch (format.kind) {
     case GradedKind::kPng16:
-    case GradedKind::kPng8:
-      write_png(sink, picture,
-                {format.kind == GradedKind::kPng8,
-                 info.frame,
-                 {{"tEXt", std::string(kPngKeyword) + description}}});
-      return;
+    case GradedKind::kPng8: {
+      PngHead head{format.kind == GradedKind::kPng8, info.frame, {}};
+      if (info.colour) head.chunks = png_colour_chunks(*info.colour);
+      head.chunks.push_back({"tEXt", std::string(kPngKeyword) + description});
+      return write_png(sink, picture, head);
+    }
     case GradedKind::kTiff16:
     case GradedKind::kTiff8:
-      write_tiff(sink, picture, {format.kind == GradedKind::kTiff8, info.frame, description});
-      return;
+      return write_tiff(sink, picture,
+                        {format.kind == GradedKind::kTiff8, info.frame, description, profile});
     case GradedKind::kJpeg:
       if (description.size() > kLongestJpegComment)
         throw InputError(fmt::format(
             "the title of the show has {} bytes, and the comment of a JPEG has room for {}",
             info.title.size(), kLongestJpegComment - (description.size() - info.title.size())));
-      write_jpeg(sink, picture, {format.quality, info.frame, description});
-      return;
+      return write_jpeg(sink, picture, {format.quality, info.frame, profile, description});
   }
 }
 

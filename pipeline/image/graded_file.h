@@ -1,13 +1,16 @@
 // Graded frames on the disk, for projectors and encoders: RGB of 8 or 16 bits as PNG, TIFF or JPEG.
 //
 // Lines of the file's description ("name: value"; in a JPEG, its comment) carry the fields of
-// GradedInfo and the digest of the file (frame_seal.h).  The same frame has the same bytes wherever
+// GradedInfo and the digest of the file (frame_seal.h).  What the codes mean stands there as readers
+// look for it: in chunks of a PNG, in an ICC profile of the others.  The same frame has the same bytes wherever
 // and whenever it is written, and with any number of threads (set_file_threads in frame_file.h).
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "pipeline/image/encode/display_colour.h"
 #include "pipeline/image/encode/row_source.h"
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/image/graded_format.h"
@@ -21,6 +24,7 @@ struct GradedInfo {
   std::string display, view;  // of the OpenColorIO configuration
   std::string software;
   std::string projection;
+  std::optional<DisplayColour> colour;  // of the display, where that is known
 };
 
 // Writes a frame under its final name when it is complete, while its rows are made.  Throws as

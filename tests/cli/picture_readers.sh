@@ -10,10 +10,16 @@ exits 0 "$DOMEFALL" render tiff.yaml --frames 3 --size 200 --out out
 exits 0 "$DOMEFALL" preview show.yaml --frame 3 --size 200x160 --out out/still.jpg
 png=out/graded/show_00003.png tiff=out/graded/tiff_00003.tif exr=out/linear/show_00003.exr
 
-exits 0 pngcheck -q "$png"
+exits 0 pngcheck -v "$png"
+# The power of 2.2 that the default display has, and the profile that says the same.
+grep -q 'chunk gAMA .*: 0\.45455' stdout || fail "the PNG does not say its gamma: $(cat stdout)"
+grep -q 'White x = 0\.3127 y = 0\.329' stdout || fail "the PNG does not say its primaries"
+! grep -q 'chunk sRGB' stdout || fail "the PNG says that it is sRGB"
 exits 0 identify -regard-warnings -verbose "$png"
-exits 0 identify -regard-warnings -verbose "$tiff"
-exits 0 identify -regard-warnings -verbose out/still.jpg
+for file in "$tiff" out/still.jpg; do
+  exits 0 identify -regard-warnings -verbose "$file"
+  grep -q 'Profile-icc' stdout || fail "$file has no profile"
+done
 grep -q '1x1,1x1,1x1' stdout || fail "the JPEG's colours are coarser than its light"
 
 # same_pixels PROGRAM: PNG and TIFF hold the same, as the program reads them.

@@ -95,6 +95,9 @@ void write_jpeg(ByteSink& sink, const RowPicture& picture, const JpegHead& head)
   jpeg_start_compress(&jpeg, TRUE);
   jpeg_write_marker(&jpeg, JPEG_COM, reinterpret_cast<const JOCTET*>(head.comment.data()),
                     static_cast<unsigned>(head.comment.size()));
+  if (!head.profile.empty())
+    jpeg_write_icc_profile(&jpeg, reinterpret_cast<const JOCTET*>(head.profile.data()),
+                           static_cast<unsigned>(head.profile.size()));
   const int rows = rows_of_strip(picture.width, picture.height),
             strips = (picture.height + rows - 1) / rows;
   const std::size_t row_bytes = 3 * static_cast<std::size_t>(picture.width);

@@ -14,6 +14,7 @@ inline constexpr std::size_t kLongestJpegComment = 65533;
 struct JpegHead {
   int quality = 95;     // 1 to 100, libjpeg's scale
   int frame = 0;        // for the noise of the dithering (dither.h)
+  std::string profile;  // ICC; empty for none
   std::string comment;  // of at most kLongestJpegComment bytes
 };
 

@@ -105,6 +105,8 @@ void write_tiff(ByteSink& sink, const RowPicture& picture, const TiffHead& head)
   set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   set(TIFFTAG_ROWSPERSTRIP, rows);
   set(TIFFTAG_IMAGEDESCRIPTION, head.description.c_str());
+  if (!head.profile.empty())
+    set(TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(head.profile.size()), head.profile.data());
   make_in_order<TiffStrip>(
       strips,
       [&](int strip, TiffStrip& made) {

@@ -12,6 +12,7 @@ struct TiffHead {
   bool eight_bits = false;  // dithered (dither.h)
   int frame = 0;            // for the noise
   std::string description;
+  std::string profile;  // ICC; empty for none
 };
 
 // Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the rows and the

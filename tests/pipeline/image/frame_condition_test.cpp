@@ -39,7 +39,7 @@ class FrameConditions : public TestFolder {
       write_frame(path, filled<HalfFrame>(w), info);
     } else {
       write_graded(path, filled<GradedFrame>(w),
-                   {w.key, w.title, 7, "Wall", "Wall", "Domefall 0.1.0", w.projection},
+                   {w.key, w.title, 7, "Wall", "Wall", "Domefall 0.1.0", w.projection, {}},
                    format_by_name(name));
     }
     return path;

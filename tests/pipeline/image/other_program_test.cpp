@@ -50,8 +50,8 @@ TEST_F(OtherProgram, ReadsTheColoursOfAFrame) {
 }
 
 TEST_F(OtherProgram, ReadsHowAFrameWasGraded) {
-  const GradedInfo info{"abc",  "Plongée",        42,          "Dome G2.2 Rec.709",
-                        "Dome", "Domefall 0.1.0", "domemaster"};
+  const GradedInfo info{"abc",  "Plongée",        42,           "Dome G2.2 Rec.709",
+                        "Dome", "Domefall 0.1.0", "domemaster", {}};
   for (const char* name : {"g.png", "g.tif", "g.jpg"}) {
     write_graded(folder_ / name, gradient<GradedFrame>(), info, format_by_name(name));
     const auto in = OIIO::ImageInput::open((folder_ / name).string());

@@ -37,12 +37,12 @@ class PictureWriters : public TestFolder {
   }
   std::filesystem::path tiff(const GradedFrame& frame, bool eight_bits) const {
     return written("f.tif", [&](NewFile& file) {
-      write_tiff(file, picture(frame), {eight_bits, 3, "a tiff"});
+      write_tiff(file, picture(frame), {eight_bits, 3, "a tiff", ""});
     });
   }
   std::filesystem::path jpeg(const GradedFrame& frame, int quality) const {
     return written("f.jpg", [&](NewFile& file) {
-      write_jpeg(file, picture(frame), {quality, 3, "a jpeg"});
+      write_jpeg(file, picture(frame), {quality, 3, "", "a jpeg"});
     });
   }
 

@@ -1,0 +1,77 @@
+#include "pipeline/image/encode/display_colour.h"
+
+#include <lcms2.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+bool is_srgb(const DisplayColour& colour) {
+  return colour.curve == DisplayColour::Curve::kSrgb && colour.xy == kRec709Places;
+}
+
+// PNG's numbers are whole, in units of 1e-5.
+std::string png_number(double value) {
+  const auto number = static_cast<std::uint32_t>(std::lround(value * 1e5));
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
+// Of the decoding curve; PNG states its inverse, and for sRGB the specification's 11.3.3.5.
+std::string png_gamma(const DisplayColour& colour) {
+  constexpr double kOfSrgb = 0.45455;
+  return png_number(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);
+}
+
+void require_lcms(bool done) {
+  if (!done) throw std::runtime_error("Little CMS could not make a profile of the display");
+}
+
+cmsCIExyY place_of(const DisplayColour& colour, std::size_t k) {
+  return {colour.xy[2 * k], colour.xy[2 * k + 1], 1};
+}
+
+}  // namespace
+
+std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour) {
+  std::vector<PngChunk> chunks;
+  if (is_srgb(colour)) chunks.push_back({"sRGB", std::string(1, '\0')});  // as seen, perceptual
+  chunks.push_back({"gAMA", png_gamma(colour)});
+  std::string places;
+  for (const std::size_t k : {6U, 7U, 0U, 1U, 2U, 3U, 4U, 5U}) places += png_number(colour.xy[k]);
+  chunks.push_back({"cHRM", places});
+  return chunks;
+}
+
+std::string icc_profile(const DisplayColour& colour) {
+  using Curve = std::unique_ptr<cmsToneCurve, void (*)(cmsToneCurve*)>;
+  constexpr double kSrgb[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  constexpr int kPowerType = 1, kSrgbType = 4;
+  const bool power = colour.curve == DisplayColour::Curve::kPower;
+  const Curve curve(cmsBuildParametricToneCurve(nullptr, power ? kPowerType : kSrgbType,
+                                                power ? &colour.gamma : kSrgb),
+                    cmsFreeToneCurve);
+  require_lcms(curve != nullptr);
+  const cmsCIExyY white = place_of(colour, 3);
+  const cmsCIExyYTRIPLE primaries{place_of(colour, 0), place_of(colour, 1), place_of(colour, 2)};
+  cmsToneCurve* curves[] = {curve.get(), curve.get(), curve.get()};
+  using Profile = std::unique_ptr<void, int (*)(void*)>;
+  const Profile profile(cmsCreateRGBProfile(&white, &primaries, curves), cmsCloseProfile);
+  require_lcms(profile != nullptr);
+  cmsUInt32Number size = 0;
+  require_lcms(cmsSaveProfileToMem(profile.get(), nullptr, &size) != 0);
+  std::string bytes(size, '\0');
+  require_lcms(cmsSaveProfileToMem(profile.get(), bytes.data(), &size) != 0);
+  // The moment of its making would make every file different.  ICC.1, 7.2: 12 bytes, and the midnight
+  // before 1970.
+  constexpr std::size_t kDate = 24;
+  constexpr char kMidnight[] = {0x07, '\xb2', 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
+  bytes.replace(kDate, sizeof kMidnight, kMidnight, sizeof kMidnight);
+  return bytes;
+}
+
+}  // namespace domefall

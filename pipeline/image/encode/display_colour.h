@@ -1,0 +1,34 @@
+// What the codes of a display mean, for other programs to read in a file.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/image/encode/png_writer.h"
+
+namespace domefall {
+
+struct DisplayColour {
+  enum class Curve { kPower, kSrgb };  // kSrgb: IEC 61966-2-1, with its straight part near black
+  Curve curve = Curve::kSrgb;
+  double gamma = 2.2;          // of kPower
+  std::array<double, 8> xy{};  // CIE x, y of red, green, blue and white
+  bool operator==(const DisplayColour&) const = default;
+};
+
+// Of ITU-R BT.709 (and sRGB), BT.2020, SMPTE RP 431-2 (DCI) and its primaries with the white D65.
+inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
+                                                     0.15, 0.06, 0.3127, 0.329},
+    kRec2020Places{0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329},
+    kDciP3Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.314, 0.351},
+    kP3D65Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
+
+// gAMA and cHRM, and sRGB where it is that.  There is no cICP: it could say no more of these colours,
+// and programs of before PNG's third edition (pngcheck 3) take it for damage.
+std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour);
+
+// An ICC profile of a matrix and a curve, for TIFF and JPEG.  The same colour has the same bytes.
+std::string icc_profile(const DisplayColour& colour);
+
+}  // namespace domefall
