@@ -36,6 +36,10 @@ void InputImage::read(int first, int end, float* rgb) const {
   named(file_, "the image cannot be read to its end", [&] { reader_->read(first, end, rgb); });
 }
 
+void InputImage::read(unsigned short* rgb) const {
+  named(file_, "the image cannot be read to its end", [&] { reader_->read(rgb); });
+}
+
 void InputImage::fail_not_finite(int x, int y) const {
   throw InputError(file_.string() + ": pixel (" + std::to_string(x + 1) + ", " +
                    std::to_string(y + 1) + ") is not a finite number");

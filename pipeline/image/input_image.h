@@ -18,7 +18,8 @@ class InputImage {
   explicit InputImage(const std::filesystem::path& file);
 
   const ImageLayout& layout() const { return reader_->layout(); }
-  // As ImageReader::read.  Throws InputError naming the file.
+  // As ImageReader::read.  They throw InputError naming the file.
+  void read(unsigned short* rgb) const;
   void read(int first, int end, float* rgb) const;
   // Throws InputError naming the file and the pixel, which the message counts from 1 instead of 0.
   [[noreturn]] void fail_not_finite(int x, int y) const;

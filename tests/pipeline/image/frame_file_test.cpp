@@ -193,6 +193,29 @@ TEST_F(GradedFiles, HaveTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(GradedFiles, AreReadBackOnceTheirDigestIsRight) {
+  const GradedFrame frame = graded_sample();
+  for (const GradedKind kind : kEveryKind) {
+    const auto path = folder_ / (std::string("g.") + extension_of(kind));
+    write_graded(path, frame, graded_info(), {kind});
+    const GradedFrame read = read_graded(path);
+    EXPECT_EQ(std::pair(read.width, read.height), std::pair(frame.width, frame.height));
+    if (format_id({kind}).empty()) {
+      EXPECT_EQ(read.pixels, frame.pixels);
+    } else {
+      for (const unsigned short code : read.pixels) ASSERT_EQ(code % 257, 0) << "of 8 bits";
+    }
+    std::string damaged = contents(path);
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+    put(path, damaged);
+    EXPECT_THAT([&] { read_graded(path); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr("missing or damaged")));
+  }
+  write_frame(folder_ / "f.exr", sample_frame(), sample_info());
+  EXPECT_THROW(read_graded(folder_ / "f.exr"), InputError);
+  EXPECT_THROW(read_graded(folder_ / "none.png"), InputError);
+}
+
 TEST_F(GradedFiles, AreNotThereIfARowFails) {
   const auto rows = [](int first, int, unsigned short*) {
     if (first > 0) throw std::runtime_error("row");
