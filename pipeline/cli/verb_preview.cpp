@@ -111,7 +111,7 @@ void add_preview(CLI::App& app) {
   auto o = std::make_shared<Options>();
   verb->add_option("show", o->show, "show file (YAML)")->required();
   add_frame_choice(*verb, o->choice);
-  verb->add_option("--out", o->out, "picture to write, .png or .tif")->required();
+  verb->add_option("--out", o->out, "picture to write: .png, .tif or .jpg")->required();
   verb->add_option("--size", o->size, "WIDTHxHEIGHT")->capture_default_str();
   verb->add_option("--fov", o->fov_deg, "horizontal opening angle, degrees")
       ->check(number_in(0.001, 340))
