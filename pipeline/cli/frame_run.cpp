@@ -2,26 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <future>
 #include <optional>
-#include <stdexcept>
-#include <thread>
 
 #include "pipeline/cli/frame_folder.h"
+#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/interruption.h"
+#include "pipeline/cli/keyed_renderer.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
-#include "pipeline/render/frame_key.h"
-#include "pipeline/render/renderer.h"
 #include "pipeline/render/thread_limit.h"
 
 namespace domefall {
@@ -44,14 +41,17 @@ class Stopwatch {
 class Run {
  public:
   explicit Run(const FrameRun& run)
-      : run_(run), folder_(run.folder, run.show), grader_(grader_of(run.show)) {
-    keys_.emplace(run.show, grade_id());
+      : run_(run),
+        folder_(run.folder, run.show),
+        grader_(grader_of(run.show)),
+        renderer_(run.show, run.frames, grade_id(), run.threads, run.explain) {
+    if (grader_) grading_.emplace(*grader_, all_threads(run.threads));
     catch_interruptions();
   }
 
   // Says what the run will do with what is there.  Throws InputError if it may not.
   void survey() {
-    const FrameSurvey found = survey_frames(folder_, run_.show, *keys_, run_.frames, run_.render);
+    const FrameSurvey found = survey_frames(folder_, run_.show, keys(), run_.frames, run_.render);
     if (!run_.replace) {
       refuse_to_replace(found, folder_);
       folder_.check_owner();
@@ -61,8 +61,9 @@ class Run {
   }
 
   void prepare() {
-    require_threads(file_threads());
-    set_file_threads(file_threads());
+    const int threads = all_threads(run_.threads);
+    require_threads(threads);
+    set_file_threads(threads);
     folder_.prepare(run_.frames);
   }
 
@@ -84,10 +85,10 @@ class Run {
     for (const int number : run_.frames) {
       stop_if_interrupted();
       const FrameState state = frame_state(run_.show, number);
-      const std::string key = keys_->scene(state);
+      const std::string key = keys().scene(state);
       const bool linear_good = has_good_linear(number, key);
       const bool graded_good =
-          !grader_ || is_good(folder_.graded(number), keys_->graded(key, state), true);
+          !grader_ || is_good(folder_.graded(number), keys().graded(key, state), true);
       if (graded_good && (linear_good || !folder_.has_linear() || !run_.render)) {
         progress.skipped();
         continue;
@@ -95,7 +96,7 @@ class Run {
       if (linear_good)
         *frame = read_frame(folder_.linear(number)).first;
       else if (run_.render)
-        render_as_keyed(state, *frame);
+        renderer_.render(state, *frame);
       else {
         missing_.push_back(number);
         continue;
@@ -159,62 +160,12 @@ class Run {
     return condition == FrameCondition::kGood;
   }
 
-  // The keys hold digests of the assets as they were when the run began, and the renderer reads
-  // them later.  So a frame counts only if nothing has touched them until it was rendered.
-  void render_as_keyed(const FrameState& state, HalfFrame& frame) {
-    for (;;) {
-      render(state, frame);
-      const auto touched = keys_->touched_asset();
-      if (!touched) return;
-      if (!assets_are_the_same())
-        throw TemporaryError(touched->string() +
-                             ": the file was changed while the run was reading it; run again");
-      renderer_.reset();
-    }
-  }
-
-  // Takes the digests of the assets again, and keeps the new keys if they are those of before.
-  bool assets_are_the_same() {
-    try {
-      FrameKeys now(run_.show, grade_id());
-      if (!now.same_assets(*keys_)) return false;
-      keys_.emplace(std::move(now));
-      return true;
-    } catch (const InputError&) {  // one is gone
-      return false;
-    } catch (const TemporaryError&) {  // one went while it was read
-      return false;
-    }
-  }
-
-  void render(const FrameState& state, HalfFrame& frame) {
-    if (!renderer_) {
-      renderer_.emplace(run_.show, run_.threads);
-      // All that the run needs is loaded at once, so that a damaged file ends it before its first
-      // frame.
-      for (const int number : run_.frames) {
-        const FrameState other = frame_state(run_.show, number);
-        renderer_->load(plan_frame(run_.show, other));
-        if (other.vanishing) renderer_->load(plan_frame(run_.show, *other.vanishing));
-      }
-    }
-    StageTimes times;
-    try {
-      renderer_->render(state, frame, &times);
-      if (run_.explain)
-        std::fprintf(stderr, "frame %d: region %s, r = %.9g M\n%s", state.frame,
-                     region_name(state.observer.region), state.observer.r,
-                     describe(plan_frame(run_.show, state), times).c_str());
-    } catch (const std::runtime_error& error) {
-      if (dynamic_cast<const InputError*>(&error)) throw;
-      throw std::runtime_error(fmt::format("frame {}: {}", state.frame, error.what()));
-    }
-  }
+  const FrameKeys& keys() const { return renderer_.keys(); }
 
   FrameInfo info(const FrameState& state, const std::string& key) const {
     FrameInfo info;
     info.title = run_.show.title;
-    info.show = keys_->show();
+    info.show = keys().show();
     info.key = key;
     info.frame = state.frame;
     info.region = region_name(state.observer.region);
@@ -240,8 +191,11 @@ class Run {
       });
     if (graded) {
       const Stopwatch watch;
-      frame_grader_ = frame_grader_.value_or(*grader_).with(state.cdl);
-      write_graded_frame(folder_.graded(state.frame), frame, graded_info(state, key));
+      // Rows are graded by the threads that pack them.
+      grading_->grade(frame, state, [&](const RowPicture& rows) {
+        write_graded(folder_.graded(state.frame), rows, graded_info(state, key),
+                     *run_.show.output.graded);
+      });
       graded_s = watch.seconds();
     }
     if (other.valid()) other.get();
@@ -252,7 +206,7 @@ class Run {
 
   // By what the frame was graded, and how exactly.
   std::string describe_grade(const HalfFrame& frame) const {
-    const auto table = frame_grader_->table_error(frame);
+    const auto table = grading_->table_error(frame);
     if (!table) return "grade by formulas\n";
     constexpr double kCodes = 4095;
     return fmt::format(
@@ -260,59 +214,9 @@ class Run {
         kCodes * table->error, 100 * (1 - table->held));
   }
 
-  // Rows are graded by the threads that pack them.  With the dome's own light all are graded before
-  // the first is packed, since the light of each falls on all others.
-  void write_graded_frame(const std::filesystem::path& path, const HalfFrame& frame,
-                          const GradedInfo& info) const {
-    const auto write = [&](const RowSource& rows) {
-      write_graded(path, {frame.width, frame.height, rows}, info, *run_.show.output.graded);
-    };
-    if (!grader_->dome_light())
-      return write([&](int first, int end, unsigned short* rgb) {
-        frame_grader_->grade_rows(frame, first, end, rgb);
-      });
-    const GradedFrame whole = with_dome_light(frame);
-    write([&](int first, int end, unsigned short* rgb) {
-      std::copy(whole.row(first), whole.row(end), rgb);
-    });
-  }
-
-  GradedFrame with_dome_light(const HalfFrame& frame) const {
-    GradedFrame whole = graded_rows(frame, 0, frame.height);
-    std::vector<DomeCodes> parts(static_cast<std::size_t>(file_threads()));
-    in_parts(whole.height, [&](int part, int first, int end) {
-      parts[static_cast<std::size_t>(part)].add_rows(whole, first, end);
-    });
-    for (std::size_t k = 1; k < parts.size(); ++k) parts[0].add(parts[k]);
-    const CodeMap map = grader_->dome_light()->map_for(parts[0]);
-    in_parts(whole.height, [&](int, int first, int end) { map.change_rows(whole, first, end); });
-    return whole;
-  }
-
-  // The rows y0 <= y < y1, of which each thread grades a part.
-  GradedFrame graded_rows(const HalfFrame& frame, int y0, int y1) const {
-    GradedFrame out(frame.width, y1 - y0);
-    in_parts(out.height, [&](int, int first, int end) {
-      frame_grader_->grade_rows(frame, y0 + first, y0 + end, out.row(first));
-    });
-    return out;
-  }
-
-  // Calls step(part, first, end) for as many parts of the rows as there are threads, side by side.
-  template <class Step>
-  void in_parts(int rows, const Step& step) const {
-    const int parts = file_threads();
-    std::vector<std::future<void>> others(static_cast<std::size_t>(parts));
-    for (int part = 0; part < parts; ++part)
-      others[static_cast<std::size_t>(part)] = std::async(std::launch::async, [&, part] {
-        step(part, rows * part / parts, rows * (part + 1) / parts);
-      });
-    for (auto& other : others) other.get();
-  }
-
   GradedInfo graded_info(const FrameState& state, const std::string& key) const {
     GradedInfo info;
-    info.key = keys_->graded(key, state);
+    info.key = keys().graded(key, state);
     info.title = run_.show.title;
     info.frame = state.frame;
     info.display = grader_->display();
@@ -323,17 +227,11 @@ class Run {
     return info;
   }
 
-  int file_threads() const {
-    return run_.threads > 0 ? run_.threads
-                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
-
   const FrameRun& run_;
   FrameFolder folder_;
-  std::optional<Grader> grader_;        // of the show
-  std::optional<Grader> frame_grader_;  // of the frame that is written, and kept for those after it
-  std::optional<FrameKeys> keys_;
-  std::optional<Renderer> renderer_;
+  std::optional<Grader> grader_;
+  std::optional<FrameGrading> grading_;
+  KeyedRenderer renderer_;
   std::vector<int> missing_;  // frames to be graded whose scene-linear files are not good
 };
 

@@ -1,0 +1,75 @@
+#include "pipeline/cli/keyed_renderer.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+
+KeyedRenderer::KeyedRenderer(const Show& show, std::vector<int> frames, std::string grade,
+                             int threads, bool explain)
+    : show_(show),
+      frames_(std::move(frames)),
+      grade_(std::move(grade)),
+      threads_(threads),
+      explain_(explain) {
+  keys_.emplace(show, grade_);
+}
+
+// The keys hold digests of the assets as they were when the run began, and the renderer reads them
+// later.  So a frame counts only if nothing has touched them until it was rendered.
+void KeyedRenderer::render(const FrameState& state, HalfFrame& frame) {
+  for (;;) {
+    render_once(state, frame);
+    const auto touched = keys_->touched_asset();
+    if (!touched) return;
+    if (!assets_are_the_same())
+      throw TemporaryError(touched->string() +
+                           ": the file was changed while the run was reading it; run again");
+    renderer_.reset();
+  }
+}
+
+// Takes the digests of the assets again, and keeps the new keys if they are those of before.
+bool KeyedRenderer::assets_are_the_same() {
+  try {
+    FrameKeys now(show_, grade_);
+    if (!now.same_assets(*keys_)) return false;
+    keys_.emplace(std::move(now));
+    return true;
+  } catch (const InputError&) {  // one is gone
+    return false;
+  } catch (const TemporaryError&) {  // one went while it was read
+    return false;
+  }
+}
+
+void KeyedRenderer::render_once(const FrameState& state, HalfFrame& frame) {
+  if (!renderer_) {
+    renderer_.emplace(show_, threads_);
+    // All that the run needs is loaded at once, so that a damaged file ends it before its first
+    // frame.
+    for (const int number : frames_) {
+      const FrameState other = frame_state(show_, number);
+      renderer_->load(plan_frame(show_, other));
+      if (other.vanishing) renderer_->load(plan_frame(show_, *other.vanishing));
+    }
+  }
+  StageTimes times;
+  try {
+    renderer_->render(state, frame, &times);
+    if (explain_)
+      std::fprintf(stderr, "frame %d: region %s, r = %.9g M\n%s", state.frame,
+                   region_name(state.observer.region), state.observer.r,
+                   describe(plan_frame(show_, state), times).c_str());
+  } catch (const std::runtime_error& error) {
+    if (dynamic_cast<const InputError*>(&error)) throw;
+    throw std::runtime_error(fmt::format("frame {}: {}", state.frame, error.what()));
+  }
+}
+
+}  // namespace domefall
