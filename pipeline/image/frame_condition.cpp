@@ -91,14 +91,18 @@ bool is_whole(const std::filesystem::path& path) {
   return head && !head->digest.empty() && has_right_digest(*file, *head);
 }
 
-FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted) {
-  const auto file = FileBytes::open(path);
-  if (!file) return FrameCondition::kMissing;
-  const auto head = head_of(*file);
-  const FrameCondition claimed = claimed_condition(path, *file, head, wanted);
+FrameCondition examine_frame(const FileBytes& bytes, const std::filesystem::path& path,
+                             const WantedFrame& wanted) {
+  const auto head = head_of(bytes);
+  const FrameCondition claimed = claimed_condition(path, bytes, head, wanted);
   const bool keeps = claimed == FrameCondition::kGood ||
                      (claimed == FrameCondition::kOther && head && !head->digest.empty());
-  return !keeps || has_right_digest(*file, *head) ? claimed : FrameCondition::kDamaged;
+  return !keeps || has_right_digest(bytes, *head) ? claimed : FrameCondition::kDamaged;
+}
+
+FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted) {
+  const auto file = FileBytes::open(path);
+  return file ? examine_frame(*file, path, wanted) : FrameCondition::kMissing;
 }
 
 std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted) {

@@ -37,6 +37,10 @@ bool is_whole(const std::filesystem::path& path);
 // without a digest, of which nobody can tell, is taken to be whole.  Throws as above.
 FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted);
 
+// The same of bytes that may lie elsewhere than in the file of that name.
+FrameCondition examine_frame(const FileBytes& bytes, const std::filesystem::path& path,
+                             const WantedFrame& wanted);
+
 // What makes a frame another one than is wanted, for people: "1024 x 1024 pixels".  Throws as
 // above.
 std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted);
