@@ -22,13 +22,9 @@ void check_verb(const CLI::App& app, const char* word) {
   for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
   if (std::ranges::find(names, word) != names.end()) return;
   const std::vector<std::string_view> known(names.begin(), names.end());
-  const std::string wanted = "domefall has no verb '" + shown(word) + "'";
-  if (std::string_view(word) == "movie")
-    throw InputError(wanted +
-                     " yet: it makes frames, which a program such as ffmpeg joins; `domefall "
-                     "render` makes all those of a show");
   const std::string near = did_you_mean(word, known);
-  throw InputError(wanted + (near.empty() ? "; it has " + listed(known) : near));
+  throw InputError("domefall has no verb '" + shown(word) + "'" +
+                   (near.empty() ? "; it has " + listed(known) : near));
 }
 
 }  // namespace
@@ -41,6 +37,7 @@ int run_command_line(int argc, char** argv) {
   add_render(app);
   add_grade(app);
   add_preview(app);
+  add_movie(app);
   add_states(app);
   add_probe(app);
   add_trace(app);

@@ -12,6 +12,7 @@ void add_check(CLI::App& app);
 void add_render(CLI::App& app);
 void add_grade(CLI::App& app);
 void add_preview(CLI::App& app);
+void add_movie(CLI::App& app);
 void add_states(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);

@@ -6,7 +6,11 @@ cd "$folder"
 write_grid_show show.yaml
 
 exits 2 "$DOMEFALL" movie show.yaml
-says "^domefall has no verb 'movie' yet: it makes frames, "
+says '^--preset is required'
+exits 2 "$DOMEFALL" movie show.yaml --preset vr360
+says '^--preset vr360: needs frames in an equirectangular projection, which Domefall does not make yet; '
+exits 2 "$DOMEFALL" movie show.yaml --preset reveiw
+says '^--preset reveiw: there is no such preset; did you mean review\?$'
 exits 2 "$DOMEFALL" rendr show.yaml
 says "^domefall has no verb 'rendr'; did you mean render\?$"
 exits 2 "$DOMEFALL" zzz

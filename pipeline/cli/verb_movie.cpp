@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "pipeline/cli/frame_grading.h"
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/movie_frames.h"
+#include "pipeline/cli/number_in.h"
+#include "pipeline/cli/output_file.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/frame_file.h"
+#include "pipeline/movie/burn_in.h"
+#include "pipeline/render/thread_limit.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string show, preset, frames, size, from, out;
+  std::vector<std::string> audio;
+  int threads = 0;
+};
+
+std::string presets_for_help() {
+  std::string text;
+  for (const MoviePreset& preset : movie_presets())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", preset.name, preset.what);
+  return text;
+}
+
+MovieSize size_of(const Projection& projection) { return {columns(projection), rows(projection)}; }
+
+// Frames that are rendered for the movie are no larger than it unless --size says so, since what
+// is larger would be scaled down.
+Projection fitted(const Projection& projection, const MoviePreset& preset) {
+  const MovieSize frames = size_of(projection);
+  if (frames.width <= preset.most_width && frames.height <= preset.most_height) return projection;
+  const MovieSize size = movie_size(preset, frames);
+  if (const auto* flat = std::get_if<Stereographic>(&projection))
+    return Stereographic{size.width, size.height, flat->fov};
+  return Domemaster{size.width};
+}
+
+std::vector<int> chosen_frames(const Options& o, const Show& show) {
+  std::vector<int> frames = parse_frames(o.frames, frame_count(show));
+  if (frames.back() - frames.front() + 1 != static_cast<int>(frames.size()))
+    throw InputError("--frames " + o.frames +
+                     ": the frames of a movie follow one another; name one range, such as 0-299");
+  return frames;
+}
+
+fs::path chosen_out(const Options& o, const Show& show, const MoviePreset& preset) {
+  const std::string extension = "." + std::string(preset.extension);
+  if (o.out.empty()) {
+    const fs::path folder = "out";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw_file_error(folder, error.value());
+    return folder / (show.file.stem().string() + "_" + std::string(preset.name) + extension);
+  }
+  const fs::path out = o.out;
+  std::error_code none;
+  const bool replaces_file = !fs::exists(out, none) || fs::is_regular_file(out, none);
+  if (replaces_file && out.extension() != extension)
+    throw InputError(fmt::format("--out {}: a movie of the preset {} is a {} file", out.string(),
+                                 preset.name, extension));
+  refuse_overwriting(out, o.show);
+  for (const std::string& audio : o.audio) refuse_overwriting(out, audio);
+  return out;
+}
+
+void say_tags(const MoviePreset& preset, const ColourTags& tags, const Grader& grader) {
+  std::fprintf(
+      stderr, "%s\n",
+      fmt::format("colour: {}, range {}",
+                  preset.rgb ? describe(tags).substr(0, describe(tags).rfind(',')) + ", RGB"
+                             : describe(tags),
+                  preset.rgb ? "full" : "limited")
+          .c_str());
+  if (tags.primaries == 2 || tags.transfer == 2)
+    std::fprintf(stderr, "%s\n",
+                 fmt::format("the display '{}' with the view '{}' has no tag in video for its {}; "
+                             "a player must be told, or it takes BT.709",
+                             grader.display(), grader.view(),
+                             tags.primaries == tags.transfer ? "primaries and curve"
+                             : tags.transfer == 2            ? "curve"
+                                                             : "primaries")
+                     .c_str());
+}
+
+void movie(const Options& o) {
+  const MoviePreset& preset = movie_preset(o.preset);
+  Show show = read_show(o.show);
+  show.projection = o.size.empty() && o.from.empty() ? fitted(show.projection, preset)
+                                                     : resized(show.projection, o.size);
+  const MovieSize size = size_of(show.projection), made = movie_size(preset, size);
+  const std::vector<int> frames = chosen_frames(o, show);
+  OutputFile out(chosen_out(o, show, preset));
+  const Grader grader(show.grade);
+  MoviePlan plan{preset,
+                 show.title,
+                 size,
+                 frame_rate_of(show.frames_per_second),
+                 frames.front(),
+                 static_cast<int>(frames.size()),
+                 tags_of(grader.colour()),
+                 read_sound({o.audio.begin(), o.audio.end()}),
+                 preset.burn_in ? burn_in(show, frames, made) : std::string()};
+  const std::string silence = compare_lengths(plan.sound, frame_count(show), plan.rate);
+  if (!silence.empty()) std::fprintf(stderr, "%s\n", silence.c_str());
+  say_tags(preset, plan.tags, grader);
+  try_ffmpeg(plan);
+  const int threads = all_threads(o.threads);
+  require_threads(threads);
+  set_file_threads(threads);
+  const MovieRun run{show, frames, grader, plan, out.path(), threads};
+  if (o.from.empty())
+    movie_of_rendered(run);
+  else
+    movie_of_finished(run, o.from);
+  out.finish();
+}
+
+}  // namespace
+
+void add_movie(CLI::App& app) {
+  auto* verb = app.add_subcommand(
+      "movie", "Make a movie by ffmpeg, of frames rendered for it or of finished ones");
+  auto o = std::make_shared<Options>();
+  verb->add_option("show", o->show, "show file (YAML)")->required();
+  verb->add_option("--preset", o->preset, presets_for_help())->required();
+  verb->add_option("--frames", o->frames, "one range, such as 0-299; default all");
+  verb->add_option("--from", o->from,
+                   "take the finished frames of this folder (the --out of render); default: render "
+                   "them and write no files");
+  verb->add_option("--size", o->size,
+                   "of the frames, as for render; default the show's, or less where the preset is "
+                   "smaller and frames are rendered");
+  verb->add_option(
+      "--audio", o->audio,
+      "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs");
+  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4 or .mov");
+  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  verb->callback([o] { movie(*o); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,60 @@
+// Another program, run as a part of this one: it never outlives it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/image/descriptor.h"
+
+namespace domefall {
+
+struct ChildOutcome {
+  int status = 0;    // as waitpid() tells it
+  std::string said;  // the last lines of its standard error
+
+  bool good() const;
+  bool killed() const;  // by a signal
+  // "ended with code 1", "was ended by signal 9 (Killed)", then what it said.
+  std::string text() const;
+};
+
+// The program of a name that the PATH finds, with an argument vector and no shell.  Its standard
+// error is read all the time, so that it never waits for that.  The kernel kills it when the thread
+// that started it ends, whatever ended that; signals to the terminal's group do not reach it.
+class ChildProgram {
+ public:
+  // `arguments` begin with the name.  `kept` are descriptors of this process that it shares under
+  // the same numbers.  Throws TemporaryError if it cannot be started, which says that `package` has
+  // it.
+  ChildProgram(std::vector<std::string> arguments, const std::vector<int>& kept,
+               const std::string& package);
+  // Kills it if it has not been waited for.
+  ~ChildProgram();
+  ChildProgram(const ChildProgram&) = delete;
+  ChildProgram(ChildProgram&&) = delete;
+  ChildProgram& operator=(const ChildProgram&) = delete;
+  ChildProgram& operator=(ChildProgram&&) = delete;
+
+  // Writes to its standard input.  False if it does not read any more.
+  bool write(const void* bytes, std::size_t count) const;
+
+  // Ends its standard input, and waits until it has ended.  Once.
+  ChildOutcome wait();
+  // Its standard output, complete after wait(); kMostOutput bytes at most.
+  const std::string& output() const { return output_; }
+  static constexpr std::size_t kMostOutput = 1 << 20;
+
+ private:
+  pid_t process_ = -1;
+  int input_ = -1;
+  std::string output_;
+  std::future<std::string> said_;
+  std::future<void> read_;
+};
+
+}  // namespace domefall

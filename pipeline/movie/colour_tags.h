@@ -1,0 +1,27 @@
+// The colour tags of a video: code points of ITU-T H.273, by which a player knows what its codes
+// mean.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pipeline/image/encode/display_colour.h"
+
+namespace domefall {
+
+struct ColourTags {
+  int primaries = 2, transfer = 2;  // 2 is unspecified
+  int matrix = 1;                   // by which RGB becomes YCbCr: 1 is BT.709's, 9 that of BT.2020
+
+  bool operator==(const ColourTags&) const = default;
+};
+
+// Of codes for such a display, or for one that is not known.  A curve or primaries that H.273 has
+// no code point for, as a power of 2.6, are unspecified.  Primaries count to 0.001 in x and y, and
+// those of DCI-P3 also with a white that was adapted to D65, powers to 0.01.
+ColourTags tags_of(const std::optional<DisplayColour>& display);
+
+// "primaries smpte432, transfer gamma 2.2, matrix bt709", for people.
+std::string describe(const ColourTags& tags);
+
+}  // namespace domefall

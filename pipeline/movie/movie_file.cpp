@@ -1,0 +1,154 @@
+#include "pipeline/movie/movie_file.h"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+void append_to(Arguments& all, const Arguments& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+// A file of this process and of what it starts, under any name or under none.
+std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
+
+// ffmpeg reads subtitles from a file alone; this one is in memory, and gone with its users.
+int file_in_memory(const std::string& text) {
+  if (text.empty()) return -1;
+  const int made = memfd_create("subtitles", MFD_CLOEXEC);
+  if (made < 0) throw_file_error("the subtitles in memory", errno);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = write(made, text.data() + done, text.size() - done);
+    if (written < 0 && errno != EINTR) throw_file_error("the subtitles in memory", errno);
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  return made;
+}
+
+Arguments ffmpeg_arguments(const MoviePlan& plan, int subtitles, const Arguments& output) {
+  Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
+  append_to(all, input_options(plan.frames, plan.rate));
+  append_to(all, sound_inputs(plan.sound));
+  append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
+  append_to(all, video_options(plan.preset, plan.frames, plan.rate, plan.tags,
+                               subtitles >= 0 ? path_of_descriptor(subtitles) : std::string()));
+  if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
+  append_to(all, output);
+  return all;
+}
+
+Arguments movie_arguments(const MoviePlan& plan, int subtitles, int file) {
+  return ffmpeg_arguments(plan, subtitles,
+                          {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
+                           std::string(plan.preset.extension), "file:" + path_of_descriptor(file)});
+}
+
+constexpr const char* kPackage = "ffmpeg";
+
+// ffmpeg says so in the words of the C library, and does not translate them.
+bool names_lack(const ChildOutcome& outcome) {
+  const auto says = [&](int error) {
+    return outcome.said.find(std::strerror(error)) != std::string::npos;
+  };
+  return says(ENOSPC) || says(EDQUOT) || says(EIO) || says(EFBIG) || says(ENOMEM) || says(ESTALE);
+}
+
+std::vector<int> descriptors(std::initializer_list<int> numbers) {
+  std::vector<int> kept;
+  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(kept),
+               [](int number) { return number >= 0; });
+  return kept;
+}
+
+}  // namespace
+
+void try_ffmpeg(const MoviePlan& plan) {
+  constexpr int kSide = 128;
+  MoviePlan small = plan;
+  small.frames = {kSide, kSide};
+  small.first = 0, small.count = 1;
+  small.sound = {};
+  const Descriptor subtitles(
+      file_in_memory(plan.subtitles.substr(0, plan.subtitles.find("Dialogue"))));
+  ChildProgram ffmpeg(ffmpeg_arguments(small, subtitles.number(), {"-f", "null", "-"}),
+                      descriptors({subtitles.number()}), kPackage);
+  const std::vector<unsigned short> black(std::size_t{3} * kSide * kSide);
+  ffmpeg.write(black.data(), black.size() * sizeof black[0]);
+  const ChildOutcome outcome = ffmpeg.wait();
+  if (!outcome.good())
+    throw TemporaryError(fmt::format("the ffmpeg of this machine cannot make the preset {}; it {}",
+                                     plan.preset.name, outcome.text()));
+}
+
+MovieFile::MovieFile(const std::filesystem::path& path, const MoviePlan& plan)
+    : path_(path), count_(plan.count), file_(path), subtitles_(file_in_memory(plan.subtitles)) {
+  ffmpeg_ = std::make_unique<ChildProgram>(
+      movie_arguments(plan, subtitles_.number(), file_.descriptor()),
+      descriptors({subtitles_.number(), file_.descriptor()}), kPackage);
+}
+
+void MovieFile::add(const RowPicture& frame) {
+  using Strip = std::vector<unsigned short>;
+  const int most = rows_of_strip(frame.width, frame.height);
+  const auto row = static_cast<std::size_t>(frame.width) * 3;
+  const auto rows_in = [&](int part) { return std::min(most, frame.height - part * most); };
+  bool reads = true;
+  make_in_order<Strip>((frame.height + most - 1) / most,
+                       [&](int part, Strip& strip) {
+                         strip.resize(row * static_cast<std::size_t>(most));
+                         frame.rows(part * most, part * most + rows_in(part), strip.data());
+                       },
+                       [&](int part, Strip& strip) {
+                         const std::size_t values = row * static_cast<std::size_t>(rows_in(part));
+                         reads = reads && ffmpeg_->write(strip.data(), values * sizeof strip[0]);
+                       });
+  if (!reads) fail(ffmpeg_->wait());
+  ++added_;
+}
+
+void MovieFile::finish() {
+  const ChildOutcome outcome = ffmpeg_->wait();
+  // After a write that failed for a full disk ffmpeg may end with 0.
+  if (!outcome.good() || names_lack(outcome)) fail(outcome);
+  count_frames(outcome);
+  if (fsync(file_.descriptor()) != 0) throw_file_error(path_, errno);
+  file_.put_in_place();
+}
+
+void MovieFile::count_frames(const ChildOutcome& made) const {
+  ChildProgram probe({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                      "stream=nb_frames", "-of", "default=noprint_wrappers=1:nokey=1", "-i",
+                      "file:" + path_of_descriptor(file_.descriptor())},
+                     {file_.descriptor()}, kPackage);
+  const ChildOutcome outcome = probe.wait();
+  std::string found = probe.output();
+  found.resize(std::min(found.size(), found.find('\n')));
+  if (!outcome.good() || found != std::to_string(count_))
+    throw TemporaryError(fmt::format(
+        "{}: ffmpeg was given {} frames, and the movie that it wrote has {}; nothing was kept{}",
+        path_.string(), count_, found.empty() ? "none that can be read" : found,
+        made.said.empty() ? "" : ":\n" + made.said));
+}
+
+void MovieFile::fail(const ChildOutcome& outcome) const {
+  const std::string what = fmt::format("{}: after {} of {} frames ffmpeg {}", path_.string(),
+                                       added_, count_, outcome.text());
+  if (outcome.killed() || names_lack(outcome)) throw TemporaryError(what);
+  throw std::runtime_error(what);
+}
+
+}  // namespace domefall

@@ -1,0 +1,47 @@
+// The kinds of movie, each for one use, and what ffmpeg has to be told to make them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/movie/colour_tags.h"
+#include "pipeline/movie/frame_rate.h"
+
+namespace domefall {
+
+struct MoviePreset {
+  std::string_view name, what;  // what: a line for people
+  std::string_view extension;   // of the file, which is also ffmpeg's name of the format
+  int most_width, most_height;  // larger frames are scaled down to fit
+  int multiple;                 // width and height are multiples of it
+  std::string_view pixels;      // ffmpeg's name of the pixels' format
+  bool rgb;                     // of full range; else YCbCr of limited range
+  bool burn_in;
+  std::vector<std::string> video, sound;  // ffmpeg's options
+};
+
+const std::vector<MoviePreset>& movie_presets();
+
+// Throws InputError for other names; for `vr360` it says why.
+const MoviePreset& movie_preset(const std::string& name);
+
+struct MovieSize {
+  int width = 0, height = 0;
+
+  bool operator==(const MovieSize&) const = default;
+};
+
+// The size of a movie of frames of a size: theirs, or the largest one of their shape that the
+// preset takes.  Throws InputError for an odd size that the codec does not take.
+MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames);
+
+// ffmpeg's options from the frames, which it reads from its standard input as 16-bit RGB, to the
+// codec.  `subtitles` is a file in the ASS format in which each frame has a tenth of a second
+// (burn_in.h), or empty.
+std::vector<std::string> input_options(const MovieSize& frames, const FrameRate& rate);
+std::vector<std::string> video_options(const MoviePreset& preset, const MovieSize& frames,
+                                       const FrameRate& rate, const ColourTags& tags,
+                                       const std::string& subtitles);
+
+}  // namespace domefall
