@@ -3,7 +3,6 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
@@ -18,6 +17,7 @@
 #include "pipeline/image/encode/exr_writer.h"
 #include "pipeline/image/encode/side_by_side.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/exact_rate.h"
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_head.h"
 #include "pipeline/image/frame_seal.h"
@@ -72,8 +72,8 @@ std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& inf
       {kExrDigest, std::string(kBlankDigest)},
   };
   if (info.frames_per_second > 0) {
-    const Imf::Rational rate = Imf::guessExactFps(info.frames_per_second);
-    all.emplace_back("framesPerSecond", ExrRational{rate.n, rate.d});
+    const ExactRate rate = exact_rate(info.frames_per_second);
+    all.emplace_back("framesPerSecond", ExrRational{rate.numerator, rate.denominator});
   }
   if (const auto code = time_code(info)) all.emplace_back("timeCode", *code);
   return all;
