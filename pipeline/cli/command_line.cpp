@@ -38,6 +38,8 @@ int run_command_line(int argc, char** argv) {
   add_grade(app);
   add_preview(app);
   add_movie(app);
+  add_deliver(app);
+  add_sheet(app);
   add_states(app);
   add_probe(app);
   add_trace(app);

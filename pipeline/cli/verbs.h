@@ -13,6 +13,8 @@ void add_render(CLI::App& app);
 void add_grade(CLI::App& app);
 void add_preview(CLI::App& app);
 void add_movie(CLI::App& app);
+void add_deliver(CLI::App& app);
+void add_sheet(CLI::App& app);
 void add_states(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);

@@ -1,0 +1,317 @@
+#include "pipeline/cli/delivery_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <set>
+
+#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_sheet.h"
+#include "pipeline/cli/graded_frames.h"
+#include "pipeline/deliver/checksum_list.h"
+#include "pipeline/deliver/contact_sheet.h"
+#include "pipeline/deliver/delivery.h"
+#include "pipeline/deliver/folder_files.h"
+#include "pipeline/deliver/in_parallel.h"
+#include "pipeline/deliver/place_file.h"
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The format of the delivered frames: the show's own, with so many bits.
+GradedFormat delivered_format(const Show& show, std::optional<int> bits) {
+  constexpr int kEight = 8;
+  GradedFormat format = show.output.graded.value_or(GradedFormat{});
+  if (!bits || *bits == bits_of(format)) return format;
+  if (*bits != kEight)
+    throw InputError(fmt::format(
+        "--depth {}: the frames have 8 bits; `output: {{graded: png16}}` and `domefall grade` make "
+        "them of 16",
+        *bits));
+  format.kind = format.kind == GradedKind::kTiff16 ? GradedKind::kTiff8 : GradedKind::kPng8;
+  return format;
+}
+
+Show with_format(Show show, const GradedFormat& format) {
+  if (show.output.graded) show.output.graded = format;
+  return show;
+}
+
+// A name as it stands in lists and scripts.
+std::string plain_file_name(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+    constexpr char kFirstPlain = ' ', kDelete = 0x7f;
+    return c == '\\' || (c >= 0 && c < kFirstPlain) || c == kDelete;
+  });
+  if (name.empty() || name.starts_with('.') || !plain)
+    throw InputError(file.string() +
+                     ": a delivered file may have no backslash or control character in its name, "
+                     "nor a dot before it");
+  return name;
+}
+
+class Deliverer {
+ public:
+  explicit Deliverer(const DeliveryRun& run)
+      : run_(run),
+        target_show_(with_format(run.show, delivered_format(run.show, run.bits))),
+        source_(run.show, run.from),
+        target_(target_show_, run.from),
+        delivery_(described()) {
+    plan_files();
+  }
+
+  void check() const {
+    check_lengths();
+    check_folder();
+    std::vector<int> frames(static_cast<std::size_t>(frame_count(run_.show)));
+    std::iota(frames.begin(), frames.end(), 0);
+    source_.check(frames, run_.threads);
+  }
+
+  void make() {
+    begin();
+    place_frames();
+    draw_pictures();
+    for (std::size_t k = 0; k < run_.sounds.size(); ++k)
+      copy_whole_file(run_.sounds[k], run_.out / delivery_.sounds[k].path);
+    for (std::size_t k = 0; k < run_.subtitles.size(); ++k)
+      copy_whole_file(run_.subtitles[k], run_.out / delivery_.subtitles[k].path);
+    write_texts();
+    finish();
+  }
+
+ private:
+  DeliveredNames names() const {
+    const int count = frame_count(run_.show);
+    const NamePattern pattern = run_.name.empty()
+                                    ? default_name_pattern(run_.show.file.stem().string(), count)
+                                    : parse_name_pattern(run_.name);
+    return {pattern, count, extension_of(target_.format().kind)};
+  }
+
+  Delivery described() const {
+    Delivery d{.title = run_.show.title,
+               .show_file = run_.show.file.filename().string(),
+               .show_sha256 = sha256_of_file(run_.show.file),
+               .show_digest = source_.show_digest(),
+               .software = kSoftware,
+               .rate = exact_rate(run_.show.frames_per_second),
+               .projection = run_.show.projection,
+               .format = target_.format(),
+               .display = source_.grader().display(),
+               .view = source_.grader().view(),
+               .colour = source_.grader().colour(),
+               .names = names(),
+               .sounds = {},
+               .subtitles = {},
+               .leader_frames = run_.leader ? leader_frames(run_.show.frames_per_second) : 0,
+               .alignment = std::string("alignment.") + extension_of(target_.format().kind)};
+    for (const fs::path& file : run_.sounds)
+      d.sounds.push_back({"audio/" + plain_file_name(file), read_sound_file(file)});
+    for (const fs::path& file : run_.subtitles)
+      d.subtitles.push_back({"subtitles/" + plain_file_name(file), read_subtitle_file(file)});
+    return d;
+  }
+
+  std::string leader_path(int k) const {
+    NamePattern pattern = delivery_.names.pattern();
+    pattern.before += "leader_";
+    return "leader/" + name_of_number(pattern, k + 1) + "." + delivery_.names.extension();
+  }
+
+  void plan_files() {
+    for (int frame = 0; frame < delivery_.names.count(); ++frame)
+      files_.insert(delivery_.names.path(frame).string());
+    for (int k = 0; k < delivery_.leader_frames; ++k) files_.insert(leader_path(k));
+    const auto add_once = [this](const std::string& path) {
+      if (!files_.insert(path).second)
+        throw InputError(path + ": two files of the delivery would have this name");
+    };
+    for (const DeliveredSound& sound : delivery_.sounds) add_once(sound.path);
+    for (const DeliveredSubtitles& text : delivery_.subtitles) add_once(text.path);
+    for (const std::string& path :
+         {delivery_.alignment, std::string(kContactSheet), std::string(kPreview),
+          std::string(kReadme), std::string(kMetadata), std::string(kVerifyScript)})
+      add_once(path);
+  }
+
+  // A sound lasts as long as the frames, to within one; a subtitle is gone by their end.
+  void check_lengths() const {
+    const double length = duration_s(delivery_), frame = length / delivery_.names.count();
+    for (std::size_t k = 0; k < run_.sounds.size(); ++k) {
+      const SoundFile& sound = delivery_.sounds[k].sound;
+      if (std::abs(sound.seconds() - length) > frame)
+        throw InputError(fmt::format(
+            "{}: the sound lasts {:.3f} s and the {} frames last {:.3f} s; they may differ by one "
+            "frame",
+            run_.sounds[k].string(), sound.seconds(), delivery_.names.count(), length));
+      const SoundFile& first = delivery_.sounds.front().sound;
+      if (sound.rate != first.rate || sound.bits != first.bits)
+        throw InputError(fmt::format("{}: the sound has {} Hz and {} bits, and {} has {} and {}",
+                                     run_.sounds[k].string(), sound.rate, sound.bits,
+                                     run_.sounds.front().string(), first.rate, first.bits));
+    }
+    for (std::size_t k = 0; k < run_.subtitles.size(); ++k)
+      if (const double end = delivery_.subtitles[k].subtitles.end_s; end > length + frame)
+        throw InputError(
+            fmt::format("{}: the last subtitle ends at {:.3f} s, and the {} frames at {:.3f} s",
+                        run_.subtitles[k].string(), end, delivery_.names.count(), length));
+  }
+
+  // Throws InputError if the folder holds what this delivery would not overwrite, or should not.
+  void check_folder() const {
+    const auto there = files_below(run_.out);
+    if (there.empty()) return;
+    const auto has = [&](const char* name) {
+      return std::binary_search(there.begin(), there.end(), name);
+    };
+    if (!has(kUnfinished) && !(has(kMetadata) && has(kChecksums)))
+      throw InputError(run_.out.string() +
+                       ": the folder is not empty and holds no delivery; another --out is needed");
+    std::vector<std::string> others;
+    for (const std::string& file : there)
+      if (!files_.contains(file) && file != kUnfinished && file != kChecksums)
+        others.push_back(file);
+    if (!others.empty())
+      throw InputError(fmt::format(
+          "{}: {} file{} there not of this delivery, such as {}; remove the folder, or name "
+          "another "
+          "--out",
+          run_.out.string(), others.size(), others.size() > 1 ? "s are" : " is", others.front()));
+  }
+
+  void begin() const {
+    make_delivery_folder(run_.out);
+    write_atomically(
+        run_.out / kUnfinished,
+        "This delivery is not finished.  The same `domefall deliver` goes on with it.\n");
+    std::error_code error;
+    fs::remove(run_.out / kChecksums, error);
+    if (error) throw_file_error(run_.out / kChecksums, error.value());
+    flush_folder(run_.out);
+    for (const fs::path& folder : folders())
+      if (!folder.empty()) make_delivery_folder(run_.out / folder);
+  }
+
+  std::set<fs::path> folders() const {
+    std::set<fs::path> all;
+    for (const std::string& file : files_) all.insert(fs::path(file).parent_path());
+    return all;
+  }
+
+  void place_frames() const {
+    const bool same = source_.format() == target_.format();
+    in_parallel(delivery_.names.count(), frames_at_once(run_.show, run_.threads), [&](int frame) {
+      const fs::path to = run_.out / delivery_.names.path(frame);
+      const WantedFrame wanted = target_.wanted(frame);
+      if (examine_frame(to, wanted) == FrameCondition::kGood) return;
+      if (same)
+        link_or_copy_file(source_.file(frame), to);
+      else
+        write_graded(to, source_.read(frame), target_.info(frame), target_.format());
+      // It may have been changed since it was checked.
+      if (examine_frame(to, wanted) != FrameCondition::kGood)
+        throw TemporaryError(source_.file(frame).string() +
+                             ": the file was changed meanwhile; run again");
+    });
+  }
+
+  // A picture that is no frame of the show, in the format of the frames.  One that is there and
+  // good is left.
+  template <class Draw>
+  void write_drawn(const std::string& path, const char* kind, int number, const Draw& draw) const {
+    GradedInfo info = picture_info();
+    info.frame = number;
+    Digest digest;
+    digest.add(kSoftware).add(kind).add(number).add(run_.show.frames_per_second);
+    digest.add(format_id(target_.format())).add(info.display).add(info.view);
+    for (const std::string& line : show_lines(delivery_)) digest.add(line);
+    info.key = digest.hex();
+    const WantedFrame wanted{info.key, info.title, info.projection, columns(run_.show.projection),
+                             rows(run_.show.projection)};
+    if (examine_frame(run_.out / path, wanted) != FrameCondition::kGood)
+      write_graded(run_.out / path, draw(), info, target_.format());
+  }
+
+  GradedInfo picture_info() const {
+    GradedInfo info = target_.info(0);
+    info.key.clear();
+    return info;
+  }
+
+  void draw_pictures() const {
+    const ShowLines lines = show_lines(delivery_);
+    const int at_once = frames_at_once(run_.show, run_.threads);
+    write_drawn(delivery_.alignment, "alignment", 0,
+                [&] { return alignment_frame(run_.show.projection, lines); });
+    in_parallel(delivery_.leader_frames, at_once, [&](int k) {
+      write_drawn(leader_path(k), "leader", k, [&] {
+        return leader_frame(run_.show.projection, lines, run_.show.frames_per_second, k);
+      });
+    });
+    const std::vector<int> shown = frames_of_sheet(delivery_.names.count());
+    std::vector<std::string> labels;
+    labels.reserve(shown.size());
+    for (const int frame : shown) labels.push_back(std::to_string(frame + 1));
+    write_graded(run_.out / kContactSheet,
+                 sheet_of_frames(source_, run_.show, shown, labels, at_once), picture_info(),
+                 {GradedKind::kPng8});
+    constexpr int kPreviewRows = 1080;
+    const int middle = delivery_.names.count() / 2;
+    write_graded(run_.out / kPreview,
+                 reduced_picture(source_.read(middle), columns(run_.show.projection), kPreviewRows),
+                 picture_info(), {GradedKind::kPng8});
+  }
+
+  void write_texts() const {
+    write_atomically(run_.out / kReadme, readme_text(delivery_));
+    write_atomically(run_.out / kMetadata, metadata_text(delivery_));
+    const fs::path script = run_.out / kVerifyScript;
+    write_atomically(script, verify_script(files_.size()));
+    std::error_code ignored;  // some file systems know no such right, and `sh verify.sh` needs none
+    fs::permissions(script, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                    fs::perm_options::add, ignored);
+  }
+
+  void finish() const {
+    std::vector<ListedFile> listed;
+    for (const std::string& file : files_) listed.push_back({"", file});
+    in_parallel(static_cast<int>(listed.size()), run_.threads, [&](int k) {
+      ListedFile& file = listed[static_cast<std::size_t>(k)];
+      file.sha256 = sha256_of_file(run_.out / file.path);
+    });
+    for (const fs::path& folder : folders()) flush_folder(run_.out / folder);
+    write_atomically(run_.out / kChecksums, checksum_list(listed));
+    std::error_code error;
+    fs::remove(run_.out / kUnfinished, error);
+    if (error) throw_file_error(run_.out / kUnfinished, error.value());
+    flush_folder(run_.out);
+    std::fprintf(stderr, "%d frames and %zu other files delivered: %s\n", delivery_.names.count(),
+                 listed.size() - static_cast<std::size_t>(delivery_.names.count()),
+                 run_.out.c_str());
+  }
+
+  const DeliveryRun& run_;
+  Show target_show_;  // whose format is that of the delivered frames
+  GradedFrames source_, target_;
+  Delivery delivery_;
+  std::set<std::string> files_;  // all but the list of checksums
+};
+
+}  // namespace
+
+void run_delivery(const DeliveryRun& run) {
+  Deliverer deliverer(run);
+  deliverer.check();
+  deliverer.make();
+}
+
+}  // namespace domefall

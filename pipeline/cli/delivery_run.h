@@ -1,0 +1,30 @@
+// Makes the folder that festivals and dome operators ask for, out of finished frames.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+struct DeliveryRun {
+  const Show& show;            // as large as its frames are
+  std::filesystem::path from;  // holds graded/NAME_00000.png
+  std::filesystem::path out;
+  std::optional<int> bits;  // of a colour; nothing leaves the frames as they are
+  std::string name;         // a NamePattern; empty for the show's own name
+  std::vector<std::filesystem::path> sounds, subtitles;
+  bool leader = false;
+  int threads = 1;
+};
+
+// Checks every frame and file before it writes any.  The list of checksums comes last, and until it
+// is there INCOMPLETE.txt is; another run goes on with what is good.  Throws InputError for frames,
+// sounds and subtitles that do not fit, and for a folder that holds anything else; TemporaryError
+// as GradedFrames::check() and where the disk fails.
+void run_delivery(const DeliveryRun& run);
+
+}  // namespace domefall

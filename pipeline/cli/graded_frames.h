@@ -1,0 +1,50 @@
+// The graded frames of a show that are made already.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/cli/frame_folder.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/graded_file.h"
+#include "pipeline/render/frame_key.h"
+
+namespace domefall {
+
+class GradedFrames {
+ public:
+  // The show, as large as its frames are, must outlive this.  Throws InputError if the show keeps
+  // no graded frames, and as Grader and FrameKeys.
+  GradedFrames(const Show& show, const std::filesystem::path& folder);
+
+  std::filesystem::path file(int frame) const { return folder_.graded(frame); }
+  const GradedFormat& format() const { return *show_.output.graded; }
+  const Grader& grader() const { return grader_; }
+  const std::string& show_digest() const { return keys_.show(); }
+
+  // The file as it is to be.
+  WantedFrame wanted(int frame) const;
+  GradedInfo info(int frame) const;
+
+  // Holds each file against its key and its digest.  Throws, naming the frames in ranges,
+  // InputError if some are good ones of another size, show or kind, else TemporaryError if some are
+  // missing, damaged or of another version of the show.
+  void check(const std::vector<int>& frames, int threads) const;
+
+  // The pixels.  Throws TemporaryError if the file is not good any more.
+  GradedFrame read(int frame) const;
+
+ private:
+  std::string key(int frame) const;
+
+  const Show& show_;
+  FrameFolder folder_;
+  Grader grader_;
+  FrameKeys keys_;
+};
+
+// How many frames of a show can be worked on at once within a gibibyte, at most `threads`.
+int frames_at_once(const Show& show, int threads);
+
+}  // namespace domefall

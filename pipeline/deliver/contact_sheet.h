@@ -1,0 +1,30 @@
+// Small copies of frames, and many of them on one picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/image/frame_buffer.h"
+
+namespace domefall {
+
+// A copy of at most `columns` by `rows` pixels with the sides' ratio kept, each the mean of the
+// codes of those that it covers; the picture itself where it is no larger.
+GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows);
+
+// The largest pictures on a sheet are so wide and high.
+inline constexpr int kSheetPicture = 256;
+
+// At most 36 frames, evenly spread over so many.
+std::vector<int> frames_of_sheet(int count);
+
+struct SheetPicture {
+  GradedFrame picture;  // as reduced_picture() makes it, all of one size
+  std::string label;
+};
+
+// Six in a row, with the title above and a label below each.  There is at least one.  Throws as
+// Canvas.
+GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPicture>& pictures);
+
+}  // namespace domefall

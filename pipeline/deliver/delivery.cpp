@@ -1,0 +1,145 @@
+#include "pipeline/deliver/delivery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "trajectories/short_number.h"
+
+namespace domefall {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rate_of(const ExactRate& rate) {
+  return static_cast<double>(rate.numerator) / static_cast<double>(rate.denominator);
+}
+
+const char* kind_of(const GradedFormat& format) {
+  switch (format.kind) {
+    case GradedKind::kPng16:
+    case GradedKind::kPng8:
+      return "PNG";
+    case GradedKind::kTiff16:
+    case GradedKind::kTiff8:
+      return "TIFF";
+    case GradedKind::kJpeg:
+      break;
+  }
+  return "JPEG";
+}
+
+bool is_dome(const Delivery& d) { return std::holds_alternative<Domemaster>(d.projection); }
+
+std::string transfer_of(const DisplayColour& colour) {
+  return colour.curve == DisplayColour::Curve::kSrgb
+             ? "sRGB (IEC 61966-2-1)"
+             : fmt::format("power {}", short_number(colour.gamma));
+}
+
+Json colour_json(const Delivery& d) {
+  Json colour = {{"display", d.display}, {"view", d.view}, {"transfer", nullptr}};
+  if (d.colour) {
+    colour["transfer"] = transfer_of(*d.colour);
+    constexpr std::array kNames{"red", "green", "blue", "white"};
+    for (std::size_t k = 0; k < kNames.size(); ++k)
+      colour["xy"][kNames[k]] = {d.colour->xy[2 * k], d.colour->xy[2 * k + 1]};
+  }
+  colour["range"] = "full";
+  return colour;
+}
+
+Json sounds_json(const Delivery& d) {
+  Json sounds = Json::array();
+  for (const auto& [path, sound] : d.sounds) {
+    Json entry = {{"file", path},       {"channels", sound.channels},
+                  {"channel", nullptr}, {"sample_rate", sound.rate},
+                  {"bits", sound.bits}, {"duration_s", sound.seconds()}};
+    if (sound.channels == 1 && !channel_of_name(path).empty())
+      entry["channel"] = channel_of_name(path);
+    sounds.push_back(entry);
+  }
+  return sounds;
+}
+
+}  // namespace
+
+int bits_of(const GradedFormat& format) {
+  constexpr int kFine = 16, kCoarse = 8;
+  return format.kind == GradedKind::kPng16 || format.kind == GradedKind::kTiff16 ? kFine : kCoarse;
+}
+
+double duration_s(const Delivery& delivery) {
+  return static_cast<double>(delivery.names.count()) / rate_of(delivery.rate);
+}
+
+std::string rate_text(const ExactRate& rate) {
+  if (rate.denominator == 1) return std::to_string(rate.numerator);
+  return fmt::format("{:.6g} ({}/{})", rate_of(rate), rate.numerator, rate.denominator);
+}
+
+std::string channel_of_name(const std::string& path) {
+  constexpr std::array kChannels{"L",   "R",   "C",   "LFE", "Ls", "Rs", "Lss",
+                                 "Rss", "Lrs", "Rrs", "Lb",  "Rb", "Cs", "T"};
+  const std::string stem = std::filesystem::path(path).stem().string();
+  const auto mark = stem.find_last_of("_.- ");
+  const std::string end = mark == std::string::npos ? stem : stem.substr(mark + 1);
+  return std::find(kChannels.begin(), kChannels.end(), end) != kChannels.end() ? end
+                                                                               : std::string();
+}
+
+ShowLines show_lines(const Delivery& d) {
+  return {d.title,
+          fmt::format("{} x {}, {}", columns(d.projection), rows(d.projection),
+                      projection_name(d.projection)),
+          fmt::format("{} frames a second", rate_text(d.rate)),
+          fmt::format("{} frames, {:.3f} s", d.names.count(), duration_s(d)),
+          fmt::format("{}, {} bits a colour, {}", kind_of(d.format), bits_of(d.format), d.display)};
+}
+
+std::string metadata_text(const Delivery& d) {
+  Json subtitles = Json::array();
+  for (const auto& [path, text] : d.subtitles)
+    subtitles.push_back({{"file", path}, {"count", text.count}, {"end_s", text.end_s}});
+  Json leader;
+  if (d.leader_frames > 0)
+    leader = {{"folder", "leader"},
+              {"frames", d.leader_frames},
+              {"slate_s", kSlateSeconds},
+              {"countdown_s", kCountdownSeconds}};
+  Json all = {
+      {"title", d.title},
+      {"frames", d.names.count()},
+      {"frame_rate", {{"numerator", d.rate.numerator}, {"denominator", d.rate.denominator}}},
+      {"duration_s", duration_s(d)},
+      {"width", columns(d.projection)},
+      {"height", rows(d.projection)},
+      {"projection", projection_name(d.projection)},
+      {"front", is_dome(d) ? Json("bottom") : Json()},
+      {"dimensions", "2D"},
+      {"image",
+       {{"kind", kind_of(d.format)},
+        {"bits_per_colour", bits_of(d.format)},
+        {"channels", "RGB"},
+        {"alpha", false}}},
+      {"names",
+       {{"pattern", pattern_text(d.names.pattern())},
+        {"extension", d.names.extension()},
+        {"first", 1},
+        {"last", d.names.count()},
+        {"most_in_folder", kMostDeliveredInFolder}}},
+      {"colour", colour_json(d)},
+      {"audio", sounds_json(d)},
+      {"subtitles", subtitles},
+      {"leader", leader},
+      {"alignment", d.alignment},
+      {"show", {{"file", d.show_file}, {"sha256", d.show_sha256}, {"digest", d.show_digest}}},
+      {"software", d.software}};
+  if (d.format.kind == GradedKind::kJpeg) all["image"]["quality"] = d.format.quality;
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace domefall

@@ -1,0 +1,68 @@
+// What a delivery says of itself: to people in README.txt, to programs in metadata.json.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/deliver/frame_names.h"
+#include "pipeline/deliver/sound_file.h"
+#include "pipeline/deliver/subtitle_file.h"
+#include "pipeline/deliver/test_pictures.h"
+#include "pipeline/image/encode/display_colour.h"
+#include "pipeline/image/exact_rate.h"
+#include "pipeline/image/graded_format.h"
+#include "projections/projection.h"
+
+namespace domefall {
+
+// The files of a delivery that do not depend on the show.
+inline constexpr const char *kReadme = "README.txt", *kMetadata = "metadata.json",
+                            *kChecksums = "checksums.sha256", *kVerifyScript = "verify.sh",
+                            *kContactSheet = "contact_sheet.png", *kPreview = "preview.png",
+                            *kUnfinished = "INCOMPLETE.txt";
+
+struct DeliveredSound {
+  std::string path;  // below the delivery
+  SoundFile sound;
+};
+struct DeliveredSubtitles {
+  std::string path;
+  SubtitleFile subtitles;
+};
+
+struct Delivery {
+  std::string title;
+  std::string show_file, show_sha256, show_digest;  // its name, and digests of it and of the show
+  std::string software;
+  ExactRate rate;
+  Projection projection;
+  GradedFormat format;
+  std::string display, view;            // of the OpenColorIO configuration
+  std::optional<DisplayColour> colour;  // where it is known
+  DeliveredNames names;
+  std::vector<DeliveredSound> sounds;
+  std::vector<DeliveredSubtitles> subtitles;
+  int leader_frames = 0;
+  std::string alignment;  // the path of the alignment frame
+};
+
+int bits_of(const GradedFormat& format);
+double duration_s(const Delivery& delivery);
+
+// "30", or "29.97 (30000/1001)".
+std::string rate_text(const ExactRate& rate);
+
+// L, R, C, LFE, Ls, Rs ... if the name of a sound's file ends in one of these; else empty.
+std::string channel_of_name(const std::string& path);
+
+// A few lines for slate and alignment frame, the title first.
+ShowLines show_lines(const Delivery& delivery);
+
+std::string readme_text(const Delivery& delivery);
+std::string metadata_text(const Delivery& delivery);
+
+// A script for any POSIX shell with sha256sum or shasum.  `files` is how many are on the list.
+std::string verify_script(std::size_t files);
+
+}  // namespace domefall

@@ -1,0 +1,22 @@
+// Subtitles in SubRip's format (.srt).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace domefall {
+
+struct SubtitleFile {
+  int count = 0;
+  double end_s = 0;  // when the last one goes
+};
+
+// Reads the times of a text: lines of "00:00:01,000 --> 00:00:04,000".  Throws InputError, with the
+// number of the line, if there is none, if one of them is wrong, or ends before it begins.
+SubtitleFile parse_subtitles(std::string_view text);
+
+// The same of a file, whose name stands before the message.  Throws as RegularFile too.
+SubtitleFile read_subtitle_file(const std::filesystem::path& path);
+
+}  // namespace domefall
