@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 #include <numeric>
 #include <set>
 
+#include "pipeline/cli/delivery_plan.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_sheet.h"
 #include "pipeline/cli/graded_frames.h"
+#include "pipeline/cli/progress.h"
 #include "pipeline/deliver/checksum_list.h"
 #include "pipeline/deliver/contact_sheet.h"
 #include "pipeline/deliver/delivery.h"
@@ -24,37 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The format of the delivered frames: the show's own, with so many bits.
-GradedFormat delivered_format(const Show& show, std::optional<int> bits) {
-  constexpr int kEight = 8;
-  GradedFormat format = show.output.graded.value_or(GradedFormat{});
-  if (!bits || *bits == bits_of(format)) return format;
-  if (*bits != kEight)
-    throw InputError(fmt::format(
-        "--depth {}: the frames have 8 bits; `output: {{graded: png16}}` and `domefall grade` make "
-        "them of 16",
-        *bits));
-  format.kind = format.kind == GradedKind::kTiff16 ? GradedKind::kTiff8 : GradedKind::kPng8;
-  return format;
-}
-
 Show with_format(Show show, const GradedFormat& format) {
   if (show.output.graded) show.output.graded = format;
   return show;
-}
-
-// A name as it stands in lists and scripts.
-std::string plain_file_name(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
-    constexpr char kFirstPlain = ' ', kDelete = 0x7f;
-    return c == '\\' || (c >= 0 && c < kFirstPlain) || c == kDelete;
-  });
-  if (name.empty() || name.starts_with('.') || !plain)
-    throw InputError(file.string() +
-                     ": a delivered file may have no backslash or control character in its name, "
-                     "nor a dot before it");
-  return name;
 }
 
 class Deliverer {
@@ -64,12 +39,10 @@ class Deliverer {
         target_show_(with_format(run.show, delivered_format(run.show, run.bits))),
         source_(run.show, run.from),
         target_(target_show_, run.from),
-        delivery_(described()) {
-    plan_files();
-  }
+        delivery_(describe_delivery(run, source_, target_.format())),
+        files_(delivered_files(delivery_)) {}
 
   void check() const {
-    check_lengths();
     check_folder();
     std::vector<int> frames(static_cast<std::size_t>(frame_count(run_.show)));
     std::iota(frames.begin(), frames.end(), 0);
@@ -89,85 +62,11 @@ class Deliverer {
   }
 
  private:
-  DeliveredNames names() const {
-    const int count = frame_count(run_.show);
-    const NamePattern pattern = run_.name.empty()
-                                    ? default_name_pattern(run_.show.file.stem().string(), count)
-                                    : parse_name_pattern(run_.name);
-    return {pattern, count, extension_of(target_.format().kind)};
-  }
-
-  Delivery described() const {
-    Delivery d{.title = run_.show.title,
-               .show_file = run_.show.file.filename().string(),
-               .show_sha256 = sha256_of_file(run_.show.file),
-               .show_digest = source_.show_digest(),
-               .software = kSoftware,
-               .rate = exact_rate(run_.show.frames_per_second),
-               .projection = run_.show.projection,
-               .format = target_.format(),
-               .display = source_.grader().display(),
-               .view = source_.grader().view(),
-               .colour = source_.grader().colour(),
-               .names = names(),
-               .sounds = {},
-               .subtitles = {},
-               .leader_frames = run_.leader ? leader_frames(run_.show.frames_per_second) : 0,
-               .alignment = std::string("alignment.") + extension_of(target_.format().kind)};
-    for (const fs::path& file : run_.sounds)
-      d.sounds.push_back({"audio/" + plain_file_name(file), read_sound_file(file)});
-    for (const fs::path& file : run_.subtitles)
-      d.subtitles.push_back({"subtitles/" + plain_file_name(file), read_subtitle_file(file)});
-    return d;
-  }
-
-  std::string leader_path(int k) const {
-    NamePattern pattern = delivery_.names.pattern();
-    pattern.before += "leader_";
-    return "leader/" + name_of_number(pattern, k + 1) + "." + delivery_.names.extension();
-  }
-
-  void plan_files() {
-    for (int frame = 0; frame < delivery_.names.count(); ++frame)
-      files_.insert(delivery_.names.path(frame).string());
-    for (int k = 0; k < delivery_.leader_frames; ++k) files_.insert(leader_path(k));
-    const auto add_once = [this](const std::string& path) {
-      if (!files_.insert(path).second)
-        throw InputError(path + ": two files of the delivery would have this name");
-    };
-    for (const DeliveredSound& sound : delivery_.sounds) add_once(sound.path);
-    for (const DeliveredSubtitles& text : delivery_.subtitles) add_once(text.path);
-    for (const std::string& path :
-         {delivery_.alignment, std::string(kContactSheet), std::string(kPreview),
-          std::string(kReadme), std::string(kMetadata), std::string(kVerifyScript)})
-      add_once(path);
-  }
-
-  // A sound lasts as long as the frames, to within one; a subtitle is gone by their end.
-  void check_lengths() const {
-    const double length = duration_s(delivery_), frame = length / delivery_.names.count();
-    for (std::size_t k = 0; k < run_.sounds.size(); ++k) {
-      const SoundFile& sound = delivery_.sounds[k].sound;
-      if (std::abs(sound.seconds() - length) > frame)
-        throw InputError(fmt::format(
-            "{}: the sound lasts {:.3f} s and the {} frames last {:.3f} s; they may differ by one "
-            "frame",
-            run_.sounds[k].string(), sound.seconds(), delivery_.names.count(), length));
-      const SoundFile& first = delivery_.sounds.front().sound;
-      if (sound.rate != first.rate || sound.bits != first.bits)
-        throw InputError(fmt::format("{}: the sound has {} Hz and {} bits, and {} has {} and {}",
-                                     run_.sounds[k].string(), sound.rate, sound.bits,
-                                     run_.sounds.front().string(), first.rate, first.bits));
-    }
-    for (std::size_t k = 0; k < run_.subtitles.size(); ++k)
-      if (const double end = delivery_.subtitles[k].subtitles.end_s; end > length + frame)
-        throw InputError(
-            fmt::format("{}: the last subtitle ends at {:.3f} s, and the {} frames at {:.3f} s",
-                        run_.subtitles[k].string(), end, delivery_.names.count(), length));
-  }
-
   // Throws InputError if the folder holds what this delivery would not overwrite, or should not.
   void check_folder() const {
+    std::error_code none;
+    if (fs::exists(run_.out, none) && !fs::is_directory(run_.out, none))
+      throw InputError(run_.out.string() + ": is a file; --out names a folder");
     const auto there = files_below(run_.out);
     if (there.empty()) return;
     const auto has = [&](const char* name) {
@@ -209,10 +108,15 @@ class Deliverer {
 
   void place_frames() const {
     const bool same = source_.format() == target_.format();
+    Progress progress(static_cast<std::size_t>(delivery_.names.count()));
+    std::mutex one_at_a_time;
     in_parallel(delivery_.names.count(), frames_at_once(run_.show, run_.threads), [&](int frame) {
       const fs::path to = run_.out / delivery_.names.path(frame);
       const WantedFrame wanted = target_.wanted(frame);
-      if (examine_frame(to, wanted) == FrameCondition::kGood) return;
+      if (examine_frame(to, wanted) == FrameCondition::kGood) {
+        const std::lock_guard lock(one_at_a_time);
+        return progress.skipped();
+      }
       if (same)
         link_or_copy_file(source_.file(frame), to);
       else
@@ -221,6 +125,8 @@ class Deliverer {
       if (examine_frame(to, wanted) != FrameCondition::kGood)
         throw TemporaryError(source_.file(frame).string() +
                              ": the file was changed meanwhile; run again");
+      const std::lock_guard lock(one_at_a_time);
+      progress.made();
     });
   }
 
@@ -253,7 +159,7 @@ class Deliverer {
     write_drawn(delivery_.alignment, "alignment", 0,
                 [&] { return alignment_frame(run_.show.projection, lines); });
     in_parallel(delivery_.leader_frames, at_once, [&](int k) {
-      write_drawn(leader_path(k), "leader", k, [&] {
+      write_drawn(leader_path(delivery_, k), "leader", k, [&] {
         return leader_frame(run_.show.projection, lines, run_.show.frames_per_second, k);
       });
     });

@@ -107,9 +107,9 @@ void add_deliver(CLI::App& app) {
   auto* verb = app.add_subcommand("deliver",
                                   "Make the folder that festivals and domes ask for, or check one");
   auto o = std::make_shared<DeliverOptions>();
-  verb->add_option("show", o->show, "show file (YAML)");
+  auto* show = verb->add_option("show", o->show, "show file (YAML)");
   verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME");
-  verb->add_option("--out", o->out, "folder to make");
+  auto* out = verb->add_option("--out", o->out, "folder to make");
   verb->add_option("--size", o->size, "of the frames, where it is not the show's");
   verb->add_option("--depth", o->bits,
                    "bits a colour: 8 (24-bit pictures) or 16; default as they are")
@@ -119,7 +119,9 @@ void add_deliver(CLI::App& app) {
   verb->add_option("--subtitles", o->subtitles, "SubRip files (.srt)");
   verb->add_flag("--leader", o->leader, "slate and countdown, in a folder of their own");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
-  verb->add_option("--check", o->check, "instead: say what a delivered folder lacks");
+  verb->add_option("--check", o->check, "instead: say what a delivered folder lacks")
+      ->excludes(show)
+      ->excludes(out);
   verb->callback([o] { deliver(*o); });
 }
 

@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
 #include "pipeline/image/errors.h"
 
 namespace domefall {
+namespace {
+
+// A show may be called by its file, whose name need not be UTF-8, which Cairo asks for.
+std::string valid_utf8(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+}  // namespace
 
 Canvas::Canvas(int width, int height)
     : width_(width),
@@ -61,8 +72,9 @@ void Canvas::box(CanvasPoint corner, double width, double height) {
   cairo_fill(cairo_.get());
 }
 
-void Canvas::text(const std::string& text, CanvasPoint middle, double size, double longest,
+void Canvas::text(const std::string& line, CanvasPoint middle, double size, double longest,
                   double angle) {
+  const std::string text = valid_utf8(line);
   cairo_t* cairo = cairo_.get();
   cairo_text_extents_t extents;
   cairo_set_font_size(cairo, size);

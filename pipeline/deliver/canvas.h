@@ -33,7 +33,7 @@ class Canvas {
 
   // A line of text about its middle, turned by `angle` (radians, clockwise), in letters of `size`
   // pixels, or smaller so that it is no longer than `longest`.
-  void text(const std::string& text, CanvasPoint middle, double size, double longest,
+  void text(const std::string& line, CanvasPoint middle, double size, double longest,
             double angle = 0);
 
   // Puts a picture there.

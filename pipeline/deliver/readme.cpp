@@ -48,13 +48,23 @@ std::string colour_text(const Delivery& d) {
   return text;
 }
 
+// Which channel is which is the file's to say; this is what programs write unless told otherwise.
+std::string channels_text(int channels) {
+  constexpr int kStereo = 2, kFiveAndOne = 6, kSevenAndOne = 8;
+  const char* order = channels == kStereo        ? " (L R)"
+                      : channels == kFiveAndOne  ? " (in the order of WAV: L R C LFE Ls Rs)"
+                      : channels == kSevenAndOne ? " (in the order of WAV: L R C LFE Lb Rb Ls Rs)"
+                                                 : "";
+  return fmt::format("{} channels{}, ", channels, order);
+}
+
 std::string sound_text(const Delivery& d) {
   if (d.sounds.empty()) return "SOUND\n  none\n";
   std::string text = "SOUND\n";
   for (const auto& [path, sound] : d.sounds) {
     const std::string channel = channel_of_name(path);
     text += fmt::format("  {}\n                 {}{} Hz, {} bits, {:.3f} s\n", path,
-                        sound.channels > 1 ? fmt::format("{} channels, ", sound.channels)
+                        sound.channels > 1 ? channels_text(sound.channels)
                         : channel.empty()  ? std::string("1 channel, ")
                                            : "channel " + channel + ", ",
                         sound.rate, sound.bits, sound.seconds());

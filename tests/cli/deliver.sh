@@ -108,6 +108,7 @@ says 'frames .*: 5$'
 rm copy/frames/fall_00008.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
 says 'frames missing: 8$'
+exits 2 "$DOMEFALL" deliver fall.yaml --check copy
 exits 2 "$DOMEFALL" deliver --check nowhere
 says 'nowhere: there is no such folder'
 
@@ -162,6 +163,25 @@ exits 0 deliver --out broken # again, over a whole one
 whole broken
 exits 0 deliver --out other_way
 same_frames broken other_way
+
+# A delivery that is ended in the middle, in whatever way, does not look whole either.
+sed 's/second: 4/second: 60/; s/duration_s: 2/duration_s: 0.1/' fall.yaml >quick.yaml
+exits 0 "$DOMEFALL" render quick.yaml --out quick
+for signal in KILL TERM; do
+  "$DOMEFALL" deliver quick.yaml --from quick --out ended --leader --threads 1 2>/dev/null &
+  until [ -e ended/leader/quick_leader_00003.png ]; do sleep 0.01; done
+  kill -s "$signal" $!
+  code=0
+  wait $! || code=$?
+  [ "$code" -eq "$((128 + $(kill -l "$signal")))" ] || fail "exit code $code after SIG$signal"
+  exits 2 "$DOMEFALL" deliver --check ended
+  says 'it was not finished'
+  [ ! -e ended/verify.sh ] || fail "there is a script that has nothing to verify"
+  exits 0 "$DOMEFALL" deliver quick.yaml --from quick --out ended --leader
+  whole ended
+  [ -z "$(find ended -name '.*')" ] || fail "left behind: $(find ended -name '.*')"
+  rm -r ended
+done
 
 # A disk that is full is for later, and what is there does not look whole.
 if (ulimit -f 0) 2>/dev/null; then

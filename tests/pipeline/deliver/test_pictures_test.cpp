@@ -68,6 +68,7 @@ TEST(TestPictures, AreDrawnOnFlatAndOnTinyPicturesToo) {
   EXPECT_GT(light_of(leader_frame(flat, kLines, 30, 200), 0, 0, 200, 100), 10);
   EXPECT_NO_THROW(alignment_frame(Domemaster{16}, kLines));
   EXPECT_NO_THROW(leader_frame(Domemaster{16}, {"", ""}, 30, 0));
+  EXPECT_NO_THROW(leader_frame(Domemaster{16}, {"named by a file: \xff"}, 30, 0));
 }
 
 TEST(ContactSheet, SpreadsItsFramesOverTheShow) {

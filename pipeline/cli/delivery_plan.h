@@ -1,0 +1,29 @@
+// What a delivery will hold, which is found before anything is written.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "pipeline/cli/delivery_run.h"
+#include "pipeline/cli/graded_frames.h"
+#include "pipeline/deliver/delivery.h"
+
+namespace domefall {
+
+// The format of the delivered frames: the show's own, with so many bits.  Throws InputError for more
+// than the frames have.
+GradedFormat delivered_format(const Show& show, std::optional<int> bits);
+
+// Reads the sounds and the subtitles.  Throws InputError for names that are refused, and for sounds
+// and subtitles that do not last as long as the frames; and as GradedFrames.
+Delivery describe_delivery(const DeliveryRun& run, const GradedFrames& frames,
+                           const GradedFormat& format);
+
+// Frame k of the leader, from 0.
+std::string leader_path(const Delivery& delivery, int k);
+
+// All files but the list of checksums.  Throws InputError if two would have the same name.
+std::set<std::string> delivered_files(const Delivery& delivery);
+
+}  // namespace domefall
