@@ -65,7 +65,7 @@ fs::path chosen_out(const Options& o, const Show& show, const MoviePreset& prese
     if (error) throw_file_error(folder, error.value());
     return folder / (show.file.stem().string() + "_" + std::string(preset.name) + extension);
   }
-  const fs::path out = o.out;
+  fs::path out = o.out;
   std::error_code none;
   const bool replaces_file = !fs::exists(out, none) || fs::is_regular_file(out, none);
   if (replaces_file && out.extension() != extension)

@@ -28,7 +28,7 @@ ColourMatrix adaptation(const double (&from)[2], const double (&to)[2]) {
 }  // namespace
 
 // SMPTE RP 177: the primaries scaled so that they add up to the white.
-ColourMatrix xyz_from_rgb(const Chromaticities& space) {
+ColourMatrix xyz_from_rgb(const RgbPrimaries& space) {
   const V3d r = xyz_of(space.red), g = xyz_of(space.green), b = xyz_of(space.blue);
   const ColourMatrix primaries(r.x, g.x, b.x, r.y, g.y, b.y, r.z, g.z, b.z);
   const V3d scale = multiply(primaries.inverse(), xyz_of(space.white));

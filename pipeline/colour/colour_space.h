@@ -22,18 +22,18 @@ struct WorkingRgb {
 inline constexpr const char* kWorkingSpaceName = "ACEScg";
 
 // CIE x, y of red, green, blue and white.
-struct Chromaticities {
+struct RgbPrimaries {
   double red[2], green[2], blue[2], white[2];
 };
-inline constexpr Chromaticities kAp1{
+inline constexpr RgbPrimaries kAp1{
     {0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, {0.32168, 0.33767}};
-inline constexpr Chromaticities kRec709{
+inline constexpr RgbPrimaries kRec709{
     {0.640, 0.330}, {0.300, 0.600}, {0.150, 0.060}, {0.3127, 0.3290}};
 
 // Matrices apply to columns: out[i] = sum over j of m[i][j] in[j].
 using ColourMatrix = Imath::M33d;
 
-ColourMatrix xyz_from_rgb(const Chromaticities& space);
+ColourMatrix xyz_from_rgb(const RgbPrimaries& space);
 // D65-relative XYZ to the working space.
 const ColourMatrix& working_from_xyz();
 // Linear Rec.709 (sRGB primaries, D65) to the working space.
