@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <mutex>
 #include <stdexcept>
 
 #include "pipeline/image/image_formats.h"
@@ -23,6 +24,10 @@ SampleType sample_type(const OIIO::TypeDesc& type) {
   if (!type.is_floating_point()) return SampleType::kOtherInteger;
   return type == OIIO::TypeDesc::HALF ? SampleType::kHalf : SampleType::kFloat;
 }
+
+// When OpenImageIO 2.4 first meets an ICC profile it fills a table, which another thread that opens
+// a file meanwhile reads half-filled, and the program ends by SIGSEGV.
+std::mutex one_opens;
 
 class Reader : public ImageReader {
  public:
@@ -82,7 +87,10 @@ class LoadedFormats : public ImageFormats {
     // An error that nobody takes is printed when the program ends.
     if (!in) throw std::runtime_error(OIIO::geterror());
     OIIO::ImageSpec spec;
-    if (!in->open(file.string(), spec)) throw std::runtime_error(in->geterror());
+    {
+      const std::lock_guard lock(one_opens);
+      if (!in->open(file.string(), spec)) throw std::runtime_error(in->geterror());
+    }
     check_picture(format, spec, opened.size());
     return std::make_unique<Reader>(std::move(in));
   }
