@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 // A name as it stands in lists and scripts.
 std::string plain_file_name(const fs::path& file) {
-  const std::string name = file.filename().string();
+  std::string name = file.filename().string();
   const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
     constexpr char kFirstPlain = ' ', kDelete = 0x7f;
     return c == '\\' || (c >= 0 && c < kFirstPlain) || c == kDelete;

@@ -54,6 +54,7 @@ GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows) {
 std::vector<int> frames_of_sheet(int count) {
   const int shown = std::min(count, kMostOnSheet);
   std::vector<int> frames;
+  frames.reserve(static_cast<std::size_t>(shown));
   for (int k = 0; k < shown; ++k)
     frames.push_back(static_cast<int>((2 * std::int64_t{k} + 1) * count / (2 * shown)));
   return frames;

@@ -11,8 +11,8 @@
 #include "pipeline/deliver/folder_files.h"
 #include "pipeline/deliver/in_parallel.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/frame_condition.h"
-#include "pipeline/image/input_image.h"
+#include "pipeline/image/frame_head.h"
+#include "pipeline/image/frame_seal.h"
 #include "pipeline/image/regular_file.h"
 
 namespace domefall {
@@ -46,14 +46,19 @@ std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
   }
 }
 
-bool is_as_stated(const fs::path& file, const StatedFrames& stated) {
+enum class FrameFinding : char { kAsStated, kOther, kDamaged };
+
+FrameFinding examine_delivered(const fs::path& path, const StatedFrames& stated) {
+  const auto file = FileBytes::open(path);
   try {
-    const ImageLayout layout = InputImage(file).layout();
-    const bool deep = layout.samples == SampleType::kUint16;
-    return layout.width == stated.width && layout.height == stated.height && layout.channels == 3 &&
-           (deep || layout.samples == SampleType::kOtherInteger) && deep == (stated.bits > 8);
-  } catch (const InputError&) {  // it is no image
-    return false;
+    const auto head = file ? read_frame_head(*file) : std::nullopt;
+    if (!head || head->digest.empty() || frame_digest(*file, *head) != head->digest)
+      return FrameFinding::kDamaged;
+    const bool same =
+        head->width == stated.width && head->height == stated.height && head->bits == stated.bits;
+    return same ? FrameFinding::kAsStated : FrameFinding::kOther;
+  } catch (const DamagedFile&) {
+    return FrameFinding::kDamaged;
   }
 }
 
@@ -158,20 +163,15 @@ class DeliveryChecker {
     for (const ListedFile* file : frames)
       if (!first_with.emplace(file->sha256, number_of(file->path)).second)
         faults_.repeated_frames.push_back(number_of(file->path));
-    enum Finding : char { kAsStated, kOther, kDamaged };
-    std::vector<Finding> findings(frames.size(), kAsStated);
+    std::vector<FrameFinding> findings(frames.size());
     in_parallel(static_cast<int>(frames.size()), threads_, [&](int k) {
-      const fs::path file = folder_ / frames[static_cast<std::size_t>(k)]->path;
-      Finding& finding = findings[static_cast<std::size_t>(k)];
-      if (!is_whole(file))
-        finding = kDamaged;
-      else if (!is_as_stated(file, *stated_))
-        finding = kOther;
+      const auto at = static_cast<std::size_t>(k);
+      findings[at] = examine_delivered(folder_ / frames[at]->path, *stated_);
     });
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const int number = number_of(frames[k]->path);
-      if (findings[k] == kOther) faults_.other_frames.push_back(number);
-      if (findings[k] == kDamaged &&
+      if (findings[k] == FrameFinding::kOther) faults_.other_frames.push_back(number);
+      if (findings[k] == FrameFinding::kDamaged &&
           std::find(faults_.damaged_frames.begin(), faults_.damaged_frames.end(), number) ==
               faults_.damaged_frames.end())
         faults_.damaged_frames.push_back(number);

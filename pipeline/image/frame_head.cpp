@@ -153,6 +153,7 @@ FrameHead read_exr_head(const FileBytes& file) {
 void take_size(std::string_view data, FrameHead& head) {
   head.width = big_endian<std::uint32_t>(data);
   head.height = big_endian<std::uint32_t>(data.substr(4));
+  head.bits = static_cast<unsigned char>(data[8]);
 }
 
 // All chunks before the pixels are held against their checksums.
@@ -220,6 +221,17 @@ class TiffDirectory {
                                         : number<std::uint32_t>(value);
   }
 
+  // The first of several short numbers, which stand in the entry where there are at most two; 0 if
+  // there is none.
+  int first_short(std::uint16_t tag) const {
+    constexpr std::uint16_t kShort = 3, kMostInEntry = 2;
+    const auto found = entries_.find(tag);
+    if (found == entries_.end() || found->second.type != kShort) return 0;
+    const std::uint64_t at = found->second.at;
+    return number<std::uint16_t>(file_.at(
+        found->second.count > kMostInEntry ? number<std::uint32_t>(file_.at(at, 4)) : at, 2));
+  }
+
   // Where the text stands; nothing if there is none.  Shorter ones than ours stand elsewhere.
   std::optional<std::pair<std::uint64_t, std::uint64_t>> text(std::uint16_t tag) const {
     constexpr std::uint16_t kAscii = 2;
@@ -250,12 +262,13 @@ class TiffDirectory {
 bool holds_our_lines(const FileBytes& file) { return holds_text(file, kSoftwareLine); }
 
 FrameHead read_tiff_head(const FileBytes& file, bool big) {
-  constexpr std::uint16_t kWidth = 256, kHeight = 257, kDescription = 270;
+  constexpr std::uint16_t kWidth = 256, kHeight = 257, kBits = 258, kDescription = 270;
   FrameHead head;
   head.format = FrameFormat::kTiff;
   const TiffDirectory directory(file, big);
   head.width = directory.size(kWidth);
   head.height = directory.size(kHeight);
+  head.bits = directory.first_short(kBits);
   if (const auto text = directory.text(kDescription))
     take_description(file.at(text->first, text->second), text->first, head);
   if (!head.ours && holds_our_lines(file)) throw DamagedFile("its directory is broken");
@@ -281,6 +294,7 @@ FrameHead read_jpeg_head(const FileBytes& file) {
         code != kExtension) {
       constexpr std::size_t kSizes = 5;
       if (data.size() < kSizes) throw DamagedFile("its header has no size");
+      head.bits = static_cast<unsigned char>(data[0]);
       head.height = big_endian<std::uint16_t>(std::string_view(data).substr(1));
       head.width = big_endian<std::uint16_t>(std::string_view(data).substr(3));
     }

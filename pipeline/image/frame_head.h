@@ -16,6 +16,7 @@ enum class FrameFormat { kExr, kPng, kTiff, kJpeg };
 struct FrameHead {
   FrameFormat format{};
   std::int64_t width = 0, height = 0;  // as the file says, whatever its format allows
+  int bits = 0;  // of a colour; 0 for an EXR, whose channels say theirs one by one
 
   // Whether any field is Domefall's.  The texts of those that are missing are empty.
   bool ours = false;

@@ -49,7 +49,7 @@ for words in 'A short fall' '4 frames a second' '64 x 64 pixels, 16 bits' 'BOTTO
   'power of 2.2' 'channel L, 48000 Hz' 'fall_00001.png to fall_00008.png'; do
   grep -qF "$words" as_made/README.txt || fail "README.txt does not say '$words'"
 done
-for picture in as_made/*.png as_made/leader/*.png; do exits 0 pngcheck -q "$picture"; done
+exits 0 pngcheck -q as_made/*.png as_made/leader/*.png
 exits 0 identify -format '%wx%h %z' as_made/leader/fall_leader_00032.png
 [ "$(cat stdout)" = "64x64 16" ] || fail "the leader is not as the frames are: $(cat stdout)"
 
@@ -64,6 +64,18 @@ exits 0 identify -format '%z %[channels]' in_24_bits/frames/my_show_000001_v2.pn
 [ "$(cat stdout)" = "8 srgb" ] || fail "not 24 bits: $(cat stdout)"
 exits 2 "$DOMEFALL" deliver eight/fall.yaml --from eight --out deeper --depth 16
 says 'frames have 8 bits'
+
+# TIFF and JPEG go the same way.
+for kind in tiff16:tif:8 tiff8:tif:8 jpeg:jpg:8; do
+  IFS=: read -r name extension bits <<<"$kind"
+  mkdir "$name" && sed "s/linear: none/&, graded: $name/" fall.yaml >"$name/fall.yaml"
+  exits 0 "$DOMEFALL" render "$name/fall.yaml" --out "$name"
+  exits 0 "$DOMEFALL" deliver "$name/fall.yaml" --from "$name" --out "$name/delivered" --depth "$bits"
+  whole "$name/delivered"
+  exits 0 identify -format '%z' "$name/delivered/frames/fall_00008.$extension"
+  [ "$(cat stdout)" = 8 ] || fail "$name: $(cat stdout) bits"
+done
+cmp tiff16/delivered/frames/fall_00008.tif tiff8/graded/fall_00007.tif
 
 # faulty PATTERN: both ways of checking find it in the copy, which is made anew.
 faulty() {
@@ -102,9 +114,13 @@ renewed() { (cd copy && cut -c67- checksums.sha256 | while read -r f; do [ ! -f 
 cp copy/frames/fall_00004.png copy/frames/fall_00005.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
 says 'frames that are copies of others: 5$'
-convert as_made/frames/fall_00005.png -resize 32x32 copy/frames/fall_00005.png && renewed
+exits 0 "$DOMEFALL" render eight/fall.yaml --size 32 --frames 4 --out small
+cp small/graded/fall_00004.png copy/frames/fall_00005.png && renewed
+cp in_24_bits/frames/my_show_000006_v2.png copy/frames/fall_00006.png && renewed
+convert as_made/frames/fall_00007.png copy/frames/fall_00007.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
-says 'frames .*: 5$'
+says 'frames changed or damaged: 7$'
+says 'frames of another size, depth or kind than metadata.json says: 5-6$'
 rm copy/frames/fall_00008.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
 says 'frames missing: 8$'
@@ -172,7 +188,7 @@ for signal in KILL TERM; do
   until [ -e ended/leader/quick_leader_00003.png ]; do sleep 0.01; done
   kill -s "$signal" $!
   code=0
-  wait $! || code=$?
+  wait $! 2>/dev/null || code=$?
   [ "$code" -eq "$((128 + $(kill -l "$signal")))" ] || fail "exit code $code after SIG$signal"
   exits 2 "$DOMEFALL" deliver --check ended
   says 'it was not finished'
