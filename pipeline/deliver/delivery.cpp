@@ -14,10 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rate_of(const ExactRate& rate) {
-  return static_cast<double>(rate.numerator) / static_cast<double>(rate.denominator);
-}
-
 const char* kind_of(const GradedFormat& format) {
   switch (format.kind) {
     case GradedKind::kPng16:
@@ -73,12 +69,12 @@ int bits_of(const GradedFormat& format) {
 }
 
 double duration_s(const Delivery& delivery) {
-  return static_cast<double>(delivery.names.count()) / rate_of(delivery.rate);
+  return duration_of(delivery.names.count(), delivery.rate);
 }
 
-std::string rate_text(const ExactRate& rate) {
-  if (rate.denominator == 1) return std::to_string(rate.numerator);
-  return fmt::format("{:.6g} ({}/{})", rate_of(rate), rate.numerator, rate.denominator);
+std::string rate_text(const FrameRate& rate) {
+  if (rate.seconds == 1) return text_of(rate);
+  return fmt::format("{:.6g} ({})", 1 / duration_of(1, rate), text_of(rate));
 }
 
 std::string channel_of_name(const std::string& path) {
@@ -113,7 +109,7 @@ std::string metadata_text(const Delivery& d) {
   Json all = {
       {"title", d.title},
       {"frames", d.names.count()},
-      {"frame_rate", {{"numerator", d.rate.numerator}, {"denominator", d.rate.denominator}}},
+      {"frame_rate", {{"numerator", d.rate.frames}, {"denominator", d.rate.seconds}}},
       {"duration_s", duration_s(d)},
       {"width", columns(d.projection)},
       {"height", rows(d.projection)},

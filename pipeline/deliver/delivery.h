@@ -10,7 +10,7 @@
 #include "pipeline/deliver/subtitle_file.h"
 #include "pipeline/deliver/test_pictures.h"
 #include "pipeline/image/encode/display_colour.h"
-#include "pipeline/image/exact_rate.h"
+#include "pipeline/image/frame_rate.h"
 #include "pipeline/image/graded_format.h"
 #include "projections/projection.h"
 
@@ -35,7 +35,7 @@ struct Delivery {
   std::string title;
   std::string show_file, show_sha256, show_digest;  // its name, and digests of it and of the show
   std::string software;
-  ExactRate rate;
+  FrameRate rate;
   Projection projection;
   GradedFormat format;
   std::string display, view;            // of the OpenColorIO configuration
@@ -51,7 +51,7 @@ int bits_of(const GradedFormat& format);
 double duration_s(const Delivery& delivery);
 
 // "30", or "29.97 (30000/1001)".
-std::string rate_text(const ExactRate& rate);
+std::string rate_text(const FrameRate& rate);
 
 // L, R, C, LFE, Ls, Rs ... if the name of a sound's file ends in one of these; else empty.
 std::string channel_of_name(const std::string& path);

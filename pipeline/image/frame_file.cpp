@@ -17,9 +17,9 @@
 #include "pipeline/image/encode/exr_writer.h"
 #include "pipeline/image/encode/side_by_side.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/exact_rate.h"
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_head.h"
+#include "pipeline/image/frame_rate.h"
 #include "pipeline/image/frame_seal.h"
 #include "pipeline/image/new_file.h"
 
@@ -72,8 +72,9 @@ std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& inf
       {kExrDigest, std::string(kBlankDigest)},
   };
   if (info.frames_per_second > 0) {
-    const ExactRate rate = exact_rate(info.frames_per_second);
-    all.emplace_back("framesPerSecond", ExrRational{rate.numerator, rate.denominator});
+    const FrameRate rate = frame_rate_of(info.frames_per_second);
+    all.emplace_back("framesPerSecond", ExrRational{static_cast<int>(rate.frames),
+                                                    static_cast<unsigned>(rate.seconds)});
   }
   if (const auto code = time_code(info)) all.emplace_back("timeCode", *code);
   return all;

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/image/frame_rate.h"
 #include "pipeline/movie/colour_tags.h"
-#include "pipeline/movie/frame_rate.h"
 
 namespace domefall {
 

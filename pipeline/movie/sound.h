@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/movie/frame_rate.h"
+#include "pipeline/image/frame_rate.h"
 
 namespace domefall {
 

@@ -57,7 +57,7 @@ TEST(MoviePreset, HapIsRgbOfFullRange) {
   EXPECT_EQ(value_of(options, "-chunks"), "4");
 }
 
-TEST(MoviePreset, TheFramesAreReadAtTheExactRate) {
+TEST(MoviePreset, TheFramesAreReadAtTheFrameRate) {
   const auto options = input_options({64, 32}, kRate);
   EXPECT_EQ(value_of(options, "-framerate"), "24000/1001");
   EXPECT_EQ(value_of(options, "-video_size"), "64x32");

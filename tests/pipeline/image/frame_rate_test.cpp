@@ -1,4 +1,4 @@
-#include "pipeline/movie/frame_rate.h"
+#include "pipeline/image/frame_rate.h"
 
 #include <gtest/gtest.h>
 
