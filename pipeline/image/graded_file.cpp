@@ -9,10 +9,8 @@
 #include "pipeline/image/encode/png_writer.h"
 #include "pipeline/image/encode/tiff_writer.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_head.h"
 #include "pipeline/image/frame_seal.h"
-#include "pipeline/image/input_image.h"
 #include "pipeline/image/new_file.h"
 
 namespace domefall {
@@ -67,17 +65,6 @@ void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
     std::copy(frame.row(first), frame.row(end), rgb);
   };
   write_graded(path, {frame.width, frame.height, rows}, info, format);
-}
-
-GradedFrame read_graded(const std::filesystem::path& path) {
-  if (!is_whole(path))
-    throw InputError(path.string() + ": not a graded frame that can be used: missing or damaged");
-  const InputImage in(path);
-  if (in.layout().channels != 3 || is_floating_point(in.layout().samples))
-    throw InputError(path.string() + ": not a graded frame, but a scene-linear one");
-  GradedFrame frame(in.layout().width, in.layout().height);
-  in.read(frame.row(0));
-  return frame;
 }
 
 }  // namespace domefall

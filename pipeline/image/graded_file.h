@@ -36,9 +36,4 @@ void write_graded(const std::filesystem::path& path, const RowPicture& picture,
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info, const GradedFormat& format);
 
-// Reads back what write_graded wrote, as codes of 16 bits: those of 8 bits are multiplied by 257.
-// Nothing is decoded before the digest of the file is right.  Throws InputError naming the file if
-// it is missing, damaged or was not written by write_graded, and as FileBytes::open.
-GradedFrame read_graded(const std::filesystem::path& path);
-
 }  // namespace domefall

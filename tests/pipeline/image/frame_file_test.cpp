@@ -11,6 +11,7 @@
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_seal.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/image/read_graded.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
@@ -195,10 +196,13 @@ TEST_F(GradedFiles, HaveTheSameBytesForAnyNumberOfThreads) {
 
 TEST_F(GradedFiles, AreReadBackOnceTheirDigestIsRight) {
   const GradedFrame frame = graded_sample();
+  const GradedInfo info = graded_info();
+  const WantedFrame wanted{info.key, info.title, info.projection, frame.width, frame.height};
   for (const GradedKind kind : kEveryKind) {
     const auto path = folder_ / (std::string("g.") + extension_of(kind));
     write_graded(path, frame, graded_info(), {kind});
-    const GradedFrame read = read_graded(path);
+    GradedFrame read;
+    ASSERT_EQ(read_graded(path, wanted, read), FrameCondition::kGood);
     EXPECT_EQ(std::pair(read.width, read.height), std::pair(frame.width, frame.height));
     if (format_id({kind}).empty()) {
       EXPECT_EQ(read.pixels, frame.pixels);
@@ -208,12 +212,14 @@ TEST_F(GradedFiles, AreReadBackOnceTheirDigestIsRight) {
     std::string damaged = contents(path);
     damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
     put(path, damaged);
-    EXPECT_THAT([&] { read_graded(path); },
-                testing::ThrowsMessage<InputError>(testing::HasSubstr("missing or damaged")));
+    EXPECT_EQ(read_graded(path, wanted, read), FrameCondition::kDamaged);
   }
-  write_frame(folder_ / "f.exr", sample_frame(), sample_info());
-  EXPECT_THROW(read_graded(folder_ / "f.exr"), InputError);
-  EXPECT_THROW(read_graded(folder_ / "none.png"), InputError);
+  GradedFrame read;
+  WantedFrame other = wanted;
+  other.key = "another";
+  write_graded(folder_ / "g.png", frame, info, {GradedKind::kPng16});
+  EXPECT_NE(read_graded(folder_ / "g.png", other, read), FrameCondition::kGood);
+  EXPECT_EQ(read_graded(folder_ / "none.png", wanted, read), FrameCondition::kMissing);
 }
 
 TEST_F(GradedFiles, AreNotThereIfARowFails) {
