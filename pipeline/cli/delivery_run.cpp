@@ -40,7 +40,9 @@ class Deliverer {
         source_(run.show, run.from),
         target_(target_show_, run.from),
         delivery_(describe_delivery(run, source_, target_.format())),
-        files_(delivered_files(delivery_)) {}
+        files_(delivered_files(delivery_)) {
+    delivery_.files = files_.size();
+  }
 
   void check() const {
     check_folder();
@@ -181,7 +183,7 @@ class Deliverer {
     write_atomically(run_.out / kReadme, readme_text(delivery_));
     write_atomically(run_.out / kMetadata, metadata_text(delivery_));
     const fs::path script = run_.out / kVerifyScript;
-    write_atomically(script, verify_script(files_.size()));
+    write_atomically(script, verify_script(delivery_.files));
     std::error_code ignored;  // some file systems know no such right, and `sh verify.sh` needs none
     fs::permissions(script, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                     fs::perm_options::add, ignored);

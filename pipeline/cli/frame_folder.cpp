@@ -161,7 +161,24 @@ std::string FrameFolder::record() const {
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// Another show may call its files by the same name.
+void FrameFolder::check_namesakes() const {
+  std::error_code error;  // a folder that is not there has no records
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    if (entry.path().extension() != ".json" || entry.path() == record_path()) continue;
+    const Json theirs = read_record(entry.path());
+    if (!is_record(theirs) || theirs.value("name", "") != file_name_ || frames_there() == 0)
+      continue;
+    throw InputError(
+        fmt::format("{}: files called {}_... belong to another show, {}. Another output.name or "
+                    "--out keeps them "
+                    "apart, --replace lets this run have them",
+                    entry.path().string(), file_name_, theirs.value("show", "")));
+  }
+}
+
 void FrameFolder::check_owner() const {
+  check_namesakes();
   const Json theirs = read_record(record_path()), ours = Json::parse(record());
   if (!is_record(theirs) || text_of(theirs) == text_of(ours)) return;
   const int there = frames_there();

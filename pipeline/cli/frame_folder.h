@@ -31,8 +31,8 @@ class FrameFolder {
   // The frame with this key as the folder is to hold it.
   WantedFrame wanted(std::string key) const;
 
-  // Throws InputError if the record is of frames of another title, size or projection and some are
-  // there.  A folder without a record, or with one that cannot be understood, is nobody's.
+  // Throws InputError if the record is of frames of another title, size or projection, or another
+  // show's of files with these names, and some are there.  A folder without a record, or with one that cannot be understood, is nobody's.
   void check_owner() const;
 
   // Files beside the frames that are not this show's, sorted and below the folder: beyond its end,
@@ -48,6 +48,7 @@ class FrameFolder {
   void write_record() const;
 
  private:
+  void check_namesakes() const;
   std::filesystem::path record_path() const;
   std::string record() const;
   int frames_there() const;

@@ -55,7 +55,7 @@ void check_folder(const std::string& folder, int threads) {
   add("missing", faults.missing_frames);
   add("changed or damaged", faults.damaged_frames);
   add("that are copies of others", faults.repeated_frames);
-  add("of another size, depth or kind than metadata.json says", faults.other_frames);
+  add("of another number, show, size, depth or kind than metadata.json says", faults.other_frames);
   text += describe_files("missing", faults.missing_files);
   text += describe_files("changed", faults.changed_files);
   text += describe_files("not of this delivery", faults.extra_files);

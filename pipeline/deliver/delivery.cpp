@@ -108,6 +108,7 @@ std::string metadata_text(const Delivery& d) {
               {"countdown_s", kCountdownSeconds}};
   Json all = {
       {"title", d.title},
+      {"files", d.files},
       {"frames", d.names.count()},
       {"frame_rate", {{"numerator", d.rate.frames}, {"denominator", d.rate.seconds}}},
       {"duration_s", duration_s(d)},

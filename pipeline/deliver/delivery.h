@@ -45,6 +45,7 @@ struct Delivery {
   std::vector<DeliveredSubtitles> subtitles;
   int leader_frames = 0;
   std::string alignment;  // the path of the alignment frame
+  std::size_t files = 0;  // with a checksum, these texts included
 };
 
 int bits_of(const GradedFormat& format);

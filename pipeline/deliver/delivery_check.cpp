@@ -1,5 +1,7 @@
 #include "pipeline/deliver/delivery_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,6 +26,8 @@ namespace fs = std::filesystem;
 struct StatedFrames {
   DeliveredNames names;
   int width, height, bits;
+  std::string title;
+  std::size_t files;  // with a checksum
 };
 
 std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
@@ -37,8 +41,11 @@ std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
       return std::nullopt;
     return StatedFrames{DeliveredNames(parse_name_pattern(names.at("pattern").get<std::string>()),
                                        count, names.at("extension").get<std::string>()),
-                        json.at("width").get<int>(), json.at("height").get<int>(),
-                        json.at("image").at("bits_per_colour").get<int>()};
+                        json.at("width").get<int>(),
+                        json.at("height").get<int>(),
+                        json.at("image").at("bits_per_colour").get<int>(),
+                        json.at("title").get<std::string>(),
+                        json.at("files").get<std::size_t>()};
   } catch (const nlohmann::json::exception&) {  // something is missing, or of another type
     return std::nullopt;
   } catch (const InputError&) {  // of the names
@@ -48,14 +55,16 @@ std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
 
 enum class FrameFinding : char { kAsStated, kOther, kDamaged };
 
-FrameFinding examine_delivered(const fs::path& path, const StatedFrames& stated) {
+// `index` is the frame's number in the show, from 0.
+FrameFinding examine_delivered(const fs::path& path, int index, const StatedFrames& stated) {
   const auto file = FileBytes::open(path);
   try {
     const auto head = file ? read_frame_head(*file) : std::nullopt;
     if (!head || head->digest.empty() || frame_digest(*file, *head) != head->digest)
       return FrameFinding::kDamaged;
-    const bool same =
-        head->width == stated.width && head->height == stated.height && head->bits == stated.bits;
+    const bool same = head->width == stated.width && head->height == stated.height &&
+                      head->bits == stated.bits && head->title == one_line(stated.title) &&
+                      head->frame == std::to_string(index);
     return same ? FrameFinding::kAsStated : FrameFinding::kOther;
   } catch (const DamagedFile&) {
     return FrameFinding::kDamaged;
@@ -128,6 +137,12 @@ class DeliveryChecker {
       else if (!named.contains(path))
         faults_.whole.push_back(std::string(kChecksums) + " does not list " + path);
     }
+    // A list that was made anew leaves out what is missing.
+    if (stated_ && named.size() != stated_->files)
+      faults_.whole.push_back(fmt::format("{} lists {} files, and {} says {}", kChecksums,
+                                          named.size(), kMetadata, stated_->files));
+    for (const std::string& path : there_)
+      if (fs::is_symlink(folder_ / path)) faults_.whole.push_back(path + " is a link and no file");
     for (const char* file : {kReadme, kMetadata, kVerifyScript})
       if (!named.contains(file))
         faults_.whole.push_back(std::string(kChecksums) + " does not list " + file);
@@ -166,7 +181,8 @@ class DeliveryChecker {
     std::vector<FrameFinding> findings(frames.size());
     in_parallel(static_cast<int>(frames.size()), threads_, [&](int k) {
       const auto at = static_cast<std::size_t>(k);
-      findings[at] = examine_delivered(folder_ / frames[at]->path, *stated_);
+      findings[at] =
+          examine_delivered(folder_ / frames[at]->path, number_of(frames[at]->path) - 1, *stated_);
     });
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const int number = number_of(frames[k]->path);

@@ -35,7 +35,10 @@ NamePattern parse_name_pattern(const std::string& text) {
   }
   if (pattern.before.starts_with('.') || pattern.before.starts_with('-'))
     fail("it may not begin with '.' or '-'");
-  if (text.size() > kLongestName) fail(fmt::format("it may have {} characters", kLongestName));
+  if (pattern.after.find('.') != std::string::npos)
+    fail("behind the number no '.' may stand, since the extension is added");
+  if (text.size() > kLongestName)
+    fail(fmt::format("it may have at most {} characters", kLongestName));
   return pattern;
 }
 

@@ -96,7 +96,7 @@ std::string readme_text(const Delivery& d) {
       "                 to look at; not a part of the show\n"
       "  metadata.json  all of the above for programs\n"
       "\nIS IT WHOLE?\n"
-      "  sh verify.sh   needs no more than sha256sum. It says which files are missing, changed or\n"
+      "  sh verify.sh   needs sha256sum or shasum. It says which files are missing, changed or\n"
       "                 not of this delivery. By hand: sha256sum -c checksums.sha256\n"
       "\nMade with " +
       d.software + " from " + d.show_file + ".\n";

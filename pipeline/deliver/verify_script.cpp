@@ -25,10 +25,16 @@ else
   exit 2
 fi
 faults() {
-  listed=$(awk 'END { print NR }' checksums.sha256)
+  listed=$(awk '!(substr($0, 67) in path) { path[substr($0, 67)] = 1; n++ } END { print n + 0 }' \
+    checksums.sha256)
   [ "$listed" -eq "$files" ] || echo "checksums.sha256 lists $listed files instead of $files."
-  sums 2>/dev/null |
+  said=$(sums 2>/dev/null)
+  printf '%s\n' "$said" |
     sed -n -e 's/^\(.*\): FAILED$/changed: \1/p' -e 's/^\(.*\): FAILED open or read$/missing: \1/p'
+  # What says nothing of a file, as a line that is no sum, is as good as a fault.
+  right=$(printf '%s\n' "$said" | grep -c ': OK$')
+  [ "$right" -eq "$files" ] || echo "Of $files files $right have the sums that were listed."
+  find . -type l ! -path '*/.*' | sed 's|^\./|a link and no file: |'
   find . ! -type d ! -path '*/.*' | sed 's|^\./||' |
     awk 'FNR == NR { listed[substr($0, 67)] = 1; next }
          $0 != "checksums.sha256" && !($0 in listed) { print "not of this delivery: " $0 }' \

@@ -45,6 +45,7 @@ void take_description(std::string_view text, std::uint64_t at, FrameHead& head) 
   };
   take(kTitleLine, head.title);
   take(kProjectionLine, head.projection);
+  take(kFrameLine, head.frame);
   const bool key = take(kKeyLine, head.key) != std::string_view::npos;
   const auto digest = take(kDigestLine, head.digest);
   if (digest != std::string_view::npos) head.digest_at = at + digest;

@@ -21,6 +21,7 @@ struct FrameHead {
   // Whether any field is Domefall's.  The texts of those that are missing are empty.
   bool ours = false;
   std::string title, projection, key;
+  std::string frame;   // its number in the show, of a graded frame
   std::string digest;  // of the whole file (frame_seal.h); earlier versions wrote none
 
   // Where the digest's digits stand and, in a PNG, the chunk that holds them: from its name to its
@@ -45,8 +46,8 @@ std::string one_line(std::string title);
 inline constexpr const char *kExrTitle = "showTitle", *kExrProjection = "projection",
                             *kExrKey = "frameKey", *kExrDigest = "fileDigest";
 inline constexpr std::string_view kTitleLine = "show: ", kProjectionLine = "projection: ",
-                                  kKeyLine = "key: ", kDigestLine = "digest: ",
-                                  kSoftwareLine = "software: Domefall";
+                                  kFrameLine = "frame: ", kKeyLine = "key: ",
+                                  kDigestLine = "digest: ", kSoftwareLine = "software: Domefall";
 
 // The name under which a PNG holds the description, and the zero behind it.
 inline constexpr std::string_view kPngKeyword{"Description\0", 12};

@@ -18,10 +18,10 @@ namespace {
 
 // One line for each field.
 std::string description_of(const GradedInfo& info) {
-  return fmt::format("{}{}\nframe: {}\n{}{}\ndisplay: {}\nview: {}\nsoftware: {}\n{}{}\n{}{}\n",
-                     kTitleLine, one_line(info.title), info.frame, kProjectionLine, info.projection,
-                     one_line(info.display), one_line(info.view), info.software, kKeyLine, info.key,
-                     kDigestLine, kBlankDigest);
+  return fmt::format("{}{}\n{}{}\n{}{}\ndisplay: {}\nview: {}\nsoftware: {}\n{}{}\n{}{}\n",
+                     kTitleLine, one_line(info.title), kFrameLine, info.frame, kProjectionLine,
+                     info.projection, one_line(info.display), one_line(info.view), info.software,
+                     kKeyLine, info.key, kDigestLine, kBlankDigest);
 }
 
 void write_picture(ByteSink& sink, const RowPicture& picture, const GradedInfo& info,

@@ -147,7 +147,9 @@ void MovieFile::count_frames(const ChildOutcome& made) const {
 void MovieFile::fail(const ChildOutcome& outcome) const {
   const std::string what = fmt::format("{}: after {} of {} frames ffmpeg {}", path_.string(),
                                        added_, count_, outcome.text());
-  if (outcome.killed() || names_lack(outcome)) throw TemporaryError(what);
+  // ffmpeg catches signals, says so and ends with a code.
+  const bool ended = outcome.killed() || outcome.said.find("received signal") != std::string::npos;
+  if (ended || names_lack(outcome)) throw TemporaryError(what);
   throw std::runtime_error(what);
 }
 

@@ -120,10 +120,31 @@ cp in_24_bits/frames/my_show_000006_v2.png copy/frames/fall_00006.png && renewed
 convert as_made/frames/fall_00007.png copy/frames/fall_00007.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
 says 'frames changed or damaged: 7$'
-says 'frames of another size, depth or kind than metadata.json says: 5-6$'
+says 'frames of another number, show, size, depth or kind than metadata.json says: 5-6$'
 rm copy/frames/fall_00008.png && renewed
 exits 2 "$DOMEFALL" deliver --check copy
 says 'frames missing: 8$'
+rm -r copy && cp -r as_made copy
+(cd copy/frames && mv fall_00002.png x && mv fall_00003.png fall_00002.png && mv x fall_00003.png) && renewed
+exits 2 "$DOMEFALL" deliver --check copy
+says 'frames of another number, show, size, depth or kind than metadata.json says: 2-3$'
+rm -r copy && cp -r as_made copy
+rm -r copy/audio copy/preview.png && renewed
+exits 2 "$DOMEFALL" deliver --check copy
+says "checksums.sha256 lists [0-9]+ files, and metadata.json says $(wc -l <as_made/checksums.sha256)\$"
+rm -r copy && cp -r as_made copy
+mv copy/frames/fall_00002.png elsewhere.png && ln -s "$PWD/elsewhere.png" copy/frames/fall_00002.png
+faulty 'frames/fall_00002.png is a link'
+
+# Nor does the script believe a list that it cannot read, or a sum that nobody took.
+sed -i '3s/^./g/' copy/checksums.sha256
+exits 1 sh copy/verify.sh
+rm -r copy && cp -r as_made copy
+sed -i '3{h;d};4{G;s/\n.*//;p}' copy/checksums.sha256
+exits 1 sh copy/verify.sh
+rm -r copy && cp -r as_made copy
+mkdir no_sums && printf '#!/bin/sh\nexit 1\n' >no_sums/sha256sum && chmod +x no_sums/sha256sum
+exits 1 env PATH="$PWD/no_sums:$PATH" sh copy/verify.sh
 exits 2 "$DOMEFALL" deliver fall.yaml --check copy
 exits 2 "$DOMEFALL" deliver --check nowhere
 says 'nowhere: there is no such folder'

@@ -94,6 +94,12 @@ python3 look.py hap.mov hap - HapY rgb0 - gbr bt470m bt709 0.02 "${frames[@]}"
 python3 look.py review.mp4 h264 High avc1 yuv420p tv bt709 bt470m bt709 0.05 "${frames[@]}"
 [ "$(head -c 4096 dome.mp4 | grep -c moov)" -ge 1 ] || fail "dome.mp4 does not begin with its index"
 
+# A rate that ffmpeg takes for 120 unless it is told.
+sed 's/^frames_per_second: .*/frames_per_second: 119.88/' a.yaml >fast.yaml
+exits 0 "$DOMEFALL" movie fast.yaml --preset master --out fast.mov
+[ "$(ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 fast.mov)" = 120000/1001 ] ||
+  fail "the rate of fast.mov"
+
 # Straight from the renderer: the same movie.
 exits 0 "${movie[@]}" --preset master --out straight.mov
 cmp -s straight.mov master.mov || fail "a movie of frames that were rendered for it is another"

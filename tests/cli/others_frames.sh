@@ -118,6 +118,17 @@ exits 0 run again.yaml --frames 0 --out out
 says '^out: 51 files are not this show.s'
 if [ ! -e out/again.json ] || [ ! -e out/fall.json ]; then fail "two shows have one record"; fi
 
+# Two shows that call their files alike do not replace each other's.
+echo 'output: {name: film}' | cat fall.yaml - >first.yaml
+sed 's/to_r: 2.5/to_r: 2.6/; s/from_r: 2.5/from_r: 2.6/' first.yaml >second.yaml
+exits 0 run first.yaml --frames 0-1 --out films
+date_back films/linear
+exits 2 run second.yaml --frames 0-1 --out films
+says "^films/first.json: files called film_... belong to another show, first\. Another output.name"
+untouched films/linear
+exits 0 run first.yaml --frames 0-2 --out films
+exits 0 run second.yaml --frames 0-1 --out films --replace
+
 # Of a run over a range, the files of other frames are not looked at.
 mkfifo out/linear/fall_00030.exr
 rm out/linear/fall_00007.exr

@@ -36,8 +36,9 @@ TEST(DeliveredFrameNames, FollowAPattern) {
 }
 
 TEST(DeliveredFrameNames, RefuseWhatScriptsTakeForMore) {
-  for (const char* text : {"", "show", "a_#_#", "a/b_#####", "../a_#####", ".a_#####", "-a_#####",
-                           "a b_#####", "a$_#####", "a_###########", "\xc3\xa4_#####", "a\n#"})
+  for (const char* text :
+       {"", "show", "a_#_#", "a/b_#####", "../a_#####", ".a_#####", "-a_#####", "a b_#####",
+        "a$_#####", "a_###########", "\xc3\xa4_#####", "a\n#", "a_#####.png", "#."})
     EXPECT_THROW(parse_name_pattern(text), InputError) << text;
 }
 
