@@ -127,9 +127,10 @@ exits 2 "${movie[@]}" --preset hap --size 63
 says '^--size: the preset hap takes widths and heights that are multiples of 4'
 
 # A frame's number is written on it: the corners of the first and last differ, and from the dome preset's black.
-ffmpeg -v error -i review.mp4 -vf crop=16:16:0:0 -f rawvideo -pix_fmt gray - >corners
-[ "$(head -c 256 corners | cmp -l - <(tail -c 256 corners) 2>/dev/null | wc -l)" -gt 0 ] || fail "no numbers are burnt in"
-[ "$(head -c 256 corners | tr -d '\020\000-\017' | wc -c)" -gt 20 ] || fail "nothing is written in the corner"
+# The number stands behind "frame", whose width is the font's.
+ffmpeg -v error -i review.mp4 -vf crop=40:16:0:0 -f rawvideo -pix_fmt gray - >corners
+[ "$(head -c 640 corners | cmp -l - <(tail -c 640 corners) 2>/dev/null | wc -l)" -gt 0 ] || fail "no numbers are burnt in"
+[ "$(head -c 640 corners | tr -d '\020\000-\017' | wc -c)" -gt 20 ] || fail "nothing is written in the corner"
 
 # Sound: one file, six channels by their names in any order, and lengths.
 tone stereo.wav 0.333667 440 2
