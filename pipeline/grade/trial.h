@@ -8,7 +8,7 @@ namespace domefall {
 
 // What a trial may take: processor time, time by the clock, and memory beyond that of this process.
 struct TrialBounds {
-  int cpu_seconds = 5, seconds = 30, gibibytes = 4;
+  int cpu_seconds = 5, seconds = 60, gibibytes = 4;
 };
 
 // Calls `step` in a copy of this process, which has these bounds, writes nothing to the terminal,
