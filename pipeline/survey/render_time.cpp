@@ -16,14 +16,20 @@ namespace domefall {
 namespace {
 
 // The width in pixels of the largest of the three sizes.  The others have a half and a quarter of
-// it.
+// it.  Where a frame of the smallest takes longer than kLong seconds, all are smaller.
 constexpr int kLarge = 1024, kSmallest = 16;
+constexpr double kLong = 0.1;
 constexpr int kFrames = 3;  // measured at each size
 constexpr double kWorth = 0.05;
 
-std::array<int, 3> measured_widths(const Show& show) {
-  const int large = std::min(columns(show.projection), kLarge);
+using Widths = std::array<int, 3>;
+
+Widths widths_below(int large) {
   return {std::max(kSmallest, large / 4), std::max(kSmallest, large / 2), large};
+}
+
+Widths measured_widths(const Show& show) {
+  return widths_below(std::min(columns(show.projection), kLarge));
 }
 
 // Seconds a frame takes by the clock, and of all processors together.  Other programs hardly change
@@ -114,9 +120,13 @@ bool is_worth_measuring(const Show& show) {
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader) {
   set_file_threads(renderer.threads());
   const Run run(show, renderer, grader);
-  const auto widths = measured_widths(show);
-  const Cost quarter = run.per_frame(widths[0]), half = run.per_frame(widths[1]),
-             whole = run.per_frame(widths[2]);
+  Widths widths = measured_widths(show);
+  Cost quarter = run.per_frame(widths[0]);
+  while (quarter.processor > kLong && widths[0] / 2 >= kSmallest) {
+    widths = widths_below(widths[1]);
+    quarter = run.per_frame(widths[0]);
+  }
+  const Cost half = run.per_frame(widths[1]), whole = run.per_frame(widths[2]);
   // A part of the work is proportional to the pixels, another to the length of edges, and another
   // to the stars.
   const double step = std::max(0.0, whole.processor - half.processor);
