@@ -31,10 +31,8 @@ class Surveyor {
 
 // 1,260
 std::string grouped(int number) {
-  std::string digits = std::to_string(number);
-  for (auto k = static_cast<int>(digits.size()) - 3; k > 0; k -= 3)
-    digits.insert(static_cast<std::size_t>(k), ",");
-  return digits;
+  return number < 1000 ? fmt::format("{}", number)
+                       : fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
 }
 
 std::string joined(const std::vector<std::string>& items) {
