@@ -43,20 +43,84 @@ void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) 
           fmt::format("pixel ({}, {}) is not a finite number", k / 3 + 1, row + 1));
 }
 
-// Takes the light of stars off the pixels of a row that see no sky, and a part of it off those on a
-// border.  `background` is the row without stars.
-void end_stars_at(const SkyBorders& borders, const Projection& projection, const PixelBox& box,
-                  int row, const float* background, float* rgb) {
-  for (int column = box.first_column; column <= box.last_column; ++column) {
-    const float* before = background + 3 * column;
-    float* now = rgb + 3 * column;
-    if (now[0] == before[0] && now[1] == before[1] && now[2] == before[2]) continue;
-    const PixelPosition pixel{column + 1.0, row + 1.0};
-    const auto part = static_cast<float>(
-        borders.part_in_skies(direction_at(projection, pixel), pixel_angle(projection, pixel)));
-    for (int c = 0; c < 3; ++c) now[c] = before[c] + part * (now[c] - before[c]);
+// Ends the stars of a band at the borders of the skies.  Nearly all of a band sees a sky as a whole
+// and costs nothing: only blocks of columns that see none, or a border, are looked at.
+class StarsEnd {
+ public:
+  // Looks which blocks of the band's columns within the box do not see a sky as a whole, and keeps
+  // their pixels as they are without stars.
+  StarsEnd(const SkyBorders& borders, const Projection& projection, const PixelBox& box, int first,
+           int end, const float* rgb, std::vector<float>& kept)
+      : borders_(borders), projection_(projection), first_(first), end_(end), kept_(kept) {
+    const int blocks = (box.last_column - box.first_column) / kColumns + 1;
+    std::vector<CameraDirection> middles(static_cast<std::size_t>(blocks));
+    const double half_rows = (end - first) / 2.0;
+    directions_along(projection,
+                     {box.first_column + 1 + (kColumns - 1) / 2.0, first + 0.5 + half_rows},
+                     kColumns, blocks, middles.data());
+    // No pixel is wider than the central one.
+    const double reach = central_pixel_angle(projection) * std::hypot(kColumns / 2.0, half_rows);
+    kept_.clear();
+    for (int k = 0; k < blocks; ++k) {
+      const SkyBorders::Sight sight =
+          borders.sight_around(middles[static_cast<std::size_t>(k)], reach);
+      if (sight == SkyBorders::Sight::kSky) continue;
+      const int column = box.first_column + k * kColumns;
+      blocks_.push_back({column, std::min(box.last_column, column + kColumns - 1), sight});
+      each_row(blocks_.back(), [&](int, std::size_t at, std::size_t count) {
+        kept_.insert(kept_.end(), rgb + at, rgb + at + count);
+      });
+    }
   }
-}
+
+  // Takes the light of stars off the pixels that see no sky, and a part of it off those on a
+  // border.
+  void end_stars(float* rgb) const {
+    const float* before = kept_.data();
+    for (const Block& block : blocks_)
+      each_row(block, [&](int row, std::size_t at, std::size_t count) {
+        if (block.sight == SkyBorders::Sight::kNoSky)
+          std::copy_n(before, count, rgb + at);
+        else
+          end_on_border(block, row, before, rgb + at);
+        before += count;
+      });
+  }
+
+ private:
+  static constexpr int kColumns = 16;
+  struct Block {
+    int first, last;  // columns
+    SkyBorders::Sight sight;
+  };
+
+  // Calls what(row, where its floats of the block begin in a band, their number) for each row.
+  template <class What>
+  void each_row(const Block& block, const What& what) const {
+    const auto width = static_cast<std::size_t>(columns(projection_));
+    for (int row = first_; row < end_; ++row)
+      what(row,
+           3 * (static_cast<std::size_t>(row - first_) * width +
+                static_cast<std::size_t>(block.first)),
+           3 * static_cast<std::size_t>(block.last - block.first + 1));
+  }
+
+  void end_on_border(const Block& block, int row, const float* before, float* now) const {
+    for (int column = block.first; column <= block.last; ++column, before += 3, now += 3) {
+      if (now[0] == before[0] && now[1] == before[1] && now[2] == before[2]) continue;
+      const PixelPosition pixel{column + 1.0, row + 1.0};
+      const auto part = static_cast<float>(borders_.part_in_skies(direction_at(projection_, pixel),
+                                                                  pixel_angle(projection_, pixel)));
+      for (int c = 0; c < 3; ++c) now[c] = before[c] + part * (now[c] - before[c]);
+    }
+  }
+
+  const SkyBorders& borders_;
+  const Projection& projection_;
+  int first_, end_;  // rows
+  std::vector<float>& kept_;
+  std::vector<Block> blocks_;
+};
 
 }  // namespace
 
@@ -74,14 +138,12 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
     else
       std::fill(rgb.begin(), rgb.end(), 0.0f);
     const bool bordered = box && first <= box->last_row && end > box->first_row;
-    std::vector<float>& background = memory.background.local();
-    if (bordered) background.assign(rgb.begin(), rgb.end());
+    std::optional<StarsEnd> stars_end;
+    if (bordered)
+      stars_end.emplace(*borders, scene.projection(), *box, first, end, rgb.data(),
+                        memory.background.local());
     stars.draw_band(band, splats, rgb.data());
-    for (int row = first; bordered && row < end; ++row) {
-      const std::size_t begin = static_cast<std::size_t>(row - first) * stride;
-      end_stars_at(*borders, scene.projection(), *box, row, background.data() + begin,
-                   rgb.data() + begin);
-    }
+    if (stars_end) stars_end->end_stars(rgb.data());
     for (int row = first; row < end; ++row)
       store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
                 inside_columns(scene.projection(), row), frame);

@@ -14,7 +14,7 @@ namespace domefall {
 namespace {
 
 // It is raised with every change that alters a pixel, so that older frames are made again.
-constexpr int kPixelVersion = 7;
+constexpr int kPixelVersion = 8;
 
 // Components of unit vectors are rounded to 1e-12, since one that is 0 on one processor may be
 // 1e-17 on another.

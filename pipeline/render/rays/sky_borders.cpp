@@ -39,6 +39,17 @@ void SkyBorders::add(const SkyEdge& edge, const V3d& inward, const V3d& celerity
   usable_ = usable_ && sine / length > kLeastRadius * central_pixel_angle(state.projection);
 }
 
+// Directions an angle apart have components along an axis that differ by the angle at most.
+SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
+  bool dark = true;
+  for (const Circle& c : circles_) {
+    const double beyond = n.v.dot(c.axis) - c.cosine;
+    if (beyond < -reach) return Sight::kSky;
+    dark = dark && beyond > reach;
+  }
+  return dark ? Sight::kNoSky : Sight::kBoth;
+}
+
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
   double part = 0;
   for (const Circle& c : circles_) {

@@ -24,6 +24,10 @@ class SkyBorders {
 
   // Whether there is a border, and none is so small that a pixel might hold all of it.
   bool usable() const { return usable_; }
+  // What all pixels see whose squares lie within an angle `reach` (radians) of a direction: a sky,
+  // or none, each of them as a whole.  kBoth may also stand for one of the two.
+  enum class Sight { kSky, kNoSky, kBoth };
+  Sight sight_around(const CameraDirection& n, double reach) const;
   // The part of a pixel, 0 to 1, that sees a sky, where its direction is n and it covers an angle
   // in radians.  A border counts as straight within a pixel.
   double part_in_skies(const CameraDirection& n, double pixel_angle) const;

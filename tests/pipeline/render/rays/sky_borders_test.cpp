@@ -57,6 +57,42 @@ TEST(SkyBorders, AreWhereTracedRaysChangeTheirSky) {
   }
 }
 
+// What is said of a neighbourhood holds for each of its pixels.  Of random ones a border's circle
+// meets a part of `reach`, since the component along its axis is spread evenly from -1 to 1.
+TEST(SkyBorders, KnowWhatNeighbourhoodsSee) {
+  constexpr int kPlaces = 2000;
+  constexpr double kReach = 0.03, kPixel = 0.006;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(0, 1);
+  int skies = 0, dark = 0;
+  for (const GivenVelocity& at : kObservers) {
+    const View view = view_of(at, Domemaster{512});
+    const SkyBorders borders(view.state, view.optics,
+                             ViewTracer(view.state, view.optics).vantage());
+    int unsaid = 0;
+    for (int k = 0; k < kPlaces; ++k) {
+      const CameraDirection n{random_direction(random)};
+      const SkyBorders::Sight sight = borders.sight_around(n, kReach);
+      if (sight == SkyBorders::Sight::kBoth) {
+        ++unsaid;
+        continue;
+      }
+      const bool sky = sight == SkyBorders::Sight::kSky;
+      ++(sky ? skies : dark);
+      for (int m = 0; m < 40; ++m) {
+        // Even the corners of the pixel are within reach.
+        const double away = (kReach - kPixel * std::sqrt(0.5)) * std::sqrt(u(random));
+        const V3d step = random_direction(random).cross(n.v).normalized() * away;
+        ASSERT_EQ(borders.part_in_skies({(n.v + step).normalized()}, kPixel), sky ? 1 : 0)
+            << "r " << at.r;
+      }
+    }
+    EXPECT_LT(unsaid, 2.5 * kReach * kPlaces);
+  }
+  EXPECT_GT(skies, kPlaces);
+  EXPECT_GT(dark, kPlaces);
+}
+
 TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
   for (const Projection& projection :
        {Projection(Domemaster{128}), Projection(Stereographic{160, 90, 1.5})})
