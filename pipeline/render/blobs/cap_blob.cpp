@@ -177,7 +177,8 @@ template <bool kDome, int kCount>
 constexpr int kChunk = 16;
 
 // Adds `count` <= kChunk pixels of a row, of which the first lies at (dx0, dy) from the centre.
-template <bool kDome, int kCount>
+// kPale tells whether the blob turns white where it is bright.
+template <bool kDome, int kCount, bool kPale>
 [[gnu::always_inline]] inline void add_chunk(const PreparedCap& b, float dx0, float dy, int count,
                                              float* __restrict out) {
   alignas(64) std::array<float, kChunk> weight, pale;
@@ -187,46 +188,55 @@ template <bool kDome, int kCount>
                     ((b.xx * dx + b.xy * dy) * dx + b.yy * dy * dy);
     const float w = exponential_of_float(q > 0 ? -q : 0.0f);
     const float v = w * (b.slope - b.dent * w) - b.end, positive = v > 0 ? v : 0.0f;
-    const float bright = b.paling * positive, square = bright * bright;
     weight[static_cast<std::size_t>(k)] = positive;
-    pale[static_cast<std::size_t>(k)] = positive * (square / (1 + square));
+    if constexpr (kPale) {
+      const float bright = b.paling * positive, square = bright * bright;
+      pale[static_cast<std::size_t>(k)] = positive * (square / (1 + square));
+    }
   }
   if (count < kChunk) {
-    for (int k = 0; k < count; ++k) {
-      const float v = weight[static_cast<std::size_t>(k)], g = pale[static_cast<std::size_t>(k)];
-      for (std::size_t c = 0; c < 3; ++c)
-        out[3 * k + static_cast<int>(c)] += b.colour[c] * v + b.pale[c] * g;
-    }
+    for (int k = 0; k < count; ++k)
+      for (std::size_t c = 0; c < 3; ++c) {
+        float light = b.colour[c] * weight[static_cast<std::size_t>(k)];
+        if constexpr (kPale) light += b.pale[c] * pale[static_cast<std::size_t>(k)];
+        out[3 * k + static_cast<int>(c)] += light;
+      }
     return;
   }
   Lanes v[6], g[6];
   repeat_for_channels<6>(weight.data(), v);
-  repeat_for_channels<6>(pale.data(), g);
+  if constexpr (kPale) repeat_for_channels<6>(pale.data(), g);
   for (int m = 0; m < 6; ++m) {
     Lanes sum, colour, white;
     std::memcpy(&sum, out + m * kLanes, sizeof sum);
     std::memcpy(&colour, b.colours.data() + 8 * (m % 3), sizeof colour);
-    std::memcpy(&white, b.pales.data() + 8 * (m % 3), sizeof white);
-    sum += colour * v[m] + white * g[m];
+    colour *= v[m];
+    if constexpr (kPale) {
+      std::memcpy(&white, b.pales.data() + 8 * (m % 3), sizeof white);
+      colour += white * g[m];
+    }
+    sum += colour;
     std::memcpy(out + m * kLanes, &sum, sizeof sum);
   }
 }
 
 // Adds `count` pixels of a row.  `room` is the number of pixels from `out` on that may be touched;
 // those beyond the blob get 0.
+template <bool kPale>
 [[gnu::always_inline]] inline void add_span_loop(const PreparedCap& b, float dx, float dy,
                                                  int count, int room, float* out) {
   for (; count > 0; count -= kChunk, room -= kChunk, dx += kChunk, out += 3 * kChunk) {
     const int pixels = std::min(room, kChunk);
     if (!b.dome)
-      add_chunk<false, 0>(b, dx, dy, pixels, out);
+      add_chunk<false, 0, kPale>(b, dx, dy, pixels, out);
     else if (b.near)
-      add_chunk<true, kNearTerms>(b, dx, dy, pixels, out);
+      add_chunk<true, kNearTerms, kPale>(b, dx, dy, pixels, out);
     else
-      add_chunk<true, kTerms>(b, dx, dy, pixels, out);
+      add_chunk<true, kTerms, kPale>(b, dx, dy, pixels, out);
   }
 }
-Dispatched<add_span_loop> add_span;
+Dispatched<add_span_loop<false>> add_span;
+Dispatched<add_span_loop<true>> add_pale_span;
 
 }  // namespace
 
@@ -275,8 +285,12 @@ void draw_cap(const CapBlob& blob, const Projection& projection, const Canvas& c
     const int right =
         std::min({blob.last_column, inside.last, static_cast<int>(blob.x + half) + 1});
     if (left > right) continue;
-    add_span(cap, static_cast<float>(left) - blob.x, dy, right - left + 1, inside.last - left + 1,
-             canvas.at(row, left));
+    const float dx = static_cast<float>(left) - blob.x;
+    const int count = right - left + 1, room = inside.last - left + 1;
+    if (cap.paling > 0)
+      add_pale_span(cap, dx, dy, count, room, canvas.at(row, left));
+    else
+      add_span(cap, dx, dy, count, room, canvas.at(row, left));
   }
 }
 
