@@ -8,18 +8,12 @@
 #include <numbers>
 #include <tuple>
 
-#include "pipeline/render/blobs/merged_caps.h"
-
 namespace domefall {
 namespace {
 
-// The images that one task places, whatever the number of threads, and those that it places at
-// once.
+// The images that one task places, whatever the number of threads, and the parts of images that it
+// places at once.
 constexpr std::size_t kTask = 32768, kStep = 256;
-
-// A blob whose peak is this part of the value at which stars are half white is drawn as a cap,
-// which can turn white: at such a peak its middle has lost 1/65 of its colour.
-constexpr double kPalingSeen = 1.0 / 8;
 
 // Splats are quicker where a frame has more than one image for so many pixels: measured at 4k.
 constexpr double kPixelsPerSplat = 32;
@@ -27,14 +21,18 @@ constexpr double kPixelsPerSplat = 32;
 // end.
 constexpr double kBrightestSplat = 1;
 
-double most_coloured(const PointSpread& widths) {
-  return widths.paling() > 0 ? kPalingSeen / widths.paling() : HUGE_VAL;
-}
-
 float brightest_splat(const PointSpread& widths) {
-  const double peak = std::min(kBrightestSplat, most_coloured(widths));
+  const double peak = std::min(kBrightestSplat, most_coloured_peak(widths.paling()));
   return static_cast<float>(std::min(
       widths.single_blob_light(), peak * 2 * std::numbers::pi * widths.least() * widths.least()));
+}
+
+// The parts of one image.
+constexpr std::size_t kMostParts = 1 + std::tuple_size_v<decltype(PointSpreadParts::halo)>;
+
+StarImage scaled(const StarImage& image, double share) {
+  const auto part = static_cast<float>(share);
+  return {image.x, image.y, {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part}};
 }
 
 // The most bands that an ellipse touches.
@@ -99,14 +97,26 @@ void BlobLayer::place(std::size_t number, std::vector<StarImage>& images,
   place_blobs(images.data(), others, widths, task);
 }
 
-// Places this share of an image's light as a cap; false if the frame has nothing of it.
-bool BlobLayer::place_one_cap(const StarImage& image, double sigma, double share, float paling,
+// The parts of images that are placed at once: their middles, and the Gaussians of their halos.
+struct BlobLayer::Parts {
+  std::array<StarImage, kStep> image;
+  std::array<double, kStep> sigma;
+  std::array<bool, kStep> is_middle;
+  std::size_t count = 0;
+
+  void add(const StarImage& part, double width, bool middle) {
+    image[count] = part, sigma[count] = width, is_middle[count] = middle;
+    ++count;
+  }
+};
+
+// Places an image as a cap; false if the frame has nothing of it.
+bool BlobLayer::place_one_cap(const StarImage& image, double sigma, float paling,
                               Task& task) const {
-  const auto part = static_cast<float>(share);
   CapBlob cap{image.x,
               image.y,
               static_cast<float>(sigma),
-              {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part},
+              {image.rgb[0], image.rgb[1], image.rgb[2]},
               paling};
   const bool seen = place_cap(projection_, cap);
   if (seen) task.caps.push_back(cap);
@@ -123,41 +133,42 @@ void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Tas
   last = std::max(last, last_row / kBandRows);
 }
 
-void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const PointSpread& widths,
-                            Task& task) const {
-  const double most_peak = most_coloured(widths);
-  std::array<StarImage, kStep> middle;
-  std::array<double, kStep> sigma;
+void BlobLayer::place_parts(const Parts& parts, const PointSpread& widths, Task& task) const {
   std::array<EllipseBlob, kStep> ellipses;
   std::array<int, kStep> first_row;
   std::array<BlobKind, kStep> kind;
+  place_ellipses(projection_, parts.image.data(), parts.sigma.data(), parts.count,
+                 most_coloured_peak(widths.paling()), ellipses.data(), first_row.data(),
+                 kind.data());
+  for (std::size_t k = 0; k < parts.count; ++k) {
+    bool seen = kind[k] == BlobKind::kEllipse;
+    if (seen)
+      place_one_ellipse(ellipses[k], first_row[k], task);
+    else if (kind[k] == BlobKind::kCap)
+      seen = place_one_cap(parts.image[k], parts.sigma[k], widths.paling(), task);
+    task.size += seen && parts.is_middle[k] ? 1 : 0;
+  }
+}
+
+void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const PointSpread& widths,
+                            Task& task) const {
+  Parts parts;
   task.ellipses.reserve(count);
   task.band.reserve(count);
   task.last_band.resize(bands_, 0);
-  for (std::size_t begin = 0; begin < count; begin += kStep) {
-    const std::size_t n = std::min(kStep, count - begin);
-    for (std::size_t k = 0; k < n; ++k) {
-      const StarImage& image = images[begin + k];
-      middle[k] = image;
-      sigma[k] = widths.least();
-      if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light())
-        continue;
-      const PointSpreadParts parts = widths.parts(image);
-      middle[k] = parts.image;
-      sigma[k] = parts.sigma;
-      for (const PointSpreadParts::Halo& halo : parts.halo)
-        if (halo.share > 0) place_one_cap(image, halo.sigma, halo.share, widths.paling(), task);
+  for (std::size_t k = 0; k < count; ++k) {
+    const StarImage& image = images[k];
+    if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light()) {
+      parts.add(image, widths.least(), true);
+    } else {
+      const PointSpreadParts of_image = widths.parts(image);
+      parts.add(of_image.image, of_image.sigma, true);
+      for (const PointSpreadParts::Halo& halo : of_image.halo)
+        if (halo.share > 0) parts.add(scaled(image, halo.share), halo.sigma, false);
     }
-    place_ellipses(projection_, middle.data(), sigma.data(), n, most_peak, ellipses.data(),
-                   first_row.data(), kind.data());
-    for (std::size_t k = 0; k < n; ++k) {
-      if (kind[k] == BlobKind::kNowhere) continue;
-      if (kind[k] == BlobKind::kCap) {
-        task.size += place_one_cap(middle[k], sigma[k], 1, widths.paling(), task);
-        continue;
-      }
-      ++task.size;
-      place_one_ellipse(ellipses[k], first_row[k], task);
+    if (parts.count + kMostParts > kStep || k + 1 == count) {
+      place_parts(parts, widths, task);
+      parts.count = 0;
     }
   }
 }
@@ -176,71 +187,6 @@ void BlobLayer::add(const std::vector<CapBlob>& caps) {
   Task& task = tasks_[new_tasks(1)];
   task.caps = caps;
   task.size = caps.size();
-}
-
-// ---- sorting ----
-
-void BlobLayer::sort_splats() {
-  first_splat_.assign(static_cast<std::size_t>(kernel_->buckets()) + 1, 0);
-  for (std::size_t t = 0; t < used_; ++t)
-    for (std::size_t k = 0; k < tasks_[t].splats.first.size(); ++k)
-      first_splat_[k] += tasks_[t].splats.first[k];
-}
-
-// A counting sort by band.  Within a band the tasks' ellipses follow one another in the tasks'
-// order.
-void BlobLayer::sort_ellipses() {
-  std::vector<std::vector<std::size_t>> next(used_, std::vector<std::size_t>(bands_));
-  tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
-    for (const std::uint16_t band : tasks_[t].band) ++next[t][band];
-  });
-  first_ellipse_.assign(bands_ + 1, 0);
-  last_band_.assign(bands_, 0);
-  for (const Task& task : tasks_)
-    for (std::size_t band = 0; band < task.last_band.size(); ++band)
-      last_band_[band] = std::max(last_band_[band], task.last_band[band]);
-  std::size_t sum = 0;
-  for (std::size_t band = 0; band < bands_; ++band) {
-    first_ellipse_[band] = sum;
-    for (auto& of_task : next) {
-      const std::size_t count = of_task[band];
-      of_task[band] = sum;
-      sum += count;
-    }
-  }
-  first_ellipse_[bands_] = sum;
-  if (ellipse_capacity_ < sum) {
-    ellipses_ = std::make_unique_for_overwrite<EllipseBlob[]>(sum);
-    ellipse_capacity_ = sum;
-  }
-  tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
-    const Task& task = tasks_[t];
-    for (std::size_t k = 0; k < task.ellipses.size(); ++k)
-      ellipses_[next[t][task.band[k]]++] = task.ellipses[k];
-  });
-}
-
-// The caps of a band lie side by side in memory.  Only caps of one place and light compare as
-// equal, so that the order does not depend on the tasks.
-void BlobLayer::sort_caps() {
-  for (const Task& task : tasks_) caps_.insert(caps_.end(), task.caps.begin(), task.caps.end());
-  merge_crowds(projection_, caps_);
-  const auto key = [](const CapBlob& b) {
-    return std::tuple(b.first_row / kBandRows, b.y, b.x, b.sigma, b.rgb[0], b.rgb[1], b.rgb[2]);
-  };
-  std::sort(caps_.begin(), caps_.end(),
-            [&key](const CapBlob& a, const CapBlob& b) { return key(a) < key(b); });
-  caps_of_band_.assign(bands_, {});
-  for (std::size_t k = 0; k < caps_.size(); ++k)
-    for (int band = caps_[k].first_row / kBandRows; band <= caps_[k].last_row / kBandRows; ++band)
-      caps_of_band_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(k));
-}
-
-void BlobLayer::sort_into_bands() {
-  for (std::size_t t = 0; t < used_; ++t) size_ += tasks_[t].size;
-  if (kernel_) sort_splats();
-  sort_ellipses();
-  sort_caps();
 }
 
 // ---- drawing ----
@@ -269,6 +215,16 @@ void BlobLayer::draw_splats(int band, SplatBuffer& buffer, float* rgb) const {
   buffer.add_band(first, count, columns_inside(projection_, first, count).data(), rgb);
 }
 
+void BlobLayer::draw_wide(const std::vector<std::uint32_t>& numbers, const Canvas& canvas) const {
+  constexpr std::size_t kGathered = 32;
+  std::array<EllipseBlob, kGathered> gathered;
+  for (std::size_t begin = 0; begin < numbers.size(); begin += kGathered) {
+    const std::size_t count = std::min(kGathered, numbers.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) gathered[k] = wide_[numbers[begin + k]];
+    draw_wide_ellipses(gathered.data(), count, canvas);
+  }
+}
+
 // rgb is drawn on by way of the canvas.  NOLINTNEXTLINE(readability-non-const-parameter)
 void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
   if (kernel_) draw_splats(band, buffer, rgb);
@@ -280,6 +236,7 @@ void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
   while (begin < own && last_band_[begin] < band) ++begin;
   const std::size_t from = first_ellipse_[begin], end = first_ellipse_[own + 1];
   draw_ellipses(ellipses_.get() + from, end - from, canvas);
+  draw_wide(wide_of_band_[own], canvas);
   for (const std::uint32_t k : caps_of_band_[own]) draw_cap(caps_[k], projection_, canvas);
 }
 

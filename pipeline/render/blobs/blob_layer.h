@@ -14,9 +14,10 @@
 
 namespace domefall {
 
-// Places images as splats, ellipses and caps, and draws these in that order.  Splats and ellipses
-// are drawn by the band in which they begin, and blobs of a kind in the order of the tasks that
-// placed them, so that the sums are the same for any number of threads.
+// Places images as splats, ellipses and caps, and draws these in that order, with wide ellipses
+// before the caps of which they were made.  Splats and ellipses are drawn by the band in which they
+// begin, and blobs of a kind in the order of the tasks that placed them, so that the sums are the
+// same for any number of threads.  Sorting is blob_layer_sorting.cpp.
 class BlobLayer {
  public:
   explicit BlobLayer(const Projection& projection) { start(projection); }
@@ -66,15 +67,18 @@ class BlobLayer {
 
     void clear();
   };
+  struct Parts;
   void place_blobs(const StarImage* images, std::size_t count, const PointSpread& widths,
                    Task& task) const;
-  bool place_one_cap(const StarImage& image, double sigma, double share, float paling,
-                     Task& task) const;
+  void place_parts(const Parts& parts, const PointSpread& widths, Task& task) const;
+  bool place_one_cap(const StarImage& image, double sigma, float paling, Task& task) const;
   void place_one_ellipse(const EllipseBlob& ellipse, int first_row, Task& task) const;
   void sort_splats();
   void sort_ellipses();
   void sort_caps();
+  void part_wide_ellipses();
   void draw_splats(int band, SplatBuffer& buffer, float* rgb) const;
+  void draw_wide(const std::vector<std::uint32_t>& numbers, const Canvas& canvas) const;
 
   Projection projection_;
   std::size_t bands_ = 0;
@@ -90,8 +94,10 @@ class BlobLayer {
   std::vector<std::size_t> first_ellipse_;  // by band, and the end
   std::vector<int> last_band_;              // by band, as a task's
 
+  // Caps become wide ellipses where these are accurate enough.
   std::vector<CapBlob> caps_;
-  std::vector<std::vector<std::uint32_t>> caps_of_band_;  // that reach into it
+  std::vector<EllipseBlob> wide_;
+  std::vector<std::vector<std::uint32_t>> caps_of_band_, wide_of_band_;  // that reach into it
 };
 
 }  // namespace domefall

@@ -2,6 +2,8 @@
 // large they are.
 #pragma once
 
+#include <cmath>
+
 #include "pipeline/render/blobs/canvas.h"
 
 namespace domefall {
@@ -23,6 +25,11 @@ struct CapBlob {
   int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
   float peak_per_flux = 0, cut = 0;
 };
+
+// The brightest peak of a blob that ellipses and splats may stand for, which keep their colour
+// everywhere.  It is an eighth of the value at which a cap is half white: there the middle has lost
+// 1/65 of its colour.
+inline double most_coloured_peak(float paling) { return paling > 0 ? 0.125 / paling : HUGE_VAL; }
 
 // Sets what the blob covers.  Returns false if that is nothing, or if the blob would reach the
 // point that a flat image has at infinity.

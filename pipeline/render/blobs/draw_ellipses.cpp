@@ -19,7 +19,9 @@ constexpr int kBlock = 16;
 using Block = float __attribute__((vector_size(4 * kBlock)));
 using BlockBits = std::int32_t __attribute__((vector_size(4 * kBlock)));
 constexpr std::size_t kBatch = 32;
-static_assert(kMostEllipsePixels == 2 * kPixels && kBandRows <= kPixels);
+// Makes columns and rows positive, so that truncation rounds down.
+constexpr int kMargin = 2 * kMostWideEllipsePixels;
+static_assert(kBandRows <= kPixels);
 
 // ---- what drawing needs of each blob ----
 
@@ -43,11 +45,39 @@ struct PreparedEllipses {
   alignas(64) std::array<int, kBatch> first, last;  // rows, within the canvas
 };
 
+// Narrows the columns of a blob down to those that the ellipse covers on the canvas.  `spread`,
+// half_x and half_y are those of prepare().
+//
+// The ellipse d P d = 2 q reaches farthest to the right where y = -half_x P_xy/P_yy.  At another y
+// it reaches to x = (-P_xy y + sqrt(2 q P_xx - det P y^2))/P_xx, which falls towards both sides, so
+// that of the canvas' rows the nearest counts.  To the left all signs are changed.
+[[gnu::always_inline]] inline void narrow(const EllipseBlob& b, float spread, float half_x,
+                                          float half_y, std::size_t k, PreparedEllipses& prepared) {
+  const auto last = static_cast<float>(prepared.last[k]) - b.y;
+  const float top = prepared.dy[k] > -half_y ? prepared.dy[k] : -half_y;
+  const float bottom = last < half_y ? last : half_y;
+  const float determinant = b.xx * b.yy - b.xy * b.xy, farthest = half_x * b.xy / b.yy;
+  const float below = -farthest > top ? -farthest : top, right_y = below < bottom ? below : bottom;
+  const float above = farthest > top ? farthest : top, left_y = above < bottom ? above : bottom;
+  const float right_square = determinant * (spread * b.xx - right_y * right_y);
+  const float left_square = determinant * (spread * b.xx - left_y * left_y);
+  const float right_root = std::sqrt(right_square > 0 ? right_square : 0.0f);
+  const float left_root = std::sqrt(left_square > 0 ? left_square : 0.0f);
+  const float right_x = b.x + (right_root - b.xy * right_y) / b.xx;
+  const float left_x = b.x - (left_root + b.xy * left_y) / b.xx;
+  const int left = static_cast<int>(left_x + kMargin) - kMargin;
+  const int right = static_cast<int>(right_x + kMargin) - (kMargin - 1);
+  const int begin = prepared.column[k], end = begin + prepared.columns[k] - 1;
+  prepared.column[k] = left > begin ? left : begin;
+  prepared.columns[k] = (right < end ? right : end) - prepared.column[k] + 1;
+  prepared.dx[k] = static_cast<float>(prepared.column[k]) - b.x;
+}
+
 // The ellipse q = -ln(cut) has the half width sqrt(2 q C_xx), where the covariance's
 // C_xx = P_yy/det P.
+template <bool kWide>
 [[gnu::always_inline]] inline void prepare(const EllipseBlob* blobs, std::size_t count,
                                            const Canvas& canvas, PreparedEllipses& prepared) {
-  constexpr int kMargin = 64;  // makes numbers positive, so that truncation rounds down
   const int first_row = canvas.first_row, end_row = canvas.first_row + canvas.rows - 1;
   for (std::size_t k = 0; k < count; ++k) {
     const EllipseBlob& b = blobs[k];
@@ -77,6 +107,7 @@ struct PreparedEllipses {
     prepared.part[k] = part;
     prepared.gain[k] = slope / part;
     prepared.end[k] = part * cut * (1 - part * cut);
+    if constexpr (kWide) narrow(b, spread, half_x, half_y, k, prepared);
   }
 }
 
@@ -87,21 +118,15 @@ struct Strip {
   int blob, first;
 };
 
-// Lists the strips of the batch's blobs that touch the canvas: first one of each blob, then a
-// second one of those that are wider than a strip.  Returns their number.
+// Lists the strips of the batch's blobs that touch the canvas and begin with column `first` of the
+// blob.  Returns their number.
 [[gnu::always_inline]] inline int list_strips(const PreparedEllipses& prepared, std::size_t count,
-                                              Strip* strips) {
+                                              int first, Strip* strips) {
   int listed = 0;
-  bool wide = false;
   for (std::size_t k = 0; k < count; ++k) {
-    strips[listed] = {static_cast<int>(k), 0};
-    const bool seen = prepared.first[k] <= prepared.last[k];
-    listed += seen ? 1 : 0;
-    wide |= seen && prepared.columns[k] > kPixels;
+    strips[listed] = {static_cast<int>(k), first};
+    listed += prepared.first[k] <= prepared.last[k] && prepared.columns[k] > first ? 1 : 0;
   }
-  for (std::size_t k = 0; k < count && wide; ++k)
-    if (prepared.first[k] <= prepared.last[k] && prepared.columns[k] > kPixels)
-      strips[listed++] = {static_cast<int>(k), kPixels};
   return listed;
 }
 
@@ -213,6 +238,9 @@ template <int kCount>
   }
 }
 
+// Strips of a batch that begin with the same column of their blobs are drawn one after another:
+// first all that begin with the first one, and then those of blobs that are wider than one strip.
+template <bool kWide>
 [[gnu::always_inline]] inline void draw_loop(const EllipseBlob* blobs, std::size_t count,
                                              const Canvas& canvas) {
   // A strip between these columns is inside on every row, with the padding to whole blocks.
@@ -223,32 +251,40 @@ template <int kCount>
   }
   const std::ptrdiff_t stride = 3 * static_cast<std::ptrdiff_t>(canvas.width);
   PreparedEllipses prepared;
-  std::array<Strip, 2 * kBatch> strips;
-  std::array<StripExponentials, 2 * kBatch> exponentials;
+  std::array<Strip, kBatch> strips;
+  std::array<StripExponentials, kBatch> exponentials;
   for (std::size_t begin = 0; begin < count; begin += kBatch) {
     const std::size_t n = std::min(kBatch, count - begin);
-    prepare(blobs + begin, n, canvas, prepared);
-    const int listed = list_strips(prepared, n, strips.data());
-    find_exponentials(prepared, strips.data(), listed, exponentials.data());
-    for (std::size_t m = 0; m < static_cast<std::size_t>(listed); ++m) {
-      const Strip& strip = strips[m];
-      const auto k = static_cast<std::size_t>(strip.blob);
-      const EllipseBlob& blob = blobs[begin + k];
-      const int column = prepared.column[k] + strip.first;
-      if (column >= least && column + kPixels - 1 <= most)
-        add_strip(blob, prepared, strip, exponentials[m], canvas.at(prepared.first[k], column),
-                  stride);
-      else
-        add_clipped(blob, prepared, strip, exponentials[m], canvas);
+    prepare<kWide>(blobs + begin, n, canvas, prepared);
+    for (int first = 0;; first += kPixels) {
+      const int listed = list_strips(prepared, n, first, strips.data());
+      if (listed == 0) break;
+      find_exponentials(prepared, strips.data(), listed, exponentials.data());
+      for (std::size_t m = 0; m < static_cast<std::size_t>(listed); ++m) {
+        const Strip& strip = strips[m];
+        const auto k = static_cast<std::size_t>(strip.blob);
+        const EllipseBlob& blob = blobs[begin + k];
+        const int column = prepared.column[k] + strip.first;
+        if (column >= least && column + kPixels - 1 <= most)
+          add_strip(blob, prepared, strip, exponentials[m], canvas.at(prepared.first[k], column),
+                    stride);
+        else
+          add_clipped(blob, prepared, strip, exponentials[m], canvas);
+      }
     }
   }
 }
-Dispatched<draw_loop> draw;
+Dispatched<draw_loop<false>> draw;
+Dispatched<draw_loop<true>> draw_wide;
 
 }  // namespace
 
 void draw_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas) {
   draw(blobs, count, canvas);
+}
+
+void draw_wide_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas) {
+  draw_wide(blobs, count, canvas);
 }
 
 }  // namespace domefall

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "pipeline/render/blobs/canvas.h"
+#include "pipeline/render/blobs/cap_blob.h"
 #include "pipeline/render/scene/star_image.h"
 
 namespace domefall {
@@ -16,8 +17,8 @@ struct EllipseBlob {
 };
 static_assert(sizeof(EllipseBlob) == 32);
 
-// The most pixels that an ellipse blob covers along each axis.
-inline constexpr int kMostEllipsePixels = 32;
+// The most pixels that an ellipse blob covers along each axis, and a wide one.
+inline constexpr int kMostEllipsePixels = 32, kMostWideEllipsePixels = 256;
 
 // What becomes of an image: nothing of it lies in the frame, or it is drawn in one of two ways.
 enum class BlobKind : unsigned char { kNowhere, kEllipse, kCap };
@@ -31,7 +32,17 @@ void place_ellipses(const Projection& projection, const StarImage* images, const
                     std::size_t count, double most_peak, EllipseBlob* blobs, int* first_row,
                     BlobKind* kind);
 
+// Makes an ellipse of a placed cap that is larger than the others, as nearly all parts of halos
+// are.  Returns false, and leaves the ellipse as it is, where it would be too large, brighter than
+// `most_peak`, or in error by more than 1.2e-3 of its peak and by more than a pixel value of 5e-4,
+// which is a quarter of the least step that an image of 8 bits has in the dark.
+bool place_wide_ellipse(const Projection& projection, const CapBlob& cap, double most_peak,
+                        EllipseBlob& ellipse);
+
 // Adds the part of each blob that lies on the canvas, in their order.
 void draw_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas);
+// The same, at the cost that suits wide ellipses: of their columns it looks only at those that they
+// cover on the canvas.
+void draw_wide_ellipses(const EllipseBlob* blobs, std::size_t count, const Canvas& canvas);
 
 }  // namespace domefall

@@ -10,6 +10,9 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kBatch = 32;
+// The most that a wide ellipse may err where its relative error is larger than that of others, as a
+// pixel value.
+constexpr double kMostWideError = 5e-4;
 constexpr int kNowhere = static_cast<int>(BlobKind::kNowhere),
               kEllipse = static_cast<int>(BlobKind::kEllipse),
               kCap = static_cast<int>(BlobKind::kCap);
@@ -103,6 +106,30 @@ void place_ellipses(const Projection& projection, const StarImage* images, const
   for (std::size_t k = 0; k < count; k += kBatch)
     place_batch(plane, dome, images + k, sigma + k, std::min(kBatch, count - k), blobs + k,
                 first_row + k, kind + k);
+}
+
+bool place_wide_ellipse(const Projection& projection, const CapBlob& cap, double most_peak,
+                        EllipseBlob& ellipse) {
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const double cx = cap.x - (columns(projection) - 1) / 2.0;
+  const double cy = cap.y - (rows(projection) - 1) / 2.0;
+  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2), sigma = cap.sigma;
+  if (2 * cap.reach > kMostWideEllipsePixels || (dome && unit * std::hypot(cx, cy) > 1.7))
+    return false;
+  const BlobShape s =
+      dome ? blob_shape<true>(unit, cx, cy, sigma) : blob_shape<false>(unit, cx, cy, sigma);
+  const double peak = double{cap.peak_per_flux} * std::max({cap.rgb[0], cap.rgb[1], cap.rgb[2]});
+  if (peak > most_peak ||
+      (s.scale_change > kMostScaleChange && 0.6 * s.scale_change * peak > kMostWideError))
+    return false;
+  ellipse = {cap.x,
+             cap.y,
+             static_cast<float>(s.xx),
+             static_cast<float>(s.xy),
+             static_cast<float>(s.yy),
+             {cap.rgb[0] * cap.peak_per_flux, cap.rgb[1] * cap.peak_per_flux,
+              cap.rgb[2] * cap.peak_per_flux}};
+  return true;
 }
 
 }  // namespace domefall

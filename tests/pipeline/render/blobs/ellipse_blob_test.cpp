@@ -163,6 +163,45 @@ TEST(EllipseBlobs, AgreeWithCaps) {
   }
 }
 
+// The parts of halos that ellipses stand for, at the zenith and at the rim, faint and bright.  All
+// that the cap covers is covered, band by band.
+TEST(EllipseBlobs, StandForWideCaps) {
+  int drawn_as_ellipses = 0, left = 0;
+  for (const Law& law : kLaws)
+    for (const double sigma_deg : {0.2, 0.48})
+      for (const double peak : {0.004, 0.1, 5.0})
+        for (const double part : {0.03, 0.5, 1.0}) {
+          const Projection& p = law.projection;
+          const double sigma = sigma_deg * kDegree;
+          const StarImage image =
+              image_at(p, part * law.most_theta, 7 * part, 2 * pi * peak * sigma * sigma);
+          CapBlob cap{image.x, image.y, static_cast<float>(sigma), {}, 0};
+          std::copy_n(image.rgb, 3, cap.rgb);
+          ASSERT_TRUE(place_cap(p, cap));
+          EllipseBlob ellipse;
+          if (!place_wide_ellipse(p, cap, HUGE_VAL, ellipse)) {
+            ++left;
+            continue;
+          }
+          ++drawn_as_ellipses;
+          const int width = columns(p), count = kBandRows;
+          double worst = 0;
+          for (int top = std::max(0, cap.first_row - count);
+               top <= std::min(cap.last_row + count, rows(p) - count); top += count) {
+            const std::vector<ColumnRange> inside(count, {0, width - 1});
+            std::vector<float> one(static_cast<std::size_t>(3 * width * count)), other(one);
+            draw_wide_ellipses(&ellipse, 1, {one.data(), width, top, count, inside.data()});
+            draw_cap(cap, p, {other.data(), width, top, count, inside.data()});
+            for (std::size_t k = 0; k < one.size(); ++k)
+              worst = std::max(worst, std::abs(static_cast<double>(one[k]) - other[k]));
+          }
+          EXPECT_LT(worst, std::max(5e-4, 1.5e-3 * ellipse.rgb[0]))
+              << law.name << " " << sigma_deg << " " << peak << " " << part;
+        }
+  EXPECT_GT(drawn_as_ellipses, 60);
+  EXPECT_GT(left, 5);
+}
+
 // Where an image ends, a blob is cut: half of its light is left at an edge and a quarter in a
 // corner.
 TEST(EllipseBlobs, AtTheEdgesOfAnImageAreCutNotDimmed) {
