@@ -59,6 +59,9 @@ double farthest_passage(const FrameScene& scene, double stretch) {
   return std::min(farthest, kFarthestPassage);
 }
 
+// How much longer than its chord a part of a trail is taken to be, since it is bent.
+constexpr double kWayPerChord = 1.1;
+
 // The part of a star's light that the frame's limit of magnitude leaves.  Magnitudes are floats, so
 // a hard limit is rounded as they were, lest a star on the limit be lost.
 double part_within_limit(const FrameSettings::Sky& sky, double magnitude) {
@@ -239,19 +242,30 @@ double StarImageFinder::least_sigma_at(const V3d& direction) const {
   return scene_.point_spread.least() * from_tetrad_.to_rest(direction).frequency_ratio;
 }
 
+// A boost stretches a part as it does its middle, but for what the stretch changes along it.
+double StarImageFinder::sigmas_of(const StarTrail& trail, std::size_t k) const {
+  const V3d begin = from_tetrad_.to_rest(trail.begin(k)).direction;
+  const V3d end = from_tetrad_.to_rest(trail.begin(k + 1)).direction;
+  return kWayPerChord * (end - begin).length() / scene_.point_spread.least();
+}
+
+// In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
+int StarImageFinder::pieces_of(double sigmas, double peak, double& brightest) {
+  const double row = peak * std::sqrt(2 * pi) / sigmas;
+  brightest = std::max(brightest, std::min(peak, row));
+  return static_cast<int>(
+      std::clamp(std::ceil(sigmas / spacing_of(row)), 1.0, double{StarTrail::kMostPieces}));
+}
+
 // Each part is split as finely as its brightness asks for.
 bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail,
                                    std::vector<StarImage>& images) const {
+  if (in_batches_) return append_trail_in_batches(star, trail, images);
   std::vector<int> pieces;
   double brightest = 0;
   for (std::size_t k = 0; k < trail.parts(); ++k) {
-    const SkyImage part = trail.part(k);
-    const double sigmas = 1.1 * trail.length(k) / least_sigma_at(part.direction.v);
-    // In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
-    const double peak = receive(star, part).peak, row = peak * std::sqrt(2 * pi) / sigmas;
-    brightest = std::max(brightest, std::min(peak, row));
-    pieces.push_back(static_cast<int>(
-        std::clamp(std::ceil(sigmas / spacing_of(row)), 1.0, double{StarTrail::kMostPieces})));
+    const double peak = receive(star, trail.part(k)).peak;
+    pieces.push_back(pieces_of(sigmas_of(trail, k), peak, brightest));
   }
   if (!(brightest > kFaintestPeak)) return false;
   std::vector<SkyImage> split;

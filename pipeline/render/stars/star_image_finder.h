@@ -66,6 +66,13 @@ class StarImageFinder {
                     std::vector<StarImage>& images) const;
   bool append_trail(const SceneStar& star, const StarTrail& trail,
                     std::vector<StarImage>& images) const;
+  bool append_trail_in_batches(const SceneStar& star, const StarTrail& trail,
+                               std::vector<StarImage>& images) const;
+  // The way along part k of a trail in the camera's view, in least sigmas.
+  double sigmas_of(const StarTrail& trail, std::size_t k) const;
+  // The pieces of a part of a trail that is so many sigma long and whose light, in one piece, has
+  // this peak.
+  static int pieces_of(double sigmas, double peak, double& brightest);
   bool append_arc(const SceneStar& star, const std::vector<SkyImage>& pieces,
                   std::vector<StarImage>& images) const;
   // The least sigma of the frame about a direction, carried back through the boost: radians there.
@@ -84,7 +91,8 @@ class StarImageFinder {
   void set_aside_axis(Batch& batch, double most_radius) const;
   void drop_faint(Batch& batch, int order) const;
   void set_aside_high_orders(Batch& batch) const;
-  void append_views(StarViews& views, int count, std::vector<StarImage>& images) const;
+  void append_views(StarViews& views, int count, double least_peak,
+                    std::vector<StarImage>& images) const;
   void append_exact(const SceneStars& stars, const Batch& batch,
                     std::vector<StarImage>& images) const;
 

@@ -94,7 +94,7 @@ void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::si
   if (table_ == nullptr) {
     StarViews views;
     go_straight(batch_frame_, batch.sources, count, views);
-    append_views(views, count, images);
+    append_views(views, count, kFaintestPeak, images);
     return;
   }
   set_aside_axis(batch, stars.most_angular_radius());
@@ -158,7 +158,7 @@ void StarImageFinder::append_curved(Batch& batch, int order, std::vector<StarIma
       copy_source(batch.sources, bright[static_cast<std::size_t>(n)], copied, n);
     bend(batch_frame_, curve, side, copied, count, views);
   }
-  append_views(views, count, images);
+  append_views(views, count, kFaintestPeak, images);
 }
 
 // Sets aside the orders that have no curve.
@@ -178,8 +178,9 @@ void StarImageFinder::append_exact(const SceneStars& stars, const Batch& batch,
                     orders.first_order, orders.end_order, images);
 }
 
-// Gives the views that reach the frame their colours, and appends those that are bright enough.
-void StarImageFinder::append_views(StarViews& views, int count,
+// Gives the views that reach the frame their colours, and appends those that are brighter than
+// `least_peak`.
+void StarImageFinder::append_views(StarViews& views, int count, double least_peak,
                                    std::vector<StarImage>& images) const {
   StarColumn<int> listed;
   const int number = plane_.place(views, count, listed.data());
@@ -197,9 +198,44 @@ void StarImageFinder::append_views(StarViews& views, int count,
         static_cast<float>(views.j[k]),
         {static_cast<float>(colour.r * pixel_flux), static_cast<float>(colour.g * pixel_flux),
          static_cast<float>(colour.b * pixel_flux)}};
-    bright += per_flux.luminance * flux * peak_per_lux_ > kFaintestPeak ? 1 : 0;
+    bright += per_flux.luminance * flux * peak_per_lux_ > least_peak ? 1 : 0;
   }
   images.resize(bright);
+}
+
+// append_trail() in columns of pieces.
+bool StarImageFinder::append_trail_in_batches(const SceneStar& star, const StarTrail& trail,
+                                              std::vector<StarImage>& images) const {
+  const M33d& camera = observer_.tetrad_from_camera;
+  StarViews views;
+  std::vector<int> pieces;
+  double brightest = 0;
+  for (std::size_t k = 0; k < trail.parts(); ++k) {
+    trail.store(k, 1, 0, 1, from_tetrad_, camera, views, 0);
+    const double luminance = star_colours()(star.temperature * views.temperature[0]).luminance;
+    const double peak = luminance * star.flux * views.flux[0] * peak_per_lux_;
+    pieces.push_back(pieces_of(sigmas_of(trail, k), peak, brightest));
+  }
+  if (!(brightest > kFaintestPeak)) return false;
+  int filled = 0;
+  const auto append_filled = [&] {
+    for (int k = 0; k < filled; ++k) {
+      views.flux[static_cast<std::size_t>(k)] *= star.flux;
+      views.temperature[static_cast<std::size_t>(k)] *= star.temperature;
+    }
+    append_views(views, filled, 0, images);
+    filled = 0;
+  };
+  for (std::size_t k = 0; k < trail.parts(); ++k)
+    for (int first = 0; first < pieces[k];) {
+      const int count = std::min(pieces[k] - first, kStarBatch - filled);
+      trail.store(k, pieces[k], first, count, from_tetrad_, camera, views, filled);
+      first += count;
+      filled += count;
+      if (filled == kStarBatch) append_filled();
+    }
+  append_filled();
+  return true;
 }
 
 }  // namespace domefall

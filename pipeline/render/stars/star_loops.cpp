@@ -55,20 +55,17 @@ Dispatched<into_tetrad_loop> into_tetrad;
 Dispatched<to_lens_loop> to_lens;
 
 // Stores the k-th view, that of light which comes from `direction` in the frame of the tetrad with
-// this frequency ratio and amplification.  The boost divides solid angles, and so the
-// amplification, by the square of its own frequency ratio, and multiplies the intensity by the
-// fourth power of it.
+// this frequency ratio and amplification.
 inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
                     double frequency_ratio, double amplification, const StarSources& sources, int k,
                     StarViews& views) {
-  const AberratedLight seen = boost.to_rest(direction);
-  const V3d n = apply_transposed(camera, seen.direction);
-  const double g = frequency_ratio * seen.frequency_ratio, g2 = g * frequency_ratio;
-  views.flux[k] = sources.flux[k] * amplification * (g2 * g2);
-  views.temperature[k] = sources.temperature[k] * g;
-  views.x[k] = n.x;
-  views.y[k] = n.y;
-  views.z[k] = n.z;
+  const ReceivedLight light =
+      received(boost, camera, direction, frequency_ratio, sources.flux[k] * amplification);
+  views.flux[k] = light.flux;
+  views.temperature[k] = sources.temperature[k] * light.frequency_ratio;
+  views.x[k] = light.direction.x;
+  views.y[k] = light.direction.y;
+  views.z[k] = light.direction.z;
 }
 
 // The cubics of a batch of v: where they stand in the table, and their coefficients by power.

@@ -41,6 +41,22 @@ struct StarViews {
   StarColumn<double> i, j;               // position in pixels, as StarImage has it
 };
 
+// Light that comes from `direction` in the frame of the tetrad, as the moving camera receives it.
+struct ReceivedLight {
+  V3d direction;           // unit vector along the camera's axes
+  double frequency_ratio;  // with that of the boost
+  double flux;             // for a unit of flux without redshift
+};
+
+// The boost divides solid angles, and so the amplification, by the square of its own frequency
+// ratio, and multiplies the intensity by the fourth power of it.
+inline ReceivedLight received(const Aberration& boost, const M33d& camera, const V3d& direction,
+                              double frequency_ratio, double amplification) {
+  const AberratedLight seen = boost.to_rest(direction);
+  const double g = frequency_ratio * seen.frequency_ratio, g2 = g * frequency_ratio;
+  return {apply_transposed(camera, seen.direction), g, amplification * (g2 * g2)};
+}
+
 // Fills the sources with the stars from `first` to first + count - 1.
 void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
                   StarSources& sources);

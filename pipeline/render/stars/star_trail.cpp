@@ -33,6 +33,10 @@ V3d AxisPassage::source(double x) const {
   return V3d(side_ * std::sqrt(std::max(0.0, 1 - across.length2())), across.y, across.z);
 }
 
+V3d AxisPassage::across(double x) const {
+  return (outward_ + along_ * std::sinh(x)) / std::cosh(x);
+}
+
 double AxisPassage::u(double x) const { return u_least_ + least_ / half_way_ * std::sinh(x); }
 
 // Since du/distance = dx/half_way, it is the integral of the weight over x by the rule of Gauss and
@@ -57,7 +61,9 @@ StarTrail::StarTrail(const SkyTable& table, const AxisPassage& passage, int orde
 
 StarTrail::Node StarTrail::node_at(const SkyTable& table, int order, double x) const {
   const SkyImage image = image_of(&table, passage_.source(x), order, 0);
-  return {x, image.direction.v, image.frequency_ratio, image.amplification * passage_.distance(x)};
+  const V3d& direction = image.direction.v;
+  return {x, direction, direction.dot(passage_.across(x)), image.frequency_ratio,
+          image.amplification * passage_.distance(x)};
 }
 
 // Adds nodes from one x to another, without the last one.
@@ -67,23 +73,27 @@ void StarTrail::add_nodes(const SkyTable& table, int order, double from, double 
     nodes_.push_back(node_at(table, order, from + (to - from) * k / count));
 }
 
+std::size_t StarTrail::first_around(std::size_t k) const {
+  return std::min(k > 0 ? k - 1 : 0, nodes_.size() - count_around());
+}
+
 // Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four around them, or
-// through all if there are fewer.  In x the images are so smooth that a step of kStep errs by less
-// than 1e-5 of the ring's radius.
-StarTrail::Node StarTrail::between(std::size_t k, double x) const {
-  const std::size_t count = std::min<std::size_t>(4, nodes_.size());
-  const std::size_t first = std::min(k > 0 ? k - 1 : 0, nodes_.size() - count);
-  Node sum{x, V3d(0, 0, 0), 0, 0};
+// through all if there are fewer.  In x the numbers are so smooth that a step of kStep errs by less
+// than 1e-5 radians, and by 1e-4 half a radian from the axis.  The amplification is the strength.
+SkyImage StarTrail::between(std::size_t k, double x) const {
+  const std::size_t count = count_around(), first = first_around(k);
+  double forward = 0, across = 0, frequency_ratio = 0, strength = 0;
   for (std::size_t i = first; i < first + count; ++i) {
     double weight = 1;
     for (std::size_t j = first; j < first + count; ++j)
       if (j != i) weight *= (x - nodes_[j].x) / (nodes_[i].x - nodes_[j].x);
-    sum.direction += nodes_[i].direction * weight;
-    sum.frequency_ratio += nodes_[i].frequency_ratio * weight;
-    sum.strength += nodes_[i].strength * weight;
+    forward += nodes_[i].direction.x * weight;
+    across += nodes_[i].across * weight;
+    frequency_ratio += nodes_[i].frequency_ratio * weight;
+    strength += nodes_[i].strength * weight;
   }
-  sum.direction.normalize();
-  return sum;
+  const V3d direction = V3d(forward, 0, 0) + passage_.across(x) * across;
+  return {{direction.normalized()}, frequency_ratio, strength};
 }
 
 SkyImage StarTrail::part(std::size_t k) const {
@@ -92,18 +102,12 @@ SkyImage StarTrail::part(std::size_t k) const {
   return whole.front();
 }
 
-double StarTrail::length(std::size_t k) const {
-  return (nodes_[k + 1].direction - nodes_[k].direction).length();
-}
-
 void StarTrail::split(std::size_t k, int pieces, std::vector<SkyImage>& images) const {
   const Node &from = nodes_[k], &to = nodes_[k + 1];
   for (int n = 0; n < pieces; ++n) {
     const double step = (to.x - from.x) / pieces, x = from.x + n * step;
-    const Node middle = between(k, x + step / 2);
-    images.push_back({{middle.direction},
-                      middle.frequency_ratio,
-                      middle.strength * passage_.mean_inverse_distance(x, x + step)});
+    images.push_back(between(k, x + step / 2));
+    images.back().amplification *= passage_.mean_inverse_distance(x, x + step);
   }
 }
 

@@ -13,9 +13,12 @@
 // light in equal steps of x, though its path in x is as smooth as the lens.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "pipeline/optics/aberration.h"
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/stars/star_loops.h"
 
 namespace domefall {
 
@@ -34,9 +37,20 @@ class AxisPassage {
   double end() const { return end_; }        // the x of u = 1
   double distance(double x) const;           // from the axis: the sine of the angle
   V3d source(double x) const;                // unit vector along R, Theta, Phi
+  V3d across(double x) const;                // unit vector from the axis towards the source
 
   // The integral of weight/distance over u between two x, which lie on one side of the middle.
   double mean_inverse_distance(double from, double to) const;
+  // What a loop needs to compute the same for many pieces of the way.
+  struct Way {
+    double u_least, u_per_sinh;  // u = u_least + u_per_sinh sinh(x)
+    double sharpness, factor;    // of the weight, (sharpness + 1)/2/half_way
+    V3d outward, along;          // across(x) = (outward + along sinh(x))/cosh(x)
+  };
+  Way way() const {
+    return {u_least_, least_ / half_way_, sharpness_, (sharpness_ + 1) / 2 / half_way_, outward_,
+            along_};
+  }
   // At least the same over the whole way.
   double most_inverse_distance() const {
     return (sharpness_ + 1) / 2 * (end_ - begin_) / half_way_;
@@ -64,24 +78,36 @@ class StarTrail {
   std::size_t parts() const { return nodes_.size() - 1; }
   // The light of a part, as if all came from its middle.
   SkyImage part(std::size_t k) const;
-  // How long a part is at least and at most 1.2 times, in radians.
-  double length(std::size_t k) const;
+  // The direction in which part k begins, and that in which the last one ends.
+  const V3d& begin(std::size_t k) const { return nodes_[k].direction; }
   // Appends a part in so many pieces, between 1 and kMostPieces, whose lengths differ by a tenth.
   void split(std::size_t k, int pieces, std::vector<SkyImage>& images) const;
+
+  // Stores pieces as they are received after a boost by a camera whose axes are the columns of the
+  // matrix, for a star of unit flux and temperature: of the `pieces` that split() makes of part k, `count`
+  // from `first` on become the views from `at` on.  It is a loop that becomes SIMD code.
+  void store(std::size_t k, int pieces, int first, int count, const Aberration& boost,
+             const M33d& camera, StarViews& views, int at) const;
 
   static constexpr int kMostPieces = 4096;
 
  private:
-  // The image of the source at one place of its way.
+  // The image of the source at one place of its way.  Its direction has one component along R, and
+  // one along passage_.across(x), which is known for any x: so what turns around the ring is not
+  // interpolated.
   struct Node {
     double x;
     V3d direction;
+    double across;
     double frequency_ratio;
     double strength;  // amplification times the distance from the axis, which is finite on it
   };
   void add_nodes(const SkyTable& table, int order, double from, double to);
   Node node_at(const SkyTable& table, int order, double x) const;
-  Node between(std::size_t k, double x) const;
+  SkyImage between(std::size_t k, double x) const;
+  // The first of the nodes by which part k is interpolated, and their number.
+  std::size_t first_around(std::size_t k) const;
+  std::size_t count_around() const { return std::min<std::size_t>(4, nodes_.size()); }
 
   AxisPassage passage_;
   std::vector<Node> nodes_;

@@ -258,6 +258,26 @@ TEST_P(SimdLoops, BendsTheSameLight) {
   }
 }
 
+TEST_P(SimdLoops, SeesTheSameTrails) {
+  const SkyTable table = *make_hole_optics(10, Tetrad::kRain, {}).home_sky;
+  const AxisPassage passage(V3d(-1, 0.003, 0.001), V3d(0, -0.04, 0.02), 1e-5, 3.7);
+  const StarTrail trail(table, passage, 1);
+  const Aberration boost(V3d(0.3, -0.8, 0.1));
+  const FrameState state = frame_state(show_of(StaticObserver{}, Domemaster{64}), 0);
+  for (const int count : {kStarBatch, kStarBatch - 1, 13, 1})
+    compare(std::to_string(count), [&] {
+      Bytes bytes;
+      StarViews v;
+      for (std::size_t k = 0; k < trail.parts(); ++k) {
+        trail.store(k, kStarBatch, kStarBatch - count, count, boost,
+                    state.observer.tetrad_from_camera, v, 0);
+        for (const auto* column : {&v.x, &v.y, &v.z, &v.flux, &v.temperature})
+          bytes.add(column->data(), static_cast<std::size_t>(count));
+      }
+      return bytes;
+    });
+}
+
 std::vector<StarImage> random_images(const Projection& p, int count) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(0, 1);

@@ -33,7 +33,10 @@ std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage
   const StarTrail trail(table, passage, order);
   std::vector<SkyImage> pieces;
   for (std::size_t k = 0; k < trail.parts(); ++k)
-    trail.split(k, static_cast<int>(std::ceil(1.1 * trail.length(k) / spacing)), pieces);
+    trail.split(
+        k,
+        static_cast<int>(std::ceil(1.1 * (trail.begin(k + 1) - trail.begin(k)).length() / spacing)),
+        pieces);
   return pieces;
 }
 
@@ -81,6 +84,65 @@ TEST(StarTrail, HasTheLightOfTheInstantFarFromTheAxis) {
       sum += piece.amplification;
     EXPECT_NEAR(sum / instant, 1, 2e-3) << sharpness;
   }
+}
+
+// The pieces lie where the lens has the images of their instants: to a hundredth of a pixel of 4k.
+TEST(StarTrail, LiesWhereItsInstantsDo) {
+  for (const Case& c : kCases)
+    for (int order = 0; order < 3; ++order) {
+      const SkyTable table = table_at(c.r);
+      const AxisPassage passage(c.source.normalized(), c.way, kRadius);
+      const StarTrail trail(table, passage, order);
+      // The sources of the passage, as close as they are to one another here.
+      std::vector<V3d> way;
+      for (int k = 0; k <= 20'000; ++k) {
+        const double x = passage.begin() + (passage.end() - passage.begin()) * k / 20'000;
+        way.push_back(image_of(&table, passage.source(x), order, 0).direction.v);
+      }
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < trail.parts(); ++k) {
+        std::vector<SkyImage> pieces;
+        trail.split(k, 3, pieces);
+        for (const SkyImage& piece : pieces) {
+          const auto away = [&](std::size_t n) { return (way[n] - piece.direction.v).length(); };
+          while (at + 1 < way.size() && away(at + 1) <= away(at)) ++at;
+          // What the neighbours are apart is known; across the way nothing is.
+          const V3d next = way[at + 1 < way.size() ? at + 1 : at - 1] - way[at];
+          EXPECT_LT((piece.direction.v - way[at]).cross(next.normalized()).length(), 8e-6)
+              << c.r << ", order " << order << ", part " << k;
+        }
+      }
+    }
+}
+
+// The camera's views of all pieces at once are those of the pieces one by one.
+TEST(StarTrail, IsSeenAtOnceAsPieceByPiece) {
+  const FrameState state = frame_state(show_of(StaticObserver{}, Domemaster{64}), 0);
+  const M33d& camera = state.observer.tetrad_from_camera;
+  for (const V3d& celerity : {V3d(0, 0, 0), V3d(-0.2, 0.6, 0.1), V3d(1, 3, -2)})
+    for (const Case& c : kCases)
+      for (int order = 0; order < 3; ++order) {
+        const Aberration boost(celerity);
+        const SkyTable table = table_at(c.r);
+        const StarTrail trail(table, AxisPassage(c.source.normalized(), c.way, kRadius, 4), order);
+        for (std::size_t k = 0; k < trail.parts(); ++k) {
+          constexpr int kPieces = 5, kFirst = 2, kAt = 7;
+          std::vector<SkyImage> pieces;
+          trail.split(k, kPieces, pieces);
+          StarViews views;
+          trail.store(k, kPieces, kFirst, kPieces - kFirst, boost, camera, views, kAt);
+          for (std::size_t n = 0; n < kPieces - kFirst; ++n) {
+            const SkyImage& piece = pieces[kFirst + n];
+            const AberratedLight seen = boost.to_rest(piece.direction.v);
+            const double doppler = seen.frequency_ratio, g = piece.frequency_ratio * doppler;
+            const V3d direction(views.x[kAt + n], views.y[kAt + n], views.z[kAt + n]);
+            const double flux = piece.amplification / (doppler * doppler) * std::pow(g, 4);
+            EXPECT_LT((direction - apply_transposed(camera, seen.direction)).length(), 1e-8);
+            EXPECT_NEAR(views.temperature[kAt + n], g, 1e-9 * g);
+            EXPECT_NEAR(views.flux[kAt + n], flux, 1e-9 * flux);
+          }
+        }
+      }
 }
 
 TEST(StarTrail, HasNoGaps) {
