@@ -84,8 +84,8 @@ class StarTrail {
   void split(std::size_t k, int pieces, std::vector<SkyImage>& images) const;
 
   // Stores pieces as they are received after a boost by a camera whose axes are the columns of the
-  // matrix, for a star of unit flux and temperature: of the `pieces` that split() makes of part k, `count`
-  // from `first` on become the views from `at` on.  It is a loop that becomes SIMD code.
+  // matrix, for a star of unit flux and temperature.  Of the `pieces` that split() makes of part k,
+  // `count` from `first` on become the views from `at` on.  It is a loop that becomes SIMD code.
   void store(std::size_t k, int pieces, int first, int count, const Aberration& boost,
              const M33d& camera, StarViews& views, int at) const;
 
