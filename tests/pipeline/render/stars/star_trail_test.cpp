@@ -95,8 +95,8 @@ TEST(StarTrail, LiesWhereItsInstantsDo) {
       const StarTrail trail(table, passage, order);
       // The sources of the passage, as close as they are to one another here.
       std::vector<V3d> way;
-      for (int k = 0; k <= 20'000; ++k) {
-        const double x = passage.begin() + (passage.end() - passage.begin()) * k / 20'000;
+      for (int k = 0; k <= 4000; ++k) {
+        const double x = passage.begin() + (passage.end() - passage.begin()) * k / 4000;
         way.push_back(image_of(&table, passage.source(x), order, 0).direction.v);
       }
       std::size_t at = 0;
