@@ -198,6 +198,35 @@ TEST(StarTrail, OfAFaintStarIsTheSameInFewerPieces) {
   }
 }
 
+// Where blobs may be as large as the sky, images are not found in batches: the pieces of a trail are
+// then found one by one.  Nothing else changes.
+TEST(StarTrail, InBatchesHasThePiecesFoundOneByOne) {
+  StarScene batches({Region::kI, Tetrad::kRain, 10, V3d(0.5, 0.3, 0)}, Domemaster{1024});
+  batches.motion.turn = V3d(0.001, -0.004, 0.002);
+  StarScene singles = {{Region::kI, Tetrad::kRain, 10, V3d(0.5, 0.3, 0)}, Domemaster{1024}};
+  singles.motion = batches.motion;
+  singles.show.point_spread.max_sigma = 3;
+  for (const double from_axis : {1e-5, 1e-3, 0.02}) {
+    const SceneStar star{batches.sky(V3d(-1, from_axis, 0.003)), 4, 1e-10, 6000, 1e-9};
+    const auto inside = [&](const StarScene& scene) {
+      auto images = all_images(scene.images(), SceneStars({star}));
+      std::erase_if(images, [&](const StarImage& image) {
+        return !is_inside(scene.state.projection, {image.x + 1.0, image.y + 1.0});
+      });
+      return images;
+    };
+    const auto one = inside(batches), other = inside(singles);
+    ASSERT_EQ(one.size(), other.size()) << from_axis;
+    EXPECT_GT(one.size(), 20u);
+    EXPECT_NE(total_light(one), total_light(other)) << "both were found in the same way";
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_NEAR(one[k].x, other[k].x, 1e-3);
+      EXPECT_NEAR(one[k].y, other[k].y, 1e-3);
+      EXPECT_NEAR(light(one[k]), light(other[k]), 1e-4 * light(other[k]));
+    }
+  }
+}
+
 // The light of a star in cells about as large as a degree.
 using Cells = std::map<std::pair<int, int>, double>;
 
