@@ -15,7 +15,7 @@ namespace domefall {
 
 // The four channels of a texel.
 using Channels __attribute__((vector_size(16))) = float;
-// The channels of two taps in one register, or in two where registers are narrower.
+// The channels of two texels in one register, or in two where registers are narrower.
 using ChannelPair __attribute__((vector_size(32))) = float;
 
 // A map's levels from the finest on.  The coarsest is repeated up to the end.
@@ -64,7 +64,27 @@ struct FloatFacePoint {
   fy = y - static_cast<float>(j);
 }
 
-// Asks for the four texels from `first` on, each of which may lie in a cache line of its own.
+// The weights of the four texels about a point: of the first, of the one behind it in its row, and of
+// the two in the next row.  All of them carry a factor of their own.
+struct TexelWeights {
+  float channel[4];
+};
+
+// The bits of a half float, shifted left by 13, are those of a float whose exponent is 127 - 15 =
+// 112 too small.  The weights make up for it.
+inline constexpr float kTapScale = 0x1p112f;
+
+// `fx` and `fy` are those of locate_texels, and `factor` is that of the light.
+[[gnu::always_inline]] inline void weigh_texels(float fx, float fy, float factor,
+                                                TexelWeights& weights) {
+  const float lower = fy * (factor * kTapScale), upper = (1 - fy) * (factor * kTapScale);
+  weights.channel[0] = (1 - fx) * upper;
+  weights.channel[1] = fx * upper;
+  weights.channel[2] = (1 - fx) * lower;
+  weights.channel[3] = fx * lower;
+}
+
+// Asks for the four texels from `first` on, each row of which mostly lies in one cache line.
 [[gnu::always_inline]] inline void prefetch_texels(const SkyTexel* first, int stride) {
   __builtin_prefetch(first);
   __builtin_prefetch(first + 1);
@@ -72,107 +92,67 @@ struct FloatFacePoint {
   __builtin_prefetch(first + stride + 1);
 }
 
-// The bits of a half float, shifted left by 13, are those of a float whose exponent is 127 - 15 =
-// 112 too small.  Taps therefore give 2^-112 of their light, and the sum of a sample's taps is
-// multiplied by this once.
-inline constexpr float kTapScale = 0x1p112f;
-
-// Turns halves, each in the lower part of 32 bits, into floats that are 2^112 times too small.
-template <class Bits, class Halves, class Floats>
-[[gnu::always_inline]] inline void widen(const Halves& halves, Floats& floats) {
-  Bits bits;
-  std::memcpy(&bits, &halves, sizeof bits);
-  bits <<= 13;
-  std::memcpy(&floats, &bits, sizeof floats);
-}
-
-// Decodes the texels at t and at u, and the right neighbours of both.
-[[gnu::always_inline]] inline void decode(const SkyTexel* t, const SkyTexel* u, ChannelPair& left,
-                                          ChannelPair& right) {
+// Turns two neighbours into floats that are 1/kTapScale of their channels.
+[[gnu::always_inline]] inline void decode(const SkyTexel* texels, ChannelPair& both) {
   using Halves __attribute__((vector_size(16))) = std::uint16_t;
-  using TwiceHalves __attribute__((vector_size(32))) = std::uint16_t;
+  using WideHalves __attribute__((vector_size(32))) = std::uint16_t;
   using Bits __attribute__((vector_size(32))) = std::uint32_t;
-  Halves a, b;
-  std::memcpy(&a, t, sizeof a);
-  std::memcpy(&b, u, sizeof b);
-  const TwiceHalves both =
-      __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const TwiceHalves none{};
-  const TwiceHalves low =
-      __builtin_shufflevector(both, none, 0, 16, 1, 17, 2, 18, 3, 19, 8, 24, 9, 25, 10, 26, 11, 27);
-  const TwiceHalves high = __builtin_shufflevector(both, none, 4, 20, 5, 21, 6, 22, 7, 23, 12, 28,
-                                                   13, 29, 14, 30, 15, 31);
-  widen<Bits>(low, left);
-  widen<Bits>(high, right);
+  Halves halves;
+  std::memcpy(&halves, texels, sizeof halves);
+  const Halves none{};
+  const WideHalves spread =
+      __builtin_shufflevector(halves, none, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+  Bits bits;
+  std::memcpy(&bits, &spread, sizeof bits);
+  bits <<= 13;
+  std::memcpy(&both, &bits, sizeof both);
 }
-
-// Gives the same bits as the function above for one of its two texels.
-[[gnu::always_inline]] inline void decode(const SkyTexel* t, Channels& left, Channels& right) {
+[[gnu::always_inline]] inline void decode(const SkyTexel* texels, Channels& left, Channels& right) {
   using Halves __attribute__((vector_size(16))) = std::uint16_t;
   using Bits __attribute__((vector_size(16))) = std::uint32_t;
-  Halves both;
-  std::memcpy(&both, t, sizeof both);
+  Halves halves;
+  std::memcpy(&halves, texels, sizeof halves);
   const Halves none{};
-  const Halves low = __builtin_shufflevector(both, none, 0, 8, 1, 9, 2, 10, 3, 11);
-  const Halves high = __builtin_shufflevector(both, none, 4, 12, 5, 13, 6, 14, 7, 15);
-  widen<Bits>(low, left);
-  widen<Bits>(high, right);
+  const Halves low = __builtin_shufflevector(halves, none, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Halves high = __builtin_shufflevector(halves, none, 4, 12, 5, 13, 6, 14, 7, 15);
+  Bits bits[2];
+  std::memcpy(&bits[0], &low, sizeof low);
+  std::memcpy(&bits[1], &high, sizeof high);
+  bits[0] <<= 13;
+  bits[1] <<= 13;
+  std::memcpy(&left, &bits[0], sizeof left);
+  std::memcpy(&right, &bits[1], sizeof right);
 }
 
-// Fills the channels of the first tap with one number and those of the second with another.
-[[gnu::always_inline]] inline void broadcast(float first, float second, ChannelPair& pair) {
-  const Channels a{first, first, first, first}, b{second, second, second, second};
-  pair = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-// One tap: the first of its four texels, the stride of their level, the part of the way to the
-// neighbours, and the factor of its light.
-struct WeightedTap {
-  const SkyTexel* texel;
-  int stride;
-  float fx, fy, weight;
-};
-
-// Takes both taps at once, without their weights.
-[[gnu::always_inline]] inline void bilinear(const WeightedTap& first, const WeightedTap& second,
-                                            ChannelPair& out) {
-  ChannelPair upper_left, upper_right, lower_left, lower_right, x, y;
-  decode(first.texel, second.texel, upper_left, upper_right);
-  decode(first.texel + first.stride, second.texel + second.stride, lower_left, lower_right);
-  broadcast(first.fx, second.fx, x);
-  broadcast(first.fy, second.fy, y);
-  const ChannelPair left = upper_left + (lower_left - upper_left) * y;
-  const ChannelPair right = upper_right + (lower_right - upper_right) * y;
-  out = left + (right - left) * x;
-}
-
-// Takes one tap, without its weight, with the same bits.
-[[gnu::always_inline]] inline void bilinear(const WeightedTap& tap, Channels& out) {
-  Channels upper_left, upper_right, lower_left, lower_right;
-  decode(tap.texel, upper_left, upper_right);
-  decode(tap.texel + tap.stride, lower_left, lower_right);
-  const Channels left = upper_left + (lower_left - upper_left) * tap.fy;
-  const Channels right = upper_right + (lower_right - upper_right) * tap.fy;
-  out = left + (right - left) * tap.fx;
-}
-
-// Takes two taps, each times its weight.  kWide does so in one register, which pays from AVX2 on.
+// Gives the weighted light of the left texels and of the right ones, which have yet to be added.
+// kWide computes in one register, which pays from AVX2 on; both give the same bits.
 template <bool kWide>
-[[gnu::always_inline]] inline void take_pair(const WeightedTap& first, const WeightedTap& second,
-                                             ChannelPair& out) {
+[[gnu::always_inline]] inline void take_texels(const SkyTexel* first, int stride,
+                                               const TexelWeights& weights, ChannelPair& light) {
+  Channels w;
+  std::memcpy(&w, &weights, sizeof w);
   if constexpr (kWide) {
-    ChannelPair weights;
-    broadcast(first.weight, second.weight, weights);
-    bilinear(first, second, out);
-    out *= weights;
+    ChannelPair upper, lower;
+    decode(first, upper);
+    decode(first + stride, lower);
+    light = upper * __builtin_shufflevector(w, w, 0, 0, 0, 0, 1, 1, 1, 1) +
+            lower * __builtin_shufflevector(w, w, 2, 2, 2, 2, 3, 3, 3, 3);
   } else {
-    Channels taps[2];
-    bilinear(first, taps[0]);
-    bilinear(second, taps[1]);
-    taps[0] *= first.weight;
-    taps[1] *= second.weight;
-    std::memcpy(&out, taps, sizeof out);
+    Channels upper[2], lower[2];
+    decode(first, upper[0], upper[1]);
+    decode(first + stride, lower[0], lower[1]);
+    const Channels sides[2] = {upper[0] * __builtin_shufflevector(w, w, 0, 0, 0, 0) +
+                                   lower[0] * __builtin_shufflevector(w, w, 2, 2, 2, 2),
+                               upper[1] * __builtin_shufflevector(w, w, 1, 1, 1, 1) +
+                                   lower[1] * __builtin_shufflevector(w, w, 3, 3, 3, 3)};
+    std::memcpy(&light, sides, sizeof light);
   }
+}
+
+// Adds the light of the left texels to that of the right ones.
+[[gnu::always_inline]] inline void total(const ChannelPair& light, Channels& sum) {
+  sum = __builtin_shufflevector(light, light, 0, 1, 2, 3) +
+        __builtin_shufflevector(light, light, 4, 5, 6, 7);
 }
 
 }  // namespace domefall

@@ -19,12 +19,12 @@ constexpr float kRound = 1.25f;
 constexpr float kSpacing = 1.5f;
 constexpr std::array<int, 9> kTaps{1, 2, 4, 6, 8, 12, 16, 24, SkySampler::kMostTaps};
 // Texels are prefetched this many plain samples before they are read.
-constexpr int kPrefetchedSamples = 40;
+constexpr int kPrefetchedSamples = 80;
 
 // Where plain samples fall on the finest level.
 struct FinestTaps {
   alignas(64) std::array<std::int32_t, kSize> texel;
-  alignas(64) std::array<float, kSize> fx, fy;
+  alignas(64) std::array<TexelWeights, kSize> weights;
 };
 
 [[gnu::always_inline]] inline void locate_plain_loop(const SampleBatch& batch, int count, int size,
@@ -32,106 +32,79 @@ struct FinestTaps {
   const float half_size = static_cast<float>(size) / 2;
   for (int k = 0; k < count; ++k) {
     const FloatFacePoint point = float_face_of(batch.x[k], batch.y[k], batch.z[k]);
-    locate_texels(point, half_size, size + 2, taps.texel[k], taps.fx[k], taps.fy[k]);
+    float fx, fy;
+    locate_texels(point, half_size, size + 2, taps.texel[k], fx, fy);
+    weigh_texels(fx, fy, 1, taps.weights[k]);
   }
 }
 Dispatched<locate_plain_loop> locate_plain;
 
-// The weights of the channels in luminance, for two samples side by side, and the luminance that is
-// black in all lanes.
-struct Black {
-  ChannelPair weights, level;
-
-  explicit Black(float black) {
-    const auto& w = luminance_weights();
-    weights = ChannelPair{w[0], w[1], w[2], 0, w[0], w[1], w[2], 0};
-    broadcast(black, black, level);
-  }
+// How the light of a colour map becomes pixel values.
+struct Exposure {
+  std::array<float, 3> luminance;  // the weights of the channels
+  float black;                     // the luminance that becomes 0
+  const float* gain;               // of each sample
 };
 
-// Lowers the luminance of two samples by the black level, or to 0, and keeps their hue.  The level
-// exceeds 0, so that a dark sample gives -infinity before it gives 0.
-[[gnu::always_inline]] inline void take_black(const Black& black, ChannelPair& light) {
-  ChannelPair luminance = light * black.weights;
-  luminance += __builtin_shufflevector(luminance, luminance, 1, 0, 3, 2, 5, 4, 7, 6);
-  luminance += __builtin_shufflevector(luminance, luminance, 2, 3, 0, 1, 6, 7, 4, 5);
-  const ChannelPair kept = 1 - black.level / luminance;
-  light *= kept > 0 ? kept : ChannelPair{};
+// Lowers the luminance of samples by the black level, or to 0, and keeps their hue.  A sample
+// without light gives -infinity or NaN before it gives 0.
+[[gnu::always_inline]] inline void expose(const Exposure& exposure, int count, float* rgb) {
+  const float red = exposure.luminance[0], green = exposure.luminance[1],
+              blue = exposure.luminance[2], black = exposure.black;
+  const float* gain = exposure.gain;
+  for (int k = 0; k < count; ++k) {
+    const float r = rgb[3 * k], g = rgb[3 * k + 1], b = rgb[3 * k + 2];
+    const float kept = 1 - black / (r * red + g * green + b * blue);
+    const float factor = kept > 0 ? kept * gain[k] : 0;
+    rgb[3 * k] = r * factor;
+    rgb[3 * k + 1] = g * factor;
+    rgb[3 * k + 2] = b * factor;
+  }
 }
 
-// Takes plain samples, which are most samples of most frames, in a loop of their own.  `count` is
-// even.  Of four channels the last is 0; the next sample's first overwrites it.
-template <bool kWide, bool kBlack>
+// Writes a sample's sum.  Of four channels the last is 0; the next sample's first overwrites it.
+[[gnu::always_inline]] inline void write_total(const ChannelPair& sides, float* rgb) {
+  Channels light;
+  total(sides, light);
+  std::memcpy(rgb, &light, sizeof light);
+}
+
+// Takes plain samples, which are most samples of most frames, in a loop of their own.
+template <bool kWide>
 [[gnu::always_inline]] inline void take_plain_loop(const SkyLevel& level, const FinestTaps& taps,
-                                                   const Black& black, const float* gain, int count,
+                                                   const Exposure& exposure, int count,
                                                    float* rgb) {
   const SkyTexel* texels = level.texels;
   const int stride = level.size + 2;
-  for (int k = 0; k < count; k += 2, rgb += 6) {
-    const int later = std::min(k + kPrefetchedSamples, count - 2);
-    prefetch_texels(texels + taps.texel[later], stride);
-    prefetch_texels(texels + taps.texel[later + 1], stride);
-    ChannelPair light;
-    take_pair<kWide>(
-        {texels + taps.texel[k], stride, taps.fx[k], taps.fy[k], kTapScale},
-        {texels + taps.texel[k + 1], stride, taps.fx[k + 1], taps.fy[k + 1], kTapScale}, light);
-    if constexpr (kBlack) take_black(black, light);
-    Channels samples[2];
-    std::memcpy(samples, &light, sizeof samples);
-    samples[0] *= gain[k];
-    samples[1] *= gain[k + 1];
-    std::memcpy(rgb, &samples[0], sizeof samples[0]);
-    std::memcpy(rgb + 3, &samples[1], sizeof samples[1]);
+  for (int k = 0; k < count; ++k) {
+    prefetch_texels(texels + taps.texel[std::min(k + kPrefetchedSamples, count - 1)], stride);
+    ChannelPair sides;
+    take_texels<kWide>(texels + taps.texel[k], stride, taps.weights[k], sides);
+    write_total(sides, rgb + 3 * k);
   }
+  expose(exposure, count, rgb);
 }
-Dispatched<take_plain_loop<true, false>> take_plain;
-Dispatched<take_plain_loop<true, true>> take_plain_above_black;
-Dispatched<take_plain_loop<false, false>> take_plain_one_by_one;
-Dispatched<take_plain_loop<false, true>> take_plain_above_black_one_by_one;
+Dispatched<take_plain_loop<true>> take_plain;
+Dispatched<take_plain_loop<false>> take_plain_by_halves;
 
-// Adds the two halves of a sample's sum.
-[[gnu::always_inline]] inline void total(const ChannelPair& sum, Channels& light) {
-  light = (__builtin_shufflevector(sum, sum, 0, 1, 2, 3) +
-           __builtin_shufflevector(sum, sum, 4, 5, 6, 7)) *
-          kTapScale;
+[[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums,
+                                                   const Exposure& exposure, int count,
+                                                   float* rgb) {
+  for (int k = 0; k < count; ++k) write_total(sums[k], rgb + 3 * k);
+  expose(exposure, count, rgb);
 }
-
-template <bool kBlack>
-[[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums, const Black& black,
-                                                   const float* gain, const SampleFilter* filters,
-                                                   int count, float* rgb) {
-  for (int k = 0; k < count; ++k, rgb += 3) {
-    if (filters[k].taps() == 0) continue;
-    Channels light;
-    total(sums[k], light);
-    const auto taps = static_cast<float>(filters[k].taps());
-    if constexpr (kBlack) {
-      light *= 1 / taps;
-      ChannelPair pair = __builtin_shufflevector(light, light, 0, 1, 2, 3, 0, 1, 2, 3);
-      take_black(black, pair);
-      light = __builtin_shufflevector(pair, pair, 0, 1, 2, 3) * gain[k];
-    } else {
-      light *= gain[k] / taps;
-    }
-    rgb[0] = light[0];
-    rgb[1] = light[1];
-    rgb[2] = light[2];
-  }
-}
-Dispatched<to_colours_loop<false>> to_colours;
-Dispatched<to_colours_loop<true>> to_colours_above_black;
+Dispatched<to_colours_loop> to_colours;
 
 // The first two channels of a thermal map are the radiance I and I theta (SkyMapKind::kThermal), so
 // that their ratio is the mean of theta.  The temperature is raised by `tone` octaves.
 void thermal_to_colours(const ChannelPair* sums, float black, const float* gain, const float* tone,
-                        const SampleFilter* filters, int count, float* rgb) {
+                        int count, float* rgb) {
   static const auto base = static_cast<float>(std::log2(kThermalBase));
   const BlackbodyColours& colours = blackbody_colours();
   for (int k = 0; k < count; ++k, rgb += 3) {
-    if (filters[k].taps() == 0) continue;
     Channels sum;
     total(sums[k], sum);
-    const float radiance = sum[0] / static_cast<float>(filters[k].taps()) - black;
+    const float radiance = sum[0] - black;
     WorkingRgb colour{0, 0, 0};
     if (radiance > 0) colour = colours.per_flux_log2(base + sum[1] / sum[0] + tone[k]);
     const float scale = radiance * gain[k];
@@ -193,6 +166,7 @@ class SortedByFilter {
     return &indices_[ends_[filter.code() - 1]];
   }
   int count(SampleFilter filter) const { return ends_[filter.code()] - ends_[filter.code() - 1]; }
+  bool all_have_taps() const { return ends_[0] == 0; }
 
  private:
   // Calls f(ends_[code], first, end) for each run of samples with one filter.  Runs are mostly
@@ -272,7 +246,7 @@ void SkySampler::choose_filters(const float* wide, const float* narrow, int coun
 }
 
 void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) const {
-  if (map_.kind() == SkyMapKind::kThermal || count % 2 != 0) {
+  if (map_.kind() == SkyMapKind::kThermal) {
     std::array<SampleFilter, kSize> filters;
     filters.fill(SampleFilter(1, false));
     return sample(batch, count, filters.data(), rgb);
@@ -280,14 +254,11 @@ void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) c
   FinestTaps taps;
   const SkyLevel& finest = map_.levels().front();
   locate_plain(batch, count, finest.size, taps);
-  const Black black(black_);
-  const auto take = [&](const auto& loop) {
-    loop(finest, taps, black, batch.gain.data(), count, rgb);
-  };
+  const Exposure exposure{luminance_weights(), black_, batch.gain.data()};
   if (simd_in_use() != Simd::kPortable)
-    black_ > 0 ? take(take_plain_above_black) : take(take_plain);
+    take_plain(finest, taps, exposure, count, rgb);
   else
-    black_ > 0 ? take(take_plain_above_black_one_by_one) : take(take_plain_one_by_one);
+    take_plain_by_halves(finest, taps, exposure, count, rgb);
 }
 
 void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter* filters,
@@ -310,13 +281,14 @@ void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter*
       queue_taps(members == count ? batch : gathered, filter, indices, members, queue, sums.data());
     }
   queue.flush(sums.data());
+  std::array<float, 3 * kSize + 1> lines;
+  float* light = sorted.all_have_taps() ? rgb : lines.data();
   if (map_.kind() == SkyMapKind::kThermal)
-    thermal_to_colours(sums.data(), black_, batch.gain.data(), batch.tone.data(), filters, count,
-                       rgb);
-  else if (black_ > 0)
-    to_colours_above_black(sums.data(), Black(black_), batch.gain.data(), filters, count, rgb);
+    thermal_to_colours(sums.data(), black_, batch.gain.data(), batch.tone.data(), count, light);
   else
-    to_colours(sums.data(), Black(black_), batch.gain.data(), filters, count, rgb);
+    to_colours(sums.data(), {luminance_weights(), black_, batch.gain.data()}, count, light);
+  for (int k = 0; light != rgb && k < count; ++k)
+    if (filters[k].taps() > 0) std::copy_n(light + 3 * k, 3, rgb + 3 * k);
 }
 
 }  // namespace domefall

@@ -12,7 +12,7 @@ namespace domefall {
 
 // Samples that share one filter.  The columns are those of SampleBatch.
 struct FilteredSamples {
-  SampleFilter filter;  // of 1 tap or an even number
+  SampleFilter filter;
   int count = 0;
   const float *x, *y, *z;
   const float *wide, *narrow;
@@ -26,45 +26,36 @@ class TapQueue {
   TapQueue(const SkyMap& map, double spacing);
 
   // The most samples with this filter that one call of add() accepts.
-  static int most_samples(SampleFilter filter) { return kMostPairs / pairs(filter); }
+  static int most_samples(SampleFilter filter) { return kMostPlaces / filter.taps(); }
   // Queues the taps of these samples.  Where that needs room, the queued taps are taken first.
   void add(const FilteredSamples& samples, ChannelPair* sums);
-  // Takes all queued taps.  Each sample's sum receives 1/kTapScale of the light of its taps, in two
-  // halves that have yet to be added.
+  // Takes all queued taps.  Each sample's sum receives the light of its taps, in two halves that
+  // have yet to be added (total).
   void flush(ChannelPair* sums);
 
-  // Where taps fall on the map, and the factors of their light.
+  // Taps on the map, and the indices of their samples' sums.
   static constexpr int kCapacity = 1024;
-  struct TapColumns {
+  struct Taps {
+    int count = 0;
     alignas(64) std::array<std::int32_t, kCapacity> texel, level;
-    alignas(64) std::array<float, kCapacity> fx, fy, weight;
+    alignas(64) std::array<TexelWeights, kCapacity> weights;
+    alignas(64) std::array<std::uint16_t, kCapacity> indices;
   };
 
  private:
-  static constexpr int kMostPairs = 512;  // that one call of add() queues
+  static constexpr int kMostPlaces = 512;  // where one call of add() places taps
   // From this many taps on, each tap is taken on one level of the map instead of on two.
   static constexpr int kManyTaps = 4;
   static bool on_two_levels(SampleFilter filter) {
     return filter.minified() && filter.taps() < kManyTaps;
   }
-  static int pairs(SampleFilter filter) {
-    return on_two_levels(filter) ? filter.taps() : (filter.taps() + 1) / 2;
-  }
-
-  // Taps wait in pairs: the first taps of all pairs in one set of columns, the second in another.
-  // A pair is one tap on two levels, or two neighbours of a line.
-  struct PendingPairs {
-    int count = 0;
-    std::array<TapColumns, 2> taps;
-    alignas(64) std::array<std::uint16_t, kCapacity> indices;
-  };
-  void locate(const FilteredSamples& samples, PendingPairs& pending) const;
+  void locate(const FilteredSamples& samples, Taps& queued) const;
 
   MipLevels levels_;
   int size_, last_;  // texels along a face of the finest level, number of the coarsest level
   float texels_per_radian_, spacing_;
-  PendingPairs finest_;    // on the finest level with the weight 1
-  PendingPairs weighted_;  // all others
+  Taps finest_;    // on the finest level, whose column of levels is not used
+  Taps levelled_;  // all others
 };
 
 }  // namespace domefall
