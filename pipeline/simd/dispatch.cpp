@@ -6,6 +6,10 @@
 
 #include "pipeline/image/errors.h"
 
+#if DOMEFALL_X86
+#include <cpuid.h>
+#endif
+
 namespace domefall {
 namespace {
 
@@ -15,6 +19,15 @@ void require(Simd level) {
   if (!processor_has(level))
     throw InputError(std::string(kVariable) + ": this processor has no " + name_of(level));
 }
+
+#if DOMEFALL_X86
+// Every processor with AVX2 converts half floats, but a virtual machine may hide it, and Clang's
+// __builtin_cpu_supports does not know its name.
+bool converts_halves() {
+  unsigned int a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+#endif
 
 }  // namespace
 
@@ -33,8 +46,8 @@ const char* name_of(Simd level) {
 bool processor_has(Simd level) {
 #if DOMEFALL_X86
   __builtin_cpu_init();
-  if (level == Simd::kAvx512) return __builtin_cpu_supports("avx512f") != 0;
-  if (level == Simd::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+  if (level == Simd::kAvx512) return __builtin_cpu_supports("avx512f") && converts_halves();
+  if (level == Simd::kAvx2) return __builtin_cpu_supports("avx2") && converts_halves();
 #endif
   return level == Simd::kPortable;
 }

@@ -23,7 +23,8 @@ inline constexpr Simd kEverySimd[] = {Simd::kPortable, Simd::kAvx2, Simd::kAvx51
 // Returns the word by which DOMEFALL_SIMD names a level: portable, avx2 or avx512.
 const char* name_of(Simd level);
 
-// Every processor has kPortable; only x86-64 has the others.
+// Every processor has kPortable; only x86-64 has the others, and those count only with F16C, which
+// comes with them unless a virtual machine hides it.
 bool processor_has(Simd level);
 
 // Returns the level that `word` names, or the widest that the processor has if `word` is empty.  It

@@ -35,9 +35,9 @@ TEST_P(SimdLoops, MakesTheSameHalves) {
     const float step = std::max(0x1p-24f, half * 0x1p-10f) / 2;
     for (const float off : {-step, 0.0f, step}) values.push_back(half + off);
   }
-  const auto halves = [](const std::vector<float>& from, int count) {
-    std::vector<std::uint16_t> out(from.size());
-    const bool finite = to_half(from.data(), count, out.data());
+  const auto halves = [](const std::vector<float>& from, int count, std::size_t at = 0) {
+    std::vector<std::uint16_t> out(at + from.size());
+    const bool finite = to_half(from.data(), count, &out[at]);
     Bytes bytes;
     bytes.add(out);
     bytes.add(&finite, 1);
@@ -45,6 +45,10 @@ TEST_P(SimdLoops, MakesTheSameHalves) {
   };
   for (const int less : {0, 1, 7, 31})
     compare("halves", [&] { return halves(values, static_cast<int>(values.size()) - less); });
+  // Halves are written in blocks that begin at certain addresses.
+  for (std::size_t at = 1; at < 40; ++at)
+    for (const int count : {static_cast<int>(at), 70})
+      compare("halves in between", [&] { return halves(values, count, at); });
   for (const float bad : {NAN, -NAN, INFINITY, -INFINITY})
     for (std::size_t at = 0; at < 70; ++at) {
       std::vector<float> few(values.begin(), values.begin() + 70);
