@@ -40,7 +40,7 @@ struct FinestTaps {
 Dispatched<locate_plain_loop> locate_plain;
 
 // How the light of a colour map becomes pixel values.
-struct Exposure {
+struct MapDevelopment {
   std::array<float, 3> luminance;  // the weights of the channels
   float black;                     // the luminance that becomes 0
   const float* gain;               // of each sample
@@ -48,10 +48,10 @@ struct Exposure {
 
 // Lowers the luminance of samples by the black level, or to 0, and keeps their hue.  A sample
 // without light gives -infinity or NaN before it gives 0.
-[[gnu::always_inline]] inline void expose(const Exposure& exposure, int count, float* rgb) {
-  const float red = exposure.luminance[0], green = exposure.luminance[1],
-              blue = exposure.luminance[2], black = exposure.black;
-  const float* gain = exposure.gain;
+[[gnu::always_inline]] inline void develop(const MapDevelopment& how, int count, float* rgb) {
+  const float red = how.luminance[0], green = how.luminance[1], blue = how.luminance[2],
+              black = how.black;
+  const float* gain = how.gain;
   for (int k = 0; k < count; ++k) {
     const float r = rgb[3 * k], g = rgb[3 * k + 1], b = rgb[3 * k + 2];
     const float kept = 1 - black / (r * red + g * green + b * blue);
@@ -72,7 +72,7 @@ struct Exposure {
 // Takes plain samples, which are most samples of most frames, in a loop of their own.
 template <bool kWide>
 [[gnu::always_inline]] inline void take_plain_loop(const SkyLevel& level, const FinestTaps& taps,
-                                                   const Exposure& exposure, int count,
+                                                   const MapDevelopment& how, int count,
                                                    float* rgb) {
   const SkyTexel* texels = level.texels;
   const int stride = level.size + 2;
@@ -82,16 +82,16 @@ template <bool kWide>
     take_texels<kWide>(texels + taps.texel[k], stride, taps.weights[k], sides);
     write_total(sides, rgb + 3 * k);
   }
-  expose(exposure, count, rgb);
+  develop(how, count, rgb);
 }
 Dispatched<take_plain_loop<true>> take_plain;
 Dispatched<take_plain_loop<false>> take_plain_by_halves;
 
 [[gnu::always_inline]] inline void to_colours_loop(const ChannelPair* sums,
-                                                   const Exposure& exposure, int count,
+                                                   const MapDevelopment& how, int count,
                                                    float* rgb) {
   for (int k = 0; k < count; ++k) write_total(sums[k], rgb + 3 * k);
-  expose(exposure, count, rgb);
+  develop(how, count, rgb);
 }
 Dispatched<to_colours_loop> to_colours;
 
@@ -254,11 +254,11 @@ void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) c
   FinestTaps taps;
   const SkyLevel& finest = map_.levels().front();
   locate_plain(batch, count, finest.size, taps);
-  const Exposure exposure{luminance_weights(), black_, batch.gain.data()};
+  const MapDevelopment how{luminance_weights(), black_, batch.gain.data()};
   if (simd_in_use() != Simd::kPortable)
-    take_plain(finest, taps, exposure, count, rgb);
+    take_plain(finest, taps, how, count, rgb);
   else
-    take_plain_by_halves(finest, taps, exposure, count, rgb);
+    take_plain_by_halves(finest, taps, how, count, rgb);
 }
 
 void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter* filters,
