@@ -19,6 +19,7 @@
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/render/rays/steady.h"
 #include "pipeline/render/thread_limit.h"
 
 namespace domefall {

@@ -11,6 +11,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/survey/axis_stars.h"
+#include "pipeline/survey/title_warnings.h"
 
 namespace domefall {
 namespace {
@@ -68,6 +69,7 @@ void check(const std::string& file, const std::string& out, bool json) {
     if (sky.twice > kMuchTwice) report.warnings.push_back({0, 0, 0, counted_twice_text(sky)});
   }
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
+  for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
   std::stable_sort(report.warnings.begin(), report.warnings.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   if (grade) report.display = grade->display(), report.view = grade->view();

@@ -29,6 +29,13 @@ struct Options {
   double fov_deg = 100;
 };
 
+// The axes of a flat camera that looks 45 degrees up the front of a dome.
+M33d from_the_seats(const M33d& dome_axes) {
+  const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
+  const double half = std::numbers::sqrt2 / 2;
+  return from_columns(column(dome_axes, 0), (front - zenith) * half, (front + zenith) * half);
+}
+
 // Gives a frame the flat projection.  The view of a dome is that of someone in the seats, straight
 // at the camera's target or, where the camera is given by angles, 45 degrees up the front of the
 // dome.
@@ -47,15 +54,13 @@ void flatten(const Show& show, FrameState& state, const Projection& flat) {
       });
   const M33d dome_axes = state.observer.tetrad_from_camera;
   state.projection = flat;
-  if (!dome || !by_angles) {
-    state.observer.tetrad_from_camera =
-        camera_axes_at(show, state.segment, state.show_time_s, flat, state.observer);
-    return;
-  }
-  const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
-  const double half = std::numbers::sqrt2 / 2;
   state.observer.tetrad_from_camera =
-      from_columns(column(dome_axes, 0), (front - zenith) * half, (front + zenith) * half);
+      dome && by_angles
+          ? from_the_seats(dome_axes)
+          : camera_axes_at(show, state.segment, state.show_time_s, flat, state.observer);
+  // Titles stay where they are on the dome.
+  state.camera_from_audience =
+      state.observer.tetrad_from_camera.transposed() * dome_axes * state.camera_from_audience;
 }
 
 // Does to a flat picture of a dome what its own light does, which that of the whole dome decides.

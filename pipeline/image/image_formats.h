@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "pipeline/image/late_library.h"
+
 namespace domefall {
 
 struct HealpixFile;
@@ -25,17 +27,6 @@ struct ImageLayout {
   SampleType samples = SampleType::kOtherInteger;
   int band = 1;             // so many rows are best read at once
   std::string description;  // the text that the file holds about itself
-};
-
-// What stands on one side of the library and is used on the other.
-class Interface {
- public:
-  Interface() = default;
-  virtual ~Interface() = default;
-  Interface(const Interface&) = delete;
-  Interface(Interface&&) = delete;
-  Interface& operator=(const Interface&) = delete;
-  Interface& operator=(Interface&&) = delete;
 };
 
 class ImageReader : public Interface {
@@ -62,8 +53,7 @@ class ImageFormats : public Interface {
   virtual HealpixFile read_healpix(const std::filesystem::path& path, int column) const = 0;
 };
 
-// Loads the library when it is first called, from any thread.  Throws std::runtime_error naming
-// what cannot be loaded.
+// Loads the library when it is first called, from any thread.  Throws as load_library.
 const ImageFormats& image_formats();
 
 }  // namespace domefall

@@ -103,7 +103,7 @@ class LoadedFormats : public ImageFormats {
 }  // namespace
 }  // namespace domefall
 
-extern "C" const domefall::ImageFormats* domefall_image_formats() {
+extern "C" const domefall::Interface* domefall_image_formats() {
   static const domefall::LoadedFormats formats;
   return &formats;
 }

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/render/overlay/frame_titles.h"
+#include "pipeline/render/rays/steady.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
 
@@ -15,15 +16,6 @@ namespace {
 
 // It is raised with every change that alters a pixel, so that older frames are made again.
 constexpr int kPixelVersion = 8;
-
-// Components of unit vectors are rounded to 1e-12, since one that is 0 on one processor may be
-// 1e-17 on another.
-constexpr double kUnitSteps = 1e12;
-
-void add_matrix(Digest& digest, const M33d& m) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) digest.add(std::round(m[i][j] * kUnitSteps) + 0.0);
-}
 
 void add_projection(Digest& digest, const Projection& p) {
   digest.add(projection_name(p)).add(columns(p)).add(rows(p));
@@ -56,14 +48,6 @@ void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
 }
 
 }  // namespace
-
-// Veltkamp's splitting: multiplied by 2^12 + 1 and subtracted from itself, a number loses its last
-// 12 bits by rounding.
-double steady(double value) {
-  constexpr double kSplit = 4097;
-  const double scaled = kSplit * value, high = scaled - (scaled - value);
-  return std::isfinite(high) ? high : value;
-}
 
 // The stamp is taken first: a change after it is seen by touched_asset().
 void FrameKeys::stamp(const std::filesystem::path& file) {
@@ -144,6 +128,11 @@ bool FrameKeys::same_assets(const FrameKeys& other) const {
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
+  const std::string sky = exposed(state), titles = titles_key(show_, state);
+  return titles.empty() ? sky : Digest().add(sky).add("titles").add(titles).hex();
+}
+
+std::string FrameKeys::exposed(const FrameState& state) const {
   if (!(show_.exposure.shutter > 0)) return instant(state);
   // Three instants stand for all those for which the shutter is open.
   Digest digest;
@@ -164,8 +153,8 @@ std::string FrameKeys::instant(const FrameState& state) const {
       .add(steady(o.r))
       .add(steady(o.proper_time));
   for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
-  add_matrix(digest, o.sky_from_tetrad);
-  add_matrix(digest, o.tetrad_from_camera);
+  add_rotation(digest, o.sky_from_tetrad);
+  add_rotation(digest, o.tetrad_from_camera);
   add_projection(digest, state.projection);
   digest.add(steady(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);

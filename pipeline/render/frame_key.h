@@ -15,10 +15,6 @@
 
 namespace domefall {
 
-// The value rounded to 41 bits, a relative 2e-13.  The last bits of sines and powers differ between
-// processors, and a frame that another node made must be recognized on this one.
-double steady(double value);
-
 class FrameKeys {
  public:
   // Reads the show's assets once, for their digests.  The show must outlive the keys.  `grade`
@@ -35,7 +31,7 @@ class FrameKeys {
   // The digest of what all frames share, which is neither in the timeline nor a sky that only some
   // of them see.
   const std::string& show() const { return common_; }
-  // The key of a scene-linear frame.
+  // The key of a scene-linear frame.  Throws as titles_key, for a frame with titles.
   std::string scene(const FrameState& state) const;
   // The key of the graded frame that is made, by the CDL of this state, from the one with this key.
   std::string graded(const std::string& scene_key, const FrameState& state) const;
@@ -45,6 +41,8 @@ class FrameKeys {
   void add_background(Digest& digest, const SkyBackground& background);
   void add_sky(Digest& digest, const RegionSky& sky);
   void add_segments();
+  // The key of what is seen while the shutter is open, without titles.
+  std::string exposed(const FrameState& state) const;
   // The key of what is seen at one instant.
   std::string instant(const FrameState& state) const;
 

@@ -12,6 +12,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_stars.h"
+#include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
 #include "pipeline/render/thread_limit.h"
@@ -115,6 +116,8 @@ void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* tim
     }
     memory_->arena.execute([&] { mean.store(frame); });
   }
+  // A title stands still while the shutter is open, and no fade of the show acts on it.
+  draw_titles(show_, state, frame);
   if (times) *times = sum;
 }
 

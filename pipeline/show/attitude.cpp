@@ -125,6 +125,14 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
   return from_columns(x, f * c - u * s, f * s + u * c);
 }
 
+M33d audience_axes(const Projection& projection, double dome_tilt) {
+  if (!std::holds_alternative<Domemaster>(projection))
+    return from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+  // What stood at elevation e of the front stands at e + dome_tilt.
+  const double c = std::cos(dome_tilt), s = std::sin(dome_tilt);
+  return from_columns({1, 0, 0}, {0, c, s}, {0, -s, c});
+}
+
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
   const Imath::Quatd q = quaternion_of(to * from.transposed());
   const double sine = q.v.length();

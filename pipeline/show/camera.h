@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "projections/projection.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -30,5 +31,11 @@ struct Camera {
   // turned so that what stood at elevation e stands at e + dome_tilt.
   double dome_tilt = 0;
 };
+
+// Where those who look at a picture find their right, their front and their zenith: columns along
+// the camera's axes, a rotation.  In a dome the front is the bottom of the image and the zenith its
+// middle, but for the tilt (radians) of the dome; on a flat picture the front is its middle and the
+// zenith up.
+M33d audience_axes(const Projection& projection, double dome_tilt);
 
 }  // namespace domefall

@@ -50,20 +50,10 @@ Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
   return between;
 }
 
-// The light at t between `begin` and `end`.  To the eye, which sees a quarter of the light as half,
-// it changes evenly.
-double faded(const Fades& fades, double begin, double end, double t) {
-  const auto part = [](double passed, double fade) {
-    return fade > 0 ? smooth_step(passed / fade) : 1;
-  };
-  const double left = part(t - begin, fades.in_s) * part(end - t, fades.out_s);
-  return left * left;
-}
-
 double fade_at(const Show& show, int segment, double t) {
   const Segment& s = segment_of(show, segment);
   const double begin = begin_of(show, segment), end = begin + s.duration_s;
-  return faded(s.fades, begin, end, t) * faded(show.fades, 0, end_of(show), t);
+  return light_left(s.fades, begin, end, t) * light_left(show.fades, 0, end_of(show), t);
 }
 
 FrameState state_in(const Show& show, int segment, int frame, double t) {
@@ -81,6 +71,8 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   state.observer = observer_at(show, segment, part_at(show, segment, t));
   state.observer.tetrad_from_camera =
       camera_axes_at(show, segment, t, state.projection, state.observer);
+  state.camera_from_audience =
+      audience_axes(state.projection, value_at(s, Channel::kDomeTilt, t, s.camera.dome_tilt));
   return state;
 }
 

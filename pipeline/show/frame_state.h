@@ -28,6 +28,7 @@ struct FrameState {
   int segment = 0;  // index into the timeline; during a dissolve the later one
   ObserverState observer;
   Projection projection;
+  M33d camera_from_audience;  // as audience_axes() of camera.h has it
   FrameSettings settings;
   Cdl cdl;
   double fade = 1;  // the part of its light that is left in a fade from or to black

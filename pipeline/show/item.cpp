@@ -90,6 +90,12 @@ std::string kind_of(const Item& item) {
 
 bool is_text_or_number(const Item& item) { return item.node.IsScalar(); }
 
+namespace {
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
+}  // namespace
+
 std::optional<std::string> read_text(const Item& item) {
   auto text = scalar(item, "text");
   if (!text) return std::nullopt;
@@ -97,12 +103,26 @@ std::optional<std::string> read_text(const Item& item) {
     item.fail("must not be empty");
     return std::nullopt;
   }
-  for (const char c : *text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
-      item.fail("must be one line without control characters, got '" + shown(*text) + "'");
-      return std::nullopt;
-    }
+  if (std::ranges::any_of(*text, is_control)) {
+    item.fail("must be one line without control characters, got '" + shown(*text) + "'");
+    return std::nullopt;
+  }
   return text;
+}
+
+std::optional<std::string> read_lines(const Item& item) {
+  auto text = scalar(item, "text");
+  if (!text) return std::nullopt;
+  const std::size_t first = text->find_first_not_of(" \n"), last = text->find_last_not_of(" \n");
+  if (first == std::string::npos) {
+    item.fail("must not be empty");
+    return std::nullopt;
+  }
+  if (std::ranges::any_of(*text, [](char c) { return c != '\n' && is_control(c); })) {
+    item.fail("may have no control characters but ends of lines, got '" + shown(*text) + "'");
+    return std::nullopt;
+  }
+  return text->substr(first, last + 1 - first);
 }
 
 std::optional<double> read_number(const Item& item, const Range& range) {

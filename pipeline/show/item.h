@@ -67,6 +67,8 @@ bool is_text_or_number(const Item& item);
 // Reads plain words, quoted text, or a number as text.  Text must not be empty, and may have no
 // control characters.
 std::optional<std::string> read_text(const Item& item);
+// The same of text that may have several lines.  Those that are empty at its ends are left out.
+std::optional<std::string> read_lines(const Item& item);
 std::optional<double> read_number(const Item& item, const Range& range);
 // The value that was read of an item.  Reports one that breaks a bound.
 std::optional<double> in_range(const Item& item, double value, const Range& range);

@@ -12,6 +12,7 @@
 #include "pipeline/show/sky_section.h"
 #include "pipeline/show/stars_section.h"
 #include "pipeline/show/timeline_section.h"
+#include "pipeline/show/titles_section.h"
 #include "pipeline/show/yaml_document.h"
 #include "trajectories/equatorial.h"
 
@@ -45,7 +46,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(
       root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
              "keyframes", "markers", "fade_in_s", "fade_out_s", "effects", "sky", "stars",
-             "exposure", "grade", "dome", "output"});
+             "exposure", "grade", "dome", "titles", "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -62,6 +63,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);
   show.timeline = read_timeline(section, show, camera, lookup);
+  // Where there is no timeline its own message is enough.
+  if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show);
   show.grade.dome = read_dome(section, show.projection);
   show.output = read_output(section);
 }

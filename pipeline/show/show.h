@@ -9,12 +9,15 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/colour/colour_space.h"
 #include "pipeline/grade/grade_settings.h"
 #include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/graded_format.h"
+#include "pipeline/lettering/lettering.h"
 #include "pipeline/show/camera.h"
 #include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
+#include "pipeline/show/fades.h"
 #include "pipeline/show/placement.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "projections/projection.h"
@@ -86,9 +89,17 @@ struct AttitudeKey {
   std::vector<V3d> turns{};
 };
 
-// Seconds of show in which the light rises from black at a beginning, and sinks to it at an end.
-struct Fades {
-  double in_s = 0, out_s = 0;
+// A text on the dome.
+struct Title {
+  std::string text;  // UTF-8; lines end in '\n'
+  LetterStyle style;
+  double begin_s = 0, end_s = 0;  // show seconds
+  Fades fades;
+  // The place of its middle (radians): to the right of the audience's front, and above their horizon
+  // or, on a flat picture, above the line of sight.
+  double azimuth = 0, elevation = 0;
+  double height = 0;          // of a capital H, radians
+  WorkingRgb light{1, 1, 1};  // pixel values, which no exposure or fade of the show acts on
 };
 
 struct Segment {
@@ -103,6 +114,7 @@ struct Segment {
   Camera camera;  // holds wherever nothing is keyframed
   // Keyframes in ascending order.  Where there are none the camera keeps its attitude.
   std::vector<AttitudeKey> attitudes;
+  std::vector<Title> titles;
   // A channel has a curve if the show or the segment keyframes it, or if the segment has a value of
   // its own for it.
   PerChannel<std::optional<Curve>> curves;
@@ -226,6 +238,7 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
+  std::vector<Title> titles;          // beside those of segments
   Fades fades;
   // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
   // show that is put together otherwise has none, and each of its states follows the timeline from

@@ -10,6 +10,7 @@
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/show_time.h"
 #include "pipeline/show/sky_section.h"
+#include "pipeline/show/titles_section.h"
 
 namespace domefall {
 namespace {
@@ -44,14 +45,6 @@ bool ever_has(const Segment& s, double begin, double end) {
   return false;
 }
 
-// Reports fades that together last longer than what they begin and end.
-void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
-  if (!(fades.in_s + fades.out_s > duration * (1 + kRounding))) return;
-  const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
-  last->fail(fmt::format("makes {} s of fades, but {} lasts {} s",
-                         short_number(fades.in_s + fades.out_s), of, short_number(duration)));
-}
-
 // Reads segment after segment, since each begins where the one before ends.
 class TimelineReader {
  public:
@@ -63,8 +56,9 @@ class TimelineReader {
         lookup_(lookup) {}
 
   void read(const Item& item) {
-    const Section section(item, {"duration_s", "dissolve_s", "fade_in_s", "fade_out_s",
-                                 "trajectory", "camera", "exposure", "grade", "sky", "keyframes"});
+    const Section section(
+        item, {"duration_s", "dissolve_s", "fade_in_s", "fade_out_s", "trajectory", "camera",
+               "exposure", "grade", "sky", "keyframes", "titles"});
     Segment segment;
     const double dissolve = read_dissolve(section);
     segment.duration_s = read_duration(section, end_ - dissolve);
@@ -77,6 +71,7 @@ class TimelineReader {
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
     end_ = begin + segment.duration_s;
+    segment.titles = read_titles(section, {begin, end_}, show_);
     joint_ = joint_after(segments_.empty() ? first_joint(show_, segment) : joint_, segment);
     segments_.push_back(std::move(segment));
   }
@@ -265,6 +260,13 @@ Fades read_fades(const Section& section) {
   if (const Item* out = section.find("fade_out_s"))
     fades.out_s = read_time(*out, kSeconds.at_least(0)).value_or(0);
   return fades;
+}
+
+void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
+  if (!(fades.in_s + fades.out_s > duration * (1 + kRounding))) return;
+  const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
+  last->fail(fmt::format("makes {} s of fades, but {} lasts {} s",
+                         short_number(fades.in_s + fades.out_s), of, short_number(duration)));
 }
 
 std::vector<Segment> read_timeline(const Section& section, const Show& show,

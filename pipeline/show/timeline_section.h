@@ -6,8 +6,10 @@
 
 namespace domefall {
 
-// Reads `fade_in_s` and `fade_out_s` of a show or a segment.
+// Reads `fade_in_s` and `fade_out_s` of a show, a segment or a title.
 Fades read_fades(const Section& section);
+// Reports fades that together last longer than `of` ("the show"), which they begin and end.
+void check_fades(const Section& section, const Fades& fades, double duration, const char* of);
 
 // Reads the segments of a `show` that has everything else but its grade already.
 std::vector<Segment> read_timeline(const Section& section, const Show& show,

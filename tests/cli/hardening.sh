@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# The program and the library that it loads are hardened against input that overruns a buffer.
+# The program and the libraries that it loads are hardened against input that overruns a buffer.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 command -v readelf >/dev/null || exit 77
-library=$(dirname "$DOMEFALL")/lib/libdomefall_image_formats.so
+libraries=("$(dirname "$DOMEFALL")"/lib/libdomefall_{image_formats,pango_lettering}.so)
 
 # has FILE OPTION PATTERN WHAT: readelf says so of the file.
 has() { readelf -W "$2" "$1" | grep -E -- "$3" >/dev/null || fail "$1 has no $4"; }
 
 has "$DOMEFALL" --file-header 'Type: +DYN' 'position that is chosen when it starts'
 has "$DOMEFALL" --dynamic 'FLAGS_1.*PIE' 'position that is chosen when it starts'
-for file in "$DOMEFALL" "$library"; do
+for file in "$DOMEFALL" "${libraries[@]}"; do
   has "$file" --program-headers 'GNU_RELRO' 'read-only relocations'
   has "$file" --dynamic '(FLAGS_1.*NOW|BIND_NOW)' 'binding at the start'
   has "$file" --program-headers 'GNU_STACK .* RW +0x' 'stack that cannot be executed'

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # OpenImageIO and CFITSIO with their 260 libraries are loaded when an image of another program is
-# read, and not before: not for the frames that are written.  An installed program finds what calls
-# them, and says so when it is missing.
+# read, and not before: not for the frames that are written.  Pango is loaded when a text is drawn.
+# An installed program finds what calls them, and says so when it is missing.
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
 
-# loads COMMAND...: it ends well; true if the dynamic linker initialised one of the two.
+# loads COMMAND...: it ends well; true if the dynamic linker initialised one of the three.
 loads() {
   rm -f linker.*
   exits 0 env LD_DEBUG=files LD_DEBUG_OUTPUT="$folder/linker" "$@"
   grep -q 'calling init: .*/libstdc++' linker.* || fail "the dynamic linker wrote nothing of use"
-  grep -qE 'calling init: .*/lib(OpenImageIO|cfitsio)' linker.*
+  grep -qE 'calling init: .*/lib(OpenImageIO|cfitsio|pango)' linker.*
 }
 
 write_show show.yaml
@@ -21,6 +21,9 @@ for command in "--version" "render --help" "probe grid.yaml --pixel 40,50" "chec
   # shellcheck disable=SC2086
   ! loads "$DOMEFALL" $command || fail "$command loads the libraries of images"
 done
+printf '%s\n' 'titles: [{text: Vega, at_s: 1}]' >>grid.yaml
+! loads "$DOMEFALL" render grid.yaml --frames 3 --out untitled || fail "a frame without titles loads Pango"
+loads "$DOMEFALL" render grid.yaml --frames 12 --out titled || fail "a title was drawn without Pango"
 read=(sky import panorama.png --size 32 --out made.sky)
 loads "$DOMEFALL" "${read[@]}" || fail "a PNG was read without OpenImageIO"
 
@@ -36,3 +39,8 @@ exits 75 "$installed" "${read[@]}"
 says 'reads images cannot be loaded: libdomefall_image_formats\.so: '
 exits 0 "$installed" render show.yaml --frames 4 --out without
 [ -f without/graded/show_00004.png ] || fail "no frame was made without what reads images"
+
+find installed -name 'libdomefall_pango_lettering.so' -delete
+exits 0 "$installed" render grid.yaml --frames 3 --out without
+exits 75 "$installed" render grid.yaml --frames 12 --out without
+says 'writes text cannot be loaded: libdomefall_pango_lettering\.so: '

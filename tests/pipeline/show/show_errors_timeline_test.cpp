@@ -32,7 +32,7 @@ TEST_F(ShowErrorsInTimelines, TheListOfSegments) {
       {"PaceOutsideTheTrajectory",
        kHole + "timeline: [{duration_s: 1, orbits: 2, trajectory: {type: circular, r: 9}}]\n",
        "2:28: timeline[1].orbits is an unknown key; known here: duration_s, dissolve_s, fade_in_s, "
-       "fade_out_s, trajectory, camera, exposure, grade, sky or keyframes"},
+       "fade_out_s, trajectory, camera, exposure, grade, sky, keyframes or titles"},
   });
 }
 

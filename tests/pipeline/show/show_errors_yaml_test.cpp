@@ -15,11 +15,11 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, exposure, "
-       "grade, dome or output), got a list"},
+       "grade, dome, titles or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, exposure, "
-       "grade, dome or output), got 'hello'"},
+       "grade, dome, titles or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
@@ -55,7 +55,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"CyclicAlias", "timeline: &t [*t]\n",
        "1:11: timeline[1] must be a map of keys (duration_s, dissolve_s, fade_in_s, fade_out_s, "
        "trajectory, camera, "
-       "exposure, grade, sky or keyframes), got a list"},
+       "exposure, grade, sky, keyframes or titles), got a list"},
       {"CyclicTrajectory",
        kHole + "timeline:\n"
                "  - &s {duration_s: 1, trajectory: *s}\n",
@@ -81,7 +81,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "timeline, camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, "
-       "exposure, grade, dome or output"},
+       "exposure, grade, dome, titles or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",

@@ -1,0 +1,24 @@
+// Libraries of our own that are loaded when they are first needed, since what they bring would slow
+// every start of the program.
+#pragma once
+
+namespace domefall {
+
+// What stands on one side of such a library and is used on the other.
+class Interface {
+ public:
+  Interface() = default;
+  virtual ~Interface() = default;
+  Interface(const Interface&) = delete;
+  Interface(Interface&&) = delete;
+  Interface& operator=(const Interface&) = delete;
+  Interface& operator=(Interface&&) = delete;
+};
+
+// Loads `library`, which is never unloaded, and returns what its function `entry`, of the type
+// `const Interface* ()` and C linkage, points to.  The dynamic linker looks in the program's RUNPATH,
+// which CMakeLists.txt sets for the build tree and for an installation.  Throws TemporaryError saying
+// that the part of the program that does `work` ("reads images") cannot be loaded, and why.
+const Interface& load_library(const char* library, const char* entry, const char* work);
+
+}  // namespace domefall

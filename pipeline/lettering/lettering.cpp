@@ -1,0 +1,12 @@
+#include "pipeline/lettering/lettering.h"
+
+namespace domefall {
+
+// The library stays for good, since fontconfig keeps what it has read of the machine's fonts.
+const Lettering& lettering() {
+  static const auto& loaded = static_cast<const Lettering&>(
+      load_library("libdomefall_pango_lettering.so", "domefall_pango_lettering", "writes text"));
+  return loaded;
+}
+
+}  // namespace domefall

@@ -1,0 +1,119 @@
+#include "pipeline/render/overlay/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace domefall {
+namespace {
+
+constexpr double kFarAway = 1e6, kGrid = 4096;
+
+PicturePoint on_grid(const PicturePoint& p) {
+  return {std::round(p.x * kGrid) / kGrid, std::round(p.y * kGrid) / kGrid};
+}
+
+bool is_usable(const PicturePoint& p) {
+  return std::abs(p.x) < kFarAway && std::abs(p.y) < kFarAway;
+}
+
+// Adds what an edge between the heights of one row, from x0 to x1 >= x0, takes from the pixels of
+// that row, as differences from pixel to pixel: their running sum is the part of a pixel that lies
+// to the right of the edge.  `height` bears the edge's direction.
+void add_in_row(double x0, double x1, double height, double* row) {
+  const double first = std::floor(x0), last = std::ceil(x1);
+  auto* at = row + static_cast<std::ptrdiff_t>(first);
+  if (last <= first + 1) {
+    const double beyond = height * ((x0 + x1) / 2 - first);
+    at[0] += height - beyond;
+    at[1] += beyond;
+    return;
+  }
+  // The area to the right of the edge, up to each border between pixels, is a parabola in the first
+  // and the last pixel and grows evenly between.
+  const double per_pixel = height / (x1 - x0);
+  double before = 0;
+  for (double border = first + 1;; ++border, ++at) {
+    const double from = std::max(border - 1, x0), to = std::min(border, x1);
+    const double within = per_pixel * (to - from);                // of the height, in this pixel
+    const double left_out = within * (border - (from + to) / 2);  // its share of this pixel
+    at[0] += before + left_out;
+    before = within - left_out;
+    if (border >= last) {
+      at[1] += before;
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void Coverage::add(const PicturePolygon& polygon) {
+  if (!std::ranges::all_of(polygon, is_usable)) return;
+  edges_.resize(static_cast<std::size_t>((height_ + kRows - 1) / kRows));
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    add_edge(on_grid(polygon[k]), on_grid(polygon[(k + 1) % polygon.size()]));
+}
+
+void Coverage::add_edge(PicturePoint from, PicturePoint to) {
+  if (from.y == to.y) return;
+  const double direction = from.y < to.y ? 1 : -1;
+  if (direction < 0) std::swap(from, to);
+  if (to.y <= 0 || from.y >= height_) return;
+  const int first = std::max(0, static_cast<int>(from.y) / kRows),
+            last = std::min(static_cast<int>(edges_.size()) - 1, static_cast<int>(to.y) / kRows);
+  for (int band = first; band <= last; ++band)
+    edges_[static_cast<std::size_t>(band)].push_back({from.x, from.y, to.x, to.y, direction});
+}
+
+// What lies to the left of the picture covers as an edge along its border would, and what lies to
+// the right of it covers nothing.
+Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
+  if (edges_.empty()) return {};
+  const std::vector<Edge>& edges = edges_[static_cast<std::size_t>(top / kRows)];
+  if (edges.empty()) return {};
+  double left = HUGE_VAL, right = -HUGE_VAL;
+  for (const Edge& e : edges) {
+    left = std::min({left, e.x0, e.x1});
+    right = std::max({right, e.x0, e.x1});
+  }
+  Span span;
+  span.first = static_cast<int>(std::clamp(std::floor(left), 0.0, double(width_)));
+  const int end = static_cast<int>(std::clamp(std::ceil(right), 0.0, double(width_)));
+  if (end <= span.first) return {};
+  span.count = static_cast<std::size_t>(end - span.first);
+  band.assign(span.stride() * kRows, 0);
+  const auto limit = static_cast<double>(span.count);
+  for (const Edge& e : edges) {
+    const double slope = (e.x1 - e.x0) / (e.y1 - e.y0);
+    const double begin = std::max(e.y0, double(top)), stop = std::min(e.y1, double(top + kRows));
+    for (double y = begin; y < stop;) {
+      const double next = std::min(std::floor(y) + 1, stop);
+      double* row = band.data() + static_cast<std::size_t>(y - top) * span.stride();
+      double x0 = e.x0 + slope * (y - e.y0) - span.first,
+             x1 = e.x0 + slope * (next - e.y0) - span.first;
+      if (x0 > x1) std::swap(x0, x1);
+      const double height = e.direction * (next - y), width = x1 - x0;
+      const double low = std::clamp(x0, 0.0, limit), high = std::clamp(x1, 0.0, limit);
+      if (width > 0) {
+        row[0] += height * (std::min(x1, 0.0) - std::min(x0, 0.0)) / width;
+        if (high > low) add_in_row(low, high, height * (high - low) / width, row);
+      } else {
+        add_in_row(low, low, height, row);
+      }
+      y = next;
+    }
+  }
+  for (int row = 0; row < kRows; ++row) {
+    double* at = band.data() + static_cast<std::size_t>(row) * span.stride();
+    double sum = 0;
+    for (std::size_t k = 0; k < span.count; ++k) {
+      sum += at[k];
+      constexpr double kNothing = 1e-9;  // what rounding leaves
+      const double part = std::min(std::abs(sum), 1.0);
+      at[k] = part > kNothing ? part : 0;
+    }
+  }
+  return span;
+}
+
+}  // namespace domefall

@@ -1,0 +1,85 @@
+#include "pipeline/render/overlay/frame_titles.h"
+
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "pipeline/image/digest.h"
+#include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/text_surface.h"
+#include "pipeline/render/rays/steady.h"
+
+namespace domefall {
+namespace {
+
+// Outlines are told apart to this part of a capital's height.
+constexpr double kOutlineSteps = 1e5;
+
+void add_outlines(Digest& digest, const LetteredText& text) {
+  const auto add = [&digest](const TextPoint& p) {
+    digest.add(std::round(p.x * kOutlineSteps) + 0.0).add(std::round(p.y * kOutlineSteps) + 0.0);
+  };
+  for (const TextOutline& outline : text.outlines) {
+    digest.add("outline");
+    add(outline.start);
+    for (const TextCurve& curve : outline.curves)
+      for (const TextPoint& p : {curve.control1, curve.control2, curve.end}) add(p);
+  }
+}
+
+}  // namespace
+
+std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
+  std::vector<SeenTitle> seen;
+  const auto look = [&](const std::vector<Title>& titles) {
+    for (const Title& title : titles) {
+      const double t = state.show_time_s;
+      if (!(t >= title.begin_s && t < title.end_s)) continue;
+      const double opacity = light_left(title.fades, title.begin_s, title.end_s, t);
+      if (opacity > 0) seen.push_back({&title, opacity});
+    }
+  };
+  look(show.titles);
+  for (const Segment& segment : show.timeline) look(segment.titles);
+  return seen;
+}
+
+const LetteredText& title_letters(const Title& title) {
+  static std::mutex one_looks;
+  static std::map<std::pair<std::string, LetterStyle>, LetteredText> known;
+  const std::lock_guard lock(one_looks);
+  const auto key = std::pair(title.text, title.style);
+  const auto found = known.find(key);
+  if (found != known.end()) return found->second;
+  return known.emplace(key, lettering().letter(title.text, title.style)).first->second;
+}
+
+std::string titles_key(const Show& show, const FrameState& state) {
+  const std::vector<SeenTitle> seen = seen_titles(show, state);
+  if (seen.empty()) return {};
+  Digest digest;
+  add_rotation(digest, state.camera_from_audience);
+  for (const auto& [title, opacity] : seen) {
+    add_outlines(digest, title_letters(*title));
+    for (const double v : {title->azimuth, title->elevation, title->height, opacity})
+      digest.add(steady(v));
+    for (const float v : {title->light.r, title->light.g, title->light.b})
+      digest.add(static_cast<double>(v));
+  }
+  return digest.hex();
+}
+
+void draw_titles(const Show& show, const FrameState& state, HalfFrame& frame) {
+  for (const auto& [title, opacity] : seen_titles(show, state)) {
+    Coverage coverage(frame.width, frame.height);
+    add_text(
+        title_letters(*title),
+        TextSurface(state.camera_from_audience, title->azimuth, title->elevation, title->height),
+        state.projection, coverage);
+    draw_over(coverage, {title->light, opacity}, state.projection, frame);
+  }
+}
+
+}  // namespace domefall

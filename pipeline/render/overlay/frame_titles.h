@@ -1,0 +1,32 @@
+// The titles of a show in its frames.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/image/frame_buffer.h"
+#include "pipeline/lettering/lettering.h"
+#include "pipeline/show/frame_state.h"
+
+namespace domefall {
+
+struct SeenTitle {
+  const Title* title;
+  double opacity;  // above 0, at most 1
+};
+
+// The titles that are seen at a state's instant, those of the show before those of its segments.
+std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state);
+
+// The outlines of a title, which are made once for each text and kept.  May be called from any
+// thread.  Throws as lettering() and Lettering::letter.
+const LetteredText& title_letters(const Title& title);
+
+// A digest of all that the titles of a frame change in it: their outlines, too, which depend on the
+// machine's fonts.  Empty for a frame without titles.  Throws as title_letters.
+std::string titles_key(const Show& show, const FrameState& state);
+
+// Draws the titles over a frame, in the order of seen_titles().  Throws as title_letters.
+void draw_titles(const Show& show, const FrameState& state, HalfFrame& frame);
+
+}  // namespace domefall

@@ -1,0 +1,15 @@
+#include "pipeline/show/fades.h"
+
+#include "pipeline/show/curve.h"
+
+namespace domefall {
+
+double light_left(const Fades& fades, double begin, double end, double t) {
+  const auto part = [](double passed, double fade) {
+    return fade > 0 ? smooth_step(passed / fade) : 1;
+  };
+  const double left = part(t - begin, fades.in_s) * part(end - t, fades.out_s);
+  return left * left;
+}
+
+}  // namespace domefall

@@ -1,0 +1,94 @@
+#include "pipeline/show/titles_section.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/show/lookup.h"
+#include "pipeline/show/show_time.h"
+#include "pipeline/show/timeline_section.h"
+
+namespace domefall {
+namespace {
+
+constexpr Range kTitleSeconds{"seconds"};
+constexpr double kHeightDeg = 2, kMostHeightDeg = 60;
+// Where the audience of a dome looks without leaning back.
+constexpr double kDomeElevationDeg = 30;
+constexpr double kBrightest = 1e4;
+constexpr std::size_t kLongestText = 2000;
+
+void read_words(const Section& s, Title& title) {
+  const Item* item = s.require("text", ", e.g. text: Sagittarius A*");
+  const auto text = item ? read_lines(*item) : std::nullopt;
+  if (text && text->size() > kLongestText)
+    item->fail(fmt::format("may have {} bytes, got {}", kLongestText, text->size()));
+  title.text = text.value_or("");
+  if (const Item* font = s.find("font")) title.style.font = read_text(*font).value_or("");
+  using enum TextAlign;
+  title.style.align =
+      s.word<TextAlign>("align", {{"left", kLeft}, {"centre", kCentre}, {"right", kRight}})
+          .value_or(kCentre);
+}
+
+void read_title_place(const Section& s, const Projection& projection, Title& title) {
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  title.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-360, 360), 0));
+  title.elevation =
+      radians(s.number("elevation_deg", kDegrees.within(-90, 90), dome ? kDomeElevationDeg : 0));
+  title.height =
+      radians(s.number("height_deg", kDegrees.above(0).at_most(kMostHeightDeg), kHeightDeg));
+}
+
+void read_title_light(const Section& s, Title& title) {
+  const double brightness = s.number("brightness", Range{"pixel values"}.within(0, kBrightest), 1);
+  V3d colour(1, 1, 1);
+  if (const Item* item = s.find("colour"))
+    if (const auto rgb = read_numbers(*item, 3, kPureNumber.within(0, 1)))
+      colour = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  const V3d light = apply(working_from_rec709(), colour * brightness);
+  title.light = {static_cast<float>(light.x), static_cast<float>(light.y),
+                 static_cast<float>(light.z)};
+}
+
+// A marker as a duration says when the title ends.
+void read_title_times(const Section& s, const TitleSpan& span, const Show& show, Title& title) {
+  const double length = span.end_s - span.begin_s;
+  const Item* at = s.find("at_s");
+  const double begin =
+      at ? read_time(*at, kTitleSeconds.at_least(0).below(length), show.markers, span.begin_s)
+               .value_or(0)
+         : 0;
+  title.begin_s = span.begin_s + begin;
+  const Item* lasts = s.find("duration_s");
+  const double duration = lasts ? read_time(*lasts, kTitleSeconds.above(0).at_most(length - begin),
+                                            show.markers, title.begin_s)
+                                      .value_or(length - begin)
+                                : length - begin;
+  title.end_s = title.begin_s + duration;
+  title.fades = read_fades(s);
+  check_fades(s, title.fades, duration, "the title");
+}
+
+Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
+  const Section s(item, {"text", "at_s", "duration_s", "fade_in_s", "fade_out_s", "azimuth_deg",
+                         "elevation_deg", "height_deg", "font", "align", "colour", "brightness"});
+  Title title;
+  read_words(s, title);
+  read_title_times(s, span, show, title);
+  read_title_place(s, show.projection, title);
+  read_title_light(s, title);
+  return title;
+}
+
+}  // namespace
+
+std::vector<Title> read_titles(const Section& section, const TitleSpan& span, const Show& show) {
+  std::vector<Title> titles;
+  const Item* list = section.find("titles");
+  const auto items = list ? read_list(*list) : std::nullopt;
+  if (!items) return titles;
+  titles.reserve(items->size());
+  for (const Item& item : *items) titles.push_back(read_title(item, span, show));
+  return titles;
+}
+
+}  // namespace domefall

@@ -1,0 +1,15 @@
+// What an author may not have wanted of the titles of a show.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/survey/show_jumps.h"
+
+namespace domefall {
+
+// A warning for each title whose font the machine does not have, which has letters that none of its
+// fonts has, whose middle is not in the picture when it appears, or which is so long that it runs
+// into itself.  Throws as title_letters.
+std::vector<ShowWarning> title_warnings(const Show& show);
+
+}  // namespace domefall

@@ -1,0 +1,252 @@
+// Titles stand where the show says, upright for the audience, and no other frame knows of them.
+#include "pipeline/render/overlay/frame_titles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/overlay/text_surface.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+Title title_of(const std::string& text, double azimuth_deg, double elevation_deg,
+               double height_deg) {
+  Title title;
+  title.text = text;
+  title.style.font = "DejaVu Sans";
+  title.end_s = 1;
+  title.azimuth = azimuth_deg * kDegree;
+  title.elevation = elevation_deg * kDegree;
+  title.height = height_deg * kDegree;
+  return title;
+}
+
+Show titled(const Title& title, const Projection& projection, double tilt = 0) {
+  Show show = show_of(StaticObserver{10}, projection);
+  show.timeline[0].camera.dome_tilt = tilt;
+  show.titles = {title};
+  return show;
+}
+
+HalfFrame frame_of(const Show& show, int number = 0) {
+  return Renderer(show, 1).render(frame_state(show, number));
+}
+
+// Where the audience's azimuth and elevation are, for a dome that is level: the zenith in the
+// middle, the front at the bottom, the right hand at the right.
+CameraDirection on_dome(double azimuth, double elevation) {
+  return {{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+           std::sin(elevation)}};
+}
+
+// The sum of `value` of all pixels, weighted by their light and solid angle.
+double integral(const HalfFrame& frame, const Projection& projection,
+                const std::function<double(const CameraDirection&)>& value) {
+  double sum = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const float light = frame.row(y)[3 * x + 1];
+      const PixelPosition pixel{x + 1.0, y + 1.0};
+      if (light > 0)
+        sum +=
+            light * pixel_solid_angle(projection, pixel) * value(direction_at(projection, pixel));
+    }
+  return sum;
+}
+
+CameraDirection middle_of_light(const HalfFrame& frame, const Projection& projection) {
+  V3d middle;
+  for (int k = 0; k < 3; ++k)
+    middle[k] = integral(frame, projection, [k](const CameraDirection& n) { return n.v[k]; });
+  return {middle.normalized()};
+}
+
+// The letter O is symmetric about its middle but for its overshoot.
+TEST(FrameTitles, StandWhereTheShowSays) {
+  const Domemaster dome{256};
+  for (const double azimuth : {0., 90., 180., -90., 37.})
+    for (const double elevation : {12., 45., 75., 90.}) {
+      const auto middle =
+          middle_of_light(frame_of(titled(title_of("O", azimuth, elevation, 8), dome)), dome);
+      const auto expected = on_dome(azimuth * kDegree, elevation * kDegree);
+      // Mercator's scale grows towards the pole, so that the upper half is smaller: by some
+      // hundredths of the letter's height.
+      EXPECT_LT((middle.v - expected.v).length(), 0.35 * kDegree) << azimuth << ", " << elevation;
+    }
+}
+
+TEST(FrameTitles, LeanWithTheDome) {
+  const Domemaster dome{256};
+  const auto middle =
+      middle_of_light(frame_of(titled(title_of("O", 0, 30, 8), dome, 20 * kDegree)), dome);
+  EXPECT_LT((middle.v - on_dome(0, 50 * kDegree).v).length(), 0.35 * kDegree);
+  // To the right of a dome that leans to the front a level place is no higher.
+  const auto right =
+      middle_of_light(frame_of(titled(title_of("O", 90, 30, 8), dome, 20 * kDegree)), dome);
+  EXPECT_NEAR(right.v.x, std::cos(30 * kDegree), 0.005);
+}
+
+TEST(FrameTitles, CountFromTheLineOfSightOfAFlatPicture) {
+  const Stereographic flat{256, 144, 100 * kDegree};
+  const auto middle = middle_of_light(frame_of(titled(title_of("O", 20, 10, 6), flat)), flat);
+  const V3d expected(std::cos(10 * kDegree) * std::sin(20 * kDegree), -std::sin(10 * kDegree),
+                     std::cos(10 * kDegree) * std::cos(20 * kDegree));
+  EXPECT_LT((middle.v - expected).length(), 0.3 * kDegree);
+}
+
+// An L has its stem at the left, its foot at the bottom, and nothing where they are not.
+TEST(FrameTitles, AreUprightForThoseWhoTurnTowardsThem) {
+  const Domemaster dome{256};
+  for (const double azimuth : {0., 90., 180., 270., 130.})
+    for (const double tilt : {0., 20.}) {
+      const Title title = title_of("L", azimuth, 30, 10);
+      const Show show = titled(title, dome, tilt * kDegree);
+      const FrameState state = frame_state(show, 0);
+      const M33d& audience = state.camera_from_audience;
+      const double a = azimuth * kDegree, e = 30 * kDegree;
+      const V3d middle = apply(audience, on_dome(a, e).v),
+                right = apply(audience, V3d(std::cos(a), -std::sin(a), 0)),
+                up = middle.cross(right) *
+                     (middle.cross(right).dot(column(audience, 2)) > 0 ? 1 : -1);
+      double quarter[2][2] = {{0, 0}, {0, 0}};  // [upper][right]
+      const HalfFrame frame = frame_of(show);
+      integral(frame, dome, [&](const CameraDirection& n) {
+        ++quarter[n.v.dot(up) > 0.3 * kDegree][n.v.dot(right) > 0.3 * kDegree];
+        return 0.0;
+      });
+      EXPECT_EQ(quarter[1][1], 0) << azimuth << " tilt " << tilt;
+      EXPECT_GT(quarter[1][0], 10) << azimuth << " tilt " << tilt;
+      EXPECT_GT(quarter[0][0], 10) << azimuth << " tilt " << tilt;
+      EXPECT_GT(quarter[0][1], 10) << azimuth << " tilt " << tilt;
+    }
+}
+
+// Each letter of a long line, not only its middle: a stroke points to the zenith.
+TEST(TextSurface, PointsEveryLetterToTheZenithUpToSixtyDegrees) {
+  const M33d level = audience_axes(Domemaster{64}, 0);
+  for (const double elevation : {0., 20., 60.})
+    for (const double x : {-12., 0., 25.}) {
+      const TextSurface surface(level, 0.7, elevation * kDegree, 2 * kDegree);
+      const V3d foot = surface.direction({x, -0.5}).v, head = surface.direction({x, 0.5}).v;
+      // The plane of the stroke holds the zenith, and the whole line keeps its elevation.
+      EXPECT_NEAR(foot.cross(head).normalized().z, 0, 1e-12) << elevation << " " << x;
+      EXPECT_GT(head.z, foot.z);
+      EXPECT_NEAR(surface.direction({x, 0}).v.z, std::sin(elevation * kDegree), 1e-12);
+    }
+  // At the zenith the line is a great circle.
+  const TextSurface top(level, 0, 90 * kDegree, 2 * kDegree);
+  for (const double x : {-20., 7.}) EXPECT_NEAR(top.direction({x, 0}).v.y, 0, 1e-12) << x;
+}
+
+TEST(TextSurface, KeepsTheFormOfLetters) {
+  const TextSurface surface(audience_axes(Domemaster{64}, 0.2), 1, 0.8, 3 * kDegree);
+  constexpr double kStep = 1e-5;
+  for (const TextPoint at : {TextPoint{0, 0}, {10, 0.5}, {-9, -2}}) {
+    const V3d here = surface.direction(at).v;
+    const V3d right = surface.direction({at.x + kStep, at.y}).v - here,
+              up = surface.direction({at.x, at.y + kStep}).v - here;
+    EXPECT_NEAR(here.length(), 1, 1e-14);
+    EXPECT_NEAR(right.dot(up) / (right.length() * up.length()), 0, 1e-4);
+    EXPECT_NEAR(right.length() / up.length(), 1, 1e-4);
+  }
+  const V3d step = surface.direction({kStep, 0}).v - surface.direction({0, 0}).v;
+  EXPECT_NEAR(step.length(), 3 * kDegree * kStep, 1e-10) << "a unit is the height";
+}
+
+TEST(FrameTitles, HaveTheSameLightAtEverySize) {
+  const Title title = title_of("Sgr A*", 20, 35, 3);
+  const auto light = [&](int size) {
+    const Domemaster dome{size};
+    return integral(frame_of(titled(title, dome)), dome,
+                    [](const CameraDirection&) { return 1.0; });
+  };
+  const double large = light(512);
+  EXPECT_GT(large, 0);
+  // Half floats hold 11 bits.
+  for (const int size : {64, 128, 256}) EXPECT_NEAR(light(size) / large, 1, 2e-3) << size;
+}
+
+TEST(FrameTitles, FadeEvenlyToTheEyeAndEndWithTheirTime) {
+  Title title = title_of("█", 0, 30, 20);
+  title.begin_s = 0.2;
+  title.end_s = 0.8;
+  title.fades = {0.2, 0.1};
+  Show show = titled(title, Domemaster{64});
+  const auto opacity = [&](double t) {
+    FrameState state = frame_state(show, 0);
+    state.show_time_s = t;
+    const auto seen = seen_titles(show, state);
+    return seen.empty() ? 0 : seen[0].opacity;
+  };
+  EXPECT_EQ(opacity(0.1), 0);
+  EXPECT_EQ(opacity(0.2), 0);
+  EXPECT_NEAR(opacity(0.3), 0.25, 1e-12);
+  EXPECT_EQ(opacity(0.5), 1);
+  EXPECT_NEAR(opacity(0.75), 0.25, 1e-12);
+  EXPECT_EQ(opacity(0.8), 0);
+  // The pixel in the middle of the letter has that part of the light.
+  show.titles[0].light = {2, 1, 0.5f};
+  show.frames_per_second = 40;
+  const HalfFrame half = frame_of(show, 12), whole = frame_of(show, 20);
+  const auto pixel = pixel_of(show.projection, on_dome(0, 30 * kDegree));
+  const int at = 3 * (static_cast<int>(pixel->i) - 1), row = static_cast<int>(pixel->j) - 1;
+  EXPECT_NEAR(whole.row(row)[at], 2, 1e-3);
+  EXPECT_NEAR(whole.row(row)[at + 2], 0.5, 1e-3);
+  EXPECT_NEAR(half.row(row)[at], 0.5, 1e-3);
+}
+
+TEST(FrameTitles, CoverWhatIsBehindAndAreNotFadedWithIt) {
+  Title title = title_of("█", 0, 45, 20);
+  title.light = {0, 0, 0};
+  Show show = titled(title, Domemaster{64});
+  show.sky[SkyRegion::kI].background = GridSky{};
+  show.timeline[0].trajectory = StaticObserver{1000};
+  const auto pixel = pixel_of(show.projection, on_dome(0, 45 * kDegree));
+  const int at = 3 * (static_cast<int>(pixel->i) - 1), row = static_cast<int>(pixel->j) - 1;
+  EXPECT_EQ(static_cast<float>(frame_of(show).row(row)[at]), 0);
+  show.titles[0].light = {1, 1, 1};
+  show.fades.in_s = 0.5;
+  const HalfFrame black = frame_of(show);
+  EXPECT_EQ(static_cast<float>(black.row(row)[at]), 1);
+  EXPECT_EQ(static_cast<float>(black.row(5)[3 * 32]), 0);
+}
+
+TEST(FrameTitles, EnterTheKeysOfTheFramesThatShowThem) {
+  Title title = title_of("I", 0, 45, 10);
+  title.begin_s = 0.3;
+  title.end_s = 0.6;
+  Show plain = show_of(StaticObserver{10}, Domemaster{64});
+  plain.frames_per_second = 10;
+  Show show = plain;
+  show.titles = {title};
+  const auto key = [](const Show& s, int frame) {
+    return FrameKeys(s).scene(frame_state(s, frame));
+  };
+  for (const int frame : {0, 2, 6, 9}) EXPECT_EQ(key(plain, frame), key(show, frame)) << frame;
+  for (const int frame : {3, 5}) EXPECT_NE(key(plain, frame), key(show, frame)) << frame;
+
+  const auto changes = [&](const std::function<void(Title&)>& change) {
+    Show other = show;
+    change(other.titles[0]);
+    return key(other, 4) != key(show, 4);
+  };
+  EXPECT_FALSE(changes([](Title& t) { t.end_s = 0.7; }));
+  EXPECT_TRUE(changes([](Title& t) { t.text = "J"; }));
+  EXPECT_TRUE(changes([](Title& t) { t.style.font = "DejaVu Sans Bold"; }));
+  EXPECT_TRUE(changes([](Title& t) { t.azimuth += 0.01; }));
+  EXPECT_TRUE(changes([](Title& t) { t.elevation += 0.01; }));
+  EXPECT_TRUE(changes([](Title& t) { t.height *= 1.01; }));
+  EXPECT_TRUE(changes([](Title& t) { t.light.g = 0.9f; }));
+  EXPECT_TRUE(changes([](Title& t) { t.fades.out_s = 0.3; }));
+  // A segment's title is the same title.
+  Show moved = plain;
+  moved.timeline[0].titles = {title};
+  EXPECT_EQ(key(moved, 4), key(show, 4));
+}
+
+}  // namespace
+}  // namespace domefall

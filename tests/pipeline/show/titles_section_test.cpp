@@ -1,0 +1,107 @@
+// Tests of the titles of show files: what their keys mean, and what is said of mistakes.
+#include "tests/pipeline/show/show_keys.h"
+#include "tests/pipeline/show/show_mistakes.h"
+
+namespace domefall {
+namespace {
+
+using Titles = ShowKeys;
+using TitleMistakes = ShowMistakes;
+
+TEST_F(Titles, LastAsLongAsTheShowAtTheFrontUnlessTheySayOtherwise) {
+  const Show show = with("titles: [{text: Sagittarius A*}]\n");
+  ASSERT_EQ(show.titles.size(), 1u);
+  const Title& t = show.titles[0];
+  EXPECT_EQ(t.text, "Sagittarius A*");
+  EXPECT_EQ(t.begin_s, 0);
+  EXPECT_EQ(t.end_s, 10);
+  EXPECT_EQ(t.fades.in_s + t.fades.out_s, 0);
+  EXPECT_EQ(t.azimuth, 0);
+  EXPECT_DOUBLE_EQ(t.elevation, 30 * kDegree);
+  EXPECT_DOUBLE_EQ(t.height, 2 * kDegree);
+  EXPECT_EQ(t.style, LetterStyle{});
+  EXPECT_NEAR(t.light.r, 1, 1e-6);
+  EXPECT_NEAR(t.light.b, 1, 1e-6);
+  EXPECT_EQ(with("camera: {projection: stereographic}\ntitles: [{text: a}]\n").titles[0].elevation,
+            0);
+}
+
+TEST_F(Titles, HaveTheTimesOfShowsInSegmentsToo) {
+  const Show show = read(
+      "markers: {here: 4, there: 0:07}\n"
+      "titles: [{text: a, at_s: here, duration_s: there, fade_in_s: 0:01, fade_out_s: 0.5}]\n"
+      "timeline:\n"
+      "  - {duration_s: 3}\n"
+      "  - {duration_s: 6, dissolve_s: 1, titles: [{text: b}, {text: c, at_s: here, duration_s: "
+      "1}]}\n");
+  EXPECT_EQ(show.titles[0].begin_s, 4);
+  EXPECT_EQ(show.titles[0].end_s, 7);
+  EXPECT_EQ(show.titles[0].fades.in_s, 1);
+  EXPECT_EQ(show.titles[0].fades.out_s, 0.5);
+  ASSERT_EQ(show.timeline[1].titles.size(), 2u);
+  EXPECT_EQ(show.timeline[1].titles[0].begin_s, 2) << "with the dissolve";
+  EXPECT_EQ(show.timeline[1].titles[0].end_s, 8);
+  EXPECT_EQ(show.timeline[1].titles[1].begin_s, 4) << "a marker is the same instant everywhere";
+  EXPECT_EQ(show.timeline[1].titles[1].end_s, 5);
+}
+
+TEST_F(Titles, HaveLinesAPlaceALookAndALight) {
+  const Show show = with(
+      "titles:\n"
+      "  - text: |\n"
+      "      Άστρον,\n"
+      "      the star\n"
+      "    azimuth_deg: -90\n"
+      "    elevation_deg: 12\n"
+      "    height_deg: 0.5\n"
+      "    font: DejaVu Serif Bold\n"
+      "    align: right\n"
+      "    colour: [1, 0, 0]\n"
+      "    brightness: 3\n");
+  const Title& t = show.titles.at(0);
+  EXPECT_EQ(t.text, "Άστρον,\nthe star");
+  EXPECT_DOUBLE_EQ(t.azimuth, -90 * kDegree);
+  EXPECT_DOUBLE_EQ(t.elevation, 12 * kDegree);
+  EXPECT_DOUBLE_EQ(t.height, 0.5 * kDegree);
+  EXPECT_EQ(t.style.font, "DejaVu Serif Bold");
+  EXPECT_EQ(t.style.align, TextAlign::kRight);
+  // Red of Rec.709 in ACEScg, as other programs convert it.
+  EXPECT_NEAR(t.light.r, 3 * 0.6131, 3e-3);
+  EXPECT_NEAR(t.light.g, 3 * 0.0702, 3e-3);
+  EXPECT_NEAR(t.light.b, 3 * 0.0206, 3e-3);
+}
+
+TEST_F(TitleMistakes, AreToldWithTheirPlaces) {
+  const auto title = [](const std::string& keys) { return kShow + "titles: [{" + keys + "}]\n"; };
+  expect_complaints({
+      {"no list", kShow + "titles: Sirius\n",
+       "3:9: titles must be a list of at least one entry, got 'Sirius'"},
+      {"no text", title("at_s: 1"), "3:10: titles[1].text is missing, e.g. text: Sagittarius A*"},
+      {"empty", title("text: ' '"), "3:17: titles[1].text must not be empty"},
+      {"a tab", title("text: \"a\\tb\""),
+       "3:17: titles[1].text may have no control characters but ends of lines, got 'a b'"},
+      {"misspelt", title("text: a, hight_deg: 3"),
+       "3:20: titles[1].hight_deg is an unknown key; did you mean height_deg?"},
+      {"behind the end", title("text: a, at_s: 2"),
+       "3:26: titles[1].at_s must stay below 2 (seconds), got 2"},
+      {"too long", title("text: a, at_s: 1.5, duration_s: 1"),
+       "3:43: titles[1].duration_s must be at most 0.5 (seconds), got 1"},
+      {"fades", title("text: a, at_s: 1, fade_in_s: 0.8, fade_out_s: 0.4"),
+       "3:57: titles[1].fade_out_s makes 1.2 s of fades, but the title lasts 1 s"},
+      {"height", title("text: a, height_deg: 0"),
+       "3:32: titles[1].height_deg must exceed 0 (degrees), got 0"},
+      {"elevation", title("text: a, elevation_deg: 95"),
+       "3:35: titles[1].elevation_deg must be at most 90 (degrees), got 95"},
+      {"align", title("text: a, align: center"),
+       "3:27: titles[1].align must be left, centre or right, got 'center'; did you mean centre?"},
+      {"colour", title("text: a, colour: red"),
+       "3:28: titles[1].colour must be a list of 3 numbers, got 'red'"},
+      {"colour's range", title("text: a, colour: [1, 2, 0]"),
+       "3:32: titles[1].colour[2] must be at most 1, got 2"},
+      {"in a segment", "timeline: [{duration_s: 2, titles: [{text: a, brightness: -1}]}]\n",
+       "1:59: timeline[1].titles[1].brightness must be at least 0 (pixel values), got -1"},
+  });
+}
+
+}  // namespace
+}  // namespace domefall
