@@ -96,6 +96,8 @@ Json json_of(const Show& show, const Marker& m) {
 }
 
 Json json_of(const ShowWarning& w) {
+  if (w.segment == kWholeShow)
+    return {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}, {"text", w.text}};
   return {{"time_s", number(w.time_s)},
           {"frame", w.frame},
           {"segment", w.segment + 1},

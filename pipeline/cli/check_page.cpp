@@ -247,8 +247,11 @@ class Page {
     text_ += "\nwarnings\n";
     for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
       const ShowWarning& w = r_.warnings[k];
-      text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame,
-                           w.segment + 1, w.text);
+      if (w.segment == kWholeShow)
+        text_ += fmt::format("the whole show: {}\n", w.text);
+      else
+        text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame,
+                             w.segment + 1, w.text);
     }
     if (r_.warnings.size() > kMost)
       text_ += fmt::format("  and {} more\n", r_.warnings.size() - kMost);

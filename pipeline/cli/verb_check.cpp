@@ -66,7 +66,8 @@ void check(const std::string& file, const std::string& out, bool json) {
   for (const SkySources& sky : survey_skies(show, found)) {
     report.skies.push_back({sky, {}});
     if (sky.panorama) report.skies.back().black = renderer.sky_black(sky.region, *sky.panorama);
-    if (sky.twice > kMuchTwice) report.warnings.push_back({0, 0, 0, counted_twice_text(sky)});
+    if (sky.twice > kMuchTwice)
+      report.warnings.push_back({0, 0, kWholeShow, counted_twice_text(sky)});
   }
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
@@ -76,7 +77,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);
   if (const std::string lack = lack_of_room(report); !lack.empty())
-    report.warnings.push_back({0, 0, 0, lack});
+    report.warnings.push_back({0, 0, kWholeShow, lack});
   const std::string text = json ? check_json(report) : check_page(report);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }

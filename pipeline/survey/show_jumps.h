@@ -31,10 +31,11 @@ struct SegmentJoint {
 // One for each segment but the first.
 std::vector<SegmentJoint> segment_joints(const Show& show);
 
+inline constexpr int kWholeShow = -1;
 struct ShowWarning {
   double time_s = 0;  // show seconds
   int frame = 0;
-  int segment = 0;
+  int segment = 0;  // kWholeShow: it is of no place
   std::string text;
 };
 
