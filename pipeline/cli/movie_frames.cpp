@@ -108,7 +108,8 @@ std::size_t frames_ahead(const MovieRun& run) {
 }
 
 void say_done(const MovieRun& run, const Progress& progress) {
-  std::fprintf(stderr, "%zu frames, %.3f s at %s a second, made in %.1f s: %s\n", run.frames.size(),
+  std::fprintf(stderr, "%zu frame%s, %.3f s at %s a second, made in %.1f s: %s\n",
+               run.frames.size(), run.frames.size() == 1 ? "" : "s",
                duration_of(run.plan.count, run.plan.rate), text_of(run.plan.rate).c_str(),
                progress.seconds(), run.out.c_str());
 }

@@ -148,6 +148,7 @@ void add_movie(CLI::App& app) {
       "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs");
   verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4 or .mov");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  verb->footer("--audio takes all that follows it, so the show stands before it.");
   verb->callback([o] { movie(*o); });
 }
 
