@@ -181,7 +181,9 @@ std::string costs_page(const Report& report) {
              "read "
              "before. A small frame's copy stays in the processor's cache, and is quicker by the "
              "pixel. "
-             "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv).\n\n",
+             "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv). What its files "
+             "cost: "
+             "[file_costs.md](file_costs.md).\n\n",
              report.quick ? " --quick" : "", machine_table()) +
          stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
          against_rk4(report) + against_table_walk(report.view_rays) +
