@@ -43,7 +43,7 @@ std::optional<DiskRoom> disk_room(const fs::path& folder) {
 
 DiskSize disk_size(const CheckReport& report) {
   const Show& show = report.show;
-  constexpr double kHalfPixel = 6;
+  constexpr double kHalfPixel = 6, kFloatPixel = 12;
   const double pixels = 1.0 * columns(show.projection) * rows(show.projection);
   DiskSize size;
   size.frames = frame_count(show);
@@ -52,7 +52,8 @@ DiskSize disk_size(const CheckReport& report) {
     size.linear = report.time->linear_bytes, size.graded = report.time->graded_bytes;
     return size;
   }
-  if (show.output.linear) size.linear = kHalfPixel * pixels;
+  if (const auto& linear = show.output.linear)
+    size.linear = (linear->pixels == ExrPixels::kFloat ? kFloatPixel : kHalfPixel) * pixels;
   if (show.output.graded) size.graded = pixel_bytes(show.output.graded->kind) * pixels;
   return size;
 }

@@ -20,6 +20,7 @@
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/rays/steady.h"
+#include "pipeline/render/rendered_frame.h"
 #include "pipeline/render/thread_limit.h"
 
 namespace domefall {
@@ -82,7 +83,7 @@ class Run {
       if (progress.made_count() == 0) folder_.write_record();
       progress.made();
     };
-    auto frame = std::make_shared<HalfFrame>(), written = std::make_shared<HalfFrame>();
+    auto frame = std::make_shared<RenderedFrame>(), written = std::make_shared<RenderedFrame>();
     for (const int number : run_.frames) {
       stop_if_interrupted();
       const FrameState state = frame_state(run_.show, number);
@@ -95,9 +96,9 @@ class Run {
         continue;
       }
       if (linear_good)
-        *frame = read_frame(folder_.linear(number)).first;
+        frame->half = read_frame(folder_.linear(number)).first;
       else if (run_.render)
-        renderer_.render(state, *frame);
+        render_for_files(renderer_, run_.show, state, *frame);
       else {
         missing_.push_back(number);
         continue;
@@ -175,25 +176,26 @@ class Run {
     info.frames_per_second = run_.show.frames_per_second;
     info.projection = projection_name(state.projection);
     info.software = kSoftware;
+    info.owner = run_.show.output.owner;
     return info;
   }
 
   // Writes the files that are asked for, side by side: while one waits for the disk, the other is
   // packed.
-  void write(const FrameState& state, const std::string& key, const HalfFrame& frame, bool linear,
-             bool graded) {
+  void write(const FrameState& state, const std::string& key, const RenderedFrame& frame,
+             bool linear, bool graded) {
     double linear_s = 0, graded_s = 0;
     std::future<void> other;
     if (linear)
       other = std::async(std::launch::async, [&] {
         const Stopwatch watch;
-        write_frame(folder_.linear(state.frame), frame, info(state, key), *run_.show.output.linear);
+        write_linear(folder_.linear(state.frame), run_.show, frame, info(state, key));
         linear_s = watch.seconds();
       });
     if (graded) {
       const Stopwatch watch;
       // Rows are graded by the threads that pack them.
-      grading_->grade(frame, state, [&](const RowPicture& rows) {
+      grading_->grade(frame.half, state, [&](const RowPicture& rows) {
         write_graded(folder_.graded(state.frame), rows, graded_info(state, key),
                      *run_.show.output.graded);
       });
@@ -202,7 +204,7 @@ class Run {
     if (other.valid()) other.get();
     if (run_.explain)
       std::fprintf(stderr, "frame %d: linear file %.3f s, graded file %.3f s\n%s", state.frame,
-                   linear_s, graded_s, graded ? describe_grade(frame).c_str() : "");
+                   linear_s, graded_s, graded ? describe_grade(frame.half).c_str() : "");
   }
 
   // By what the frame was graded, and how exactly.

@@ -22,7 +22,8 @@ KeyedRenderer::KeyedRenderer(const Show& show, std::vector<int> frames, std::str
 
 // The keys hold digests of the assets as they were when the run began, and the renderer reads them
 // later.  So a frame counts only if nothing has touched them until it was rendered.
-void KeyedRenderer::render(const FrameState& state, HalfFrame& frame) {
+template <class T>
+void KeyedRenderer::render_keyed(const FrameState& state, ImageRgb<T>& frame) {
   for (;;) {
     render_once(state, frame);
     const auto touched = keys_->touched_asset();
@@ -48,7 +49,8 @@ bool KeyedRenderer::assets_are_the_same() {
   }
 }
 
-void KeyedRenderer::render_once(const FrameState& state, HalfFrame& frame) {
+template <class T>
+void KeyedRenderer::render_once(const FrameState& state, ImageRgb<T>& frame) {
   if (!renderer_) {
     renderer_.emplace(show_, threads_);
     // All that the run needs is loaded at once, so that a damaged file ends it before its first
@@ -71,5 +73,8 @@ void KeyedRenderer::render_once(const FrameState& state, HalfFrame& frame) {
     throw std::runtime_error(fmt::format("frame {}: {}", state.frame, error.what()));
   }
 }
+
+template void KeyedRenderer::render_keyed(const FrameState&, HalfFrame&);
+template void KeyedRenderer::render_keyed(const FrameState&, FloatImage&);
 
 }  // namespace domefall

@@ -23,10 +23,14 @@ class KeyedRenderer {
 
   // Renders one of the frames.  Throws as Renderer, and TemporaryError if an asset has another
   // content than when its digest was taken.
-  void render(const FrameState& state, HalfFrame& frame);
+  void render(const FrameState& state, HalfFrame& frame) { render_keyed(state, frame); }
+  void render(const FrameState& state, FloatImage& frame) { render_keyed(state, frame); }
 
  private:
-  void render_once(const FrameState& state, HalfFrame& frame);
+  template <class T>
+  void render_keyed(const FrameState& state, ImageRgb<T>& frame);
+  template <class T>
+  void render_once(const FrameState& state, ImageRgb<T>& frame);
   bool assets_are_the_same();
 
   const Show& show_;

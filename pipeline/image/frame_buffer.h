@@ -28,7 +28,11 @@ struct ImageRgb {
 };
 
 using HalfFrame = ImageRgb<Imath::half>;       // a rendered frame, as it goes into an EXR
-using FloatImage = ImageRgb<float>;            // maps and oracles
+using FloatImage = ImageRgb<float>;            // maps and oracles, and frames in full precision
 using GradedFrame = ImageRgb<unsigned short>;  // a graded frame, 16 bits, display-encoded
+
+// The half frame of a rendered one: rounded to nearest with ties to even, values above 65504, the
+// largest half, become 65504, and negative ones 0.
+HalfFrame half_frame(const FloatImage& frame);
 
 }  // namespace domefall

@@ -31,15 +31,16 @@ constexpr ExrChromaticities kAcesCg{
     {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f}};
 constexpr const char *kShow = "showDigest", *kFrame = "frameNumber", *kRegion = "observerRegion",
                      *kRadius = "observerRadius", *kProperTime = "observerProperTime",
-                     *kRate = "showFramesPerSecond";
+                     *kRate = "showFramesPerSecond", *kOwner = "owner";
 
-Imf::FrameBuffer buffer_of(HalfFrame& frame) {
+template <class T>
+Imf::FrameBuffer buffer_of(ImageRgb<T>& frame, Imf::PixelType type) {
   Imf::FrameBuffer buffer;
-  const std::size_t pixel = 3 * sizeof(Imath::half);
+  const std::size_t pixel = 3 * sizeof(T);
   auto* base = reinterpret_cast<char*>(frame.pixels.data());
   const char* names[] = {"R", "G", "B"};
   for (std::size_t c = 0; c < 3; ++c)
-    buffer.insert(names[c], Imf::Slice(Imf::HALF, base + c * sizeof(Imath::half), pixel,
+    buffer.insert(names[c], Imf::Slice(type, base + c * sizeof(T), pixel,
                                        pixel * static_cast<std::size_t>(frame.width)));
   return buffer;
 }
@@ -77,6 +78,7 @@ std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& inf
                                                     static_cast<unsigned>(rate.seconds)});
   }
   if (const auto code = time_code(info)) all.emplace_back("timeCode", *code);
+  if (!info.owner.empty()) all.emplace_back(kOwner, info.owner);
   return all;
 }
 
@@ -99,35 +101,54 @@ FrameInfo info_of(const Imf::Header& header) {
   read_attribute<Imf::DoubleAttribute>(header, kRate, info.frames_per_second);
   read_attribute<Imf::StringAttribute>(header, kExrProjection, info.projection);
   read_attribute<Imf::StringAttribute>(header, "software", info.software);
+  if (const auto* owner = header.findTypedAttribute<Imf::StringAttribute>(kOwner))
+    info.owner = owner->value();
   return info;
 }
 
-void check_layout(const Imf::Header& header) {
+// Returns what the pixels are.
+Imf::PixelType check_layout(const Imf::Header& header) {
   const auto& box = header.dataWindow();
   if (box.min != Imath::V2i(0) || box != header.displayWindow())
     throw std::runtime_error("its windows are not those of a frame");
   int count = 0;
+  const Imf::Channel* red = header.channels().findChannel("R");
+  const Imf::PixelType type = red ? red->type : Imf::HALF;
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
     ++count;
-    if (!std::strchr("RGB", channel.name()[0]) || channel.name()[1] != 0 ||
-        channel.channel().type != Imf::HALF || channel.channel().xSampling != 1 ||
+    if (!std::strchr("RGB", channel.name()[0]) || channel.name()[1] != 0 || type == Imf::UINT ||
+        channel.channel().type != type || channel.channel().xSampling != 1 ||
         channel.channel().ySampling != 1)
-      throw std::runtime_error("its channels are not half floats R, G, B");
+      throw std::runtime_error("its channels are not floats R, G, B");
   }
-  if (count != 3) throw std::runtime_error("its channels are not half floats R, G, B");
+  if (count != 3) throw std::runtime_error("its channels are not floats R, G, B");
+  return type;
 }
 
 // Throws std::exception of some kind for anything that is wrong with the file.
 std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
   Imf::InputFile file(path.c_str(), Imf::globalThreadCount());
   const Imf::Header& header = file.header();
-  check_layout(header);
+  const Imf::PixelType type = check_layout(header);
   FrameInfo info = info_of(header);
   const Imath::V2i size = header.dataWindow().max + Imath::V2i(1);
-  HalfFrame frame(size.x, size.y);
-  file.setFrameBuffer(buffer_of(frame));
-  file.readPixels(0, size.y - 1);
-  return {std::move(frame), std::move(info)};
+  const auto pixels = [&]<class T>(ImageRgb<T> frame) {
+    file.setFrameBuffer(buffer_of(frame, type));
+    file.readPixels(0, size.y - 1);
+    return frame;
+  };
+  if (type == Imf::FLOAT) return {half_frame(pixels(FloatImage(size.x, size.y))), std::move(info)};
+  return {pixels(HalfFrame(size.x, size.y)), std::move(info)};
+}
+
+template <class T>
+void write(const std::filesystem::path& path, const ImageRgb<T>& frame, const FrameInfo& info,
+           ExrCompression compression) {
+  NewFile made(path);
+  write_exr(made,
+            {frame.width, frame.height, frame.pixels.data(), compression, attributes_of(info)});
+  seal_frame(made);
+  made.commit();
 }
 
 }  // namespace
@@ -139,11 +160,12 @@ void set_file_threads(int threads) {
 
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
                  ExrCompression compression) {
-  NewFile made(path);
-  write_exr(made,
-            {frame.width, frame.height, frame.pixels.data(), compression, attributes_of(info)});
-  seal_frame(made);
-  made.commit();
+  write(path, frame, info, compression);
+}
+
+void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
+                 ExrCompression compression) {
+  write(path, frame, info, compression);
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

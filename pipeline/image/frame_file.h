@@ -1,4 +1,5 @@
-// Rendered frames on the disk: scene-linear OpenEXR, half floats, channels R, G, B, lossless.
+// Rendered frames on the disk: scene-linear OpenEXR, channels R, G, B of half floats or
+// floats, lossless.
 //
 // The header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which
 // show this is (the fields of FrameInfo) and what the digest of the file is (frame_seal.h), but
@@ -26,6 +27,7 @@ struct FrameInfo {
   double frames_per_second = 0;
   std::string projection;
   std::string software;
+  std::string owner;  // whose the picture is; empty: nothing is said
 };
 
 // How many threads share the packing and unpacking of one file; 0 (the start): the caller's alone.
@@ -35,8 +37,10 @@ void set_file_threads(int threads);
 // Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
                  ExrCompression compression = ExrCompression::kZip);
+void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
+                 ExrCompression compression = ExrCompression::kZip);
 
-// Reads back what write_frame wrote.  Nothing is decoded before the digest of the file is right.
+// Reads back what write_frame wrote; floats become halves as by half_frame().  Nothing is decoded before the digest of the file is right.
 // Throws InputError naming the file if it is missing, damaged or was not written by write_frame,
 // and as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);

@@ -25,18 +25,32 @@ int bands_in_a_run(int bands) {
   return threads == 1 ? bands : std::max(bands / (kRuns * threads), kLeast);
 }
 
-// Stores a row as half floats.  Columns outside `inside` become 0.
-void store_row(const float* rgb, int row, ColumnRange inside, HalfFrame& frame) {
+// Stores values, negative ones as 0, and returns whether all are finite.
+bool store(const float* values, int count, Imath::half* out) {
   static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
-  auto* out = reinterpret_cast<std::uint16_t*>(frame.row(row));
+  return to_half(values, count, reinterpret_cast<std::uint16_t*>(out));
+}
+bool store(const float* values, int count, float* out) {
+  bool finite = true;
+  for (int k = 0; k < count; ++k) {
+    finite = finite && std::isfinite(values[k]);
+    out[k] = std::max(values[k], 0.0f);
+  }
+  return finite;
+}
+
+// Stores a row.  Columns outside `inside` become 0.
+template <class T>
+void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame) {
+  T* out = frame.row(row);
   const int first = 3 * inside.first, end = 3 * (inside.last + 1);
   if (first >= end) {
-    std::fill_n(out, 3 * frame.width, std::uint16_t{0});
+    std::fill_n(out, 3 * frame.width, T(0));
     return;
   }
-  std::fill(out, out + first, std::uint16_t{0});
-  std::fill(out + end, out + 3 * frame.width, std::uint16_t{0});
-  if (to_half(rgb + first, end - first, out + first)) return;
+  std::fill(out, out + first, T(0));
+  std::fill(out + end, out + 3 * frame.width, T(0));
+  if (store(rgb + first, end - first, out + first)) return;
   for (int k = 0; k < 3 * frame.width; ++k)
     if (!std::isfinite(rgb[k]))
       throw std::runtime_error(
@@ -124,8 +138,9 @@ class StarsEnd {
 
 }  // namespace
 
+template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const std::optional<SkyBorders>& borders, BandMemory& memory, HalfFrame& frame) {
+                const std::optional<SkyBorders>& borders, BandMemory& memory, ImageRgb<T>& frame) {
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
   const bool lit = scene.plan.has_background();
   const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
@@ -158,5 +173,10 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
       },
       tbb::simple_partitioner());
 }
+
+template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&,
+                         const std::optional<SkyBorders>&, BandMemory&, HalfFrame&);
+template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&,
+                         const std::optional<SkyBorders>&, BandMemory&, FloatImage&);
 
 }  // namespace domefall

@@ -22,9 +22,11 @@ struct BandMemory {
 };
 
 // Draws skies and stars into a frame of the projection's size, by all threads of the arena that
-// calls.  Where there are borders, stars end at them.  A value beyond the largest half (65504) is
-// stored as that.  Throws std::runtime_error, naming the pixel, if a value is not finite.
+// calls.  Where there are borders, stars end at them.  In a half frame, a value beyond the largest
+// half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming the
+// pixel, if a value is not finite.
+template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const std::optional<SkyBorders>& borders, BandMemory& memory, HalfFrame& frame);
+                const std::optional<SkyBorders>& borders, BandMemory& memory, ImageRgb<T>& frame);
 
 }  // namespace domefall

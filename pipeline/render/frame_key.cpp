@@ -8,6 +8,7 @@
 #include "pipeline/image/digest.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/rays/steady.h"
+#include "pipeline/render/rendered_frame.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/read_sky.h"
 
@@ -105,6 +106,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   common.add("saturation").add(show.star_saturation);
   add_effects(common, show.effects);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
+  if (keeps_floats(show)) common.add("float");
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);

@@ -39,17 +39,19 @@ int threads_of(int wanted) {
 }
 
 // Leaves a part of a frame's light.
-void fade(HalfFrame& frame, double part) {
+template <class T>
+void fade(ImageRgb<T>& frame, double part) {
   const auto left = static_cast<float>(part);
-  for (Imath::half& value : frame.pixels) value = left * static_cast<float>(value);
+  for (T& value : frame.pixels) value = left * static_cast<float>(value);
 }
 
 // Replaces `part` of a frame's light by that of another one.
-void dissolve(HalfFrame& frame, const HalfFrame& vanishing, double part) {
+template <class T>
+void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
   for (int row = 0; row < frame.height; ++row) {
-    Imath::half* own = frame.row(row);
-    const Imath::half* other = vanishing.row(row);
+    T* own = frame.row(row);
+    const T* other = vanishing.row(row);
     for (int k = 0; k < 3 * frame.width; ++k)
       own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
   }
@@ -98,8 +100,17 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
   return frame;
 }
 
-// A frame with an open shutter is the mean of several instants.
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
+  render_exposed(state, frame, times);
+}
+
+void Renderer::render(const FrameState& state, FloatImage& frame, StageTimes* times) {
+  render_exposed(state, frame, times);
+}
+
+// A frame with an open shutter is the mean of several instants.
+template <class T>
+void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times) {
   StageTimes sum;
   sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;
   const double gap = show_.exposure.shutter > 0 ? show_.exposure.shutter / sum.instants : 1;
@@ -122,24 +133,27 @@ void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* tim
 }
 
 // A dissolve mixes the views of two segments.
-void Renderer::render_instant(const FrameState& state, double gap, HalfFrame& frame,
+template <class T>
+void Renderer::render_instant(const FrameState& state, double gap, ImageRgb<T>& frame,
                               StageTimes& times) {
   render_faded(state, gap, frame, times);
   if (!state.vanishing) return;
   StageTimes own;
-  HalfFrame vanishing;
+  ImageRgb<T> vanishing;
   render_faded(*state.vanishing, gap, vanishing, own);
   dissolve(frame, vanishing, state.vanishing_part);
   times.add(own);
 }
 
-void Renderer::render_faded(const FrameState& state, double gap, HalfFrame& frame,
+template <class T>
+void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& frame,
                             StageTimes& times) {
   render_view(state, gap, frame, times);
   if (state.fade < 1) fade(frame, state.fade);
 }
 
-void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame,
+template <class T>
+void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
                            StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
@@ -155,7 +169,7 @@ void Renderer::render_view(const FrameState& state, double gap, HalfFrame& frame
   const FrameScene scene(show_, state, plan, optics, skies, motion);
   times.tables_s = watch.lap();
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
-    frame = HalfFrame(columns(state.projection), rows(state.projection));
+    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
   memory_->arena.execute([&] {
     BlobLayer& stars = memory_->stars;
     stars.start(state.projection);

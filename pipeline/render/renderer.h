@@ -33,6 +33,8 @@ class Renderer {
   // Renders into `frame`, whose memory is used again if it has the right size.  That saves the time
   // that new memory costs.
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
+  // The same in full precision: values beyond the largest half are kept.
+  void render(const FrameState& state, FloatImage& frame, StageTimes* times = nullptr);
 
   // Reads the files that a frame needs before it is rendered.  Throws InputError if one cannot be
   // read.
@@ -50,10 +52,16 @@ class Renderer {
  private:
   struct Memory;
 
-  // `gap` is the time to the next instant that is seen, in frames.
-  void render_instant(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
-  void render_faded(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
-  void render_view(const FrameState& state, double gap, HalfFrame& frame, StageTimes& times);
+  // The stages, for frames of Imath::half and of float.  `gap` is the time to the next instant that
+  // is seen, in frames.
+  template <class T>
+  void render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times);
+  template <class T>
+  void render_instant(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  template <class T>
+  void render_faded(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  template <class T>
+  void render_view(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;

@@ -79,12 +79,24 @@ int instants_for(const Show& show, const FrameState& state, OpticsStore& optics)
   return instants_for_motion(std::max(motion, vanishing_motion) * kParts / (kParts - 1));
 }
 
-void MeanFrame::add(const HalfFrame& instant) {
+template <class T>
+void MeanFrame::add(const ImageRgb<T>& instant) {
   if (count_++ == 0) sum_ = FloatImage(instant.width, instant.height);
   tbb::parallel_for(0, instant.height, [&](int row) {
-    const Imath::half* from = instant.row(row);
+    const T* from = instant.row(row);
     float* to = sum_.row(row);
     for (int k = 0; k < 3 * instant.width; ++k) to[k] += from[k];
+  });
+}
+
+template void MeanFrame::add(const HalfFrame&);
+template void MeanFrame::add(const FloatImage&);
+
+void MeanFrame::store(FloatImage& frame) const {
+  const float share = 1 / static_cast<float>(count_);
+  tbb::parallel_for(0, frame.height, [&](int row) {
+    std::transform(sum_.row(row), sum_.row(row) + static_cast<std::ptrdiff_t>(3) * frame.width,
+                   frame.row(row), [share](float sum) { return sum * share; });
   });
 }
 

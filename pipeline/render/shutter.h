@@ -24,11 +24,13 @@ int instants_for_motion(double motion_in_pixels);
 // longer motion counts.  The show must have an open shutter.
 int instants_for(const Show& show, const FrameState& state, OpticsStore& optics);
 
-// The mean of frames of one size.
+// The mean of frames of one size.  T is Imath::half or float.
 class MeanFrame {
  public:
-  void add(const HalfFrame& instant);
+  template <class T>
+  void add(const ImageRgb<T>& instant);
   void store(HalfFrame& frame) const;
+  void store(FloatImage& frame) const;
 
  private:
   int count_ = 0;

@@ -45,12 +45,18 @@ void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
     graded->quality = *quality;
 }
 
-std::optional<ExrCompression> read_linear(const Section& s) {
+std::optional<ExrFormat> read_linear(const Section& s) {
   using enum ExrCompression;
+  enum class Word { kNone, kHalf, kFloat };
   const auto compression = s.word<ExrCompression>(
       "compression", {{"zip", kZip}, {"zips", kZips}, {"piz", kPiz}, {"none", kNone}});
-  if (s.word<bool>("linear", {{"half", true}, {"none", false}}).value_or(true))
-    return compression.value_or(kZip);
+  const Word word =
+      s.word<Word>("linear",
+                   {{"half", Word::kHalf}, {"float", Word::kFloat}, {"none", Word::kNone}})
+          .value_or(Word::kHalf);
+  if (word != Word::kNone)
+    return ExrFormat{word == Word::kFloat ? ExrPixels::kFloat : ExrPixels::kHalf,
+                     compression.value_or(kZip)};
   if (const Item* item = s.find("compression"))
     item->fail("is that of scene-linear files, of which linear: none makes none; leave it out");
   return std::nullopt;
@@ -88,14 +94,15 @@ FrameNames read_names(const Section& s) {
 }  // namespace
 
 Output read_output(const Section& show) {
-  const Section s = subsection(
-      show, "output",
-      {"linear", "compression", "graded", "quality", "name", "start", "digits", "per_folder"});
+  const Section s = subsection(show, "output",
+                               {"linear", "compression", "graded", "quality", "name", "start",
+                                "digits", "per_folder", "owner"});
   Output output;
   output.linear = read_linear(s);
   output.graded = read_graded(s);
   read_quality(s, output.graded);
   output.names = read_names(s);
+  if (const Item* item = s.find("owner")) output.owner = read_text(*item).value_or("");
   if (!output.linear && !output.graded)
     s.find("graded")->fail("and linear are both none, so that nothing would be made");
   return output;

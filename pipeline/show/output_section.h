@@ -6,7 +6,8 @@
 
 namespace domefall {
 
-// Reads `output: {linear, compression, graded, quality, name, start, digits, per_folder}`.
+// Reads `output: {linear, compression, graded, quality, name, start, digits, per_folder,
+// owner}`.
 Output read_output(const Section& show);
 
 }  // namespace domefall

@@ -210,9 +210,10 @@ struct FrameNames {
 
 // The files that are made of a frame, at least one.
 struct Output {
-  std::optional<ExrCompression> linear = ExrCompression::kZip;  // nothing: none
-  std::optional<GradedFormat> graded = GradedFormat{};          // nothing: none
+  std::optional<ExrFormat> linear = ExrFormat{};        // nothing: none
+  std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
   FrameNames names;
+  std::string owner;  // whose the pictures are, in the scene-linear files; empty: nothing is said
 };
 
 // What a segment takes over from those before it.
@@ -238,7 +239,7 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
-  std::vector<Title> titles;          // beside those of segments
+  std::vector<Title> titles;  // beside those of segments
   Fades fades;
   // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
   // show that is put together otherwise has none, and each of its states follows the timeline from

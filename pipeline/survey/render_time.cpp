@@ -7,9 +7,9 @@
 #include <ctime>
 #include <future>
 
-#include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "pipeline/image/scratch_folder.h"
+#include "pipeline/render/rendered_frame.h"
 #include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
@@ -57,8 +57,9 @@ class Run {
     // One frame more is made: the clocks run from the writing of the first one on.
     for (int k = 0; k <= kFrames; ++k) {
       const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
-      auto frame = std::make_shared<HalfFrame>(
-          renderer_.render(reduced(frame_state(show_, static_cast<int>(number)), width)));
+      auto frame = std::make_shared<RenderedFrame>();
+      render_for_files(renderer_, show_,
+                       reduced(frame_state(show_, static_cast<int>(number)), width), *frame);
       if (writing.valid()) {
         writing.get();
         add_sizes(cost);
@@ -82,16 +83,17 @@ class Run {
       cost.graded_bytes += static_cast<double>(std::filesystem::file_size(graded())) / kFrames;
   }
 
-  void write(const HalfFrame& frame) const {
+  void write(const RenderedFrame& frame) const {
     std::future<void> other;
     if (show_.output.linear)
       other = std::async(std::launch::async,
-                         [&] { write_frame(linear(), frame, FrameInfo{}, *show_.output.linear); });
+                         [&] { write_linear(linear(), show_, frame, FrameInfo{}); });
     if (grader_) {
       const auto rows = [&](int first, int end, unsigned short* rgb) {
-        grader_->grade_rows(frame, first, end, rgb);
+        grader_->grade_rows(frame.half, first, end, rgb);
       };
-      write_graded(graded(), {frame.width, frame.height, rows}, GradedInfo{}, *show_.output.graded);
+      write_graded(graded(), {frame.half.width, frame.half.height, rows}, GradedInfo{},
+                   *show_.output.graded);
     }
     if (other.valid()) other.get();
   }

@@ -52,6 +52,29 @@ for compression in zip zips piz none; do
   exits 0 oiiotool "$compression/linear/b_00000.exr" zip/linear/b_00000.exr --diff
 done
 
+# Floats hold what halves round, and are graded to the same codes, at once or later.
+write_output f.yaml 'linear: float, owner: "A planetarium: us"'
+write_output h.yaml "linear: half, name: f"
+sed -i 's/^sky:.*/sky: {region_I: {background: none, stars: naked_eye}}/' f.yaml h.yaml
+exits 0 "$DOMEFALL" render h.yaml --frames 0-1 --out halves
+exits 0 "$DOMEFALL" render f.yaml --frames 0-1 --out floats
+exits 0 oiiotool --info -v floats/linear/f_00001.exr
+grep -q "3 channel, float openexr" stdout || fail "no floats: $(cat stdout)"
+grep -q 'owner: "A planetarium: us"' stdout || fail "no owner: $(cat stdout)"
+exits 0 oiiotool floats/linear/f_00001.exr -d half -o floats/rounded.exr
+exits 0 oiiotool floats/rounded.exr halves/linear/f_00001.exr --diff
+for number in 0 1; do
+  exits 0 oiiotool {floats,halves}/graded/f_0000$number.png --diff
+done
+cp -r floats graded_later && rm graded_later/graded/*
+exits 0 "$DOMEFALL" grade f.yaml --frames 0-1 --out graded_later
+same_frames floats graded_later
+exits 0 "$DOMEFALL" render f.yaml --frames 0-1 --out floats
+says '^0 frames made, 2 already there'
+sed -i 's/linear: float/linear: half/' f.yaml
+exits 0 "$DOMEFALL" render f.yaml --frames 0-1 --out floats
+says '^2 frames made, 0 already there'
+
 # Names, numbers and folders; a resumed run finds the frames, and grade does.
 write_output c.yaml "graded: png8, name: My Show 4K, start: 1001, digits: 6, per_folder: 3"
 exits 0 "$DOMEFALL" render c.yaml --frames 1-2 --out named

@@ -31,6 +31,9 @@ exr_compression_t code_of(ExrCompression compression) {
   return EXR_COMPRESSION_NONE;
 }
 
+exr_pixel_type_t type_of(const Imath::half*) { return EXR_PIXEL_HALF; }
+exr_pixel_type_t type_of(const float*) { return EXR_PIXEL_FLOAT; }
+
 std::int64_t write_bytes(exr_const_context_t, void* sink, const void* bytes, std::uint64_t count,
                          std::uint64_t position, exr_stream_error_func_ptr_t) {
   auto& to = *static_cast<ByteSink*>(sink);
@@ -95,9 +98,10 @@ class ExrInTheMaking {
     require(exr_add_part(file_, nullptr, EXR_STORAGE_SCANLINE, &part));
     require(exr_initialize_required_attr_simple(file_, part, picture.width, picture.height,
                                                 code_of(picture.compression)));
+    const exr_pixel_type_t type =
+        std::visit([](const auto* rgb) { return type_of(rgb); }, picture.rgb);
     for (const char* channel : {"R", "G", "B"})
-      require(exr_add_channel(file_, part, channel, EXR_PIXEL_HALF, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
-                              1));
+      require(exr_add_channel(file_, part, channel, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
     for (const auto& [name, value] : picture.attributes)
       std::visit(AttributeAdder{file_, name.c_str()}, value);
     require(exr_write_header(file_));
@@ -121,21 +125,25 @@ class BlockEncoder {
   void encode(exr_context_t file, const ExrPicture& picture, int first_row) {
     exr_chunk_info_t block;
     require(exr_write_scanline_chunk_info(file, 0, first_row, &block));
-    const Imath::half* rgb = picture.rgb + static_cast<std::size_t>(first_row) *
-                                               static_cast<std::size_t>(picture.width) * 3;
     const bool zip =
         picture.compression == ExrCompression::kZip || picture.compression == ExrCompression::kZips;
-    if (zip)
-      bytes_ = zip_.pack(rgb, picture.width, block.height);
-    else
-      run(file, block, rgb);
+    const auto encode_rows = [&](const auto* first) {
+      const auto* rgb =
+          first + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(picture.width) * 3;
+      if (zip)
+        bytes_ = zip_.pack(rgb, picture.width, block.height);
+      else
+        run(file, block, rgb);
+    };
+    std::visit(encode_rows, picture.rgb);
   }
   // The block as it stands in the file.
   std::string_view bytes() const { return bytes_; }
 
  private:
   // By OpenEXR's own steps, but for the last, which writes.
-  void run(exr_context_t file, const exr_chunk_info_t& block, const Imath::half* rgb) {
+  template <class T>
+  void run(exr_context_t file, const exr_chunk_info_t& block, const T* rgb) {
     require(begun_ ? exr_encoding_update(file, 0, &block, &pipeline_)
                    : exr_encoding_initialize(file, 0, &block, &pipeline_));
     begun_ = true;
@@ -144,9 +152,9 @@ class BlockEncoder {
       const std::string_view names = "RGB";
       const auto place = names.find(channel.channel_name[0]);
       channel.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(rgb + place);
-      channel.user_bytes_per_element = sizeof(Imath::half);
-      channel.user_data_type = EXR_PIXEL_HALF;
-      channel.user_pixel_stride = 3 * sizeof(Imath::half);
+      channel.user_bytes_per_element = sizeof(T);
+      channel.user_data_type = static_cast<std::uint16_t>(type_of(rgb));
+      channel.user_pixel_stride = 3 * sizeof(T);
       channel.user_line_stride = channel.user_pixel_stride * block.width;
     }
     require(exr_encoding_choose_default_routines(file, 0, &pipeline_));

@@ -1,4 +1,4 @@
-// OpenEXR files of scan lines: channels R, G, B of half floats.
+// OpenEXR files of scan lines: channels R, G, B of floats of 16 or 32 bits.
 #pragma once
 
 #include <Imath/half.h>
@@ -31,7 +31,7 @@ using ExrValue =
 
 struct ExrPicture {
   int width = 0, height = 0;
-  const Imath::half* rgb = nullptr;  // [height][width][3]
+  std::variant<const Imath::half*, const float*> rgb{};  // [height][width][3]
   ExrCompression compression = ExrCompression::kZip;
   std::vector<std::pair<std::string, ExrValue>> attributes;  // beside those of every file
 };

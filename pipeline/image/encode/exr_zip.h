@@ -15,8 +15,12 @@ class ExrZip {
   // stream of the bytes' differences ("OpenEXR File Layout"), or as they are where that would be no
   // smaller.  The bytes are there until the next block.
   std::string_view pack(const Imath::half* rgb, int width, int height);
+  std::string_view pack(const float* rgb, int width, int height);
 
  private:
+  template <class T>
+  std::string_view pack_words(const T* rgb, int width, int height);
+
   Deflater deflater_;
   ByteBlock bytes_, packed_;
 };

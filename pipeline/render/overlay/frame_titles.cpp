@@ -71,7 +71,8 @@ std::string titles_key(const Show& show, const FrameState& state) {
   return digest.hex();
 }
 
-void draw_titles(const Show& show, const FrameState& state, HalfFrame& frame) {
+template <class T>
+void draw_titles(const Show& show, const FrameState& state, ImageRgb<T>& frame) {
   for (const auto& [title, opacity] : seen_titles(show, state)) {
     Coverage coverage(frame.width, frame.height);
     add_text(
@@ -81,5 +82,8 @@ void draw_titles(const Show& show, const FrameState& state, HalfFrame& frame) {
     draw_over(coverage, {title->light, opacity}, state.projection, frame);
   }
 }
+
+template void draw_titles(const Show&, const FrameState&, HalfFrame&);
+template void draw_titles(const Show&, const FrameState&, FloatImage&);
 
 }  // namespace domefall

@@ -13,8 +13,10 @@ struct Ink {
   double opacity = 1;  // 0 to 1
 };
 
-// Draws over a frame of the projection's size, where the projection shows anything.
+// Draws over a frame of the projection's size, where the projection shows anything.  T is
+// Imath::half or float.
+template <class T>
 void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
-               HalfFrame& frame);
+               ImageRgb<T>& frame);
 
 }  // namespace domefall

@@ -64,6 +64,23 @@ TEST_F(FrameFile, ComesBackBitForBitWithItsInfo) {
   EXPECT_EQ(examine_frame(path, wanted_sample()), FrameCondition::kGood);
 }
 
+// What a half cannot hold becomes the largest half when it is read for grading.
+TEST_F(FrameFile, OfFloatsIsReadAsHalves) {
+  FloatImage frame(3, 2);
+  for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+    frame.pixels[k] = 0.1f * static_cast<float>(k);
+  frame.pixels[4] = 1e9f;
+  FrameInfo given = sample_info();
+  given.owner = "A planetarium";
+  write_frame(folder_ / "f.exr", frame, given, ExrCompression::kPiz);
+  const auto [read, info] = read_frame(folder_ / "f.exr");
+  for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+    EXPECT_EQ(static_cast<float>(read.pixels[k]),
+              k == 4 ? 65504.0f : static_cast<float>(Imath::half(frame.pixels[k])));
+  EXPECT_EQ(info.owner, "A planetarium");
+  EXPECT_EQ(info.key, given.key);
+}
+
 TEST_F(FrameFile, HasTheSameBytesForAnyNumberOfThreads) {
   const HalfFrame frame = sample_frame();
   write_frame(folder_ / "a.exr", frame, sample_info());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "pipeline/image/errors.h"
@@ -29,6 +30,30 @@ TEST(Renderer, AFrameIsTheSameBytesForAnyNumberOfThreadsAloneOrInARun) {
       EXPECT_TRUE(same_bytes(in_run, Renderer(show, threads).render(frame_state(show, frame))))
           << "frame " << frame << ", " << threads << " threads";
     }
+  }
+}
+
+// An open shutter and a dissolve round halves once more, at the end.
+TEST(Renderer, AFrameOfFloatsIsTheOneOfHalvesBeforeItIsRounded) {
+  Show show = starry(show_of(RadialInfall{2.5}, Domemaster{100}));
+  show.timeline[0].timing.tau_end = 1.6;
+  show.exposure.ev = 12;  // beyond what a half holds
+  FloatImage full;
+  for (const double shutter : {0.0, 0.5}) {
+    show.exposure.shutter = shutter;
+    Renderer renderer(show, 2);
+    const FrameState state = frame_state(show, 14);
+    renderer.render(state, full);
+    EXPECT_GT(*std::max_element(full.pixels.begin(), full.pixels.end()), 1e5f);
+    const HalfFrame halves = renderer.render(state), rounded = half_frame(full);
+    if (shutter == 0) {
+      EXPECT_TRUE(same_bytes(halves, rounded));
+      continue;
+    }
+    ASSERT_EQ(halves.pixels.size(), rounded.pixels.size());
+    for (std::size_t k = 0; k < halves.pixels.size(); ++k)
+      if (const float value = halves.pixels[k]; full.pixels[k] < 65504)
+        ASSERT_NEAR(value, static_cast<float>(rounded.pixels[k]), 2e-3f * value + 1e-6f) << k;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <random>
 
@@ -27,7 +29,8 @@ class ExrWriter : public TestFolder {
  protected:
   ~ExrWriter() override { set_encoder_threads(0); }
 
-  std::filesystem::path written(const HalfFrame& frame, ExrCompression compression) const {
+  template <class T>
+  std::filesystem::path written(const ImageRgb<T>& frame, ExrCompression compression) const {
     const auto path = folder_ / "f.exr";
     NewFile file(path);
     write_exr(file, {frame.width,
@@ -70,6 +73,25 @@ TEST_F(ExrWriter, GivesBackEveryBitInEveryCompression) {
             << compression.name << " " << width << " x " << height;
         EXPECT_EQ(in->spec().get_string_attribute("compression"), compression.name);
         EXPECT_EQ(in->spec().get_string_attribute("digest"), "0123");
+      }
+}
+
+TEST_F(ExrWriter, GivesBackEveryBitOfFloats) {
+  std::mt19937 random(4);
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(70, 67), std::pair(5, 16)})
+    for (const unsigned kept : {0xff7fffffU, 0x3f7f0000U})  // noise, and what can be packed
+      for (const Compression& compression : kCompressions) {
+        FloatImage frame(width, height);
+        for (float& value : frame.pixels)
+          value = std::bit_cast<float>(static_cast<std::uint32_t>(random()) & kept);
+        const auto in = OIIO::ImageInput::open(written(frame, compression.ours).string());
+        ASSERT_TRUE(in) << OIIO::geterror();
+        EXPECT_EQ(in->spec().format, OIIO::TypeDesc::FLOAT);
+        FloatImage read(width, height);
+        ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, read.pixels.data()))
+            << in->geterror();
+        EXPECT_EQ(std::memcmp(read.pixels.data(), frame.pixels.data(), 4 * frame.pixels.size()), 0)
+            << compression.name << " " << width << " x " << height;
       }
 }
 
