@@ -15,7 +15,7 @@ inline constexpr int kLanes = 8;
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
 
 // Repeats each pixel's value for its three channels.  Reads 8 pixels for every 3 vectors, 16 at
-// most, and writes kCount vectors, a multiple of 3.
+// most, and writes kCount vectors, rounded up to a multiple of 3.
 template <int kCount>
 [[gnu::always_inline]] inline void repeat_for_channels(const float* pixels, Lanes* floats) {
   for (int half = 0; 3 * half < kCount; ++half) {
