@@ -13,7 +13,7 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kBatch = 64;
-constexpr int kChannels = kSplatChannels, kFloats = 16, kBlocks = 4;
+constexpr int kChannels = kSplatChannels, kFloats = 8, kBlocks = 8;
 static_assert(kBlocks * kFloats == kSplatFloatsBeyond);
 using Block = float __attribute__((vector_size(4 * kFloats)));
 using Pixel = float __attribute__((vector_size(4 * kChannels)));
