@@ -57,8 +57,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_black_hole(section, lookup, show);
   const ShowCamera camera = read_show_camera(section, lookup);
   show.projection = camera.projection;
-  read_sky(root, section, lookup, show);
   read_stars(section, show);
+  read_sky(root, section, lookup, show);
   show.exposure = read_exposure(section);
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);

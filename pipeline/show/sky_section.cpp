@@ -232,7 +232,11 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
     const Section own = subsection(sky, kSkyKeys[region],
                                    {"background", "gain", "black_cd_m2", "stars", "white_cd_m2"});
-    if (region == SkyRegion::kI) before = default_sky(root, own, lookup);
+    if (region == SkyRegion::kI) {
+      const double star_gain = show.sky[region].star_gain;  // the point-spread law's default
+      before = default_sky(root, own, lookup);
+      before.star_gain = star_gain;
+    }
     read_region(own, lookup, before);
     suit_milky_way(root, lookup, before.stars, before.background);
     show.sky[region] = before;

@@ -14,6 +14,10 @@ namespace {
 constexpr double kPaperWhiteCore = 10, kSaturation = 0.8;
 constexpr double kMinSigmaDeg = 0.04, kMaxSigmaDeg = 0.3;
 constexpr double kHalo = 0.12, kHaloSigmaDeg = 0.08;
+// One magnitude fainter than in nature against the sky between them.  A dome of 4096 pixels shows
+// stars of V = 9 as bright as the heart of the Milky Way otherwise, and the fields of stars are
+// even.  The law of the paper has its own balance.
+constexpr double kStarGain = 0.4;
 constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
@@ -59,6 +63,8 @@ void read_stars(const Section& show, Show& to) {
   to.point_spread = read_point_spread(s);
   to.star_saturation =
       s.number("saturation", kPureNumber.within(0, 2), to.point_spread.halo > 0 ? kSaturation : 1);
+  const double gain = to.point_spread.halo > 0 ? kStarGain : 1;
+  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) to.sky[region].star_gain = gain;
   to.least_star_radius =
       radians(s.number("least_radius_deg", kDegrees.above(0).at_most(1), kLeastStarRadiusDeg));
 }

@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// Sets the law of point spread, with the defaults of its two forms, `law: size` and `law: psf`, and
-// the least radius of stars.
+// Sets the law of point spread, with the defaults of its two forms, `law: size` and `law: psf`, the
+// least radius of stars, and the gain that the skies have where read_sky finds none.
 void read_stars(const Section& show, Show& to);
 
 }  // namespace domefall

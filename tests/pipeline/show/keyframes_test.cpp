@@ -64,7 +64,7 @@ TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
   const FrameState f = frame_state(s, 1);
   EXPECT_DOUBLE_EQ(std::get<Stereographic>(f.projection).fov, 60 * kDegree);
   EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].background_gain, 2);
-  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].star_gain, 1.5);
+  EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].star_gain, 1.2);  // from 0.4 to 2
   EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kI].max_magnitude, 6.75);
   EXPECT_TRUE(f.settings.sky[SkyRegion::kI].soft_limit);
   EXPECT_DOUBLE_EQ(f.settings.sky[SkyRegion::kIII].background_gain, 0.5);

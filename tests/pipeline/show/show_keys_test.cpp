@@ -43,7 +43,7 @@ TEST_F(ShowKeys, SixLinesShowTheMilkyWayAndAllOfTheShippedStarsPlainly) {
     ASSERT_TRUE(sky.stars);
     EXPECT_EQ(sky.stars->catalogue, asset("stars_to_9.stars"));
     EXPECT_EQ(sky.stars->max_magnitude, 9);
-    EXPECT_EQ(sky.star_gain, 1);
+    EXPECT_EQ(sky.star_gain, 0.4);
   }
   EXPECT_EQ(show.panorama_shift.blueshift_power, 2);
   EXPECT_EQ(show.star_epoch, 2000);
@@ -215,7 +215,20 @@ TEST_F(ShowKeys, StarsByTheLawOfThePaper) {
     EXPECT_EQ(show.point_spread.halo, 0);
     EXPECT_EQ(show.point_spread.white_core, 10);
     EXPECT_EQ(show.star_saturation, 1);
+    EXPECT_EQ(show.sky[SkyRegion::kI].star_gain, 1);
+    EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 1);
   }
+}
+
+// What a show says of a region's stars goes before the law's own balance, and region III has that of
+// region I.
+TEST_F(ShowKeys, TheGainOfStarsIsTheShowsIfItNamesOne) {
+  const Show show = with("stars: {law: psf}\nsky: {region_I: {stars: {gain: 1}}}\n");
+  EXPECT_EQ(show.sky[SkyRegion::kI].star_gain, 1);
+  EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 1);
+  const Show limited = with("sky: {region_III: {stars: {max_magnitude: 5}}}\n");
+  EXPECT_EQ(limited.sky[SkyRegion::kI].star_gain, 0.4);
+  EXPECT_EQ(limited.sky[SkyRegion::kIII].star_gain, 0.4);
 }
 
 TEST_F(ShowKeys, StarsWithAHalo) {
