@@ -6,18 +6,12 @@ the Third Reference Catalogue of Bright Galaxies (de Vaucouleurs et al. 1991) an
 globular clusters by Harris (1996), rounded. The surface brightness of nebulae, as the eye's V has
 it, is estimated; few were ever measured over their whole extent."""
 
-import math
-
-import numpy as np
-
-from sphere_image import LUMA, east_north, mean_over_sky, rows_near, separation, solid_angle
-
 # Linear Rec.709 of luminance 1. Glowing hydrogen (H alpha, H beta) with oxygen is outside of that
 # space; this is as red as reads as a nebula's pink.
-PINK = np.array([1.0, 0.36, 0.46])
-ROSE = np.array([1.0, 0.55, 0.62])  # bright cores, where oxygen's green light joins in
-BLUE = np.array([0.62, 0.78, 1.0])  # light that dust reflects
-AMBER = np.array([1.0, 0.72, 0.45])
+PINK = (1.0, 0.36, 0.46)
+ROSE = (1.0, 0.55, 0.62)  # bright cores, where oxygen's green light joins in
+BLUE = (0.62, 0.78, 1.0)  # light that dust reflects
+AMBER = (1.0, 0.72, 0.45)
 KINDS = {"pink": PINK, "rose": ROSE, "blue": BLUE, "amber": AMBER}
 
 # Name, RA, Dec, length, width, position angle, mean mag/arcsec^2, kind.
@@ -141,120 +135,3 @@ MAGELLANIC = [
 REPLACED = [(10.68, 41.27, 2.0), (23.46, 30.66, 0.9), (201.70, -47.48, 0.8), (6.30, -72.08, 0.8),
             (15.81, -70.85, 0.4)]
 REPLACED_CLOUDS = [(79.8, -69.2, 5.6), (13.6, -72.75, 3.2)]
-
-
-def s10(mag_arcsec2):
-    """Stars of V = 10 per square degree; one is 27.78 mag/arcsec^2."""
-    return 10 ** (0.4 * (27.78 - mag_arcsec2))
-
-
-def ellipse_radius(ra, dec, length, width, angle, height, rows):
-    """1 on the ellipse of these diameters (arcminutes), at each pixel."""
-    east, north = east_north(ra, dec, height, rows)
-    cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-    return np.hypot((north * cos + east * sin) * 120 / length,
-                    (east * cos - north * sin) * 120 / width)
-
-
-def of_flux(profile, v, height, rows):
-    """The profile, its light that of a star of magnitude v (S10(V) times square degrees)."""
-    total = (profile * solid_angle(height)[rows]).sum() * math.degrees(1) ** 2
-    return profile * (10 ** (-0.4 * (v - 10)) / total)
-
-
-def resolved(length, width, height):
-    """Diameters (arcminutes) that pixels can show."""
-    pixel = 60 * 180 / height
-    return math.hypot(length, 2.2 * pixel), math.hypot(width, 2.2 * pixel)
-
-
-def nebulae(red, height):
-    """Their light in S10(V), linear Rec.709. `red` is how much redder than its surroundings the
-    panorama is: the nebulae's shapes, where it shows them."""
-    sky = np.zeros((height, 2 * height, 3))
-    for _, ra, dec, length, width, angle, brightness, kind in NEBULAE:
-        length, width = resolved(length, width, height)
-        rows = rows_near(dec, 0.8 * length / 60, height)
-        radius = ellipse_radius(ra, dec, length, width, angle, height, rows)
-        inside = radius < 1.6
-        r = radius[inside]
-        profile = np.exp(-1.2 * r ** 2) * np.clip((1.6 - r) / 0.8, 0, 1)
-        shape = red[rows][inside]
-        if kind in ("pink", "rose") and shape.max() > 0:
-            mean = np.average(shape, weights=profile)
-            profile = profile * (0.35 + np.minimum(0.65 * shape / max(mean, 0.004), 4))
-        profile *= s10(brightness) / profile[r < 1].mean()
-        sky[rows][inside] += profile[:, None] * KINDS[kind] / (KINDS[kind] @ LUMA)
-    return sky + barnards_loop(height)[..., None] * PINK / (PINK @ LUMA)
-
-
-def barnards_loop(height):
-    ra, dec, radius, first, last = LOOP
-    east, north = east_north(ra, dec, height)
-    away, angle = np.hypot(east, north), np.degrees(np.arctan2(east, north))
-    arc = np.exp(-0.5 * ((away - radius) / LOOP_WIDTH) ** 2)
-    arc += 0.35 * np.exp(-0.5 * ((away - radius + 0.9) / (2.2 * LOOP_WIDTH)) ** 2)
-    ends = np.clip(np.minimum(angle - first, last - angle) / 35, 0, 1)
-    return arc * ends * ends * (3 - 2 * ends) * s10(LOOP_BRIGHTNESS)
-
-
-def disc_of(name, r, side):
-    """A galaxy's disc, of the radius r; side is degrees to the nearer side of the minor axis."""
-    disc = np.exp(-3.2 * r) * (r < 1.5)
-    if name == "M 31":  # its ring of young stars, and the dust before its bulge
-        disc *= 1 + 0.35 * np.exp(-0.5 * ((r - 0.52) / 0.10) ** 2)
-        disc *= 1 - 0.45 * np.clip(6 * side, 0, 1) * np.exp(-0.5 * ((r - 0.33) / 0.12) ** 2)
-    return disc
-
-
-def galaxies(colour, height):
-    """Exponential discs with bulges; `colour(b_v)` is linear Rec.709 of luminance 1."""
-    sky = np.zeros((height, 2 * height, 3))
-    for name, ra, dec, length, width, angle, v, b_v, bulge in GALAXIES:
-        a, b = resolved(length, width, height)
-        rows = rows_near(dec, a / 60, height)
-        r = ellipse_radius(ra, dec, a, b, angle, height, rows)
-        east, north = east_north(ra, dec, height, rows)
-        side = north * math.sin(math.radians(angle)) - east * math.cos(math.radians(angle))
-        disc = of_flux(disc_of(name, r, side), v, height, rows)
-        light = (1 - bulge) * disc[..., None] * colour(b_v - 0.1 * (bulge > 0))
-        if bulge:
-            size = min(0.28 * length, 0.5 * width)
-            a, b = resolved(size, size * 0.75, height)
-            r = ellipse_radius(ra, dec, a, b, angle, height, rows)
-            core = of_flux(np.exp(-2.5 * r) * (r < 3), v, height, rows)
-            light += bulge * core[..., None] * colour(b_v + 0.05)
-        sky[rows] += light
-    return sky
-
-
-def clusters(colour, height):
-    """Globular clusters as Plummer's spheres."""
-    sky = np.zeros((height, 2 * height))
-    for _, ra, dec, v, half in CLUSTERS:
-        core = math.hypot(half / 60, 180 / height)
-        rows = rows_near(dec, 12 * core, height)
-        away = separation(ra, dec, height, rows).astype(np.float64) / core
-        sky[rows] += of_flux((1 + away ** 2) ** -2 * (away < 12), v, height, rows)
-    return sky[..., None] * colour(0.75)
-
-
-def magellanic(luma, colour, height):
-    """The two clouds: shapes from the panorama's luminance, light and colours as catalogued."""
-    sky = np.zeros((height, 2 * height, 3))
-    for _, ra, dec, within, v, b_v, disc, scale, ratio, angle in MAGELLANIC:
-        rows = rows_near(dec, 6 * scale, height)
-        away = separation(ra, dec, height, rows).astype(np.float64)
-        ring = (away > within) & (away < 1.15 * within)
-        edge = np.clip((within - away) / (0.75 * within), 0, 1)
-        shape = np.maximum(luma[rows] - np.median(luma[rows][ring]), 0)
-        shape *= edge * edge * (3 - 2 * edge)
-        r = ellipse_radius(ra, dec, 120 * scale, 120 * scale * ratio, angle, height, rows)
-        smooth = np.exp(-r) * np.clip(6 - r, 0, 1)
-        sky[rows] += ((1 - disc) * of_flux(shape, v, height, rows)
-                      + disc * of_flux(smooth, v, height, rows))[..., None] * colour(b_v)
-    return sky
-
-
-def mean_s10(sky):
-    return mean_over_sky(sky @ LUMA)

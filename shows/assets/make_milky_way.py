@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Makes the sky behind the stars from a panorama, a catalogue, and lists of nebulae and galaxies.
 
-    make_milky_way.py milkyway.png TYCHO2_FOLDER FOLDER
-    make_milky_way.py --check FOLDER
+    make_milky_way.py milkyway.png TYCHO2_FOLDER d3-celestial-0.7.35.tgz FOLDER
+    make_milky_way.py --check d3-celestial-0.7.35.tgz FOLDER
 
 milkyway.png: textures/milkyway.png of Debian's stellarium-data 0.22 (Axel Mellinger's panorama).
 TYCHO2_FOLDER: tyc2.dat.00 to .19 and suppl_1.dat of Debian's source package tycho2 2-4.
+d3-celestial-0.7.35.tgz: the npm package, for nebulae, galaxies and clusters.
 FOLDER receives milky_way.exr, 4096 x 2048, the sky without the stars of V <= 9, and
 milky_way_deep.exr, 2048 x 1024, the sky without any star that Tycho-2 has.
 Needs python3-numpy and python3-openimageio. PROVENANCE.md says what is done and why.
@@ -20,8 +21,9 @@ import sys
 import numpy as np
 import OpenImageIO as oiio
 
-import deep_sky
 import milky_way_check
+from deep_sky_light import objects
+from object_catalogue import Catalogue
 from panorama import read_panorama
 from sphere_image import LUMA, blurred, galactic_latitude, halved, mean_over_sky, separation
 from starlight import glow, read_tycho2
@@ -101,7 +103,7 @@ def dust_beyond(band, latitude):
     return dust
 
 
-def make(panorama, folder):
+def make(panorama, folder, catalogue):
     """The sky without stars of V <= DRAWN, and without all of Tycho-2's, in S10(V)."""
     luma, clouds, red = read_panorama(panorama, HEIGHT)
     latitude = galactic_latitude(HEIGHT)
@@ -125,11 +127,7 @@ def make(panorama, folder):
     beyond = starlight_rgb(b_v + reddened + FAINTER_REDDENING * bulge) * faint[..., None]
     print(f"Tycho-2 beyond V = {DRAWN}: {mean_over_sky(stars):.1f} S10(V); fainter: "
           f"{mean_over_sky(faint):.1f}")
-    objects = (deep_sky.nebulae(red, HEIGHT) + deep_sky.galaxies(starlight_rgb, HEIGHT)
-               + deep_sky.clusters(starlight_rgb, HEIGHT)
-               + deep_sky.magellanic(clouds, starlight_rgb, HEIGHT))
-    print(f"nebulae, galaxies, clusters: {deep_sky.mean_s10(objects):.1f}")
-    deep = beyond + objects
+    deep = beyond + objects(red, clouds, starlight_rgb, catalogue, HEIGHT)
     return catalogued + deep, deep
 
 
@@ -147,7 +145,8 @@ def write(sky, out, without):
     spec.attribute("ImageDescription", f"The sky without {without}, linear Rec.709, "
                    "1 = 1e-4 cd/m^2; see PROVENANCE.md")
     spec.attribute("Copyright", "Axel Mellinger, Univ. of Potsdam (panorama); "
-                                "ESA, Tycho-2 (light of the stars)")
+                                "ESA, Tycho-2 (light of the stars); "
+                                "Olaf Frohn, d3-celestial (nebulae and galaxies)")
     spec.attribute("DateTime", "2026:11:22 00:00:00")  # else that of writing
     file = oiio.ImageOutput.create(out)
     if not (file and file.open(out, spec) and file.write_image(rounded(sky)) and file.close()):
@@ -155,15 +154,16 @@ def write(sky, out, without):
 
 
 def main():
-    if len(sys.argv) == 3 and sys.argv[1] == "--check":
-        sys.exit(milky_way_check.check(sys.argv[2]))
-    if len(sys.argv) != 4:
+    if len(sys.argv) == 4 and sys.argv[1] == "--check":
+        sys.exit(milky_way_check.check(sys.argv[3], Catalogue(sys.argv[2])))
+    if len(sys.argv) != 5:
         sys.exit(__doc__)
-    panorama, catalogue, folder = sys.argv[1:]
-    whole, deep = make(panorama, catalogue)
+    panorama, tycho2, archive, folder = sys.argv[1:]
+    catalogue = Catalogue(archive)
+    whole, deep = make(panorama, tycho2, catalogue)
     write(whole * S10, f"{folder}/milky_way.exr", "stars of V <= 9")
     write(halved(deep) * S10, f"{folder}/milky_way_deep.exr", "the stars of Tycho-2")
-    sys.exit(milky_way_check.check(folder))
+    sys.exit(milky_way_check.check(folder, catalogue))
 
 
 if __name__ == "__main__":
