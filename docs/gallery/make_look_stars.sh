@@ -46,3 +46,20 @@ for which in before after; do
 done
 oiiotool "$out/4k-before.tif" "$out/4k-after.tif" --mosaic:pad=12 2x1 -d uint8 --compression jpeg:90 \
   -o "$gallery/look_stars_4k.jpg"
+
+# The default sky at 0 EV, 640 x 480 pixels of a dome of 4096 at 100 %, before and after.
+cat >"$out/balance.yaml" <<END
+title: balance
+frames_per_second: 1
+size: 4k
+camera: {look_at: {ra_deg: 268, dec_deg: -28}, elevation_deg: 60}
+timeline: [{duration_s: 1, trajectory: {type: static}}]
+END
+for which in before after; do
+  if [ "$which" = before ]; then program=$old; else program=$new; fi
+  "$program" render "$out/balance.yaml" --out "$out/balance-$which" >/dev/null
+  oiiotool "$out/balance-$which/graded/balance_00000.png" --ch R,G,B --cut 640x480+1500+2000 -d uint8 \
+    -o "$out/balance-$which.tif"
+done
+oiiotool "$out/balance-before.tif" "$out/balance-after.tif" --mosaic:pad=12 2x1 -d uint8 --compression jpeg:85 \
+  -o "$gallery/look_stars_balance.jpg"

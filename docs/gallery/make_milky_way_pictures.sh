@@ -19,7 +19,7 @@ pair() {
   "$after" render "$out/$name.yaml" --out "$out/after/$name"
   oiiotool "$out/before/$name/graded/${name}_00000.png" --resize:filter=blackman-harris 640x0 \
     "$out/after/$name/graded/${name}_00000.png" --resize:filter=blackman-harris 640x0 \
-    --mosaic:pad=8 2x1 -d uint8 --compression jpeg:85 -o "docs/gallery/look_milky_way_$name.jpg"
+    --mosaic:pad=8 2x1 -d uint8 --compression jpeg:70 -o "docs/gallery/look_milky_way_$name.jpg"
 }
 
 # view NAME RA DEC DEGREES: a part of the sky.
