@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/render/rays/view_tracer.h"
-
 namespace domefall {
 namespace {
 
@@ -15,34 +13,21 @@ constexpr double kLeastRadius = 4;
 }  // namespace
 
 SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage) {
-  // The angle of an edge counts from the direction of the hole, or from the opposite one for the
-  // outgoing tetrad.
-  const V3d inward(is_outgoing(optics.tetrad) ? 1 : -1, 0, 0);
-  for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge})
-    if (*edge) add(**edge, inward, vantage.celerity, state);
+  for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge}) {
+    if (!*edge) continue;
+    const ViewCircle c = view_circle((*edge)->half, state.observer, vantage.celerity);
+    const double sign = (*edge)->sign;
+    circles_.push_back({c.axis * sign, sign * c.cosine, c.sine});
+    usable_ = usable_ && c.sine > kLeastRadius * central_pixel_angle(state.projection);
+  }
   usable_ = usable_ && !circles_.empty();
   if (usable_) find_box(state.projection);
-}
-
-// Directions n with n.u = cos(alpha) are those whose light ray (1, -n) is orthogonal to the vector
-// (cos(alpha), -u) of space-time, so the circle goes through the boost as that vector does.
-void SkyBorders::add(const SkyEdge& edge, const V3d& inward, const V3d& celerity,
-                     const FrameState& state) {
-  const double sine = 2 * edge.half.sine * edge.half.cosine;
-  const double cosine = (edge.half.cosine - edge.half.sine) * (edge.half.cosine + edge.half.sine);
-  const double gamma = std::sqrt(1 + celerity.length2()), along = celerity.dot(inward);
-  const double time = gamma * cosine + along;
-  const V3d space = inward + celerity * (along / (gamma + 1) + cosine);
-  const double length = space.length();
-  const V3d axis = apply_transposed(state.observer.tetrad_from_camera, space / length);
-  circles_.push_back({axis * edge.sign, edge.sign * time / length, sine / length});
-  usable_ = usable_ && sine / length > kLeastRadius * central_pixel_angle(state.projection);
 }
 
 // Directions an angle apart have components along an axis that differ by the angle at most.
 SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
   bool dark = true;
-  for (const Circle& c : circles_) {
+  for (const ViewCircle& c : circles_) {
     const double beyond = n.v.dot(c.axis) - c.cosine;
     if (beyond < -reach) return Sight::kSky;
     dark = dark && beyond > reach;
@@ -52,7 +37,7 @@ SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reac
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
   double part = 0;
-  for (const Circle& c : circles_) {
+  for (const ViewCircle& c : circles_) {
     const double beyond = (n.v.dot(c.axis) - c.cosine) / (c.sine * pixel_angle);
     part += std::clamp(0.5 - beyond, 0.0, 1.0);
   }
@@ -65,7 +50,7 @@ void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
-  const Circle& c = circles_.front();
+  const ViewCircle& c = circles_.front();
   // A rim around the one direction without an image, -Z, has what it holds outside its image.
   if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;
   const V3d e1 = c.axis.cross(std::abs(c.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/rays/view_circle.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/vantage.h"
 #include "projections/projection.h"
@@ -36,15 +37,9 @@ class SkyBorders {
   std::optional<PixelBox> box_without_sky() const { return box_; }
 
  private:
-  // The sky is where n.axis < cosine.
-  struct Circle {
-    V3d axis;  // unit vector of the camera's frame
-    double cosine, sine;
-  };
-  void add(const SkyEdge& edge, const V3d& inward, const V3d& celerity, const FrameState& state);
   void find_box(const Projection& projection);
 
-  std::vector<Circle> circles_;
+  std::vector<ViewCircle> circles_;  // each with its sky where n.axis < cosine
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };
