@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "pipeline/render/overlay/burn_in_text.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/show_time.h"
-#include "pipeline/survey/shift_range.h"
 
 namespace domefall {
 namespace {
@@ -18,39 +16,10 @@ std::string ass_time(std::size_t tenths) {
                      tenths % 10);
 }
 
-// Numbers of one length, so that they do not tremble from frame to frame.
-std::string steady_number(double value) {
-  const double size = std::abs(value);
-  if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.3e}", value);
-  return fmt::format("{:.{}f}", value, size < 10 ? 4 : size < 1000 ? 2 : 0);
-}
-
-std::string motion_of(const Show& show, const ObserverState& o) {
-  const bool has_rest = is_flat(o) || o.r > 2;
-  std::string text;
-  if (has_rest) {
-    const double celerity = static_celerity(o).length();
-    text = fmt::format("v = {:.5f} c", celerity / std::hypot(1.0, celerity));
-  } else {
-    text = fmt::format("gamma v = {} (free fall)", steady_number(o.celerity.length()));
-  }
-  if (const auto range = frequency_range(o, false, !show.effects.lensing))
-    text += fmt::format("\\N1+z = {} to {}", steady_number(1 / range->largest),
-                        steady_number(1 / range->least));
-  return text;
-}
-
-std::string place_of(const ObserverState& o) {
-  if (is_flat(o)) return "flat space";
-  return fmt::format("region {}\\Nr = {} M", region_name(o.region), steady_number(o.r));
-}
-
-std::string clock_of(const Show& show, const ObserverState& o) {
-  if (is_flat(o)) return fmt::format("tau = {} s", steady_number(o.proper_time));
-  std::string text = fmt::format("tau = {} M", steady_number(o.proper_time));
-  if (show.mass_solar)
-    text += fmt::format("\\N{} s",
-                        steady_number(o.proper_time * *show.mass_solar * kSecondsPerSolarMass));
+// Lines as the format parts them.
+std::string ass_lines(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at))
+    text.replace(at, 1, "\\N");
   return text;
 }
 
@@ -77,10 +46,11 @@ std::string burn_in(const Show& show, const std::vector<int>& frames, const Movi
       text += fmt::format("Dialogue: {},{},{},{},{}\n", layer, ass_time(k), ass_time(k + 1), style,
                           what);
     };
-    line("a", 0, fmt::format("frame {}\\N{}", state.frame, clock_text(state.show_time_s)));
-    line("b", 1, place_of(state.observer));
-    line("c", 2, clock_of(show, state.observer));
-    line("d", 3, motion_of(show, state.observer));
+    const BurnInText corners = burn_in_text(show, state);
+    line("a", 0, ass_lines(corners.top_left));
+    line("b", 1, ass_lines(corners.top_right));
+    line("c", 2, ass_lines(corners.bottom_left));
+    line("d", 3, ass_lines(corners.bottom_right));
   }
   return text;
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/render/rays/shift_range.h"
 #include "pipeline/show/observer_track.h"
-#include "pipeline/survey/shift_range.h"
 #include "pipeline/survey/show_survey.h"
 
 namespace domefall {

@@ -4,9 +4,9 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
+#include "pipeline/render/rays/shift_range.h"
 #include "pipeline/render/renderer.h"
 #include "pipeline/show/observer_track.h"
-#include "pipeline/survey/shift_range.h"
 
 namespace domefall {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/survey/shift_range.h"
+#include "pipeline/render/rays/shift_range.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,57 @@
+#include "pipeline/render/overlay/burn_in_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "pipeline/render/rays/shift_range.h"
+#include "pipeline/show/show_time.h"
+
+namespace domefall {
+namespace {
+
+// Numbers of one length, so that they do not tremble from frame to frame.
+std::string steady_number(double value) {
+  const double size = std::abs(value);
+  if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.3e}", value);
+  return fmt::format("{:.{}f}", value, size < 10 ? 4 : size < 1000 ? 2 : 0);
+}
+
+std::string motion_of(const Show& show, const ObserverState& o) {
+  const bool has_rest = is_flat(o) || o.r > 2;
+  std::string text;
+  if (has_rest) {
+    const double celerity = static_celerity(o).length();
+    text = fmt::format("v = {:.5f} c", celerity / std::hypot(1.0, celerity));
+  } else {
+    text = fmt::format("gamma v = {} (free fall)", steady_number(o.celerity.length()));
+  }
+  if (const auto range = frequency_range(o, false, !show.effects.lensing))
+    text += fmt::format("\n1+z = {} to {}", steady_number(1 / range->largest),
+                        steady_number(1 / range->least));
+  return text;
+}
+
+std::string place_of(const ObserverState& o) {
+  if (is_flat(o)) return "flat space";
+  return fmt::format("region {}\nr = {} M", region_name(o.region), steady_number(o.r));
+}
+
+std::string clock_of(const Show& show, const ObserverState& o) {
+  if (is_flat(o)) return fmt::format("tau = {} s", steady_number(o.proper_time));
+  std::string text = fmt::format("tau = {} M", steady_number(o.proper_time));
+  if (show.mass_solar)
+    text += fmt::format("\n{} s",
+                        steady_number(o.proper_time * *show.mass_solar * kSecondsPerSolarMass));
+  return text;
+}
+
+}  // namespace
+
+BurnInText burn_in_text(const Show& show, const FrameState& state) {
+  return {fmt::format("frame {}\n{}", state.frame, clock_text(state.show_time_s)),
+          place_of(state.observer), clock_of(show, state.observer),
+          motion_of(show, state.observer)};
+}
+
+}  // namespace domefall
