@@ -9,6 +9,7 @@
 #include "pipeline/cli/movie_frames.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
+#include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string show, preset, frames, size, from, out;
+  std::string show, preset, frames, size, from, out, overlays;
   std::vector<std::string> audio;
   int threads = 0;
 };
@@ -98,6 +99,7 @@ void say_tags(const MoviePreset& preset, const ColourTags& tags, const Grader& g
 void movie(const Options& o) {
   const MoviePreset& preset = movie_preset(o.preset);
   Show show = read_show(o.show);
+  overlay(show, o.overlays);
   show.projection = o.size.empty() && o.from.empty() ? fitted(show.projection, preset)
                                                      : resized(show.projection, o.size);
   const MovieSize size = size_of(show.projection), made = movie_size(preset, size);
@@ -147,6 +149,7 @@ void add_movie(CLI::App& app) {
       "--audio", o->audio,
       "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs");
   verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4 or .mov");
+  add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->footer("--audio takes all that follows it, so the show stands before it.");
   verb->callback([o] { movie(*o); });

@@ -8,6 +8,7 @@
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
+#include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
@@ -23,7 +24,7 @@ namespace domefall {
 namespace {
 
 struct Options {
-  std::string show, out, size = "1280x720";
+  std::string show, out, overlays, size = "1280x720";
   FrameChoice choice;
   int threads = 0;
   double fov_deg = 100;
@@ -78,6 +79,7 @@ void change_as_in_dome(const DomeLight& light, const Grader& grader, Renderer& r
 void preview(const Options& o) {
   const GradedFormat format = format_by_name(o.out);
   Show show = read_show(o.show);
+  overlay(show, o.overlays);
   const int number = chosen_frame(o.choice, show);
   OutputFile out(o.out);
   const Projection flat =
@@ -121,6 +123,7 @@ void add_preview(CLI::App& app) {
   verb->add_option("--fov", o->fov_deg, "horizontal opening angle, degrees")
       ->check(number_in(0.001, 340))
       ->capture_default_str();
+  add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->callback([o] { preview(*o); });
 }

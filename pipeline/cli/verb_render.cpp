@@ -5,6 +5,7 @@
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/show/read_show.h"
 
@@ -12,7 +13,7 @@ namespace domefall {
 namespace {
 
 struct Options {
-  std::string show, frames, size, out;
+  std::string show, frames, size, out, overlays;
   int threads = 0;
   bool explain = false, replace = false, dry = false;
 };
@@ -21,6 +22,7 @@ struct Options {
 // places.
 void run(const Options& o, bool render) {
   Show show = read_show(o.show);
+  overlay(show, o.overlays);
   show.projection = resized(show.projection, o.size);
   run_frames({show, parse_frames(o.frames, frame_count(show)), frames_folder(show, o.out),
               o.threads, o.explain, render, o.replace, o.dry});
@@ -33,6 +35,7 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
   verb.add_option("--size", o->size,
                   "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture");
   verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME");
+  add_overlay_option(verb, o->overlays);
   verb.add_flag("--replace", o->replace, "replace frames of another size, show or kind");
 }
 

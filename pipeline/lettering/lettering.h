@@ -36,7 +36,7 @@ struct LetterStyle {
   std::string font = "Sans";
   TextAlign align = TextAlign::kCentre;  // of lines of different lengths
 
-  auto operator<=>(const LetterStyle&) const = default;
+  bool operator==(const LetterStyle&) const = default;
 };
 
 struct LetteredText {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/rays/steady.h"
 #include "pipeline/render/rendered_frame.h"
@@ -130,8 +131,13 @@ bool FrameKeys::same_assets(const FrameKeys& other) const {
 }
 
 std::string FrameKeys::scene(const FrameState& state) const {
-  const std::string sky = exposed(state), titles = titles_key(show_, state);
-  return titles.empty() ? sky : Digest().add(sky).add("titles").add(titles).hex();
+  std::string key = exposed(state);
+  const auto add = [&key](const char* what, const std::string& drawn) {
+    if (!drawn.empty()) key = Digest().add(key).add(what).add(drawn).hex();
+  };
+  add("titles", titles_key(show_, state));
+  add("overlays", overlays_key(show_, state));
+  return key;
 }
 
 std::string FrameKeys::exposed(const FrameState& state) const {

@@ -31,7 +31,8 @@ class FrameKeys {
   // The digest of what all frames share, which is neither in the timeline nor a sky that only some
   // of them see.
   const std::string& show() const { return common_; }
-  // The key of a scene-linear frame.  Throws as titles_key, for a frame with titles.
+  // The key of a scene-linear frame.  Throws as titles_key and overlays_key, for a frame
+  // with titles or overlays.
   std::string scene(const FrameState& state) const;
   // The key of the graded frame that is made, by the CDL of this state, from the one with this key.
   std::string graded(const std::string& scene_key, const FrameState& state) const;
@@ -41,7 +42,7 @@ class FrameKeys {
   void add_background(Digest& digest, const SkyBackground& background);
   void add_sky(Digest& digest, const RegionSky& sky);
   void add_segments();
-  // The key of what is seen while the shutter is open, without titles.
+  // The key of what is seen while the shutter is open, without what is drawn over it.
   std::string exposed(const FrameState& state) const;
   // The key of what is seen at one instant.
   std::string instant(const FrameState& state) const;

@@ -12,6 +12,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_stars.h"
+#include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
@@ -67,13 +68,15 @@ struct Renderer::Memory {
   BlobLayer stars{Domemaster{1}};
   ImageLists images{};
   BandMemory bands{};
+  StarLabels labels;
 };
 
 Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, SkyDetail detail)
     : show_(show),
       anti_aliasing_(anti_aliasing),
       skies_(show, detail),
-      memory_(new Memory{tbb::task_arena(threads_of(threads))}) {
+      memory_(
+          new Memory{.arena = tbb::task_arena(threads_of(threads)), .labels = StarLabels(show)}) {
   if (anti_aliasing.samples < 1 || anti_aliasing.samples > kMostSamples)
     throw InputError(
         fmt::format("anti-aliasing takes 1 to {} samples along each axis of a pixel, got {}",
@@ -129,6 +132,7 @@ void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, Stage
   }
   // A title stands still while the shutter is open, and no fade of the show acts on it.
   draw_titles(show_, state, frame);
+  draw_overlays(show_, state, memory_->labels, frame);
   if (times) *times = sum;
 }
 

@@ -18,6 +18,7 @@
 #include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
 #include "pipeline/show/fades.h"
+#include "pipeline/show/overlay_kind.h"
 #include "pipeline/show/placement.h"
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "projections/projection.h"
@@ -239,7 +240,8 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
-  std::vector<Title> titles;  // beside those of segments
+  std::vector<Title> titles;          // beside those of segments
+  std::vector<OverlayKind> overlays;  // which no show file asks for
   Fades fades;
   // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
   // show that is put together otherwise has none, and each of its states follows the timeline from

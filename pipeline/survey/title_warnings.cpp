@@ -4,18 +4,13 @@
 
 #include <numbers>
 
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/overlay/text_surface.h"
 #include "pipeline/show/problems.h"
 
 namespace domefall {
 namespace {
-
-bool is_in_picture(const Projection& projection, const CameraDirection& n) {
-  const auto pixel = pixel_of(projection, n);
-  return pixel && is_inside(projection, *pixel) && pixel->i > 0.5 && pixel->j > 0.5 &&
-         pixel->i < columns(projection) + 0.5 && pixel->j < rows(projection) + 0.5;
-}
 
 void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>& warnings) {
   const int frame = nearest_frame(show, title.begin_s);
@@ -33,7 +28,8 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
   if (letters.missing > 0)
     warn(fmt::format("has {} letter{} that no font of this machine has, drawn as boxes",
                      letters.missing, letters.missing == 1 ? "" : "s"));
-  if (!is_in_picture(state.projection, surface.direction({0, 0})))
+  const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
+  if (!middle || !is_in_picture(state.projection, *middle))
     warn("has its middle outside the picture");
   if (surface.half_turn(letters.half_width) > std::numbers::pi)
     warn(

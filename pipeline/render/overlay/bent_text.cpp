@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 namespace domefall {
 namespace {
@@ -10,13 +12,23 @@ namespace {
 // Nearer to -Z than this a projection stretches beyond use.
 constexpr double kBehind = -0.9998;
 
+// Where a point of a text is seen; nothing if nowhere.
+using TextPlace = std::function<std::optional<PicturePoint>(const TextPoint&)>;
+
 class OutlineBender {
  public:
-  OutlineBender(const TextSurface& surface, const Projection& projection)
-      : surface_(surface), projection_(projection) {}
+  // A line bends by a radian over so many pixels.
+  OutlineBender(TextPlace place, double pixels_of_radian)
+      : place_(std::move(place)), pixels_of_radian_(pixels_of_radian) {}
 
+  void add(const LetteredText& text, Coverage& coverage) const {
+    for (const TextOutline& outline : text.outlines)
+      if (const auto polygon = bent(outline)) coverage.add(*polygon);
+  }
+
+ private:
   // Nothing if it has no image.
-  std::optional<PicturePolygon> bent(const TextOutline& outline) {
+  std::optional<PicturePolygon> bent(const TextOutline& outline) const {
     PicturePolygon polygon;
     if (!append(outline.start, polygon)) return std::nullopt;
     TextPoint from = outline.start;
@@ -27,28 +39,27 @@ class OutlineBender {
     return polygon;
   }
 
- private:
   bool append(const TextPoint& p, PicturePolygon& polygon) const {
-    const CameraDirection n = surface_.direction(p);
-    const auto pixel = n.v.z > kBehind ? pixel_of(projection_, n) : std::nullopt;
-    if (pixel) polygon.push_back(picture_point(*pixel));
-    return pixel.has_value();
+    const auto place = place_(p);
+    if (place) polygon.push_back(*place);
+    return place.has_value();
   }
 
-  // A curve that turns by a radian departs from n chords by its length/(8 n^2).  A straight line is
-  // bent by the sphere alone.
+  // A curve of that length that turns by an angle departs from n chords by length angle/(8 n^2).
+  // Those of letters turn by less than 2 radians.
   bool append_curve(const TextPoint& from, const TextCurve& curve, PicturePolygon& polygon) const {
-    constexpr double kTolerance = 0.05;  // pixels
+    constexpr double kTolerance = 0.05, kLetterTurn = 2;  // pixels, radians
+    constexpr double kMostPieces = 200;
     PicturePolygon corners{polygon.back()};
     for (const TextPoint& p : {curve.control1, curve.control2, curve.end})
       if (!append(p, corners)) return false;
     double pixels = 0;
     for (std::size_t k = 1; k < corners.size(); ++k)
       pixels += std::hypot(corners[k].x - corners[k - 1].x, corners[k].y - corners[k - 1].y);
-    const double most = std::hypot(columns(projection_), rows(projection_));
-    const double turn = curve.straight ? std::min(1.0, 8 * pixels / most) : 2;
+    const double turn =
+        std::min(kLetterTurn, (curve.straight ? 0 : kLetterTurn) + pixels / pixels_of_radian_);
     const int pieces = static_cast<int>(
-        std::ceil(std::sqrt(std::min(pixels, 4 * most) * turn / (8 * kTolerance))));
+        std::ceil(std::min(std::sqrt(pixels * turn / (8 * kTolerance)), kMostPieces)));
     for (int k = 1; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces, u = 1 - t;
       const auto mixed = [&](double a, double b, double c, double d) {
@@ -63,17 +74,29 @@ class OutlineBender {
     return true;
   }
 
-  const TextSurface& surface_;
-  const Projection& projection_;
+  TextPlace place_;
+  double pixels_of_radian_;
 };
 
 }  // namespace
 
-void add_text(const LetteredText& text, const TextSurface& surface, const Projection& projection,
-              Coverage& coverage) {
-  OutlineBender bender(surface, projection);
-  for (const TextOutline& outline : text.outlines)
-    if (const auto polygon = bender.bent(outline)) coverage.add(*polygon);
+void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
+              const Projection& projection, Coverage& coverage) {
+  const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
+    const CameraDirection n = surface.direction({p.x + shift.x, p.y + shift.y});
+    const auto pixel = n.v.z > kBehind ? pixel_of(projection, n) : std::nullopt;
+    return pixel ? std::optional(picture_point(*pixel)) : std::nullopt;
+  };
+  // A line may bend by as much as the edge of a dome does.
+  OutlineBender(place, std::max(columns(projection), rows(projection)) / 8.0).add(text, coverage);
+}
+
+void add_flat_text(const LetteredText& text, const PicturePoint& middle, double capital,
+                   Coverage& coverage) {
+  const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
+    return PicturePoint{middle.x + capital * p.x, middle.y - capital * p.y};
+  };
+  OutlineBender(place, HUGE_VAL).add(text, coverage);
 }
 
 }  // namespace domefall

@@ -18,6 +18,12 @@ inline PicturePoint picture_point(const PixelPosition& pixel) {
   return {pixel.i - 0.5, pixel.j - 0.5};
 }
 
+// Whether that place is in the picture and the projection shows something there.
+inline bool is_in_picture(const Projection& p, const PixelPosition& pixel) {
+  return is_inside(p, pixel) && pixel.i > 0.5 && pixel.j > 0.5 && pixel.i < columns(p) + 0.5 &&
+         pixel.j < rows(p) + 0.5;
+}
+
 // A closed polygon.
 using PicturePolygon = std::vector<PicturePoint>;
 

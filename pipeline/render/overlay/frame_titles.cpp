@@ -1,36 +1,17 @@
 #include "pipeline/render/overlay/frame_titles.h"
 
-#include <cmath>
 #include <map>
 #include <mutex>
-#include <utility>
+#include <tuple>
 
 #include "pipeline/image/digest.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/text_digest.h"
 #include "pipeline/render/overlay/text_surface.h"
 #include "pipeline/render/rays/steady.h"
 
 namespace domefall {
-namespace {
-
-// Outlines are told apart to this part of a capital's height.
-constexpr double kOutlineSteps = 1e5;
-
-void add_outlines(Digest& digest, const LetteredText& text) {
-  const auto add = [&digest](const TextPoint& p) {
-    digest.add(std::round(p.x * kOutlineSteps) + 0.0).add(std::round(p.y * kOutlineSteps) + 0.0);
-  };
-  for (const TextOutline& outline : text.outlines) {
-    digest.add("outline");
-    add(outline.start);
-    for (const TextCurve& curve : outline.curves)
-      for (const TextPoint& p : {curve.control1, curve.control2, curve.end}) add(p);
-  }
-}
-
-}  // namespace
-
 std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
   std::vector<SeenTitle> seen;
   const auto look = [&](const std::vector<Title>& titles) {
@@ -48,9 +29,9 @@ std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
 
 const LetteredText& title_letters(const Title& title) {
   static std::mutex one_looks;
-  static std::map<std::pair<std::string, LetterStyle>, LetteredText> known;
+  static std::map<std::tuple<std::string, std::string, TextAlign>, LetteredText> known;
   const std::lock_guard lock(one_looks);
-  const auto key = std::pair(title.text, title.style);
+  const auto key = std::tuple(title.text, title.style.font, title.style.align);
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
   return known.emplace(key, lettering().letter(title.text, title.style)).first->second;
@@ -71,19 +52,14 @@ std::string titles_key(const Show& show, const FrameState& state) {
   return digest.hex();
 }
 
-template <class T>
-void draw_titles(const Show& show, const FrameState& state, ImageRgb<T>& frame) {
+void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
   for (const auto& [title, opacity] : seen_titles(show, state)) {
     Coverage coverage(frame.width, frame.height);
-    add_text(
-        title_letters(*title),
-        TextSurface(state.camera_from_audience, title->azimuth, title->elevation, title->height),
-        state.projection, coverage);
+    const TextSurface surface(state.camera_from_audience, title->azimuth, title->elevation,
+                              title->height);
+    add_text(title_letters(*title), surface, {0, 0}, state.projection, coverage);
     draw_over(coverage, {title->light, opacity}, state.projection, frame);
   }
 }
-
-template void draw_titles(const Show&, const FrameState&, HalfFrame&);
-template void draw_titles(const Show&, const FrameState&, FloatImage&);
 
 }  // namespace domefall

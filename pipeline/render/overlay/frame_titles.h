@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/image/frame_buffer.h"
 #include "pipeline/lettering/lettering.h"
+#include "pipeline/render/overlay/frame_ref.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -26,9 +26,7 @@ const LetteredText& title_letters(const Title& title);
 // machine's fonts.  Empty for a frame without titles.  Throws as title_letters.
 std::string titles_key(const Show& show, const FrameState& state);
 
-// Draws the titles over a frame, in the order of seen_titles().  T is Imath::half or float.  Throws
-// as title_letters.
-template <class T>
-void draw_titles(const Show& show, const FrameState& state, ImageRgb<T>& frame);
+// Draws the titles over a frame, in the order of seen_titles().  Throws as title_letters.
+void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame);
 
 }  // namespace domefall

@@ -3,29 +3,52 @@
 #include <algorithm>
 
 namespace domefall {
+namespace {
 
+// Draws over the columns from `first` on, of which the parts are covered.
 template <class T>
-void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
-               ImageRgb<T>& frame) {
+void draw_row(T* pixels, int first, std::span<const double> parts, const ColumnRange& range,
+              const Ink& ink) {
   const float light[3] = {ink.light.r, ink.light.g, ink.light.b};
-  coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
-    const ColumnRange inside = inside_columns(projection, row);
-    const int begin = std::max(first, inside.first),
-              end = std::min(first + static_cast<int>(parts.size()), inside.last + 1);
-    T* pixels = frame.row(row);
-    for (int x = begin; x < end; ++x) {
-      const auto part =
-          static_cast<float>(parts[static_cast<std::size_t>(x - first)] * ink.opacity);
-      if (part == 0) continue;
-      for (int c = 0; c < 3; ++c) {
-        T& value = pixels[3 * x + c];
-        value = static_cast<float>(value) * (1 - part) + light[c] * part;
-      }
+  const int begin = std::max(first, range.first),
+            end = std::min(first + static_cast<int>(parts.size()), range.last + 1);
+  for (int x = begin; x < end; ++x) {
+    const auto part = static_cast<float>(parts[static_cast<std::size_t>(x - first)] * ink.opacity);
+    if (part == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      T& value = pixels[3 * x + c];
+      value = static_cast<float>(value) * (1 - part) + light[c] * part;
     }
-  });
+  }
 }
 
-template void draw_over(const Coverage&, const Ink&, const Projection&, HalfFrame&);
-template void draw_over(const Coverage&, const Ink&, const Projection&, FloatImage&);
+// Draws over the columns `inside` of each row.
+template <class Inside>
+void draw_within(const Coverage& coverage, const Ink& ink, const Inside& inside,
+                 const FrameRef& frame) {
+  const auto draw = [&](auto* pixels) {
+    coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
+      draw_row(pixels->row(row), first, parts, inside(row), ink);
+    });
+  };
+  std::visit(draw, frame.pixels);
+}
+
+}  // namespace
+
+void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
+               const FrameRef& frame) {
+  draw_within(
+      coverage, ink, [&](int row) { return inside_columns(projection, row); }, frame);
+}
+
+void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame) {
+  draw_within(
+      coverage, ink,
+      [&](int) {
+        return ColumnRange{0, frame.width - 1};
+      },
+      frame);
+}
 
 }  // namespace domefall

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "pipeline/colour/colour_space.h"
-#include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/overlay/coverage.h"
+#include "pipeline/render/overlay/frame_ref.h"
 
 namespace domefall {
 
@@ -13,10 +13,11 @@ struct Ink {
   double opacity = 1;  // 0 to 1
 };
 
-// Draws over a frame of the projection's size, where the projection shows anything.  T is
-// Imath::half or float.
-template <class T>
+// Draws over a frame of the projection's size, where the projection shows anything.
 void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
-               ImageRgb<T>& frame);
+               const FrameRef& frame);
+
+// The same, outside a dome's circle too.
+void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame);
 
 }  // namespace domefall

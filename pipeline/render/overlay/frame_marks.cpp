@@ -1,0 +1,167 @@
+#include "pipeline/render/overlay/frame_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/stroke.h"
+#include "pipeline/render/rays/view_circle.h"
+#include "pipeline/show/vantage.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kDegrees2Radians = std::numbers::pi / 180;
+
+class Marks {
+ public:
+  Marks(const FrameState& state, const FrameRef& frame)
+      : state_(state),
+        projection_(state.projection),
+        width_(mark_width(projection_)),
+        coverage_(frame.width, frame.height) {}
+
+  const Projection& projection() const { return projection_; }
+  bool dome() const { return std::holds_alternative<Domemaster>(projection_); }
+
+  void circle(const ViewCircle& circle) { add_circle(circle, width_, projection_, coverage_); }
+
+  // A box in the middle of the picture that has this part of its width and height.
+  void box(double part) {
+    const double w = columns(projection_), h = rows(projection_);
+    // The band lies within the picture.
+    const double x = std::max(w * (1 - part) / 2, width_ / 2),
+                 y = std::max(h * (1 - part) / 2, width_ / 2);
+    add_stroke({{x, y}, {w - x, y}, {w - x, h - y}, {x, h - y}}, true, width_, coverage_);
+  }
+
+  // The way from one place of the audience to another, degrees, along which both angles change
+  // evenly.
+  struct Place {
+    double azimuth, elevation;
+  };
+  void way(const Place& from, const Place& to, double width_part = 1) {
+    add_curve(
+        [&](double part) {
+          const double a = std::lerp(from.azimuth, to.azimuth, part) * kDegrees2Radians,
+                       e = std::lerp(from.elevation, to.elevation, part) * kDegrees2Radians;
+          return apply(state_.camera_from_audience,
+                       V3d(std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)));
+        },
+        false, width_ * width_part, projection_, coverage_);
+  }
+
+  // A circle about the middle of a dome's picture, that many pixels from its edge.
+  void circle_within(double pixels) {
+    const double angle = std::numbers::pi / 2 - pixels * central_pixel_angle(projection_);
+    circle({V3d(0, 0, 1), std::cos(angle), std::sin(angle)});
+  }
+
+  void draw(const WorkingRgb& light, double opacity, const FrameRef& frame) const {
+    draw_over(coverage_, {light, opacity}, projection_, frame);
+  }
+  double width() const { return width_; }
+
+ private:
+  const FrameState& state_;
+  const Projection& projection_;
+  double width_;
+  Coverage coverage_;
+};
+
+void add_grid(Marks& marks) {
+  constexpr int kElevations = 15, kAzimuths = 30, kUpTo = 75, kRight = 90;
+  for (int elevation = -kUpTo; elevation <= kUpTo; elevation += kElevations)
+    for (int azimuth = 0; azimuth < 360; azimuth += kRight)
+      marks.way({double(azimuth), double(elevation)}, {double(azimuth + kRight), double(elevation)},
+                0.5);
+  for (int azimuth = 0; azimuth < 360; azimuth += kAzimuths) {
+    const double end = azimuth % kRight == 0 ? kRight : kUpTo;
+    marks.way({double(azimuth), -end}, {double(azimuth), end}, 0.5);
+  }
+}
+
+void add_safe_area(Marks& marks) {
+  if (marks.dome()) {
+    const double pixels =
+        kSafeElevationDeg * kDegrees2Radians / central_pixel_angle(marks.projection());
+    return marks.circle_within(pixels);
+  }
+  marks.box(kSafeAction);
+  marks.box(kSafeTitles);
+}
+
+void add_sweet_spot(Marks& marks) {
+  if (!marks.dome()) return marks.box(kMiddleThird);
+  const double a = kSweetAzimuthDeg, low = kSweetLowestDeg, high = kSweetHighestDeg;
+  marks.way({-a, low}, {a, low});
+  marks.way({a, low}, {a, high});
+  marks.way({a, high}, {-a, high});
+  marks.way({-a, high}, {-a, low});
+}
+
+// Colours that are told apart, and by most of those who see fewer colours, too.
+WorkingRgb light_of(OverlayKind overlay) {
+  const auto of_rec709 = [](double r, double g, double b) {
+    const V3d light = apply(working_from_rec709(), V3d(r, g, b));
+    return WorkingRgb{static_cast<float>(light.x), static_cast<float>(light.y),
+                      static_cast<float>(light.z)};
+  };
+  switch (overlay) {
+    case OverlayKind::kGrid:
+      return of_rec709(0.15, 0.2, 0.3);
+    case OverlayKind::kRim:
+      return of_rec709(1, 1, 1);
+    case OverlayKind::kSafeArea:
+      return of_rec709(0.1, 1, 0.2);
+    case OverlayKind::kSweetSpot:
+      return of_rec709(1, 0.8, 0.1);
+    case OverlayKind::kSilhouette:
+      return of_rec709(1, 0.15, 0.1);
+    case OverlayKind::kEinsteinRing:
+      return of_rec709(0.1, 0.6, 1);
+    case OverlayKind::kStarNames:
+    case OverlayKind::kBurnIn:
+      break;
+  }
+  return {1, 1, 1};
+}
+
+// Without lensing there is neither silhouette nor ring.
+void draw_circles(OverlayKind overlay, const Show& show, const FrameState& state, double opacity,
+                  const FrameRef& frame) {
+  if (!show.effects.lensing) return;
+  Marks marks(state, frame);
+  const V3d celerity = vantage_of(state.observer, show.effects).celerity;
+  for (const ViewCircle& circle : overlay == OverlayKind::kSilhouette
+                                      ? silhouette_circles(state.observer, celerity)
+                                      : einstein_circles(state.observer, celerity))
+    marks.circle(circle);
+  marks.draw(light_of(overlay), opacity, frame);
+}
+
+}  // namespace
+
+double mark_width(const Projection& projection) {
+  constexpr double kOfTheSmallerSide = 1. / 700;
+  return std::max(1.0, kOfTheSmallerSide * std::min(columns(projection), rows(projection)));
+}
+
+void draw_marks(OverlayKind overlay, const Show& show, const FrameState& state,
+                const FrameRef& frame) {
+  if (overlay == OverlayKind::kSilhouette || overlay == OverlayKind::kEinsteinRing) {
+    draw_circles(overlay, show, state, 1 - state.vanishing_part, frame);
+    if (state.vanishing) draw_circles(overlay, show, *state.vanishing, state.vanishing_part, frame);
+    return;
+  }
+  Marks marks(state, frame);
+  if (overlay == OverlayKind::kGrid) add_grid(marks);
+  if (overlay == OverlayKind::kSafeArea) add_safe_area(marks);
+  if (overlay == OverlayKind::kSweetSpot) add_sweet_spot(marks);
+  if (overlay == OverlayKind::kRim)
+    marks.dome() ? marks.circle_within(marks.width() / 2) : marks.box(1);
+  marks.draw(light_of(overlay), 1, frame);
+}
+
+}  // namespace domefall

@@ -1,0 +1,85 @@
+#include "pipeline/render/overlay/frame_overlays.h"
+
+#include <algorithm>
+
+#include "pipeline/image/digest.h"
+#include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/burn_in_text.h"
+#include "pipeline/render/overlay/frame_marks.h"
+#include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/text_digest.h"
+#include "pipeline/render/rays/steady.h"
+
+namespace domefall {
+namespace {
+
+// It is raised with every change of how overlays are drawn.
+constexpr int kOverlayVersion = 1;
+
+LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
+
+// Puts a text into a corner of the picture, on a ground that makes it legible on bright skies, too.
+void draw_in_corner(const std::string& text, bool right, bool bottom, const FrameRef& frame) {
+  // Lines of 28 letters fit beside the circle of a dome.
+  constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
+  const double letter = std::max(kLeastLetter, kLetterPart * std::min(frame.width, frame.height));
+  const LetteredText letters =
+      lettering().letter(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
+  const double w = letters.half_width * letter, h = letters.half_height * letter;
+  const PicturePoint middle{right ? frame.width - w - letter : w + letter,
+                            bottom ? frame.height - h - letter : h + letter};
+  const double x = w + letter / 2, y = h + letter / 2;
+  Coverage ground(frame.width, frame.height), written(frame.width, frame.height);
+  ground.add({{middle.x - x, middle.y - y},
+              {middle.x + x, middle.y - y},
+              {middle.x + x, middle.y + y},
+              {middle.x - x, middle.y + y}});
+  add_flat_text(letters, middle, letter, written);
+  draw_anywhere(ground, {{0, 0, 0}, kGround}, frame);
+  draw_anywhere(written, {{1, 1, 1}, 1}, frame);
+}
+
+void draw_burn_in(const Show& show, const FrameState& state, const FrameRef& frame) {
+  const BurnInText corners = burn_in_text(show, state);
+  draw_in_corner(corners.top_left, false, false, frame);
+  draw_in_corner(corners.top_right, true, false, frame);
+  draw_in_corner(corners.bottom_left, false, true, frame);
+  draw_in_corner(corners.bottom_right, true, true, frame);
+}
+
+}  // namespace
+
+std::string overlays_key(const Show& show, const FrameState& state) {
+  if (show.overlays.empty()) return {};
+  Digest digest;
+  digest.add(kOverlayVersion).add(overlay_names(show.overlays));
+  add_rotation(digest, state.camera_from_audience);
+  const auto add_font = [&digest](const LetterStyle& style) {
+    add_outlines(digest, lettering().letter("Handgloves 0123456789", style));
+  };
+  for (const OverlayKind overlay : show.overlays) {
+    if (overlay == OverlayKind::kStarNames) add_font(label_style());
+    if (overlay != OverlayKind::kBurnIn) continue;
+    add_font(burn_in_style(TextAlign::kLeft));
+    const BurnInText corners = burn_in_text(show, state);
+    for (const std::string& text :
+         {corners.top_left, corners.top_right, corners.bottom_left, corners.bottom_right})
+      digest.add(text);
+  }
+  return digest.hex();
+}
+
+void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels,
+                   const FrameRef& frame) {
+  for (const OverlayKind overlay : show.overlays) {
+    if (overlay == OverlayKind::kBurnIn)
+      draw_burn_in(show, state, frame);
+    else if (overlay == OverlayKind::kStarNames)
+      // In a dissolve the names are those of the view that is seen better.
+      labels.draw(state.vanishing_part > 0.5 ? *state.vanishing : state, frame);
+    else
+      draw_marks(overlay, show, state, frame);
+  }
+}
+
+}  // namespace domefall

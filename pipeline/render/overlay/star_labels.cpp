@@ -1,0 +1,170 @@
+#include "pipeline/render/overlay/star_labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "pipeline/lettering/lettering.h"
+#include "pipeline/optics/aberration.h"
+#include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/frame_marks.h"
+#include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/stroke.h"
+#include "pipeline/show/vantage.h"
+#include "pipeline/sky/catalogue/read_star_catalogue.h"
+
+namespace domefall {
+namespace {
+
+// Names have capitals of this part of the shorter side, and no fewer pixels.
+constexpr double kLabelPart = 1. / 120, kLeastLabel = 7;
+// The radius of the ring around an image, and the way from there to its name, in capitals.
+constexpr double kRing = 0.8, kGap = 1.2;
+
+// Finds the images of stars as one observer sees them.
+class NamedImageFinder {
+ public:
+  NamedImageFinder(const Show& show, const FrameState& state)
+      : effects_(show.effects),
+        observer_(state.observer),
+        vantage_(vantage_of(state.observer, show.effects)),
+        optics_(make_hole_optics(state.observer.r, state.observer.tetrad,
+                                 {{true, true, false}, false})) {}
+
+  bool sees(SkyRegion sky) const {
+    if (is_flat(observer_) || !effects_.lensing) return sky == home_sky(observer_.tetrad);
+    return optics_.table_of(sky) != nullptr;
+  }
+  int orders() const { return is_flat(observer_) || !effects_.lensing ? 1 : 2; }
+
+  // The direction and by how much brighter than the star the image is.
+  std::pair<CameraDirection, double> image(SkyRegion sky, const SkyDirection& star,
+                                           int order) const {
+    const V3d source = apply_transposed(observer_.sky_from_tetrad, star.v);
+    SkyImage at{{source}, 1, 1};
+    if (effects_.lensing)
+      at = image_of(optics_.table_of(sky), source, order, kLeastSource);
+    else
+      at.direction = {to_tetrad(vantage_.rest, source).direction};
+    const AberratedLight seen = to_observer(vantage_.celerity, at.direction.v);
+    const double g = at.frequency_ratio * seen.frequency_ratio;
+    const double area = at.amplification / (seen.frequency_ratio * seen.frequency_ratio);
+    return {{apply_transposed(observer_.tetrad_from_camera, seen.direction)}, area * g * g * g * g};
+  }
+
+ private:
+  static constexpr double kLeastSource = 1e-4;  // radians; it bounds the light of one on the axis
+
+  const Effects& effects_;
+  const ObserverState& observer_;
+  Vantage vantage_;
+  HoleOptics optics_;
+};
+
+// Where names are already, as discs along them.
+class TakenPlaces {
+ public:
+  explicit TakenPlaces(double radius) : radius_(radius) {}
+
+  bool take(const std::vector<PicturePoint>& places) {
+    for (const PicturePoint& p : places)
+      for (const PicturePoint& q : taken_)
+        if (std::hypot(p.x - q.x, p.y - q.y) < 2 * radius_) return false;
+    taken_.insert(taken_.end(), places.begin(), places.end());
+    return true;
+  }
+
+ private:
+  double radius_;
+  std::vector<PicturePoint> taken_;
+};
+
+// Places in the picture from an image to the end of its name; nothing if it does not fit there.
+std::optional<std::vector<PicturePoint>> places_of_label(const TextSurface& surface, double length,
+                                                         const Projection& projection) {
+  std::vector<PicturePoint> places;
+  for (double x = 0; x < length + 1; ++x) {
+    const auto pixel = pixel_of(projection, surface.direction({std::min(x, length), 0}));
+    if (!pixel || !is_in_picture(projection, *pixel)) return std::nullopt;
+    places.push_back(picture_point(*pixel));
+  }
+  return places;
+}
+
+}  // namespace
+
+LetterStyle label_style() { return {"Sans", TextAlign::kLeft}; }
+
+// Of the names of a star the first is its proper one, if it has one.
+const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sky) {
+  auto& named = stars_[sky];
+  if (named) return *named;
+  named.emplace();
+  const auto& field = show_.sky[sky].stars;
+  if (!field) return *named;
+  const StarCatalogue catalogue =
+      read_star_catalogue(field->catalogue, kFaintestNamed, show_.star_epoch);
+  const auto key = [](const SkyDirection& d) { return std::tuple(d.v.x, d.v.y, d.v.z); };
+  std::map<std::tuple<double, double, double>, std::string> names;
+  for (const NamedStar& name : catalogue.names) names.emplace(key(name.direction), name.name);
+  for (const Star& star : catalogue.stars)
+    if (const auto name = names.find(key(star.direction)); name != names.end())
+      named->push_back({name->second, star.direction, star.v_magnitude});
+  return *named;
+}
+
+std::vector<NamedImage> StarLabels::images(const FrameState& state) {
+  std::vector<NamedImage> found;
+  const NamedImageFinder finder(show_, state);
+  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+    if (state.observer.region == Region::kIV || !finder.sees(sky)) continue;
+    for (const NamedStarOfSky& star : stars_of(sky)) {
+      if (star.magnitude > state.settings.sky[sky].max_magnitude) break;
+      for (int order = 0; order < finder.orders(); ++order) {
+        const auto [direction, factor] = finder.image(sky, star.direction, order);
+        const double magnitude = star.magnitude - 2.5 * std::log10(factor);
+        if (!(magnitude <= kFaintestNamedImage)) continue;
+        found.push_back({star.name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude});
+      }
+    }
+  }
+  std::ranges::stable_sort(found, {}, &NamedImage::magnitude);
+  return found;
+}
+
+// What is drawn lies on the surface of a text whose middle is the image.
+void StarLabels::draw(const FrameState& state, const FrameRef& frame) {
+  const Projection& projection = state.projection;
+  const double letter =
+      std::max(kLeastLabel, kLabelPart * std::min(frame.width, frame.height));  // pixels
+  TakenPlaces taken(kRing * letter);
+  Coverage primary(frame.width, frame.height), secondary(frame.width, frame.height);
+  for (const NamedImage& image : images(state)) {
+    const auto pixel = pixel_of(projection, image.direction);
+    if (!pixel || !is_in_picture(projection, *pixel)) continue;
+    const LetteredText text = lettering().letter(image.name, label_style());
+    const V3d place = apply_transposed(state.camera_from_audience, image.direction.v);
+    const TextSurface surface(state.camera_from_audience, std::atan2(place.x, place.y),
+                              std::asin(std::clamp(place.z, -1.0, 1.0)),
+                              letter * pixel_angle(projection, *pixel));
+    const auto along = places_of_label(surface, kGap + 2 * text.half_width, projection);
+    if (!along || !taken.take(*along)) continue;
+    Coverage& coverage = image.secondary ? secondary : primary;
+    add_text(text, surface, {kGap + text.half_width, 0}, projection, coverage);
+    add_curve(
+        [&](double part) {
+          const double t = 2 * std::numbers::pi * part;
+          return surface.direction({kRing * std::cos(t), kRing * std::sin(t)}).v;
+        },
+        true, mark_width(projection), projection, coverage);
+  }
+  constexpr double kPrimary = 0.9, kSecondary = 0.45;
+  draw_over(primary, {{1, 1, 1}, kPrimary}, projection, frame);
+  draw_over(secondary, {{1, 1, 1}, kSecondary}, projection, frame);
+}
+
+}  // namespace domefall

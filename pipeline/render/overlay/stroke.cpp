@@ -1,0 +1,88 @@
+#include "pipeline/render/overlay/stroke.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+// A curve is cut where it comes nearer to -Z than this, which is outside any picture but for a flat
+// one of more than 340 degrees.
+constexpr double kStrokeBehind = -0.99;
+
+PicturePoint unit_across(const PicturePoint& from, const PicturePoint& to) {
+  const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
+  return length > 0 ? PicturePoint{-y / length, x / length} : PicturePoint{0, 0};
+}
+
+// From a corner to the edge of the band: the sum of the normals on both sides, as long as the band
+// is wide there.
+PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double half) {
+  const double x = a.x + b.x, y = a.y + b.y;
+  // For unit normals at an angle t, |a + b|^2 = 2 (1 + cos t) and a mitre has the length 1/cos(t/2).
+  const double scale = half * 2 / std::max(x * x + y * y, 1.0);
+  return {x * scale, y * scale};
+}
+
+}  // namespace
+
+// The band goes along the line on one side and back on the other; that of a closed one has a seam of
+// no width.
+void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width,
+                Coverage& coverage) {
+  std::vector<PicturePoint> points;  // without repeated ones, which have no direction
+  for (const PicturePoint& p : line)
+    if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > 1e-6)
+      points.push_back(p);
+  if (points.size() < 2) return;
+  const std::size_t count = points.size(), last = closed ? count : count - 1;
+  const auto normal = [&](std::size_t k) {  // of the piece that begins at point k
+    return unit_across(points[k % count], points[(k + 1) % count]);
+  };
+  PicturePolygon there, back;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const PicturePoint before = k > 0 ? normal(k - 1) : normal(closed ? count - 1 : 0);
+    const PicturePoint after = k < last || closed ? normal(k) : before;
+    const PicturePoint offset = offset_between(before, after, width / 2), &p = points[k % count];
+    there.push_back({p.x + offset.x, p.y + offset.y});
+    back.push_back({p.x - offset.x, p.y - offset.y});
+  }
+  there.insert(there.end(), back.rbegin(), back.rend());
+  coverage.add(there);
+}
+
+void add_curve(const std::function<V3d(double)>& direction, bool closed, double width,
+               const Projection& projection, Coverage& coverage) {
+  const int pieces =
+      64 + static_cast<int>(8 * std::sqrt(std::max(columns(projection), rows(projection))));
+  std::vector<PicturePoint> run;
+  bool whole = true;
+  for (int k = 0; k < pieces + (closed ? 0 : 1); ++k) {
+    const CameraDirection n{direction(static_cast<double>(k) / pieces)};
+    const auto pixel = n.v.z > kStrokeBehind ? pixel_of(projection, n) : std::nullopt;
+    if (pixel) {
+      run.push_back(picture_point(*pixel));
+      continue;
+    }
+    whole = false;
+    add_stroke(run, false, width, coverage);
+    run.clear();
+  }
+  add_stroke(run, closed && whole, width, coverage);
+}
+
+void add_circle(const ViewCircle& circle, double width, const Projection& projection,
+                Coverage& coverage) {
+  const V3d e1 =
+      circle.axis.cross(std::abs(circle.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
+  const V3d e2 = circle.axis.cross(e1);
+  add_curve(
+      [&](double part) {
+        const double t = 2 * std::numbers::pi * part;
+        return circle.axis * circle.cosine + (e1 * std::cos(t) + e2 * std::sin(t)) * circle.sine;
+      },
+      true, width, projection, coverage);
+}
+
+}  // namespace domefall

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Overlays are drawn where they are asked for, and frames with them are another show's: they do not
+# take the place of finished ones, nor the other way round.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+
+cat >show.yaml <<'END'
+title: Plain
+frames_per_second: 4
+size: 96
+black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {background: grid, stars: naked_eye}}
+output: {graded: png8}
+timeline: [{duration_s: 1, trajectory: {type: infall, from_r: 6, to_r: 1}}]
+END
+all=grid,rim,safe_area,sweet_spot,silhouette,einstein_ring,star_names,burn_in
+exits 0 "$DOMEFALL" render show.yaml --out plain
+exits 0 "$DOMEFALL" render show.yaml --out drawn --overlay "$all"
+for k in 0 1 2 3; do
+  cmp -s plain/graded/show_0000$k.png drawn/graded/show_0000$k.png && fail "frame $k has no overlay"
+done
+exits 0 "$DOMEFALL" render show.yaml --out alone --frames 2 --threads 1 --overlay "$all"
+cmp drawn/linear/show_00002.exr alone/linear/show_00002.exr || fail "a frame alone has other bytes"
+
+# Neither replaces the other unasked, and each is found again.
+exits 2 "$DOMEFALL" render show.yaml --out plain --overlay rim
+says 'Plain \(overlay rim\)'
+exits 2 "$DOMEFALL" render show.yaml --out drawn
+exits 0 "$DOMEFALL" render show.yaml --out drawn --overlay "$all"
+says '^0 frames made, 4 already there'
+exits 0 "$DOMEFALL" render show.yaml --out plain
+says '^0 frames made, 4 already there'
+exits 0 "$DOMEFALL" grade show.yaml --out drawn --overlay "$all"
+says '^0 frames made, 4 already there'
+
+exits 0 "$DOMEFALL" preview show.yaml --frame 1 --size 64x48 --out plain.png
+exits 0 "$DOMEFALL" preview show.yaml --frame 1 --size 64x48 --overlay rim --out rim.png
+cmp -s plain.png rim.png && fail "the preview has no overlay"
+exits 0 "$DOMEFALL" movie show.yaml --preset review --overlay rim --out rim.mp4
+exits 0 "$DOMEFALL" movie show.yaml --preset hap --from drawn --overlay "$all" --out drawn.mov
+
+exits 2 "$DOMEFALL" render show.yaml --overlay rim,einstien_ring
+says '^--overlay rim,einstien_ring: overlays are grid, .* did you mean einstein_ring'

@@ -1,0 +1,192 @@
+// Overlays are drawn where the dome and the hole are, and frames with them have keys of their own.
+#include "pipeline/render/overlay/frame_overlays.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/overlay/frame_marks.h"
+#include "pipeline/render/rays/view_circle.h"
+#include "tests/pipeline/image/test_folder.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+Show overlaid(OverlayKind overlay, const Projection& projection,
+              const Trajectory& trajectory = StaticObserver{10}) {
+  Show show = show_of(trajectory, projection);
+  show.overlays = {overlay};
+  return show;
+}
+
+HalfFrame drawn(const Show& show) { return Renderer(show, 1).render(frame_state(show, 0)); }
+
+float light_at(const HalfFrame& frame, const Projection& projection, const CameraDirection& n) {
+  const auto pixel = pixel_of(projection, n);
+  const int x = static_cast<int>(std::lround(pixel->i)) - 1,
+            y = static_cast<int>(std::lround(pixel->j)) - 1;
+  const Imath::half* rgb = frame.row(y) + 3 * x;
+  return std::max(
+      {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
+}
+
+CameraDirection at(double azimuth_deg, double elevation_deg) {
+  const double a = azimuth_deg * kDegree, e = elevation_deg * kDegree;
+  return {{std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)}};
+}
+
+TEST(FrameMarks, OfADomeLieAtTheirElevations) {
+  const Domemaster dome{256};
+  const HalfFrame rim = drawn(overlaid(OverlayKind::kRim, dome)),
+                  safe = drawn(overlaid(OverlayKind::kSafeArea, dome)),
+                  sweet = drawn(overlaid(OverlayKind::kSweetSpot, dome)),
+                  grid = drawn(overlaid(OverlayKind::kGrid, dome));
+  for (const double azimuth : {0., 33., 90., 180., -70.}) {
+    EXPECT_GT(light_at(rim, dome, at(azimuth, 0.4)), 0.3) << azimuth;
+    EXPECT_EQ(light_at(rim, dome, at(azimuth, 3)), 0) << azimuth;
+    EXPECT_GT(light_at(safe, dome, at(azimuth, kSafeElevationDeg)), 0.3) << azimuth;
+    EXPECT_EQ(light_at(safe, dome, at(azimuth, kSafeElevationDeg + 2)), 0) << azimuth;
+    EXPECT_GT(light_at(grid, dome, at(azimuth, 45)), 0.05) << azimuth;
+    EXPECT_EQ(light_at(grid, dome, at(azimuth + 17, 38)), 0) << azimuth;
+  }
+  for (const double azimuth : {-kSweetAzimuthDeg, -20., 0., 20., kSweetAzimuthDeg}) {
+    EXPECT_GT(light_at(sweet, dome, at(azimuth, kSweetLowestDeg)), 0.2) << azimuth;
+    EXPECT_GT(light_at(sweet, dome, at(azimuth, kSweetHighestDeg)), 0.2) << azimuth;
+    EXPECT_EQ(light_at(sweet, dome, at(azimuth + 180, 40)), 0) << azimuth;
+  }
+  for (int y = 0; y < 256; ++y)
+    for (const int x : {0, 255})
+      if (!is_inside(dome, {x + 1.0, y + 1.0})) {
+        EXPECT_EQ(rim.row(y)[3 * x], 0) << y;
+      }
+}
+
+TEST(FrameMarks, OfAFlatPictureAreFrames) {
+  const Stereographic flat{200, 100, 90 * kDegree};
+  const HalfFrame rim = drawn(overlaid(OverlayKind::kRim, flat)),
+                  safe = drawn(overlaid(OverlayKind::kSafeArea, flat));
+  for (const int x : {0, 100, 199}) {
+    EXPECT_GT(rim.row(0)[3 * x], 0.9f);
+    EXPECT_GT(rim.row(99)[3 * x], 0.9f);
+  }
+  EXPECT_EQ(rim.row(50)[3 * 100], 0);
+  // 90 % of 100 rows begin at row 5, 80 % at row 10; the line is a pixel wide about the border.
+  for (const int y : {5, 10}) {
+    const float both = safe.row(y - 1)[3 * 100 + 1] + safe.row(y)[3 * 100 + 1];
+    EXPECT_NEAR(both, static_cast<float>(safe.row(50)[3 * 10 + 1]) * 2, 0.01) << y;
+    EXPECT_GT(both, 0.5) << y;
+  }
+}
+
+TEST(FrameMarks, OfTheHoleAreDrawnWhereItIs) {
+  for (const OverlayKind overlay : {OverlayKind::kSilhouette, OverlayKind::kEinsteinRing}) {
+    const Show show = overlaid(overlay, Domemaster{256},
+                               GivenVelocity{Region::kI, Tetrad::kRain, 8, V3d(0, 0.5, 0)});
+    const FrameState state = frame_state(show, 0);
+    const auto circles = overlay == OverlayKind::kSilhouette
+                             ? silhouette_circles(state.observer, state.observer.celerity)
+                             : einstein_circles(state.observer, state.observer.celerity);
+    const ViewCircle& c = circles.at(0);
+    const V3d e1 = c.axis.cross(V3d(1, 0, 0)).normalized(), e2 = c.axis.cross(e1);
+    const HalfFrame frame = drawn(show);
+    int seen = 0;
+    for (int k = 0; k < 40; ++k) {
+      const double t = k * 2 * std::numbers::pi / 40;
+      const V3d n = c.axis * c.cosine + (e1 * std::cos(t) + e2 * std::sin(t)) * c.sine;
+      if (n.z < 0.05) continue;
+      ++seen;
+      EXPECT_GT(light_at(frame, show.projection, {n}), 0.2) << k;
+      const V3d off = (n + c.axis * 0.15).normalized();
+      EXPECT_EQ(light_at(frame, show.projection, {off}), 0) << k;
+    }
+    EXPECT_GT(seen, 20);
+    // Where light goes straight there is nothing to draw.
+    Show straight = show;
+    straight.effects.lensing = false;
+    for (const Imath::half value : drawn(straight).pixels) ASSERT_EQ(value, 0);
+  }
+}
+
+TEST(FrameOverlays, EnterTheKey) {
+  const auto key = [](const Show& show) { return FrameKeys(show).scene(frame_state(show, 0)); };
+  Show show = show_of(StaticObserver{10}, Domemaster{64});
+  show.mass_solar = 10;
+  const std::string bare = key(show);
+  std::vector<std::string> keys{bare};
+  for (const auto& [overlay, name] : kOverlays) {
+    show.overlays = {overlay};
+    for (const std::string& other : keys) EXPECT_NE(key(show), other) << name;
+    keys.push_back(key(show));
+  }
+  // The hole's mass is in the numbers that are burnt in, and nowhere else in a frame.
+  Show heavier = show;
+  heavier.mass_solar = 20;
+  show.overlays = heavier.overlays = {OverlayKind::kBurnIn};
+  show.timeline[0].timing = heavier.timeline[0].timing = {1, 2};
+  EXPECT_NE(key(show), key(heavier));
+  show.overlays = heavier.overlays = {};
+  EXPECT_EQ(key(show), key(heavier));
+}
+
+TEST(FrameOverlays, BurnInStandsInTheCorners) {
+  const Show show = overlaid(OverlayKind::kBurnIn, Domemaster{256});
+  const HalfFrame frame = drawn(show);
+  const auto light = [&](int x0, int y0, int x1, int y1) {
+    double sum = 0;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) sum += frame.row(y)[3 * x];
+    return sum;
+  };
+  for (const int x : {0, 186})
+    for (const int y : {0, 224}) EXPECT_GT(light(x, y, x + 70, y + 32), 20) << x << ", " << y;
+  EXPECT_EQ(light(0, 40, 256, 216), 0);
+}
+
+class StarLabelImages : public TestFolder {};
+
+// Of stars alone in a black sky each named image in the picture has light.
+TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
+  put(folder_ / "two.csv",
+      "ra_deg,dec_deg,v_mag,b_v,name,designation\n"
+      "250,-20,0,0.3,Near,alpha One\n"
+      "70,20,1,0.3,,beta Two\n"
+      "71,20,5,0.3,Faint,\n");
+  for (const auto& [observer, effects] :
+       {std::pair{GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)}, Effects{}},
+        {GivenVelocity{Region::kII, Tetrad::kRain, 1.7, V3d(0, 0.2, 0)}, Effects{}},
+        {GivenVelocity{Region::kI, Tetrad::kOutgoing, 9, V3d(0.1, 0, 0.2)}, Effects{}},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
+         Effects{.aberration = false}},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
+         Effects{.lensing = false}},
+        {GivenVelocity{}, Effects{}}}) {
+    Show show = show_of(observer, Domemaster{256});
+    show.effects = effects;
+    show.sky[SkyRegion::kI].stars = StarField{folder_ / "two.csv", 9};
+    const FrameState state = frame_state(show, 0);
+    StarLabels labels(show);
+    const auto images = labels.images(state);
+    EXPECT_GE(images.size(), 2u);
+    // Both are brighter than what has no name, and each is seen where its image is.
+    const HalfFrame frame = drawn(show);
+    int seen = 0;
+    for (const NamedImage& image : images) {
+      EXPECT_TRUE(image.name.starts_with("Near") || image.name.starts_with("beta Two"))
+          << image.name;
+      EXPECT_EQ(image.name.ends_with("\u2032"), image.secondary);
+      const auto pixel = pixel_of(show.projection, image.direction);
+      // At the rim its pixel may be none of the dome's.
+      if (!pixel || image.direction.v.z < 0.03) continue;
+      ++seen;
+      EXPECT_GT(light_at(frame, show.projection, image.direction), 1e-3)
+          << image.name << " of magnitude " << image.magnitude << " at r = " << observer.r << ", "
+          << image.direction.v;
+    }
+    EXPECT_GT(seen, 0);
+  }
+}
+
+}  // namespace
+}  // namespace domefall

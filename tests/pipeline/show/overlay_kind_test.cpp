@@ -1,0 +1,33 @@
+#include "pipeline/show/overlay_kind.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+TEST(Overlays, AreAListInTheOrderOfDrawing) {
+  EXPECT_TRUE(parse_overlays("").empty());
+  const auto some = parse_overlays("burn_in,rim,grid,rim");
+  EXPECT_EQ(some, (std::vector{OverlayKind::kGrid, OverlayKind::kRim, OverlayKind::kBurnIn}));
+  EXPECT_EQ(overlay_names(some), "grid,rim,burn_in");
+  std::string all;
+  for (const auto& [kind, name] : kOverlays) all.append(all.empty() ? "" : ",").append(name);
+  EXPECT_EQ(overlay_names(parse_overlays(all)), all);
+}
+
+TEST(Overlays, OfOtherNamesAreRefused) {
+  for (const auto& [text, told] : {std::pair{"einstien_ring", "did you mean einstein_ring?"},
+                                   {"rim,,grid", "got ''"},
+                                   {"rim grid", "got 'rim grid'"}})
+    try {
+      parse_overlays(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace domefall
