@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/lettering/lettering.h"
 
 namespace domefall {
-namespace {
-
-// A show may be called by its file, whose name need not be UTF-8, which Cairo asks for.
-std::string valid_utf8(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
-}
-
-}  // namespace
 
 Canvas::Canvas(int width, int height)
     : width_(width),
@@ -27,19 +16,7 @@ Canvas::Canvas(int width, int height)
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
                cairo_surface_destroy),
       cairo_(cairo_create(surface_.get()), cairo_destroy) {
-  cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_font_options_t* options = cairo_font_options_create();
-  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(cairo_.get(), options);
-  cairo_font_options_destroy(options);
   check();
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo_.get(), "FRONT", &extents);
-  if (!(extents.width > 0))
-    throw TemporaryError("no font was found to write with; install one, such as fonts-dejavu-core");
 }
 
 void Canvas::check() const {
@@ -74,20 +51,21 @@ void Canvas::box(CanvasPoint corner, double width, double height) {
 
 void Canvas::text(const std::string& line, CanvasPoint middle, double size, double longest,
                   double angle) {
-  const std::string text = valid_utf8(line);
+  const LetteredText letters = lettering().letter(line, {});
+  double capital = size / letters.em;
+  if (2 * letters.half_width * capital > longest) capital = longest / (2 * letters.half_width);
   cairo_t* cairo = cairo_.get();
-  cairo_text_extents_t extents;
-  cairo_set_font_size(cairo, size);
-  cairo_text_extents(cairo, text.c_str(), &extents);
-  if (extents.width > longest) cairo_set_font_size(cairo, size * longest / extents.width);
-  cairo_text_extents(cairo, text.c_str(), &extents);
-  cairo_font_extents_t font;
-  cairo_font_extents(cairo, &font);
   cairo_save(cairo);
   cairo_translate(cairo, middle.x, middle.y);
   cairo_rotate(cairo, angle);
-  cairo_move_to(cairo, -extents.x_bearing - extents.width / 2, (font.ascent - font.descent) / 2);
-  cairo_show_text(cairo, text.c_str());
+  cairo_scale(cairo, capital, -capital);
+  for (const TextOutline& outline : letters.outlines) {
+    cairo_move_to(cairo, outline.start.x, outline.start.y);
+    for (const auto& [c1, c2, end, straight] : outline.curves)
+      cairo_curve_to(cairo, c1.x, c1.y, c2.x, c2.y, end.x, end.y);
+    cairo_close_path(cairo);
+  }
+  cairo_fill(cairo);
   cairo_restore(cairo);
 }
 

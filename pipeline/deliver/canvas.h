@@ -17,8 +17,7 @@ struct CanvasPoint {
 
 class Canvas {
  public:
-  // A black picture.  Throws std::runtime_error with Cairo's reason, and TemporaryError where the
-  // machine has no font.
+  // A black picture.  Throws std::runtime_error with Cairo's reason.
   Canvas(int width, int height);
 
   int width() const { return width_; }
@@ -31,8 +30,9 @@ class Canvas {
   void circle(CanvasPoint centre, double radius, double thickness);
   void box(CanvasPoint corner, double width, double height);  // filled
 
-  // A line of text about its middle, turned by `angle` (radians, clockwise), in letters of `size`
-  // pixels, or smaller so that it is no longer than `longest`.
+  // A line of text about its middle, turned by `angle` (radians, clockwise), in letters whose em has
+  // `size` pixels, or smaller so that it is no longer than `longest`.  Throws as lettering() and
+  // Lettering::letter.
   void text(const std::string& line, CanvasPoint middle, double size, double longest,
             double angle = 0);
 

@@ -44,6 +44,7 @@ struct LetteredText {
   // The block reaches `half_width` to either side of its middle, and from the top of the capitals
   // of the first line, at `half_height`, down to the foot of the last one.
   double half_width = 0, half_height = 0;
+  double em = 0;           // of the font, in capitals
   bool font_found = true;  // or else another one stands in for it
   int missing = 0;         // letters that no font of the machine has, drawn as boxes
 };

@@ -137,6 +137,7 @@ class PangoLettering : public Lettering {
     LetteredText lettered;
     lettered.half_width = unit(logical.width) / capital / 2;
     lettered.half_height = (foot - top) / capital / 2;
+    lettered.em = kEm / capital;
     lettered.font_found = has_family(fonts_.get(), font.get());
     lettered.missing = pango_layout_get_unknown_glyphs_count(layout.get());
     const CairoPointer cairo = path_gatherer();
