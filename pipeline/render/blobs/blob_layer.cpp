@@ -30,7 +30,7 @@ float brightest_splat(const PointSpread& widths) {
 // The parts of one image.
 constexpr std::size_t kMostParts = 1 + std::tuple_size_v<decltype(PointSpreadParts::halo)>;
 
-StarImage scaled(const StarImage& image, double share) {
+StarImage with_share(const StarImage& image, double share) {
   const auto part = static_cast<float>(share);
   return {image.x, image.y, {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part}};
 }
@@ -164,7 +164,7 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
       const PointSpreadParts of_image = widths.parts(image);
       parts.add(of_image.image, of_image.sigma, true);
       for (const PointSpreadParts::Halo& halo : of_image.halo)
-        if (halo.share > 0) parts.add(scaled(image, halo.share), halo.sigma, false);
+        if (halo.share > 0) parts.add(with_share(image, halo.share), halo.sigma, false);
     }
     if (parts.count + kMostParts > kStep || k + 1 == count) {
       place_parts(parts, widths, task);

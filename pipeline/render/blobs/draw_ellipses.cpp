@@ -19,7 +19,7 @@ constexpr int kPixels = 16, kFloats = 3 * kPixels;
 using LaneBits = std::int32_t __attribute__((vector_size(4 * kLanes)));
 constexpr std::size_t kBatch = 32;
 // Makes columns and rows positive, so that truncation rounds down.
-constexpr int kMargin = 2 * kMostWideEllipsePixels;
+constexpr int kEllipseMargin = 2 * kMostWideEllipsePixels;
 static_assert(kBandRows <= kPixels);
 
 // ---- what drawing needs of each blob ----
@@ -50,8 +50,9 @@ struct PreparedEllipses {
 // The ellipse d P d = 2 q reaches farthest to the right where y = -half_x P_xy/P_yy.  At another y
 // it reaches to x = (-P_xy y + sqrt(2 q P_xx - det P y^2))/P_xx, which falls towards both sides, so
 // that of the canvas' rows the nearest counts.  To the left all signs are changed.
-[[gnu::always_inline]] inline void narrow(const EllipseBlob& b, float spread, float half_x,
-                                          float half_y, std::size_t k, PreparedEllipses& prepared) {
+[[gnu::always_inline]] inline void narrow_columns(const EllipseBlob& b, float spread, float half_x,
+                                                  float half_y, std::size_t k,
+                                                  PreparedEllipses& prepared) {
   const auto last = static_cast<float>(prepared.last[k]) - b.y;
   const float top = prepared.dy[k] > -half_y ? prepared.dy[k] : -half_y;
   const float bottom = last < half_y ? last : half_y;
@@ -64,8 +65,8 @@ struct PreparedEllipses {
   const float left_root = std::sqrt(left_square > 0 ? left_square : 0.0f);
   const float right_x = b.x + (right_root - b.xy * right_y) / b.xx;
   const float left_x = b.x - (left_root + b.xy * left_y) / b.xx;
-  const int left = static_cast<int>(left_x + kMargin) - kMargin;
-  const int right = static_cast<int>(right_x + kMargin) - (kMargin - 1);
+  const int left = static_cast<int>(left_x + kEllipseMargin) - kEllipseMargin;
+  const int right = static_cast<int>(right_x + kEllipseMargin) - (kEllipseMargin - 1);
   const int begin = prepared.column[k], end = begin + prepared.columns[k] - 1;
   prepared.column[k] = left > begin ? left : begin;
   prepared.columns[k] = (right < end ? right : end) - prepared.column[k] + 1;
@@ -87,10 +88,10 @@ template <bool kWide>
     const float high = low < highest ? low : highest, cut = high > lowest ? high : lowest;
     const float spread = 2 * about_minus_log(cut) / (b.xx * b.yy - b.xy * b.xy);
     const float half_x = std::sqrt(spread * b.yy), half_y = std::sqrt(spread * b.xx);
-    const int left = static_cast<int>(b.x - half_x + kMargin) - (kMargin - 1);
-    const int right = static_cast<int>(b.x + half_x + kMargin) - kMargin;
-    const int top = static_cast<int>(b.y - half_y + kMargin) - (kMargin - 1);
-    const int bottom = static_cast<int>(b.y + half_y + kMargin) - kMargin;
+    const int left = static_cast<int>(b.x - half_x + kEllipseMargin) - (kEllipseMargin - 1);
+    const int right = static_cast<int>(b.x + half_x + kEllipseMargin) - kEllipseMargin;
+    const int top = static_cast<int>(b.y - half_y + kEllipseMargin) - (kEllipseMargin - 1);
+    const int bottom = static_cast<int>(b.y + half_y + kEllipseMargin) - kEllipseMargin;
     const int first = top > first_row ? top : first_row;
     const float flattening = (b.xx * b.xx + b.yy * b.yy) * static_cast<float>(1.0 / 5760);
     const float slope = 1 + 7.5f * flattening, dent = 13.5f * flattening, part = dent / slope;
@@ -106,7 +107,7 @@ template <bool kWide>
     prepared.part[k] = part;
     prepared.gain[k] = slope / part;
     prepared.end[k] = part * cut * (1 - part * cut);
-    if constexpr (kWide) narrow(b, spread, half_x, half_y, k, prepared);
+    if constexpr (kWide) narrow_columns(b, spread, half_x, half_y, k, prepared);
   }
 }
 

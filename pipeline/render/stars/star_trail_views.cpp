@@ -26,11 +26,17 @@ struct TrailSteps {
   int first, count;
 };
 
-struct Hyperbolic {
+// The boost and the camera of who sees the pieces.
+struct TrailObserver {
+  Aberration boost;
+  M33d camera;
+};
+
+struct SinhCosh {
   double sine, cosine;
 };
 
-inline Hyperbolic hyperbolic(double x) {
+inline SinhCosh sinh_and_cosh(double x) {
   const double e = exponential(x), inverse = 1 / e;
   return {0.5 * (e - inverse), 0.5 * (e + inverse)};
 }
@@ -45,13 +51,14 @@ inline double weight_at(const AxisPassage::Way& way, double sinh) {
 // The integral of the weight follows the rule of AxisPassage::mean_inverse_distance().
 [[gnu::always_inline]] inline void store_loop(const TrailCubics& cubics,
                                               const AxisPassage::Way& passage,
-                                              const TrailSteps& steps, const Aberration& boost,
-                                              const M33d& camera, StarViews& views, int at) {
+                                              const TrailSteps& steps,
+                                              const TrailObserver& observer, StarViews& views,
+                                              int at) {
   constexpr double kOuterNode = 0.7745966692414834;
   const TrailCubics c = cubics;
   const AxisPassage::Way way = passage;
-  const Aberration moving = boost;
-  const M33d axes = camera;
+  const Aberration boost = observer.boost;
+  const M33d camera = observer.camera;
   const double step = steps.step, first_x = steps.x + 0.5 * step, outer = kOuterNode * 0.5 * step,
                scale = way.factor * step;
   double *x = views.x.data() + at, *y = views.y.data() + at, *z = views.z.data() + at,
@@ -60,17 +67,17 @@ inline double weight_at(const AxisPassage::Way& way, double sinh) {
   for (int k = 0; k < count; ++k) {
     const double middle = first_x + step * (first + k);
     const double d0 = middle - c.at[0], d1 = middle - c.at[1], d2 = middle - c.at[2];
-    const Hyperbolic h = hyperbolic(middle);
+    const SinhCosh h = sinh_and_cosh(middle);
     const double mean = scale * (5.0 / 18 *
-                                     (weight_at(way, hyperbolic(middle - outer).sine) +
-                                      weight_at(way, hyperbolic(middle + outer).sine)) +
+                                     (weight_at(way, sinh_and_cosh(middle - outer).sine) +
+                                      weight_at(way, sinh_and_cosh(middle + outer).sine)) +
                                  8.0 / 18 * weight_at(way, h.sine));
     const double across = trail_cubic(c.across, d0, d1, d2) / h.cosine;
     const V3d direction(trail_cubic(c.forward, d0, d1, d2),
                         across * (way.outward.y + way.along.y * h.sine),
                         across * (way.outward.z + way.along.z * h.sine));
     const ReceivedLight light =
-        received(moving, axes, renormalized(direction), trail_cubic(c.frequency_ratio, d0, d1, d2),
+        received(boost, camera, renormalized(direction), trail_cubic(c.frequency_ratio, d0, d1, d2),
                  trail_cubic(c.strength, d0, d1, d2) * mean);
     x[k] = light.direction.x;
     y[k] = light.direction.y;
@@ -101,7 +108,8 @@ void StarTrail::store(std::size_t k, int pieces, int first, int count, const Abe
       for (std::size_t n = nodes - 1; n >= order; --n)
         (*a)[n] = ((*a)[n] - (*a)[n - 1]) / (node[n].x - node[n - order].x);
   const double step = (nodes_[k + 1].x - nodes_[k].x) / pieces;
-  store_pieces(cubics, passage_.way(), {nodes_[k].x, step, first, count}, boost, camera, views, at);
+  store_pieces(cubics, passage_.way(), {nodes_[k].x, step, first, count}, {boost, camera}, views,
+               at);
 }
 
 }  // namespace domefall
