@@ -113,8 +113,7 @@ double tone(double y) {
   constexpr double kGamma = 2.3, kOffset = 0.25;
   const double bend = kOffset / (kGamma - 1);
   const double slope = std::pow((bend + kOffset) / (1 + kOffset), kGamma) / bend;
-  const double g =
-      u < bend * slope ? u / slope : (1 + kOffset) * std::pow(u, 1 / kGamma) - kOffset;
+  const double g = u < bend * slope ? u / slope : (1 + kOffset) * std::pow(u, 1 / kGamma) - kOffset;
   const double v = 0.35315320814408807 * g;
   return std::min(1.0, v < 0.3 ? v : 0.3 + std::log1p(12.5 * (v - 0.3)) / 12.5);
 }

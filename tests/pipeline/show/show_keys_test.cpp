@@ -220,17 +220,6 @@ TEST_F(ShowKeys, StarsByTheLawOfThePaper) {
   }
 }
 
-// What a show says of a region's stars goes before the law's own balance, and region III has that of
-// region I.
-TEST_F(ShowKeys, TheGainOfStarsIsTheShowsIfItNamesOne) {
-  const Show show = with("stars: {law: psf}\nsky: {region_I: {stars: {gain: 1}}}\n");
-  EXPECT_EQ(show.sky[SkyRegion::kI].star_gain, 1);
-  EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 1);
-  const Show limited = with("sky: {region_III: {stars: {max_magnitude: 5}}}\n");
-  EXPECT_EQ(limited.sky[SkyRegion::kI].star_gain, 0.4);
-  EXPECT_EQ(limited.sky[SkyRegion::kIII].star_gain, 0.4);
-}
-
 TEST_F(ShowKeys, StarsWithAHalo) {
   const PointSpreadLaw own = with("stars: {law: psf}\n").point_spread;
   EXPECT_EQ(own.halo, 0.12);
