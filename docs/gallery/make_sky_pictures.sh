@@ -128,7 +128,7 @@ if [ -n "$old" ]; then
   picture sky_extremes_crops 3x2 84
 fi
 pan new
-picture sky_pan 5x4 86
+picture sky_pan 5x4 80
 for frame in 0 1; do
   whole "$(graded extremes_new extremes $frame)" 700
   whole "$(graded extremes_tycho extremes_tycho $frame)" 700
