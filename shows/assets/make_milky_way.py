@@ -15,7 +15,6 @@ Out: linear Rec.709, equirectangular, J2000, RA 0h in the middle and growing to 
 the top; a pixel value of 1 is 1e-4 cd/m^2.
 """
 
-import math
 import sys
 
 import numpy as np
