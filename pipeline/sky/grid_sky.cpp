@@ -25,23 +25,32 @@ double box_filtered_wave(double x, double width) {
   return (integral(x + width / 2) - integral(x - width / 2)) / width;
 }
 
+// A place on the grid, in radians; `across` is its distance from the axis through the poles.
+struct GridPlace {
+  double across, right_ascension, declination, to_pole;
+
+  explicit GridPlace(const V3d& d)
+      : across(std::sqrt(d.x * d.x + d.y * d.y)),
+        right_ascension(std::atan2(d.y, d.x)),
+        declination(std::atan2(d.z, across)),
+        to_pole(std::numbers::pi / 2 - std::abs(declination)) {}
+};
+
 }  // namespace
 
 WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g) {
   static const double square_scale = 1 / blackbody_xyz(kSquareTemperature).y;
   static const double polar_scale = 1 / blackbody_xyz(kPolarTemperature).y;
-  const V3d& d = direction.v;
-  const double across = std::hypot(d.x, d.y);
+  const GridPlace place(direction.v);
   const double width = std::max(footprint, 1e-9);
-  const double to_pole = std::atan2(across, std::abs(d.z));
   // The disc's edge is blurred over the footprint.  Of a wider footprint it fills only a share.
   const double share = std::min(1.0, kCell * kCell / (width * width));
-  const double disc = share * std::clamp((kPolarRadius - to_pole) / width + 0.5, 0.0, 1.0);
+  const double disc = share * std::clamp((kPolarRadius - place.to_pole) / width + 0.5, 0.0, 1.0);
   WorkingRgb light{0, 0, 0};
   if (disc < 1) {
-    const double columns =
-        box_filtered_wave(std::atan2(d.y, d.x) / kCell, width / kCell / std::max(across, 1e-6));
-    const double rows = box_filtered_wave(std::atan2(d.z, across) / kCell, width / kCell);
+    const double columns = box_filtered_wave(place.right_ascension / kCell,
+                                             width / kCell / std::max(place.across, 1e-6));
+    const double rows = box_filtered_wave(place.declination / kCell, width / kCell);
     const double mean = (kLightSquare + kDarkSquare) / 2, swing = (kLightSquare - kDarkSquare) / 2;
     const auto k = static_cast<float>((mean + swing * columns * rows) * (1 - disc) * square_scale);
     const WorkingRgb c = blackbody_colours().surface(kSquareTemperature * g);
@@ -56,9 +65,8 @@ WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g)
 }
 
 bool grid_is_even(const SkyDirection& direction, double reach) {
-  const V3d& d = direction.v;
-  const double across = std::hypot(d.x, d.y);
-  const double from_disc = std::atan2(across, std::abs(d.z)) - kPolarRadius;
+  const GridPlace place(direction.v);
+  const double from_disc = place.to_pole - kPolarRadius;
   if (std::abs(from_disc) < reach) return false;
   if (from_disc < 0) return true;
   const auto to_border = [](double angle) {
@@ -66,8 +74,8 @@ bool grid_is_even(const SkyDirection& direction, double reach) {
   };
   // Of a small circle of declination `across` is the radius, so an angle along it is longer than
   // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
-  return to_border(std::atan2(d.z, across)) >= reach &&
-         to_border(std::atan2(d.y, d.x)) * across >= reach;
+  return to_border(place.declination) >= reach &&
+         to_border(place.right_ascension) * place.across >= reach;
 }
 
 }  // namespace domefall
