@@ -68,6 +68,31 @@ TEST(SkySampler, TakesTheSampleThatTheMapTakes) {
   }
 }
 
+// Where faces meet, one of the four texels is a neighbour's.  Halves are exact in floats, so that
+// sampler and map choose the same face.  The number of directions is odd.
+TEST(SkySampler, TakesTheSampleThatTheMapTakesAtEdgesAndCornersOfTheCube) {
+  const SkyMap map = map_of_panorama(noise(512));
+  SampleBatch batch{};
+  int count = 0;
+  for (int code = 1; code < 124; ++code) {  // 62 is no direction
+    const auto part = [code](int place) { return static_cast<float>(code / place % 5 - 2) / 2; };
+    if (code == 62) continue;
+    batch.x[count] = part(1), batch.y[count] = part(5), batch.z[count] = part(25);
+    batch.gain[count++] = static_cast<float>(map.unit());
+  }
+  batch.x[count] = 1, batch.gain[count++] = static_cast<float>(map.unit());
+  ASSERT_EQ(count % 2, 1);
+  std::array<float, 3 * SampleBatch::kSize> rgb;
+  rgb.fill(-1);
+  SkySampler(map).sample_plain(batch, count, rgb.data());
+  for (int k = 0; k < count; ++k) {
+    const WorkingRgb c = map.sample(V3d(batch.x[k], batch.y[k], batch.z[k]), 0);
+    ASSERT_NEAR(rgb[3 * k], c.r, 1e-5 * c.r) << k;
+    ASSERT_NEAR(rgb[3 * k + 2], c.b, 1e-5 * c.b) << k;
+  }
+  EXPECT_EQ(rgb[3 * count + 1], -1) << "at most one value is written behind the last sample";
+}
+
 // From four taps on, each is taken on one level instead of on two, so that their mean is only right
 // on average.
 TEST(SkySampler, ALineOfTapsIsTheMeanOfItsTaps) {
