@@ -30,9 +30,9 @@ class Canvas {
   void circle(CanvasPoint centre, double radius, double thickness);
   void box(CanvasPoint corner, double width, double height);  // filled
 
-  // A line of text about its middle, turned by `angle` (radians, clockwise), in letters whose em has
-  // `size` pixels, or smaller so that it is no longer than `longest`.  Throws as lettering() and
-  // Lettering::letter.
+  // A line of text about its middle, turned by `angle` (radians, clockwise), in letters whose em
+  // has `size` pixels, or smaller so that it is no longer than `longest`.  Throws as lettering()
+  // and Lettering::letter.
   void text(const std::string& line, CanvasPoint middle, double size, double longest,
             double angle = 0);
 

@@ -142,8 +142,8 @@ std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
 }
 
 template <class T>
-void write(const std::filesystem::path& path, const ImageRgb<T>& frame, const FrameInfo& info,
-           ExrCompression compression) {
+void write_pixels(const std::filesystem::path& path, const ImageRgb<T>& frame,
+                  const FrameInfo& info, ExrCompression compression) {
   NewFile made(path);
   write_exr(made,
             {frame.width, frame.height, frame.pixels.data(), compression, attributes_of(info)});
@@ -160,12 +160,12 @@ void set_file_threads(int threads) {
 
 void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
                  ExrCompression compression) {
-  write(path, frame, info, compression);
+  write_pixels(path, frame, info, compression);
 }
 
 void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
                  ExrCompression compression) {
-  write(path, frame, info, compression);
+  write_pixels(path, frame, info, compression);
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

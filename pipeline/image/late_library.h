@@ -16,9 +16,10 @@ class Interface {
 };
 
 // Loads `library`, which is never unloaded, and returns what its function `entry`, of the type
-// `const Interface* ()` and C linkage, points to.  The dynamic linker looks in the program's RUNPATH,
-// which CMakeLists.txt sets for the build tree and for an installation.  Throws TemporaryError saying
-// that the part of the program that does `work` ("reads images") cannot be loaded, and why.
+// `const Interface* ()` and C linkage, points to.  The dynamic linker looks in the program's
+// RUNPATH, which CMakeLists.txt sets for the build tree and for an installation.  Throws
+// TemporaryError saying that the part of the program that does `work` ("reads images") cannot be
+// loaded, and why.
 const Interface& load_library(const char* library, const char* entry, const char* work);
 
 }  // namespace domefall

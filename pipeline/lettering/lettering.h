@@ -17,9 +17,9 @@ struct TextPoint {
   double x, y;
 };
 
-// A closed outline of cubic Bézier curves.  Each goes from where the one before it ends; a straight
-// line has its controls at a third and two thirds of the way.  Outlines and the holes in them run in
-// opposite directions.
+// A closed outline of cubic Bézier curves.  Each goes from where the one before it ends; a
+// straight line has its controls at a third and two thirds of the way.  Outlines and the holes in
+// them run in opposite directions.
 struct TextCurve {
   TextPoint control1, control2, end;
   bool straight;
@@ -51,9 +51,10 @@ struct LetteredText {
 
 class Lettering : public Interface {
  public:
-  // Lays out UTF-8 text, whose lines end in '\n'; bytes that are not UTF-8 become marks.  No hinting
-  // is applied, so outlines are the same at any size.  They depend on the machine's fonts and on
-  // nothing else.  May be called from any thread.  Throws TemporaryError if the machine has no font.
+  // Lays out UTF-8 text, whose lines end in '\n'; bytes that are not UTF-8 become marks.  No
+  // hinting is applied, so outlines are the same at any size.  They depend on the machine's fonts
+  // and on nothing else.  May be called from any thread.  Throws TemporaryError if the machine has
+  // no font.
   virtual LetteredText letter(const std::string& text, const LetterStyle& style) const = 0;
 };
 

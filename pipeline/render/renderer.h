@@ -28,7 +28,8 @@ class Renderer {
 
   // A frame has the same bytes for any number of threads, alone or in a run.  Values beyond the
   // largest half (65504) are stored as that.  Throws InputError if an asset cannot be read,
-  // std::runtime_error, naming the pixel, if a value is not finite, and as draw_titles and draw_overlays.
+  // std::runtime_error, naming the pixel, if a value is not finite, and as draw_titles and
+  // draw_overlays.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
   // Renders into `frame`, whose memory is used again if it has the right size.  That saves the time
   // that new memory costs.

@@ -96,8 +96,8 @@ struct Title {
   LetterStyle style;
   double begin_s = 0, end_s = 0;  // show seconds
   Fades fades;
-  // The place of its middle (radians): to the right of the audience's front, and above their horizon
-  // or, on a flat picture, above the line of sight.
+  // The place of its middle (radians): to the right of the audience's front, and above their
+  // horizon or, on a flat picture, above the line of sight.
   double azimuth = 0, elevation = 0;
   double height = 0;          // of a capital H, radians
   WorkingRgb light{1, 1, 1};  // pixel values, which no exposure or fade of the show acts on

@@ -22,8 +22,10 @@ for command in "--version" "render --help" "probe grid.yaml --pixel 40,50" "chec
   ! loads "$DOMEFALL" $command || fail "$command loads the libraries of images"
 done
 printf '%s\n' 'titles: [{text: Vega, at_s: 1}]' >>grid.yaml
-! loads "$DOMEFALL" render grid.yaml --frames 3 --out untitled || fail "a frame without titles loads Pango"
-loads "$DOMEFALL" render grid.yaml --frames 12 --out titled || fail "a title was drawn without Pango"
+! loads "$DOMEFALL" render grid.yaml --frames 3 --out untitled ||
+  fail "a frame without titles loads Pango"
+loads "$DOMEFALL" render grid.yaml --frames 12 --out titled ||
+  fail "a title was drawn without Pango"
 read=(sky import panorama.png --size 32 --out made.sky)
 loads "$DOMEFALL" "${read[@]}" || fail "a PNG was read without OpenImageIO"
 

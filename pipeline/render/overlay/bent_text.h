@@ -6,8 +6,9 @@
 
 namespace domefall {
 
-// Adds a text on a surface, moved by `shift` there, as the projection shows it.  Curves are followed
-// to 1/20 pixel.  An outline that comes near to the one direction without an image is left out.
+// Adds a text on a surface, moved by `shift` there, as the projection shows it.  Curves are
+// followed to 1/20 pixel.  An outline that comes near to the one direction without an image is
+// left out.
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage);
 

@@ -20,15 +20,16 @@ PicturePoint unit_across(const PicturePoint& from, const PicturePoint& to) {
 // is wide there.
 PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double half) {
   const double x = a.x + b.x, y = a.y + b.y;
-  // For unit normals at an angle t, |a + b|^2 = 2 (1 + cos t) and a mitre has the length 1/cos(t/2).
+  // For unit normals at an angle t, |a + b|^2 = 2 (1 + cos t) and a mitre has the length
+  // 1/cos(t/2).
   const double scale = half * 2 / std::max(x * x + y * y, 1.0);
   return {x * scale, y * scale};
 }
 
 }  // namespace
 
-// The band goes along the line on one side and back on the other; that of a closed one has a seam of
-// no width.
+// The band goes along the line on one side and back on the other; that of a closed one has a seam
+// of no width.
 void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width,
                 Coverage& coverage) {
   std::vector<PicturePoint> points;  // without repeated ones, which have no direction

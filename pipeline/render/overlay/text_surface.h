@@ -1,11 +1,11 @@
 // How a text lies on the dome.
 //
-// Letters keep their form: the flat text is bent onto the sphere by Mercator's projection, which is
-// conformal, about a pole on the meridian of the text's middle.  Its lines run along circles about
-// that pole, and the vertical of each letter points to it.  Up to 60 degrees of elevation the pole is
-// the zenith, so that every letter stands upright for those who turn towards it, however long the
-// text is.  Around the zenith such a line would be a narrow ring, so that from 60 degrees on the
-// pole moves away until, at the zenith, the line is straight (a great circle).
+// Letters keep their form: the flat text is bent onto the sphere by Mercator's projection, which
+// is conformal, about a pole on the meridian of the text's middle.  Its lines run along circles
+// about that pole, and the vertical of each letter points to it.  Up to 60 degrees of elevation
+// the pole is the zenith, so that every letter stands upright for those who turn towards it,
+// however long the text is.  Around the zenith such a line would be a narrow ring, so that from 60
+// degrees on the pole moves away until, at the zenith, the line is straight (a great circle).
 #pragma once
 
 #include "pipeline/lettering/lettering.h"

@@ -16,8 +16,8 @@ struct ViewCircle {
 };
 
 // The circle whose angle in the reference tetrad counts from the direction of the hole or, for the
-// outgoing tetrad, from the opposite one (alpha of null_ray.h).  An observer with gamma v `celerity`
-// against the tetrad sees a circle, too, since a boost makes circles of circles.
+// outgoing tetrad, from the opposite one (alpha of null_ray.h).  An observer with gamma v
+// `celerity` against the tetrad sees a circle, too, since a boost makes circles of circles.
 ViewCircle view_circle(const HalfAngle& alpha, const ObserverState& observer, const V3d& celerity);
 
 // The silhouette: the edges of the skies that are seen, outside one, inside two, in region IV and

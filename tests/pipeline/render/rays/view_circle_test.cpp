@@ -66,8 +66,8 @@ TEST(SilhouetteCircles, AreTheEdgesOfWhatIsDarkInAFrame) {
   }
 }
 
-// Of a star a hair off the axis behind the hole the first two images lie on either side of the ring,
-// as far from it as the star is from the axis, or nearer.
+// Of a star a hair off the axis behind the hole the first two images lie on either side of the
+// ring, as far from it as the star is from the axis, or nearer.
 TEST(EinsteinCircles, HoldTheImagesOfAStarBehindTheHole) {
   constexpr double kOff = 1e-4;
   for (const Place& place : kPlaces) {
