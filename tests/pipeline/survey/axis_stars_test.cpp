@@ -17,7 +17,8 @@ class AxisStarWarnings : public ShowFile {
                               const std::string& more = "") {
     const Show show = read(
         "frames_per_second: 10\nblack_hole: {mass_solar: 4e6, at: " + at +
-        ", heading_deg: 20}\nsky: {region_I: {background: black}, region_III: {background: "
+        ", heading_deg: 20}\nsky: {region_I: {background: black, stars: {gain: 1}}, region_III: "
+        "{background: "
         "black}}\n" +
         more + "camera: {look_at: hole}\ntimeline:\n  - {duration_s: 3, trajectory: " + trajectory +
         "}\n");
