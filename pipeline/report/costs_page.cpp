@@ -183,7 +183,7 @@ std::string costs_page(const Report& report) {
              "pixel. "
              "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv). What its files "
              "cost: "
-             "[file_costs.md](file_costs.md).\n\n",
+             "docs/file_costs.md.\n\n",
              report.quick ? " --quick" : "", machine_table()) +
          stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
          against_rk4(report) + against_table_walk(report.view_rays) +
