@@ -6,30 +6,41 @@
 #include <cmath>
 #include <ctime>
 #include <future>
+#include <optional>
 
 #include "pipeline/image/graded_file.h"
 #include "pipeline/image/scratch_folder.h"
 #include "pipeline/render/rendered_frame.h"
+#include "pipeline/render/shutter.h"
 #include "pipeline/survey/reduced_frame.h"
 
 namespace domefall {
 namespace {
 
 // The width in pixels of the largest of the three sizes.  The others have a half and a quarter of
-// it.  Where a frame of the smallest takes longer than kLong seconds, all are smaller.
+// it.
 constexpr int kLarge = 1024, kSmallest = 16;
-constexpr double kLong = 0.1;
 constexpr int kFrames = 3;  // measured at each size
 constexpr double kWorth = 0.05;
 
-using Widths = std::array<int, 3>;
-
-Widths widths_below(int large) {
+std::array<int, 3> measured_widths(const Show& show) {
+  const int large = std::min(columns(show.projection), kLarge);
   return {std::max(kSmallest, large / 4), std::max(kSmallest, large / 2), large};
 }
 
-Widths measured_widths(const Show& show) {
-  return widths_below(std::min(columns(show.projection), kLarge));
+// The state of one of the measured frames, k from 0 to kFrames.  The first two are one.
+FrameState measured_state(const Show& show, int k) {
+  const auto last = static_cast<long>(frame_count(show) - 1);
+  return frame_state(show, static_cast<int>(last * std::max(0, 2 * k - 1) / (2 * kFrames)));
+}
+
+// The instants of a frame of full size, whose mean an open shutter shows.
+double mean_instants(const Show& show) {
+  if (!(show.exposure.shutter > 0)) return 1;
+  OpticsStore optics;
+  double sum = 0;
+  for (int k = 1; k <= kFrames; ++k) sum += instants_for(show, measured_state(show, k), optics);
+  return sum / kFrames;
 }
 
 // Seconds a frame takes by the clock, and of all processors together.  Other programs hardly change
@@ -49,17 +60,14 @@ class Run {
   // The cost of a frame in a run in which one frame is written while the next is rendered.
   Cost per_frame(int width) const {
     using Clock = std::chrono::steady_clock;
-    const int count = frame_count(show_);
     std::future<void> writing;
     Clock::time_point start;
     double processor = 0;
     Cost cost;
     // One frame more is made: the clocks run from the writing of the first one on.
     for (int k = 0; k <= kFrames; ++k) {
-      const auto number = static_cast<long>(count - 1) * std::max(0, 2 * k - 1) / (2 * kFrames);
       auto frame = std::make_shared<RenderedFrame>();
-      render_for_files(renderer_, show_,
-                       reduced(frame_state(show_, static_cast<int>(number)), width), *frame);
+      render_for_files(renderer_, show_, reduced(measured_state(show_, k), width), *frame);
       if (writing.valid()) {
         writing.get();
         add_sizes(cost);
@@ -104,6 +112,33 @@ class Run {
   ScratchFolder folder_;
 };
 
+// The cost of a frame's light alone.
+Cost light_cost(const Show& show, Renderer& renderer, int width) {
+  RenderedFrame frame;
+  render_for_files(renderer, show, reduced(measured_state(show, 0), width), frame);
+  const auto start = std::chrono::steady_clock::now();
+  const double processor = processor_seconds();
+  for (int k = 1; k <= kFrames; ++k)
+    render_for_files(renderer, show, reduced(measured_state(show, k), width), frame);
+  Cost cost;
+  cost.wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kFrames;
+  cost.processor = (processor_seconds() - processor) / kFrames;
+  return cost;
+}
+
+// Seconds by the clock at a width that is `doublings` doublings above that of the last of three
+// costs, each of twice the width of the one before.  A part of the work is proportional to the
+// pixels, another to the length of edges, and another to the stars.
+double seconds_at(const std::array<Cost, 3>& costs, double doublings) {
+  const auto& [quarter, half, whole] = costs;
+  const double step = std::max(0.0, whole.processor - half.processor);
+  const double growth =
+      std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
+  const double more = step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
+  return whole.wall * (1 + more / std::max(whole.processor, 1e-9));
+}
+
 // A file's size at a width that is `doublings` doublings above `whole`'s.
 double size_at(double half, double whole, double doublings) {
   const double growth = std::clamp(whole / std::max(half, 1.0), 2.0, 4.0);
@@ -121,26 +156,29 @@ bool is_worth_measuring(const Show& show) {
 
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader) {
   set_file_threads(renderer.threads());
-  const Run run(show, renderer, grader);
-  Widths widths = measured_widths(show);
-  Cost quarter = run.per_frame(widths[0]);
-  while (quarter.processor > kLong && widths[0] / 2 >= kSmallest) {
-    widths = widths_below(widths[1]);
-    quarter = run.per_frame(widths[0]);
-  }
-  const Cost half = run.per_frame(widths[1]), whole = run.per_frame(widths[2]);
-  // A part of the work is proportional to the pixels, another to the length of edges, and another
-  // to the stars.
-  const double step = std::max(0.0, whole.processor - half.processor);
-  const double growth =
-      std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
+  // Where a frame is the mean of many instants, one of them is measured.
+  const double instants = mean_instants(show);
+  Show instant = show;
+  instant.exposure.shutter /= instants;
+  std::optional<Renderer> own;
+  if (instants > 1) own.emplace(instant, renderer.threads());
+  Renderer& measured = own ? *own : renderer;
+  const Run run(instant, measured, grader);
+  const auto widths = measured_widths(show);
+  const std::array<Cost, 3> costs{run.per_frame(widths[0]), run.per_frame(widths[1]),
+                                  run.per_frame(widths[2])};
   const double doublings = std::log2(1.0 * columns(show.projection) / widths[2]);
-  const double more = step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
   RenderTime time;
   time.threads = renderer.threads();
-  time.frame_s = whole.wall * (1 + more / std::max(whole.processor, 1e-9));
-  time.linear_bytes = size_at(half.linear_bytes, whole.linear_bytes, doublings);
-  time.graded_bytes = size_at(half.graded_bytes, whole.graded_bytes, doublings);
+  time.frame_s = seconds_at(costs, doublings);
+  if (instants > 1) {
+    const std::array<Cost, 3> light{light_cost(instant, measured, widths[0]),
+                                    light_cost(instant, measured, widths[1]),
+                                    light_cost(instant, measured, widths[2])};
+    time.frame_s += (instants - 1) * seconds_at(light, doublings);
+  }
+  time.linear_bytes = size_at(costs[1].linear_bytes, costs[2].linear_bytes, doublings);
+  time.graded_bytes = size_at(costs[1].graded_bytes, costs[2].graded_bytes, doublings);
   time.seconds = time.frame_s * frame_count(show);
   return time;
 }

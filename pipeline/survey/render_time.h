@@ -23,6 +23,7 @@ bool is_worth_measuring(const Show& show);
 // the next, which the three sizes give and which lies between 2 and 4.  The clock at the largest
 // size turns processor time into seconds on this machine under its present load.  `grader` is null
 // for a show without a grade.
+// Of a frame with an open shutter one instant is measured, and counted as often as it has instants.
 // The files' sizes are carried from the two larger sizes to the full one by the power of the width
 // between them.
 // Measured on orbits and falls with stars, on a machine full of other work (load 10 on 2
