@@ -23,10 +23,10 @@ OverlayKind overlay_named(std::string_view word) {
 
 std::vector<OverlayKind> parse_overlays(std::string_view list) {
   std::vector<OverlayKind> overlays;
-  while (!list.empty()) {
-    const std::size_t comma = list.find(',');
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = list.find(',');
     overlays.push_back(overlay_named(list.substr(0, comma)));
-    list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
+    if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
   }
   std::ranges::sort(overlays);
   overlays.erase(std::unique(overlays.begin(), overlays.end()), overlays.end());

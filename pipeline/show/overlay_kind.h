@@ -31,7 +31,7 @@ inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 8> kOverla
      {OverlayKind::kStarNames, "star_names"},
      {OverlayKind::kBurnIn, "burn_in"}}};
 
-// The overlays of a list "rim,grid", each once, in the order of drawing; none for an empty text.
+// The overlays of a list "rim,grid", each once, in the order of drawing.
 // Throws InputError naming the word that is none of them, with the nearest one.
 std::vector<OverlayKind> parse_overlays(std::string_view list);
 
