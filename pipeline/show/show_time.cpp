@@ -38,10 +38,12 @@ std::optional<double> read_marked(const Item& item, const Marker& marker, const 
                                   double start) {
   const double seconds = marker.at_s - start;
   const bool early = range.low_excluded ? !(seconds > range.low) : !(seconds >= range.low);
-  if (!early && seconds <= range.high) return seconds;
-  item.fail(fmt::format("names the marker '{}', which lies at {} s, {} {} s", shown(marker.name),
-                        short_number(marker.at_s),
-                        early ? "where it must be after" : "where it must be at most",
+  const bool late = range.high_excluded ? !(seconds < range.high) : !(seconds <= range.high);
+  if (!early && !late) return seconds;
+  const char* bound = early ? (range.low_excluded ? "after" : "at least")
+                            : (range.high_excluded ? "before" : "at most");
+  item.fail(fmt::format("names the marker '{}', which lies at {} s, where it must be {} {} s",
+                        shown(marker.name), short_number(marker.at_s), bound,
                         short_number(start + (early ? range.low : range.high))));
   return std::nullopt;
 }
