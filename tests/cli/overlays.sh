@@ -18,7 +18,7 @@ all=grid,rim,safe_area,sweet_spot,silhouette,einstein_ring,star_names,burn_in
 exits 0 "$DOMEFALL" render show.yaml --out plain
 exits 0 "$DOMEFALL" render show.yaml --out drawn --overlay "$all"
 for k in 0 1 2 3; do
-  cmp -s plain/graded/show_0000$k.png drawn/graded/show_0000$k.png && fail "frame $k has no overlay"
+  same_pixels plain/linear/show_0000$k.exr drawn/linear/show_0000$k.exr && fail "frame $k has no overlay"
 done
 exits 0 "$DOMEFALL" render show.yaml --out alone --frames 2 --threads 1 --overlay "$all"
 cmp drawn/linear/show_00002.exr alone/linear/show_00002.exr || fail "a frame alone has other bytes"
@@ -36,9 +36,11 @@ says '^0 frames made, 4 already there'
 
 exits 0 "$DOMEFALL" preview show.yaml --frame 1 --size 64x48 --out plain.png
 exits 0 "$DOMEFALL" preview show.yaml --frame 1 --size 64x48 --overlay rim --out rim.png
-cmp -s plain.png rim.png && fail "the preview has no overlay"
+same_pixels plain.png rim.png && fail "the preview has no overlay"
 exits 0 "$DOMEFALL" movie show.yaml --preset review --overlay rim --out rim.mp4
 exits 0 "$DOMEFALL" movie show.yaml --preset hap --from drawn --overlay "$all" --out drawn.mov
 
+exits 2 "$DOMEFALL" render show.yaml --overlay ''
+says '^--overlay: got no name'
 exits 2 "$DOMEFALL" render show.yaml --overlay rim,einstien_ring
 says '^--overlay rim,einstien_ring: overlays are grid, .* did you mean einstein_ring'
