@@ -55,6 +55,8 @@ PointSpreadLaw read_point_spread(const Section& s) {
 
 }  // namespace
 
+double default_star_gain(const PointSpreadLaw& law) { return law.halo > 0 ? kStarGain : 1; }
+
 void read_stars(const Section& show, Show& to) {
   const Section s =
       subsection(show, "stars",
@@ -63,7 +65,7 @@ void read_stars(const Section& show, Show& to) {
   to.point_spread = read_point_spread(s);
   to.star_saturation =
       s.number("saturation", kPureNumber.within(0, 2), to.point_spread.halo > 0 ? kSaturation : 1);
-  const double gain = to.point_spread.halo > 0 ? kStarGain : 1;
+  const double gain = default_star_gain(to.point_spread);
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) to.sky[region].star_gain = gain;
   to.least_star_radius =
       radians(s.number("least_radius_deg", kDegrees.above(0).at_most(1), kLeastStarRadiusDeg));

@@ -11,4 +11,7 @@ namespace domefall {
 // least radius of stars, and the gain that the skies have where read_sky finds none.
 void read_stars(const Section& show, Show& to);
 
+// The gain that stars have under a law where a show names none.
+double default_star_gain(const PointSpreadLaw& law);
+
 }  // namespace domefall

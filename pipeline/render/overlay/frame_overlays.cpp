@@ -14,7 +14,7 @@ namespace domefall {
 namespace {
 
 // It is raised with every change of how overlays are drawn.
-constexpr int kOverlayVersion = 1;
+constexpr int kOverlayVersion = 2;
 
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 

@@ -14,6 +14,8 @@
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/overlay/ink.h"
 #include "pipeline/render/overlay/stroke.h"
+#include "pipeline/render/scene/star_light.h"
+#include "pipeline/show/stars_section.h"
 #include "pipeline/show/vantage.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 
@@ -41,7 +43,7 @@ class NamedImageFinder {
   }
   int orders() const { return is_flat(observer_) || !effects_.lensing ? 1 : 2; }
 
-  // The direction and by how much brighter than the star the image is.
+  // The direction and by how much brighter than the star the image is, as the renderer draws it.
   std::pair<CameraDirection, double> image(SkyRegion sky, const SkyDirection& star,
                                            int order) const {
     const V3d source = apply_transposed(observer_.sky_from_tetrad, star.v);
@@ -49,14 +51,21 @@ class NamedImageFinder {
     if (effects_.lensing)
       at = image_of(optics_.table_of(sky), source, order, kLeastSource);
     else
-      at.direction = {to_tetrad(vantage_.rest, source).direction};
+      at = straight(source);
     const AberratedLight seen = to_observer(vantage_.celerity, at.direction.v);
-    const double g = at.frequency_ratio * seen.frequency_ratio;
-    const double area = at.amplification / (seen.frequency_ratio * seen.frequency_ratio);
-    return {{apply_transposed(observer_.tetrad_from_camera, seen.direction)}, area * g * g * g * g};
+    double g = at.frequency_ratio * seen.frequency_ratio;
+    if (vantage_.measured) g *= to_observer(*vantage_.measured, seen.direction).frequency_ratio;
+    return {{apply_transposed(observer_.tetrad_from_camera, seen.direction)},
+            received_flux(effects_, 1, at.amplification, seen.frequency_ratio, g)};
   }
 
  private:
+  SkyImage straight(const V3d& source) const {
+    const AberratedLight at = to_tetrad(vantage_.rest, source);
+    const double ratio = at.frequency_ratio;
+    return {{at.direction}, gravitational_ratio(observer_.r) * ratio, 1 / (ratio * ratio)};
+  }
+
   static constexpr double kLeastSource = 1e-4;  // radians; it bounds the light of one on the axis
 
   const Effects& effects_;
@@ -122,11 +131,14 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
   const NamedImageFinder finder(show_, state);
   for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
     if (state.observer.region == Region::kIV || !finder.sees(sky)) continue;
+    const FrameSettings::Sky& settings = state.settings.sky[sky];
+    const double gain = settings.star_gain / default_star_gain(show_.point_spread);
     for (const NamedStarOfSky& star : stars_of(sky)) {
-      if (star.magnitude > state.settings.sky[sky].max_magnitude) break;
+      const double drawn = gain * part_within_limit(settings, star.magnitude);
+      if (!(drawn > 0)) break;  // those that follow are fainter
       for (int order = 0; order < finder.orders(); ++order) {
         const auto [direction, factor] = finder.image(sky, star.direction, order);
-        const double magnitude = star.magnitude - 2.5 * std::log10(factor);
+        const double magnitude = star.magnitude - 2.5 * std::log10(drawn * factor);
         if (!(magnitude <= kFaintestNamedImage)) continue;
         found.push_back({star.name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude});
       }

@@ -11,7 +11,7 @@
 
 namespace domefall {
 
-// Stars fainter than this V bear no name, nor do images that are fainter than the other limit.
+// Stars fainter than this V bear no name, nor do images that are seen fainter than the other limit.
 inline constexpr double kFaintestNamed = 2.5, kFaintestNamedImage = 4;
 
 // An image of a star that has a name.
@@ -19,7 +19,9 @@ struct NamedImage {
   std::string name;        // with a prime if it is the secondary image
   bool secondary = false;  // on the opposite side of the hole
   CameraDirection direction;
-  double magnitude = 0;  // as it is seen
+  // As it is seen under the effects that the show keeps, with the frame's gain of stars over the
+  // default of their law.
+  double magnitude = 0;
 };
 
 class StarLabels {

@@ -7,6 +7,7 @@
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/render/scene/exposure.h"
+#include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/show/curve.h"
 
@@ -61,13 +62,6 @@ double farthest_passage(const FrameScene& scene, double stretch) {
 
 // How much longer than its chord a part of a trail is taken to be, since it is bent.
 constexpr double kWayPerChord = 1.1;
-
-// The part of a star's light that the frame's limit of magnitude leaves.  Magnitudes are floats, so
-// a hard limit is rounded as they were, lest a star on the limit be lost.
-double part_within_limit(const FrameSettings::Sky& sky, double magnitude) {
-  if (!sky.soft_limit) return magnitude <= double{static_cast<float>(sky.max_magnitude)} ? 1 : 0;
-  return std::clamp((sky.max_magnitude - magnitude) / kFadeMagnitudes, 0.0, 1.0);
-}
 
 // The spacing, in sigma, of a trail whose pixel value along its middle is `row`: the faintest are
 // rows of dots that no display shows.
@@ -190,18 +184,15 @@ SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int or
   return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
 }
 
-// The image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its magnitude is
-// m + 10 log10(1+z) - 2.5 log10(f), with the amplification f, and its temperature is T/(1+z).
+// The image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its temperature is
+// T/(1+z).
 StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
                                                    const SkyImage& at) const {
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
   double g = at.frequency_ratio * doppler;
   if (vantage_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
-  double flux = star.flux;
-  if (scene_.effects.amplification != Amplification::kNone)
-    flux *= at.amplification / (doppler * doppler);
-  if (scene_.effects.intensity) flux = flux * g * g * g * g;
+  double flux = received_flux(scene_.effects, star.flux, at.amplification, doppler, g);
   if (!scene_.effects.doppler_colour) flux = std::min(flux, kSaturated);
   const WorkingRgb per_flux =
       blackbody_colours().per_flux(star.temperature * colour_ratio(scene_.effects, g));

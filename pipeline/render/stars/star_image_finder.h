@@ -15,8 +15,6 @@ namespace domefall {
 
 // An image is left out if the peak pixel value of its blob, drawn at its smallest, is below this.
 inline constexpr double kFaintestPeak = 2e-4;
-// Where a frame's limit of magnitude is soft, stars fade in over so many magnitudes.
-inline constexpr double kFadeMagnitudes = 0.5;
 
 // Finds the images of the stars of one sky.  Where light goes straight a star has one image.
 // Without amplification all images of a star are equally bright and infinitely many, so only the

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/render/stars/star_colours.h"
 #include "pipeline/render/stars/star_image_finder.h"

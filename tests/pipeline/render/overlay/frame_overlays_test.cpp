@@ -161,6 +161,8 @@ TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
          Effects{.aberration = false}},
         {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
          Effects{.lensing = false}},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
+         Effects{.intensity = false, .amplification = Amplification::kNone}},
         {GivenVelocity{}, Effects{}}}) {
     Show show = show_of(observer, Domemaster{256});
     show.effects = effects;
@@ -186,6 +188,64 @@ TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
     }
     EXPECT_GT(seen, 0);
   }
+}
+
+class StarLabelLight : public StarLabelImages {
+ protected:
+  StarLabelLight() {
+    put(folder_ / "one.csv", "ra_deg,dec_deg,v_mag,b_v,name\n250,-20,1,0.3,Near\n");
+    show_ =
+        show_of(GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)}, Domemaster{256});
+    show_.overlays = {OverlayKind::kStarNames};
+    show_.sky[SkyRegion::kI].stars = StarField{folder_ / "one.csv", 9};
+    show_.sky[SkyRegion::kIII] = show_.sky[SkyRegion::kI];
+  }
+
+  void set_gain(double gain) {
+    for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII})
+      show_.sky[region].star_gain = gain;
+  }
+  std::vector<NamedImage> images() { return StarLabels(show_).images(frame_state(show_, 0)); }
+  std::string key() { return FrameKeys(show_).scene(frame_state(show_, 0)); }
+
+  Show show_;
+};
+
+TEST_F(StarLabelLight, HasTheGainOverTheDefaultOfTheLaw) {
+  const double bare = images().at(0).magnitude;
+  const std::string key_of_bare = key();
+  set_gain(0.1);
+  EXPECT_NEAR(images().at(0).magnitude, bare + 2.5, 1e-9);
+  EXPECT_NE(key(), key_of_bare);
+  set_gain(0);
+  EXPECT_TRUE(images().empty());
+  EXPECT_NE(key(), key_of_bare);
+  // The other law draws stars fainter by default, and names the same.
+  show_.point_spread.halo = 0.1;
+  set_gain(0.4);
+  EXPECT_NEAR(images().at(0).magnitude, bare, 1e-9);
+}
+
+TEST_F(StarLabelLight, OfAKeyframedGainIsTheFrames) {
+  Curve curve;
+  curve.keys = {{0, 0}, {1, 1}};
+  show_.timeline[0].curves[star_gain_channel(SkyRegion::kI)] = curve;
+  EXPECT_TRUE(images().empty());
+  StarLabels labels(show_);
+  EXPECT_FALSE(labels.images(frame_state(show_, frame_count(show_) - 1)).empty());
+}
+
+TEST_F(StarLabelLight, IsThatOfTheEffectsThatTheShowKeeps) {
+  show_.effects = {.intensity = false, .amplification = Amplification::kNone};
+  const auto even = images();
+  ASSERT_EQ(even.size(), 2u);
+  for (const NamedImage& image : even) EXPECT_NEAR(image.magnitude, 1, 1e-6) << image.name;
+  // Who moves sees the same light of a star wherever it stands.
+  show_.effects = {.amplification = Amplification::kNone};
+  const double moved = images().at(0).magnitude;
+  show_.effects.aberration = false;
+  EXPECT_NEAR(images().at(0).magnitude, moved, 1e-9);
+  EXPECT_GT(std::abs(moved - 1), 0.05);
 }
 
 }  // namespace
