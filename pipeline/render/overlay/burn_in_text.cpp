@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/shift_range.h"
 #include "pipeline/show/show_time.h"
 
@@ -49,9 +50,9 @@ std::string clock_of(const Show& show, const ObserverState& o) {
 }  // namespace
 
 BurnInText burn_in_text(const Show& show, const FrameState& state) {
+  const ObserverState& observer = seen_better(state).observer;
   return {fmt::format("frame {}\n{}", state.frame, clock_text(state.show_time_s)),
-          place_of(state.observer), clock_of(show, state.observer),
-          motion_of(show, state.observer)};
+          place_of(observer), clock_of(show, observer), motion_of(show, observer)};
 }
 
 }  // namespace domefall

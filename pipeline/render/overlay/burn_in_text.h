@@ -9,7 +9,8 @@
 namespace domefall {
 
 // The texts of the corners, which the circle of a dome leaves free.  Lines end in '\n', but for the
-// last.  Numbers are of one length, so that they do not tremble from frame to frame.
+// last.  Numbers are of one length, so that they do not tremble from frame to frame.  In a dissolve
+// they are those of the view that is seen better.
 struct BurnInText {
   std::string top_left;      // the frame's number and the show's time
   std::string top_right;     // the region and r

@@ -7,6 +7,7 @@
 #include "pipeline/render/overlay/burn_in_text.h"
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/overlay/text_digest.h"
 #include "pipeline/render/rays/steady.h"
 
@@ -75,8 +76,7 @@ void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels
     if (overlay == OverlayKind::kBurnIn)
       draw_burn_in(show, state, frame);
     else if (overlay == OverlayKind::kStarNames)
-      // In a dissolve the names are those of the view that is seen better.
-      labels.draw(state.vanishing_part > 0.5 ? *state.vanishing : state, frame);
+      labels.draw(seen_better(state), frame);
     else
       draw_marks(overlay, show, state, frame);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/render/frame_key.h"
+#include "pipeline/render/overlay/burn_in_text.h"
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/rays/view_circle.h"
 #include "tests/pipeline/image/test_folder.h"
@@ -142,6 +143,30 @@ TEST(FrameOverlays, BurnInStandsInTheCorners) {
   for (const int x : {0, 186})
     for (const int y : {0, 224}) EXPECT_GT(light(x, y, x + 70, y + 32), 20) << x << ", " << y;
   EXPECT_EQ(light(0, 40, 256, 216), 0);
+}
+
+TEST(FrameOverlays, BurnInOfADissolveTellsOfTheViewThatIsSeenBetter) {
+  Show show = overlaid(OverlayKind::kBurnIn, Domemaster{64});
+  show.frames_per_second = 10;
+  show.timeline.push_back(show.timeline[0]);
+  show.timeline[1].trajectory = StaticObserver{20};
+  show.timeline[1].dissolve_s = 1;
+  const FrameState before = frame_state(show, 4), after = frame_state(show, 6);
+  ASSERT_TRUE(before.vanishing && after.vanishing);
+  const BurnInText early = burn_in_text(show, before), late = burn_in_text(show, after);
+  EXPECT_EQ(early.top_right, "region I\nr = 10.00 M");
+  EXPECT_EQ(late.top_right, "region I\nr = 20.00 M");
+  EXPECT_EQ(early.bottom_right, burn_in_text(show, *before.vanishing).bottom_right);
+  EXPECT_NE(early.bottom_right, late.bottom_right);
+  EXPECT_EQ(early.top_left, "frame 4\n0:00.4");
+  // The key is that of the numbers that are written.
+  FrameState other = before;
+  other.observer.proper_time += 1;
+  EXPECT_EQ(overlays_key(show, other), overlays_key(show, before));
+  FrameState vanishing = *before.vanishing;
+  vanishing.observer.proper_time += 1;
+  other.vanishing = std::make_shared<const FrameState>(vanishing);
+  EXPECT_NE(overlays_key(show, other), overlays_key(show, before));
 }
 
 class StarLabelImages : public TestFolder {};
