@@ -151,7 +151,9 @@ void add_movie(CLI::App& app) {
   verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4 or .mov");
   add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
-  verb->footer("--audio takes all that follows it, so the show stands before it.");
+  verb->footer(
+      "--audio takes all that follows it, so the show stands before it.\n"
+      "The preset review adds no numbers to frames that have them by --overlay burn_in.");
   verb->callback([o] { movie(*o); });
 }
 

@@ -26,6 +26,7 @@ std::string ass_lines(std::string text) {
 }  // namespace
 
 std::string burn_in(const Show& show, const std::vector<int>& frames, const MovieSize& size) {
+  if (std::ranges::find(show.overlays, OverlayKind::kBurnIn) != show.overlays.end()) return {};
   const int font = std::max(8, std::min(size.width, size.height) / 48);
   std::string text = fmt::format(
       "[Script Info]\nScriptType: v4.00+\nPlayResX: {}\nPlayResY: {}\nWrapStyle: 2\n\n[V4+ "

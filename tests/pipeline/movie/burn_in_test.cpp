@@ -36,5 +36,13 @@ TEST(BurnIn, TimesGoOnAfterAnHour) {
   EXPECT_THAT(text, HasSubstr("Dialogue: 0,1:00:00.10,1:00:00.20,a,frame 0\\N0:00\n"));
 }
 
+TEST(BurnIn, IsNoneOverFramesThatHaveItAsAnOverlay) {
+  Show show = read_show(source_file("shows/last_stable_orbit.yaml"));
+  show.overlays = {OverlayKind::kRim, OverlayKind::kBurnIn};
+  EXPECT_EQ(burn_in(show, {100}, {540, 540}), "");
+  show.overlays = {OverlayKind::kRim};
+  EXPECT_THAT(burn_in(show, {100}, {540, 540}), HasSubstr(",a,frame 100"));
+}
+
 }  // namespace
 }  // namespace domefall
