@@ -2,18 +2,43 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/overlay/text_surface.h"
+#include "pipeline/show/fades.h"
+#include "pipeline/show/frame_state.h"
 #include "pipeline/show/problems.h"
 
 namespace domefall {
 namespace {
 
+constexpr double kLeastCapital = 2;  // pixels, below which no letter is legible
+
+// Titles are drawn at the frames' instants.  The search begins a frame early, since the nearest
+// frame may stand before the title, and its time may round to either side.
+std::optional<int> first_frame_with(const Show& show, const Title& title) {
+  const auto time_of = [&](int frame) { return frame / show.frames_per_second; };
+  const int count = frame_count(show);
+  for (int frame = std::max(0, nearest_frame(show, title.begin_s) - 1);
+       frame < count && time_of(frame) < title.end_s; ++frame)
+    if (time_of(frame) >= title.begin_s &&
+        light_left(title.fades, title.begin_s, title.end_s, time_of(frame)) > 0)
+      return frame;
+  return std::nullopt;
+}
+
+bool has_ink(const LetteredText& letters) {
+  return std::ranges::any_of(letters.outlines,
+                             [](const TextOutline& outline) { return !outline.curves.empty(); });
+}
+
 void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>& warnings) {
-  const int frame = nearest_frame(show, title.begin_s);
+  const std::optional<int> shown_at = first_frame_with(show, title);
+  const int frame = shown_at.value_or(nearest_frame(show, title.begin_s));
   const FrameState state = frame_state(show, frame);
   const LetteredText& letters = title_letters(title);
   const TextSurface surface(state.camera_from_audience, title.azimuth, title.elevation,
@@ -22,6 +47,15 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
     warnings.push_back(
         {title.begin_s, frame, state.segment, "the title '" + shown(title.text) + "' " + what});
   };
+  if (!shown_at)
+    warn(
+        fmt::format("is seen in no frame, since none falls into its {:.3g} s; a longer duration_s "
+                    "would show it",
+                    title.end_s - title.begin_s));
+  if (!has_ink(letters)) {
+    warn("writes nothing, since none of its characters has any ink");
+    return;
+  }
   if (!letters.font_found)
     warn("asks for the font '" + shown(title.style.font) +
          "', which this machine does not have, so that another one stands in for it");
@@ -31,11 +65,16 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
   const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
   if (!middle || !is_in_picture(state.projection, *middle))
     warn("has its middle outside the picture");
+  else if (const double least = kLeastCapital * pixel_angle(state.projection, *middle);
+           title.height < least)
+    warn(
+        fmt::format("has capitals lower than {} pixels at the show's size, which nobody can read; "
+                    "they have {} with a height_deg of {:.3g}",
+                    kLeastCapital, kLeastCapital, least * 180 / std::numbers::pi));
   if (surface.half_turn(letters.half_width) > std::numbers::pi)
     warn(
         "is longer than its circle of the dome, so that it runs into itself; a smaller height_deg "
-        "or "
-        "more lines would fit");
+        "or more lines would fit");
 }
 
 }  // namespace
