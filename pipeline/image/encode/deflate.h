@@ -50,6 +50,9 @@ class Deflater {
 
 inline constexpr std::string_view kStreamStart{"\x78\x01", 2}, kStreamEnd{"\x03\x00", 2};
 
+// The CRC-32 of RFC 1952, which PNG uses too, of bytes that follow those of `before`.
+unsigned crc32_of(std::string_view bytes, unsigned before = 0);
+
 // RFC 1950's Adler-32, which begins with 1, of bytes that follow those of `before`.
 unsigned adler32_of(std::string_view bytes, unsigned before = 1);
 

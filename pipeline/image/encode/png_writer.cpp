@@ -1,7 +1,5 @@
 #include "pipeline/image/encode/png_writer.h"
 
-#include <isa-l.h>
-
 #include <cstdint>
 
 #include "pipeline/image/encode/deflate.h"
@@ -17,17 +15,12 @@ std::string big_endian_bytes(std::uint32_t number) {
   return bytes;
 }
 
-std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0) {
-  return crc32_gzip_refl(before, reinterpret_cast<const unsigned char*>(bytes.data()),
-                         bytes.size());
-}
-
 // The data of a chunk in pieces, whose name is of four letters.
 void write_chunk(ByteSink& sink, std::string_view name,
                  std::initializer_list<std::string_view> data) {
   std::size_t length = 0;
-  std::uint32_t crc = crc_of(name);
-  for (const std::string_view piece : data) length += piece.size(), crc = crc_of(piece, crc);
+  std::uint32_t crc = crc32_of(name);
+  for (const std::string_view piece : data) length += piece.size(), crc = crc32_of(piece, crc);
   sink.write(big_endian_bytes(static_cast<std::uint32_t>(length)));
   sink.write(name);
   for (const std::string_view piece : data) sink.write(piece);
@@ -100,7 +93,7 @@ std::string header_of(const RowPicture& picture, const PngHead& head) {
 }  // namespace
 
 std::string png_checksum(std::string_view name_and_data) {
-  return big_endian_bytes(crc_of(name_and_data));
+  return big_endian_bytes(crc32_of(name_and_data));
 }
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head) {
