@@ -33,8 +33,9 @@ class GradeTable {
 
   explicit GradeTable(Formulas formulas);
 
-  // Makes the table, which takes up to 0.7 s of processor time and 19 MB, unless it is made.  Threads that
-  // call this at the same time share the work, so that no more of them are busy than grade.
+  // Makes the table, which takes up to 0.7 s of processor time and 19 MB, unless it is made.
+  // Threads that call this at the same time share the work, so that no more of them are busy than
+  // grade.
   void make();
 
   // Of a table that is made.  Grades `count` pixels to 16 bits, and writes the numbers of those

@@ -246,9 +246,16 @@ Grader Grader::with(const Cdl& cdl) const {
   return other;
 }
 
+Grader Grader::as_for(int width, int height) const {
+  Grader other = *this;
+  other.pixels_ = static_cast<long>(width) * height;
+  return other;
+}
+
 const GradeTable* Grader::table_for(const HalfFrame& in) const {
   constexpr long kMany = 1L << 21;
-  if (static_cast<long>(in.width) * in.height < kMany) return nullptr;
+  const long pixels = pixels_ > 0 ? pixels_ : static_cast<long>(in.width) * in.height;
+  if (pixels < kMany) return nullptr;
   GradeTable& table = *source_->table;
   table.make();
   return processor_->error(table) < GradeTable::kMostError ? &table : nullptr;

@@ -21,9 +21,9 @@ struct TableError {
 };
 
 // The grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the show's ASC
-// CDL in ACEScct, unless that changes nothing, then through a display and view of an OpenColorIO configuration to 16 bits, clamped and
-// rounded.  A pixel depends on its own input and the frame's size alone.  Copies share one
-// processor, and any number of threads may use it.
+// CDL in ACEScct, unless that changes nothing, then through a display and view of an OpenColorIO
+// configuration to 16 bits, clamped and rounded.  A pixel depends on its own input and the frame's
+// size alone.  Copies share one processor, and any number of threads may use it.
 //
 // Frames of 2^21 pixels and more, from 2k domes on, are graded by a table of the view
 // (grade_table.h), before which the CDL is a step of its own (cdl_step.h).  It is made when the
@@ -41,6 +41,10 @@ class Grader {
 
   // The same grade with another CDL, which shares the table.
   Grader with(const Cdl& cdl) const;
+
+  // The same grade, which treats frames of every size as it does those of width times height: for
+  // small pictures that stand for large frames.
+  Grader as_for(int width, int height) const;
 
   // What is done about a dome's own light once a frame is graded; null if nothing is.
   const DomeLight* dome_light() const { return dome_light_.get(); }
@@ -76,6 +80,7 @@ class Grader {
   Cdl cdl_;
   std::shared_ptr<const Processor> processor_;
   std::shared_ptr<const DomeLight> dome_light_;
+  long pixels_ = 0;  // of the frames it treats all others as; 0 if it does not
   std::string display_, view_, transform_id_;
   std::optional<DisplayColour> colour_;
 };

@@ -163,7 +163,12 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   std::optional<Renderer> own;
   if (instants > 1) own.emplace(instant, renderer.threads());
   Renderer& measured = own ? *own : renderer;
-  const Run run(instant, measured, grader);
+  std::optional<Grader> as_at_full_size;
+  if (grader) {
+    as_at_full_size = grader->as_for(columns(show.projection), rows(show.projection));
+    as_at_full_size->grade(HalfFrame(1, 1));  // A table is made once in a run: not by the clocks.
+  }
+  const Run run(instant, measured, as_at_full_size ? &*as_at_full_size : nullptr);
   const auto widths = measured_widths(show);
   const std::array<Cost, 3> costs{run.per_frame(widths[0]), run.per_frame(widths[1]),
                                   run.per_frame(widths[2])};

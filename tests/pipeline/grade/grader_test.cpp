@@ -148,6 +148,17 @@ TEST(LargeFrames, AreGradedByATableToHalfATwelveBitCode) {
   }
 }
 
+TEST(LargeFrames, AreStoodForBySmallOnes) {
+  HalfFrame large(2048, 1024), small(2048, kColouredRows);
+  put_colours(large);
+  put_colours(small);
+  const Grader grader(shipped()), as_large = grader.as_for(large.width, large.height);
+  ASSERT_TRUE(as_large.table_error(small));
+  const GradedFrame whole = grader.grade(large), part = as_large.grade(small);
+  EXPECT_TRUE(std::equal(part.pixels.begin(), part.pixels.end(), whole.pixels.begin()));
+  EXPECT_FALSE(grader.as_for(small.width, small.height).table_error(large));
+}
+
 // Their red is at the border of the display's gamut, where the code leaves black infinitely steeply:
 // 23 of 65535 off, between the places where the table was compared.
 TEST(LargeFrames, OfDarkBluesKeepTheBoundWhereRedLeavesBlack) {
