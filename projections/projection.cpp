@@ -2,84 +2,94 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "projections/inside_direction.h"
+#include "projections/sphere_formulas.h"
 
 namespace domefall {
 namespace {
 
-using std::numbers::pi;
+int width(const Domemaster& d) { return d.size; }
+int width(const Equirectangular& e) { return e.columns; }
+int width(const Cubemap& c) { return kFacesInARow * c.face; }
+template <class Sized>
+int width(const Sized& p) {
+  return p.columns;
+}
 
-struct Centred {
-  double x, y;  // pixels from the middle of the image
-};
+int height(const Domemaster& d) { return d.size; }
+int height(const Equirectangular& e) { return e.columns / 2; }
+int height(const Cubemap& c) { return 2 * c.face; }
+template <class Sized>
+int height(const Sized& p) {
+  return p.rows;
+}
+
+// The row that looks along Z lies below the middle by what more is cut above than below.
+double middle_row(const Projection& p) {
+  const double middle = (rows(p) + 1) / 2.0;
+  const auto* fisheye = std::get_if<Fisheye>(&p);
+  return fisheye ? middle + (fisheye->columns - fisheye->rows) * (0.5 - fisheye->cut_back) : middle;
+}
 
 Centred centred(const Projection& p, PixelPosition pixel) {
-  return {pixel.i - (columns(p) + 1) / 2.0, pixel.j - (rows(p) + 1) / 2.0};
+  return {pixel.i - (columns(p) + 1) / 2.0, pixel.j - middle_row(p)};
 }
 
-// sin(theta)/theta, its limit at 0 included.
-double sinc(double theta) { return theta < 1e-8 ? 1.0 : std::sin(theta) / theta; }
-
-// The paper's 2 tan(alpha/2)/C: tan(theta/2) per pixel.
-double half_tangent_per_pixel(const Stereographic& s) {
-  return 2 * std::tan(s.fov / 4) / s.columns;
-}
-
-CameraDirection direction(const Domemaster& d, Centred at) {
-  const double scale = pi / d.size;
-  const double theta = std::hypot(at.x, at.y) * scale;
-  const double k = sinc(theta) * scale;
-  return {{at.x * k, at.y * k, std::cos(theta)}};
-}
-
-// N = -Z + 2 W/|W|^2 with W = Z + w, written so that nothing cancels near the middle.
-CameraDirection direction(const Stereographic& s, Centred at) {
-  const double scale = half_tangent_per_pixel(s);
-  const double x = at.x * scale, y = at.y * scale;
-  const double w2 = x * x + y * y;
-  return {{2 * x / (1 + w2), 2 * y / (1 + w2), (1 - w2) / (1 + w2)}};
+bool has_circle(const Projection& p) {
+  return std::holds_alternative<Domemaster>(p) || std::holds_alternative<Fisheye>(p);
 }
 
 CameraDirection inside_direction(const Domemaster& d, Centred at) {
   return DomemasterView(d).direction(at.x, at.y);
 }
-
-CameraDirection inside_direction(const Stereographic& s, Centred at) { return direction(s, at); }
-
-// Pixels per unit of (X.N, Y.N); infinite towards -Z.
-double magnification(const Domemaster& d, const CameraDirection& n) {
-  const double sine = std::hypot(n.v.x, n.v.y);
-  if (sine == 0) return n.v.z > 0 ? d.size / pi : HUGE_VAL;
-  return d.size / pi * std::atan2(sine, n.v.z) / sine;
+template <class Other>
+CameraDirection inside_direction(const Other& p, Centred at) {
+  return direction(p, at);
 }
 
-double magnification(const Stereographic& s, const CameraDirection& n) {
-  // 1 + cos(theta), from the sine where the sum would cancel.
-  const double sine2 = n.v.x * n.v.x + n.v.y * n.v.y;
-  const double one_plus_cos = n.v.z >= 0 ? 1 + n.v.z : sine2 / (1 - n.v.z);
-  return 1 / (half_tangent_per_pixel(s) * one_plus_cos);
-}
+struct Refined {
+  int by;
+  Projection operator()(Domemaster d) const { return Domemaster{d.size * by}; }
+  Projection operator()(Equirectangular e) const { return Equirectangular{e.columns * by}; }
+  Projection operator()(Cubemap c) const { return Cubemap{c.face * by}; }
+  template <class Sized>
+  Projection operator()(Sized p) const {
+    p.columns *= by;
+    p.rows *= by;
+    return p;
+  }
+};
 
 }  // namespace
 
 StereographicView::StereographicView(const Stereographic& s) : scale(half_tangent_per_pixel(s)) {}
 
 int columns(const Projection& p) {
-  if (const auto* d = std::get_if<Domemaster>(&p)) return d->size;
-  return std::get<Stereographic>(p).columns;
+  return std::visit([](const auto& q) { return width(q); }, p);
 }
 
 int rows(const Projection& p) {
-  if (const auto* d = std::get_if<Domemaster>(&p)) return d->size;
-  return std::get<Stereographic>(p).rows;
+  return std::visit([](const auto& q) { return height(q); }, p);
 }
 
-Projection refined(const Projection& p, int factor) {
-  if (const auto* d = std::get_if<Domemaster>(&p)) return Domemaster{d->size * factor};
-  const auto& s = std::get<Stereographic>(p);
-  return Stereographic{s.columns * factor, s.rows * factor, s.fov};
+Projection refined(const Projection& p, int factor) { return std::visit(Refined{factor}, p); }
+
+bool has_zenith(const Projection& p) {
+  return !std::holds_alternative<Stereographic>(p) && !std::holds_alternative<Rectilinear>(p);
+}
+
+std::optional<double> field_of_view(const Projection& p) {
+  if (const auto* s = std::get_if<Stereographic>(&p)) return s->fov;
+  if (const auto* r = std::get_if<Rectilinear>(&p)) return r->fov;
+  if (const auto* f = std::get_if<Fisheye>(&p)) return f->fov;
+  return std::nullopt;
+}
+
+Projection with_field_of_view(Projection p, double fov) {
+  if (auto* s = std::get_if<Stereographic>(&p)) s->fov = fov;
+  if (auto* r = std::get_if<Rectilinear>(&p)) r->fov = fov;
+  if (auto* f = std::get_if<Fisheye>(&p)) f->fov = fov;
+  return p;
 }
 
 CameraDirection direction_at(const Projection& p, PixelPosition pixel) {
@@ -87,13 +97,13 @@ CameraDirection direction_at(const Projection& p, PixelPosition pixel) {
 }
 
 std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n) {
-  const double m = std::visit([&](const auto& q) { return magnification(q, n); }, p);
-  if (!std::isfinite(m)) return std::nullopt;
-  return PixelPosition{(columns(p) + 1) / 2.0 + m * n.v.x, (rows(p) + 1) / 2.0 + m * n.v.y};
+  const auto at = std::visit([&](const auto& q) { return place(q, n); }, p);
+  if (!at) return std::nullopt;
+  return PixelPosition{(columns(p) + 1) / 2.0 + at->x, middle_row(p) + at->y};
 }
 
 bool is_inside(const Projection& p, PixelPosition pixel) {
-  if (!std::holds_alternative<Domemaster>(p)) return true;
+  if (!has_circle(p)) return true;
   const Centred at = centred(p, pixel);
   const double radius = columns(p) / 2.0;
   return at.x * at.x + at.y * at.y <= radius * radius;
@@ -101,12 +111,12 @@ bool is_inside(const Projection& p, PixelPosition pixel) {
 
 ColumnRange inside_columns(const Projection& p, int row) {
   const int width = columns(p);
-  if (!std::holds_alternative<Domemaster>(p)) return {0, width - 1};
-  const double y = row - (width - 1) / 2.0, radius = width / 2.0;
+  if (!has_circle(p)) return {0, width - 1};
+  const double y = row + 1 - middle_row(p), radius = width / 2.0;
   const double half = std::sqrt(std::max(0.0, radius * radius - y * y));
   ColumnRange range{std::max(0, static_cast<int>((width - 1) / 2.0 - half) - 1), 0};
   while (range.first < width && !is_inside(p, {range.first + 1.0, row + 1.0})) ++range.first;
-  range.last = width - 1 - range.first;  // the dome is symmetric
+  range.last = width - 1 - range.first;  // a circle is symmetric
   return range;
 }
 
@@ -130,29 +140,50 @@ void directions_along(const Projection& p, PixelPosition first, double step, int
 }
 
 double pixel_solid_angle(const Projection& p, PixelPosition pixel) {
-  const Centred at = centred(p, pixel);
-  if (const auto* d = std::get_if<Domemaster>(&p)) {
-    const double scale = pi / d->size;
-    return scale * scale * sinc(std::hypot(at.x, at.y) * scale);
-  }
-  const double k = half_tangent_per_pixel(std::get<Stereographic>(p));
-  const double w2 = (at.x * at.x + at.y * at.y) * k * k;
-  const double side = 2 * k / (1 + w2);
-  return side * side;
+  return std::visit([&](const auto& q) { return solid_angle(q, centred(p, pixel)); }, p);
+}
+
+PixelMetric pixel_metric(const Projection& p, PixelPosition pixel) {
+  return std::visit([&](const auto& q) { return metric(q, centred(p, pixel)); }, p);
 }
 
 double central_pixel_angle(const Projection& p) {
-  if (const auto* d = std::get_if<Domemaster>(&p)) return pi / d->size;
-  return 2 * half_tangent_per_pixel(std::get<Stereographic>(p));
+  struct Central {
+    double operator()(const Domemaster& d) const { return radians_per_pixel(d); }
+    double operator()(const Stereographic& s) const { return 2 * half_tangent_per_pixel(s); }
+    double operator()(const Rectilinear& r) const { return tangent_per_pixel(r); }
+    double operator()(const Fisheye& f) const { return radians_per_pixel(f); }
+    double operator()(const Equirectangular& e) const { return radians_per_pixel(e); }
+    double operator()(const Cubemap& c) const { return (*this)(face_picture(c)); }
+  };
+  return std::visit(Central(), p);
 }
 
 double pixel_angle(const Projection& p, PixelPosition pixel) {
-  if (std::holds_alternative<Domemaster>(p)) return central_pixel_angle(p);
-  return std::sqrt(pixel_solid_angle(p, pixel));  // conformal: the same in every direction
+  struct Largest {
+    Centred at;
+    double operator()(const Stereographic& s) const { return scales(s, at).tangential; }
+    double operator()(const Rectilinear& r) const { return scales(r, at).tangential; }
+    double operator()(const Cubemap& c) const {
+      return Largest{on_face(c, face_at(c, at), at)}(face_picture(c));
+    }
+    double operator()(const Domemaster& d) const { return radians_per_pixel(d); }
+    double operator()(const Fisheye& f) const { return radians_per_pixel(f); }
+    double operator()(const Equirectangular& e) const { return radians_per_pixel(e); }
+  };
+  return std::visit(Largest{centred(p, pixel)}, p);
 }
 
 std::string_view projection_name(const Projection& p) {
-  return std::holds_alternative<Domemaster>(p) ? "domemaster" : "stereographic";
+  struct Name {
+    std::string_view operator()(const Domemaster&) const { return "domemaster"; }
+    std::string_view operator()(const Stereographic&) const { return "stereographic"; }
+    std::string_view operator()(const Rectilinear&) const { return "rectilinear"; }
+    std::string_view operator()(const Fisheye&) const { return "fisheye"; }
+    std::string_view operator()(const Equirectangular&) const { return "equirectangular"; }
+    std::string_view operator()(const Cubemap&) const { return "cubemap"; }
+  };
+  return std::visit(Name(), p);
 }
 
 }  // namespace domefall

@@ -1,5 +1,12 @@
-// From direction to pixel and back, for the camera of [Riazuelo] sec. sec_cam: Z looks through the
-// middle of the image, X to its right edge, Y to its bottom edge, (X, Y, Z) right-handed.
+// From direction to pixel and back, for the camera of [Riazuelo] sec. sec_cam: unit vectors X, Y, Z,
+// (X, Y, Z) right-handed.
+//
+// A flat picture has Z in its middle, X to its right edge and Y to its bottom edge.  Pictures for
+// an audience, which has_zenith() tells, take Z for its zenith, X for its right hand and Y for its
+// front, so that one camera serves them all: a dome has the zenith in its middle and the front at
+// its bottom edge, a picture of the whole sphere has the front in its middle and the zenith at its
+// top edge.
+//
 // Pixel coordinates (i, j) are continuous and counted from 1: pixel centres are whole numbers,
 // (1, 1) is the centre of the top left pixel.
 #pragma once
@@ -34,7 +41,35 @@ struct Stereographic {
   double fov;         // full horizontal opening angle 2 alpha, radians, in (0, 2 pi)
 };
 
-using Projection = std::variant<Domemaster, Stereographic>;
+// Flat picture of a camera without distortion: straight lines stay straight.
+struct Rectilinear {
+  int columns, rows;  // pixels, > 0
+  double fov;         // full horizontal opening angle, radians, in (0, pi)
+};
+
+// Equidistant azimuthal fisheye of any opening, for domes of more or less than a half sphere.  Its
+// circle is as wide as the picture.  A picture lower than that is of a truncated dome.
+struct Fisheye {
+  int columns, rows;  // pixels, > 0, rows <= columns
+  double fov;         // opening angle of the circle, radians, in (0, 2 pi]
+  double cut_back;    // the part, 0 to 1, of the missing rows that is cut at the top, the back
+};
+
+// The whole sphere by longitude and latitude, as virtual reality has it: columns/2 rows.  The left
+// and the right edge are one meridian, the back's.
+struct Equirectangular {
+  int columns;  // pixels, > 0, even
+};
+
+// The whole sphere on the faces of a cube, in two rows of three: right, left, up; down, front,
+// back.  Each is a flat picture of 90 degrees, upright but for up and down, which have the front at
+// their bottom and top edge.  This is the layout c3x2 of ffmpeg's filter v360.
+struct Cubemap {
+  int face;  // pixels along an edge, > 0
+};
+
+using Projection =
+    std::variant<Domemaster, Stereographic, Rectilinear, Fisheye, Equirectangular, Cubemap>;
 
 int columns(const Projection& p);
 int rows(const Projection& p);
@@ -42,14 +77,25 @@ int rows(const Projection& p);
 // The same picture with `factor` times `factor` pixels for each.
 Projection refined(const Projection& p, int factor);
 
+// Whether Z is an audience's zenith, and not the direction that a camera looks along.
+bool has_zenith(const Projection& p);
+
+// The opening angle (radians), nothing for a projection whose is always the same; and the
+// projection with another one.
+std::optional<double> field_of_view(const Projection& p);
+Projection with_field_of_view(Projection p, double fov);
+
 // The direction that a pixel position looks along.  Exact to a few epsilon; defined for any finite
-// position (on a Domemaster beyond theta = pi it winds on, which no pixel of the image does).
+// position.  On a fisheye beyond theta = pi, and beyond the edges of a sphere by longitude and
+// latitude, it winds on; beyond the edges of a cube's net it is on the plane of the nearest face.
 CameraDirection direction_at(const Projection& p, PixelPosition pixel);
 
-// The inverse.  Nothing for the one direction without an image, -Z.
+// The inverse.  Nothing for a direction without an image: -Z on a stereographic picture or a
+// fisheye, and all behind a rectilinear one (z <= 0).  Directions with several images, those on an
+// edge of a whole sphere's picture, get one of them.
 std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n);
 
-// Whether the projection shows anything there: the Domemaster's incircle, else everything.
+// Whether the projection shows anything there: a fisheye's circle, else everything.
 bool is_inside(const Projection& p, PixelPosition pixel);
 
 // The pixels of a row (from 0) whose centres are inside: columns first..last (from 0), none if
@@ -72,10 +118,18 @@ void directions_along(const Projection& p, PixelPosition first, double step, int
 // Solid angle (sr) of the pixel centred there: the product of its two angular scales.
 double pixel_solid_angle(const Projection& p, PixelPosition pixel);
 
-// Angle (radians) between neighbouring pixels in the middle of the image.
+// How a projection scales at a place: a small step of (dx, dy) pixels turns the direction by the
+// square root of xx dx^2 + 2 xy dx dy + yy dy^2, in radians.
+struct PixelMetric {
+  double xx, xy, yy;
+};
+PixelMetric pixel_metric(const Projection& p, PixelPosition pixel);
+
+// Angle (radians) between neighbouring pixels in the middle of the image, or on the horizon of a
+// sphere by longitude and latitude.  No pixel covers a larger angle in any direction.
 double central_pixel_angle(const Projection& p);
 
-// The same at a pixel, along the direction to the middle.
+// The largest angle that a pixel covers in any direction.
 double pixel_angle(const Projection& p, PixelPosition pixel);
 
 std::string_view projection_name(const Projection& p);

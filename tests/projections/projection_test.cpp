@@ -13,6 +13,24 @@ namespace {
 
 using std::numbers::pi;
 
+// A projection of each kind, with the extremes of their parameters.
+const std::vector<Projection>& every_projection() {
+  static const std::vector<Projection> all{Domemaster{8192},
+                                           Stereographic{1920, 1080, 2.0},
+                                           Stereographic{64, 64, 1e-9},
+                                           Rectilinear{1920, 1080, 1.9},
+                                           Rectilinear{640, 480, 3.0},
+                                           Rectilinear{64, 64, 1e-9},
+                                           Fisheye{4096, 4096, 7 * pi / 6, 0},
+                                           Fisheye{4096, 3072, 1.1 * pi, 1},
+                                           Fisheye{4096, 3001, pi, 0.25},
+                                           Fisheye{2048, 2048, 2 * pi, 0},
+                                           Equirectangular{8192},
+                                           Cubemap{1024},
+                                           Cubemap{33}};
+  return all;
+}
+
 CameraDirection random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
   Imath::V3d v(normal(random), normal(random), normal(random));
@@ -45,30 +63,36 @@ TEST(Stereographic, TheHorizontalEdgesAreHalfTheOpeningAngleAway) {
 
 TEST(Projections, PixelToDirectionAndBackIsTheIdentity) {
   std::mt19937 random(1);
-  for (const Projection& p :
-       {Projection(Domemaster{8192}), Projection(Stereographic{1920, 1080, 2.0}),
-        Projection(Stereographic{64, 64, 1e-9})}) {
+  for (const Projection& p : every_projection()) {
     std::uniform_real_distribution<double> u(0.5, columns(p) + 0.5), v(0.5, rows(p) + 0.5);
     for (int k = 0; k < 2000; ++k) {
       const PixelPosition at{u(random), v(random)};
+      if (!is_inside(p, at)) continue;
       const CameraDirection n = direction_at(p, at);
       EXPECT_NEAR(n.v.length(), 1, 4e-16);
       const PixelPosition back = pixel_of(p, n).value();
-      // theta carries a relative error of a few epsilon; 8192 pixels of it are below 1e-11.
-      EXPECT_NEAR(back.i, at.i, 1e-11);
-      EXPECT_NEAR(back.j, at.j, 1e-11);
+      // Angles carry a few epsilon; 8192 pixels of them are below 1e-11.  A pixel that covers less
+      // of the view, beside a pole or the back of a fisheye, is found as much less well.
+      const double covered = pixel_solid_angle(p, at) / pixel_angle(p, at) / pixel_angle(p, at);
+      EXPECT_NEAR(back.i, at.i, 1e-11 / covered) << projection_name(p);
+      EXPECT_NEAR(back.j, at.j, 1e-11 / covered) << projection_name(p);
     }
   }
 }
 
 TEST(Projections, DirectionToPixelAndBackIsTheIdentityOverTheWholeSphere) {
   std::mt19937 random(2);
-  for (const Projection& p :
-       {Projection(Domemaster{4096}), Projection(Stereographic{1920, 1080, 2.0})}) {
+  for (const Projection& p : every_projection()) {
+    if (field_of_view(p).value_or(1) < 1e-6) continue;  // whose pixels are beyond all bounds
     for (int k = 0; k < 2000; ++k) {
       const CameraDirection n = random_direction(random);
-      const CameraDirection back = direction_at(p, pixel_of(p, n).value());
-      EXPECT_LT((back.v - n.v).length(), 1e-14);
+      const auto pixel = pixel_of(p, n);
+      if (std::holds_alternative<Rectilinear>(p) && n.v.z <= 0) {
+        EXPECT_FALSE(pixel);
+        continue;
+      }
+      const CameraDirection back = direction_at(p, pixel.value());
+      EXPECT_LT((back.v - n.v).length(), 2e-14) << projection_name(p);
     }
   }
 }
@@ -91,25 +115,139 @@ TEST(Domemaster, PixelSolidAnglesSumToTheHalfSphere) {
   EXPECT_NEAR(sum, 2 * pi, 2 * pi * 5e-4);
 }
 
-TEST(Projections, PixelSolidAngleIsTheProductOfTheAngularScales) {
-  for (const Projection& p :
-       {Projection(Domemaster{1000}), Projection(Stereographic{1000, 800, 2.5})}) {
-    const PixelPosition at{123, 456};
-    const double h = 1e-3;
-    const Imath::V3d du =
-        (direction_at(p, {at.i + h, at.j}).v - direction_at(p, {at.i - h, at.j}).v) / (2 * h);
-    const Imath::V3d dv =
-        (direction_at(p, {at.i, at.j + h}).v - direction_at(p, {at.i, at.j - h}).v) / (2 * h);
-    const double expected = du.cross(dv).length();
-    EXPECT_NEAR(pixel_solid_angle(p, at), expected, expected * 1e-8);
+// Against the differences of neighbouring directions.
+TEST(Projections, TheMetricIsThatOfSmallSteps) {
+  std::mt19937 random(3);
+  for (const Projection& p : every_projection()) {
+    if (field_of_view(p).value_or(1) < 1e-6) continue;  // whose differences are rounding
+    std::uniform_real_distribution<double> u(1, columns(p)), v(1, rows(p));
+    for (int k = 0; k < 200; ++k) {
+      const PixelPosition at{std::floor(u(random)), std::floor(v(random))};
+      const double h = 1e-2;
+      const Imath::V3d du =
+          (direction_at(p, {at.i + h, at.j}).v - direction_at(p, {at.i - h, at.j}).v) / (2 * h);
+      const Imath::V3d dv =
+          (direction_at(p, {at.i, at.j + h}).v - direction_at(p, {at.i, at.j - h}).v) / (2 * h);
+      const PixelMetric m = pixel_metric(p, at);
+      // The differences err by their rounding, and by h^2/6 of the third derivative.
+      const double pixel = pixel_angle(p, at), error = pixel * (1e-13 / h + 1e-4 * pixel * pixel);
+      EXPECT_NEAR(m.xx, du.dot(du), 2 * error) << projection_name(p);
+      EXPECT_NEAR(m.xy, du.dot(dv), 2 * error) << projection_name(p);
+      EXPECT_NEAR(m.yy, dv.dot(dv), 2 * error) << projection_name(p);
+      EXPECT_NEAR(pixel_solid_angle(p, at), du.cross(dv).length(), 2 * error);
+      // The largest angle is the root of the metric's larger eigenvalue.
+      const double mean = (m.xx + m.yy) / 2, half = (m.xx - m.yy) / 2;
+      EXPECT_NEAR(pixel, std::sqrt(mean + std::hypot(half, m.xy)), 1e-7 * pixel);
+      EXPECT_LE(pixel, central_pixel_angle(p) * (1 + 1e-12)) << projection_name(p);
+    }
+  }
+}
+
+TEST(Projections, PicturesOfTheWholeSphereHoldFourPiSteradians) {
+  for (const Projection& p : {Projection(Equirectangular{256}), Projection(Cubemap{64}),
+                              Projection(Fisheye{400, 400, 2 * pi, 0})}) {
+    double sum = 0;
+    for (int row = 0; row < rows(p); ++row) {
+      const ColumnRange range = inside_columns(p, row);
+      for (int i = range.first; i <= range.last; ++i)
+        sum += pixel_solid_angle(p, {i + 1.0, row + 1.0});
+    }
+    EXPECT_NEAR(sum, 4 * pi, 4 * pi * 2e-4) << projection_name(p);
   }
 }
 
 TEST(Projections, HandednessPutsYDownTheImage) {
   for (const Projection& p :
-       {Projection(Domemaster{100}), Projection(Stereographic{100, 100, 1})}) {
+       {Projection(Domemaster{100}), Projection(Stereographic{100, 100, 1}),
+        Projection(Rectilinear{100, 100, 1}), Projection(Fisheye{100, 100, 4, 0})}) {
     EXPECT_GT(direction_at(p, {90, 50.5}).v.x, 0);
     EXPECT_GT(direction_at(p, {50.5, 90}).v.y, 0);
+  }
+}
+
+void expect_at(const Projection& p, const Imath::V3d& n, double i, double j) {
+  const PixelPosition at = pixel_of(p, {n}).value();
+  EXPECT_NEAR(at.i, i, 1e-9) << projection_name(p);
+  EXPECT_NEAR(at.j, j, 1e-9) << projection_name(p);
+}
+
+TEST(Equirectangular, TheFrontIsInTheMiddleTheZenithAboveAndTheBackAtBothEdges) {
+  const Projection p = Equirectangular{400};
+  EXPECT_EQ(rows(p), 200);
+  expect_at(p, {0, 1, 0}, 200.5, 100.5);
+  expect_at(p, {1, 0, 0}, 300.5, 100.5);
+  expect_at(p, {-1, 0, 0}, 100.5, 100.5);
+  EXPECT_NEAR(pixel_of(p, {{0, 0, 1}})->j, 0.5, 1e-9);
+  EXPECT_NEAR(pixel_of(p, {{0, 0, -1}})->j, 200.5, 1e-9);
+  expect_at(p, {-1e-12, -1, 0}, 0.5, 100.5);
+  expect_at(p, {1e-12, -1, 0}, 400.5, 100.5);
+  EXPECT_LT((direction_at(p, {450, 30}).v - direction_at(p, {50, 30}).v).length(), 1e-15);
+}
+
+TEST(Cubemap, ItsFacesAreRightLeftUpAndDownFrontBack) {
+  const Projection p = Cubemap{100};
+  EXPECT_EQ(columns(p), 300);
+  EXPECT_EQ(rows(p), 200);
+  expect_at(p, {1, 0, 0}, 50.5, 50.5);
+  expect_at(p, {-1, 0, 0}, 150.5, 50.5);
+  expect_at(p, {0, 0, 1}, 250.5, 50.5);
+  expect_at(p, {0, 0, -1}, 50.5, 150.5);
+  expect_at(p, {0, 1, 0}, 150.5, 150.5);
+  expect_at(p, {0, -1, 0}, 250.5, 150.5);
+  // Up the front from its middle, the front face ends where the upper one begins.
+  expect_at(p, Imath::V3d(0, 1, 0.999).normalized(), 150.5, 150.5 - 49.95);
+  expect_at(p, Imath::V3d(0, 0.999, 1).normalized(), 250.5, 50.5 + 49.95);
+}
+
+TEST(Fisheye, OfAHalfSphereIsTheDomemaster) {
+  std::mt19937 random(4);
+  const Projection fisheye = Fisheye{1024, 1024, pi, 0.5}, dome = Domemaster{1024};
+  for (int k = 0; k < 100; ++k) {
+    const CameraDirection n = random_direction(random);
+    const PixelPosition a = pixel_of(fisheye, n).value(), b = pixel_of(dome, n).value();
+    EXPECT_NEAR(a.i, b.i, 1e-12 * 1024);
+    EXPECT_NEAR(a.j, b.j, 1e-12 * 1024);
+  }
+}
+
+TEST(Fisheye, ATruncatedOneIsAWindowOfTheWhole) {
+  const Projection whole = Fisheye{4096, 4096, 3.5, 0.5};
+  for (const double cut_back : {0.0, 0.25, 1.0}) {
+    const Projection window = Fisheye{4096, 3072, 3.5, cut_back};
+    const double above = 1024 * cut_back;
+    for (const PixelPosition at : {PixelPosition{1, 1}, {4096, 3072}, {700, 1500}}) {
+      const PixelPosition same{at.i, at.j + above};
+      EXPECT_LT((direction_at(window, at).v - direction_at(whole, same).v).length(), 1e-15);
+      EXPECT_EQ(is_inside(window, at), is_inside(whole, same));
+    }
+  }
+}
+
+TEST(Rectilinear, StraightLinesStayStraight) {
+  const Projection p = Rectilinear{800, 600, 2};
+  const Imath::V3d a = direction_at(p, {10, 20}).v, b = direction_at(p, {790, 500}).v;
+  const PixelPosition middle = pixel_of(p, {(a + b * 0.4).normalized()}).value();
+  EXPECT_NEAR((middle.j - 20) / (middle.i - 10), 480.0 / 780, 1e-12);
+  EXPECT_NEAR(std::atan2(direction_at(p, {800.5, 300.5}).v.x, direction_at(p, {800.5, 300.5}).v.z),
+              1, 1e-15);
+}
+
+TEST(Projections, ARefinedOneShowsTheSame) {
+  for (const Projection& p : every_projection()) {
+    const Projection fine = refined(p, 3);
+    EXPECT_EQ(columns(fine), 3 * columns(p));
+    EXPECT_EQ(rows(fine), 3 * rows(p));
+    // A pixel's middle is that of its nine.
+    const PixelPosition at{11, 7}, same{3 * 11 - 1, 3 * 7 - 1};
+    EXPECT_LT((direction_at(fine, same).v - direction_at(p, at).v).length(), 1e-14);
+  }
+}
+
+TEST(Projections, OnlySomeHaveAFieldOfViewToChange) {
+  for (const Projection& p : every_projection()) {
+    const Projection other = with_field_of_view(p, 0.5);
+    EXPECT_EQ(field_of_view(other), field_of_view(p) ? std::optional(0.5) : std::nullopt);
+    EXPECT_EQ(columns(other), columns(p));
   }
 }
 
@@ -117,7 +255,10 @@ TEST(Projections, HandednessPutsYDownTheImage) {
 TEST(Projections, ARowsColumnsAreThoseInsideAndItsDirectionsTheirs) {
   for (const Projection& p :
        {Projection(Domemaster{1}), Projection(Domemaster{2}), Projection(Domemaster{63}),
-        Projection(Domemaster{512}), Projection(Stereographic{64, 40, 2.0})}) {
+        Projection(Domemaster{512}), Projection(Stereographic{64, 40, 2.0}),
+        Projection(Rectilinear{64, 40, 2.0}), Projection(Fisheye{63, 41, 4, 0.3}),
+        Projection(Fisheye{64, 8, 4, 1}), Projection(Equirectangular{64}),
+        Projection(Cubemap{17})}) {
     for (int row = 0; row < rows(p); ++row) {
       const ColumnRange range = inside_columns(p, row);
       std::vector<CameraDirection> n(
