@@ -42,25 +42,24 @@ void draw_hole(Svg& page, const Plane& plane) {
 
 }  // namespace
 
-void draw_orbit_panel(Svg& page, const PageBox& box, const Path& path) {
+PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path) {
   const Plane plane = frame_of(box, path);
   draw_heading(page, box, "Orbit from above (M)");
   page.begin_group("orbit");
   draw_axes(page, box, plane.x, plane.y, 7, 7);
   draw_hole(page, plane);
-  draw_path(
-      page, path,
-      [&plane](const PathPoint& p) {
-        const PagePoint at = in_plane(p);
-        return PagePoint{plane.x(at.x), plane.y(at.y)};
-      },
-      is_joined_in_plane);
+  const PlaceOnPage place = [plane](const PathPoint& p) {
+    const PagePoint at = in_plane(p);
+    return PagePoint{plane.x(at.x), plane.y(at.y)};
+  };
+  draw_path(page, path, place, is_joined_in_plane);
   draw_key(page, {box.left, box.bottom + 44}, path);
   std::string note = "Disc: the hole, r = 2; dashed: light circle, r = 3.";
   if (path.has_gaps_in_plane)
     note += " Of many turns the first and last " + number_text(kTurnsDrawn) + ".";
   page.text({box.left, box.bottom + 66}, note, {12, "#5a606c"});
   page.end_group();
+  return place;
 }
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
 // The panels of a show's page.  Each is drawn into a box, with its heading above and its notes
-// below.
+// below, and tells where on the page it has a point of the path.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,22 @@
 
 namespace domefall {
 
+using PlaceOnPage = std::function<PagePoint(const PathPoint&)>;
+
 // r against show time.  The axis is logarithmic where r spans more than a factor of 20.  The
 // horizon and the light circle are marked to the right.
-void draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
+PlaceOnPage draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
 
 // The speed as a part of that of light, against show time.  This is for shows without a hole.
-void draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
+PlaceOnPage draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
 
 // The orbital plane seen from its north, with the start to the right of the hole.  The box is
 // square.
-void draw_orbit_panel(Svg& page, const PageBox& box, const Path& path);
+PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path);
 
 // The path in the Carter-Penrose diagram.  The box is twice as wide as high, and the labels of the
 // infinities stand around it.
-void draw_penrose_panel(Svg& page, const PageBox& box, const Path& path);
+PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path);
 
 // ---- what the panels share ----
 
@@ -36,7 +38,7 @@ void draw_heading(Svg& page, const PageBox& box, const std::string& text);
 // Draws the path as curves in the colours of the segments, unbroken in regions I and II, dashed in
 // III and dotted in IV.  Each segment has an arrow and each instant a small disc.  A ring marks the
 // start, a square the end.
-void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const PathPoint&)>& place,
+void draw_path(Svg& page, const Path& path, const PlaceOnPage& place,
                bool (*joined)(const PathPoint&, const PathPoint&));
 
 // Says in one line from `at` what those marks mean.

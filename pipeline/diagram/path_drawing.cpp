@@ -24,8 +24,7 @@ const char* dashes_of(Region region) {
   return region == Region::kIV ? "2 4" : "";
 }
 
-std::vector<Stretch> stretches_of(const Path& path,
-                                  const std::function<PagePoint(const PathPoint&)>& place,
+std::vector<Stretch> stretches_of(const Path& path, const PlaceOnPage& place,
                                   bool (*joined)(const PathPoint&, const PathPoint&)) {
   std::vector<Stretch> stretches;
   const PathPoint* before = nullptr;
@@ -140,7 +139,7 @@ void draw_heading(Svg& page, const PageBox& box, const std::string& text) {
   page.text({box.left, box.top - 14}, text, {16, "#1b1e24", "start", true});
 }
 
-void draw_path(Svg& page, const Path& path, const std::function<PagePoint(const PathPoint&)>& place,
+void draw_path(Svg& page, const Path& path, const PlaceOnPage& place,
                bool (*joined)(const PathPoint&, const PathPoint&)) {
   const std::vector<Stretch> stretches = stretches_of(path, place, joined);
   for (const Stretch& s : stretches) page.curve(s.points, {"#ffffff", kWidth + 2.4});

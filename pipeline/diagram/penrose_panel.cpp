@@ -125,7 +125,7 @@ std::string note_of(const Path& path) {
 
 }  // namespace
 
-void draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) {
+PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) {
   const Diagram at(box);
   page.text({box.left, box.top - 54}, "Carter\u2013Penrose diagram",
             {16, "#1b1e24", "start", true});
@@ -134,13 +134,14 @@ void draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) {
   draw_radii(page, at);
   draw_borders(page, at);
   draw_names(page, at);
-  draw_path(
-      page, path, [&at](const PathPoint& p) { return at(p.penrose); }, is_joined);
+  const PlaceOnPage place = [at](const PathPoint& p) { return at(p.penrose); };
+  draw_path(page, path, place, is_joined);
   page.text({box.left, box.bottom + 52},
             "The whole spacetime, the future up; light runs at 45\u00b0. Grey: constant r (M).",
             {12, "#5a606c"});
   page.text({box.left, box.bottom + 70}, note_of(path), {12, "#5a606c"});
   page.end_group();
+  return place;
 }
 
 }  // namespace domefall

@@ -96,8 +96,8 @@ void mark_radii(Svg& page, const PageBox& box, const Scale& y) {
   page.text({box.right + 8, circle + 4}, "light circle r = 3", {12});
 }
 
-void draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path& path,
-                     const Scale& y, double PathPoint::*quantity, bool marks_radii) {
+PlaceOnPage draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path& path,
+                            const Scale& y, double PathPoint::*quantity, bool marks_radii) {
   const Scale x = time_scale(box, show);
   draw_axes(page, box, x, y, 12, 6);
   shade_segments(page, box, x, show);
@@ -105,6 +105,7 @@ void draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path
   mark_cuts(page, box, x, path, show);
   page.text({box.right, box.bottom + 36}, "show time (s)", {13, "#30343c", "end"});
   draw_curve(page, path, x, y, quantity);
+  return [x, y, quantity](const PathPoint& p) { return PagePoint{x(p.time_s), y(p.*quantity)}; };
 }
 
 Scale radius_scale(const PageBox& box, const Path& path) {
@@ -122,20 +123,23 @@ Scale radius_scale(const PageBox& box, const Path& path) {
 
 }  // namespace
 
-void draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
+PlaceOnPage draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
   const Scale y = radius_scale(box, path);
   draw_heading(page, box, y.logarithmic ? "Radius r (M), logarithmic" : "Radius r (M)");
   page.begin_group("radius");
-  draw_time_panel(page, box, show, path, y, &PathPoint::r, true);
+  PlaceOnPage place = draw_time_panel(page, box, show, path, y, &PathPoint::r, true);
   page.end_group();
+  return place;
 }
 
-void draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
+PlaceOnPage draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
   draw_heading(page, box, "Speed (that of light is 1)");
   page.begin_group("speed");
-  draw_time_panel(page, box, show, path, {0, 1, box.bottom, box.top + kTopOfCurves, false},
-                  &PathPoint::speed, false);
+  PlaceOnPage place =
+      draw_time_panel(page, box, show, path, {0, 1, box.bottom, box.top + kTopOfCurves, false},
+                      &PathPoint::speed, false);
   page.end_group();
+  return place;
 }
 
 }  // namespace domefall

@@ -167,6 +167,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
   tbb::parallel_for(
       tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_run(bands) : 1),
       [&](const tbb::blocked_range<int>& run) {
+        memory.throw_if_stopped();
         SplatBuffer& splats = memory.splats.local();
         stars.start_buffer(splats);
         for (int band = run.begin(); band < run.end(); ++band) draw_band(band, splats);

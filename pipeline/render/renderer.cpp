@@ -87,6 +87,8 @@ Renderer::Renderer(const Show& show, int threads, AntiAliasing anti_aliasing, Sk
 
 Renderer::~Renderer() = default;
 
+void Renderer::stop_when(const std::atomic<bool>* flag) { memory_->bands.stop = flag; }
+
 int Renderer::threads() const { return memory_->arena.max_concurrency(); }
 
 void Renderer::load_sky(SkyRegion sky) { skies_.load(sky); }
@@ -188,10 +190,13 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
     }
     times.images = stars.size() - unresolved.blobs.size();
     times.stars_s = watch.lap();
+    memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
     times.traced_fraction = sky.traced_fraction();
     times.grid_s = watch.lap();
+    memory_->bands.throw_if_stopped();
     draw_bands(scene, sky, stars, borders, memory_->bands, frame);
+    memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();
   });
 }

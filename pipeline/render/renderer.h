@@ -1,6 +1,7 @@
 // Renders the frames of a show into memory.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "pipeline/image/frame_buffer.h"
@@ -36,6 +37,11 @@ class Renderer {
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
   // The same in full precision: values beyond the largest half are kept.
   void render(const FrameState& state, FloatImage& frame, StageTimes* times = nullptr);
+
+  // From now on render() throws RenderStopped (frame_bands.h) soon after the flag is set: between
+  // two stages, or amid the drawing.  With null it goes on to the end again.  The flag must outlive
+  // its use.
+  void stop_when(const std::atomic<bool>* flag);
 
   // Reads the files that a frame needs before it is rendered.  Throws InputError if one cannot be
   // read.

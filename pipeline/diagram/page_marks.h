@@ -1,0 +1,24 @@
+// Where the present stands in the panels of a show's page, for programs that draw a mark there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/diagram/svg.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+struct MarkedPage {
+  std::string svg;               // as show_page() draws it
+  double width = 0, height = 0;  // of the page, in its pixels
+  double step_s = 0;             // seconds of show from one instant to the next
+  // For each instant from the start to the end, its place in each panel: in that of the radius, the
+  // orbit and the Carter-Penrose diagram; in flat space in that of the speed alone.
+  std::vector<std::vector<PagePoint>> places;
+};
+
+// Places are taken straight between the points that the page draws, at `instants` (>= 2) even times.
+MarkedPage marked_page(const Show& show, int instants);
+
+}  // namespace domefall

@@ -1,0 +1,50 @@
+#include "pipeline/preview/file_watch.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
+
+FileWatch::FileWatch(const std::filesystem::path& file)
+    : inotify_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)), name_(file.filename()) {
+  if (inotify_.number() < 0 || inotify_add_watch(inotify_.number(), folder_of(file).c_str(),
+                                                 IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE) < 0)
+    throw TemporaryError(
+        fmt::format("{}: changes cannot be watched for: {}", file.string(), std::strerror(errno)));
+}
+
+bool FileWatch::wait(int milliseconds) {
+  pollfd ready{inotify_.number(), POLLIN, 0};
+  if (poll(&ready, 1, milliseconds) <= 0) return false;
+  alignas(inotify_event) std::array<char, 4096> events;
+  bool written = false;
+  for (;;) {
+    const ssize_t count = read(inotify_.number(), events.data(), events.size());
+    if (count <= 0) return written;
+    for (ssize_t at = 0; at < count;) {
+      inotify_event event;
+      std::memcpy(&event, events.data() + at, sizeof event);
+      const char* name = events.data() + at + sizeof event;
+      // After an overflow nobody knows what was written.
+      if ((event.mask & IN_Q_OVERFLOW) != 0 || (event.len > 0 && name_ == name)) written = true;
+      at += static_cast<ssize_t>(sizeof event + event.len);
+    }
+  }
+}
+
+}  // namespace domefall

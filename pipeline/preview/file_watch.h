@@ -1,0 +1,26 @@
+// Tells when a file has been written anew.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "pipeline/image/descriptor.h"
+
+namespace domefall {
+
+// Watches the folder that holds the file, since most editors write another file and rename it.
+class FileWatch {
+ public:
+  // Throws TemporaryError if the system grants no watch.
+  explicit FileWatch(const std::filesystem::path& file);
+
+  // Waits until the file was written or replaced, or `milliseconds` have passed.  True for the
+  // former.
+  bool wait(int milliseconds);
+
+ private:
+  Descriptor inotify_;
+  std::filesystem::path name_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,77 @@
+// The pictures of one show for the clients of the live preview, made by the show's own renderer and
+// grade.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/preview/picture_request.h"
+#include "pipeline/render/overlay/star_labels.h"
+#include "pipeline/render/renderer.h"
+
+namespace domefall {
+
+struct LivePicture {
+  std::string jpeg;
+  FrameState state;  // with the camera and the projection of the picture
+};
+
+// Not for two threads at once.
+class LivePictures {
+ public:
+  // `threads` as Renderer has it.  Throws as Grader and Renderer.
+  LivePictures(Show show, int threads);
+  ~LivePictures();
+  LivePictures(const LivePictures&) = delete;
+  LivePictures(LivePictures&&) = delete;
+  LivePictures& operator=(const LivePictures&) = delete;
+  LivePictures& operator=(LivePictures&&) = delete;
+
+  // As the file has it, whatever was asked for.
+  const Show& show() const { return show_; }
+  // The display and the view where a request names none.
+  const std::string& display() const { return usual_.display(); }
+  const std::string& view() const { return usual_.view(); }
+  int threads() const { return renderer_->threads(); }
+
+  // Takes another version of the show.  Skies that it leaves as they are stay loaded.  Throws as the
+  // constructor, and then keeps the version before.
+  void take(Show show);
+
+  // The state of the picture that is asked for.  Throws InputError where the show cannot be seen so.
+  FrameState state_for(const PictureRequest& request) const;
+
+  // Throws as Renderer::render, RenderStopped soon after `stop` becomes true, and InputError for a
+  // display or a view that is not there.
+  LivePicture make(const PictureRequest& request, const std::atomic<bool>& stop);
+
+  // What a request sees along the light of one pixel, and the star that is seen near it, as JSON.
+  std::string probe(const PictureRequest& request, PixelPosition at);
+
+ private:
+  // The show as a request wants it, for the renderer, which reads it anew for each frame.
+  void prepare(const PictureRequest& request);
+  const Grader& grader_for(const PictureRequest& request);
+  // Makes the table of the usual grade beside the first pictures.
+  void make_table();
+  std::string encoded(const PictureRequest& request, const FrameState& state,
+                      const HalfFrame& frame);
+
+  int wanted_threads_;
+  Show show_;      // as the file has it
+  Show prepared_;  // what the renderer reads
+  Grader usual_;
+  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<StarLabels> labels_;
+  std::map<std::pair<std::string, std::string>, Grader> others_;  // by display and view
+  std::thread making_table_;
+  std::atomic<bool> table_made_ = false;
+  HalfFrame frame_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,74 @@
+// A show file as it stands in its author's editor: the last version that is right, and what is wrong
+// with the file now.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "pipeline/preview/file_watch.h"
+#include "pipeline/preview/live_pictures.h"
+#include "pipeline/preview/newest_first.h"
+
+namespace domefall {
+
+class LiveShow {
+ public:
+  // Reads the show, which must be right, and goes on to read it whenever it is written.  Throws as
+  // read_show, LivePictures and FileWatch.
+  LiveShow(const std::filesystem::path& file, int threads);
+  ~LiveShow();
+  LiveShow(const LiveShow&) = delete;
+  LiveShow(LiveShow&&) = delete;
+  LiveShow& operator=(const LiveShow&) = delete;
+  LiveShow& operator=(LiveShow&&) = delete;
+
+  struct Version {
+    int revision = 1;                  // grows with each good version
+    std::shared_ptr<const Show> show;  // the last good one
+    std::string mistake;               // what is wrong with the file now; empty if it is right
+    std::string display, view;         // of the usual grade
+  };
+  Version version() const;
+
+  // Waits until the version is another than the caller knows, or has a mistake where `mistaken` is
+  // false or the other way around, or some seconds have passed.
+  Version changed_since(int revision, bool mistaken, int seconds) const;
+
+  // Makes a picture when it is its turn; nothing if it is outdated before it is made, or given up.
+  // Throws as LivePictures, and TemporaryError where too many wait.
+  struct Made {
+    LivePicture picture;
+    int revision = 0;
+  };
+  std::optional<Made> picture(const Parameters& parameters, const NewestFirst::Ticket& ticket);
+
+  // Calls use(pictures) when no picture is made.
+  void with_pictures(const std::function<void(LivePictures&)>& use);
+
+  int threads() const { return threads_; }
+  // Ends all waiting, for good.
+  void stop();
+
+ private:
+  void watch();
+  void reload();
+
+  std::filesystem::path file_;
+  mutable std::mutex mutex_;  // of what follows
+  mutable std::condition_variable news_;
+  Version version_;
+  bool stopped_ = false;
+
+  NewestFirst turns_;  // who has the pictures
+  std::unique_ptr<LivePictures> pictures_;
+  int threads_ = 0;
+  FileWatch written_;
+  std::thread watching_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "pipeline/preview/live_pictures.h"
+#include "pipeline/render/overlay/seen_better.h"
+#include "pipeline/render/rays/view_tracer.h"
+#include "trajectories/equatorial.h"
+
+namespace domefall {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+void add_ray(const Show& show, const FrameState& state, const CameraDirection& along, double width,
+             Json& json) {
+  const HoleOptics optics =
+      make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
+  const ViewRay ray = ViewTracer(state, optics, show.effects).trace(along);
+  json["sky"] = name_of(ray.sky);
+  if (!ray.known) return;
+  const Equatorial at = equatorial({ray.sky_direction});
+  json["ra_deg"] = number(at.ra_deg);
+  json["dec_deg"] = number(at.dec_deg);
+  if (ray.sky == SkyRegion::kIV) return;  // the past singularity's light has no redshift
+  json["redshift"] = number(1 / ray.frequency_ratio);
+  json["amplification"] = number(amplification(ray.bundle, width));
+  json["order"] = static_cast<int>(ray.bundle.azimuth / std::numbers::pi);
+}
+
+// The named star whose image is nearest to a place, within some pixels, and its images there.
+Json star_near(const std::vector<NamedImage>& images, const Projection& projection,
+               PixelPosition at) {
+  constexpr double kNear = 8;  // pixels
+  const NamedImage* nearest = nullptr;
+  double least = kNear;
+  const auto bare = [](const NamedImage& image) {
+    constexpr std::string_view kPrime = "\u2032";
+    return image.name.substr(0, image.name.size() - (image.secondary ? kPrime.size() : 0));
+  };
+  for (const NamedImage& image : images) {
+    const auto pixel = pixel_of(projection, image.direction);
+    if (!pixel || !is_inside(projection, *pixel)) continue;
+    const double distance = std::hypot(pixel->i - at.i, pixel->j - at.j);
+    if (distance < least) least = distance, nearest = &image;
+  }
+  if (!nearest) return {};
+  Json star = {{"name", bare(*nearest)}, {"magnitude", number(nearest->magnitude)}};
+  star["images"] = Json::array();
+  for (const NamedImage& image : images) {
+    if (bare(image) != bare(*nearest)) continue;
+    if (const auto pixel = pixel_of(projection, image.direction))
+      star["images"].push_back({number(pixel->i), number(pixel->j)});
+  }
+  return star;
+}
+
+}  // namespace
+
+std::string LivePictures::probe(const PictureRequest& request, PixelPosition at) {
+  const FrameState state = state_for(request);
+  prepare(request);
+  const FrameState& seen = seen_better(state);
+  Json json = {
+      {"inside", is_inside(seen.projection, at)},
+      {"region", is_flat(seen.observer) ? Json() : Json(region_name(seen.observer.region))},
+      {"r", number(seen.observer.r)}};
+  add_ray(prepared_, seen, direction_at(seen.projection, at), pixel_angle(seen.projection, at),
+          json);
+  json["star"] = star_near(labels_->images(seen), seen.projection, at);
+  return json.dump();
+}
+
+}  // namespace domefall

@@ -1,0 +1,18 @@
+// The grade by which a screen shows what is made for a dome.
+#pragma once
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/renderer.h"
+
+namespace domefall {
+
+// The default display is for domes, and a preview for screens.  The displays of a show's own
+// configuration are not known, and stay.
+GradeSettings for_a_screen(GradeSettings settings);
+
+// Does to a flat picture of a dome what its own light does, which that of the whole dome decides.
+// `dome` is the frame as the show has it, and the grader has a dome_light().
+void change_as_in_dome(const Grader& grader, Renderer& renderer, const FrameState& dome,
+                       GradedFrame& picture);
+
+}  // namespace domefall

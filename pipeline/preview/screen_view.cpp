@@ -1,0 +1,112 @@
+#include "pipeline/preview/screen_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "pipeline/show/camera_track.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180, kHalfSquare = std::numbers::sqrt2 / 2;
+
+// The axes of a flat camera that looks 45 degrees up the front of a dome, and the other way around:
+// those of a dome whose seats look there.
+M33d from_the_seats(const M33d& dome_axes) {
+  const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
+  return from_columns(column(dome_axes, 0), (front - zenith) * kHalfSquare,
+                      (front + zenith) * kHalfSquare);
+}
+
+M33d dome_around(const M33d& flat_axes) {
+  const V3d down = column(flat_axes, 1), ahead = column(flat_axes, 2);
+  return from_columns(column(flat_axes, 0), (ahead + down) * kHalfSquare,
+                      (ahead - down) * kHalfSquare);
+}
+
+// Whether the camera of a segment is given by angles and not by a target.
+bool turns_by_angles(const Segment& segment) {
+  return std::holds_alternative<EulerAngles>(segment.camera.attitude) ||
+         std::any_of(segment.attitudes.begin(), segment.attitudes.end(),
+                     [](const AttitudeKey& key) {
+                       return std::holds_alternative<EulerAngles>(key.attitude);
+                     });
+}
+
+bool is_dome(const Projection& projection) {
+  return std::holds_alternative<Domemaster>(projection) ||
+         std::holds_alternative<Fisheye>(projection);
+}
+
+// The axes for the new projection, as columns in the tetrad.
+M33d axes_in(const Show& show, const Projection& projection, const FrameState& state) {
+  const M33d own = state.observer.tetrad_from_camera, audience = own * state.camera_from_audience;
+  if (has_zenith(projection))
+    return is_dome(projection) && has_zenith(show.projection) ? own : audience;
+  if (!has_zenith(show.projection)) return own;
+  if (turns_by_angles(segment_of(show, state.segment))) return from_the_seats(own);
+  return camera_axes_at(show, state.segment, state.show_time_s, projection, state.observer);
+}
+
+// Keeps what belongs to the audience where it was.
+void set_axes(const M33d& axes, FrameState& state) {
+  state.camera_from_audience =
+      axes.transposed() * state.observer.tetrad_from_camera * state.camera_from_audience;
+  state.observer.tetrad_from_camera = axes;
+}
+
+// Calls change(state) also for the state that vanishes in a dissolve.
+template <class Change>
+void for_both(FrameState& state, const Change& change) {
+  if (state.vanishing) {
+    auto vanishing = std::make_shared<FrameState>(*state.vanishing);
+    for_both(*vanishing, change);
+    state.vanishing = vanishing;
+  }
+  change(state);
+}
+
+}  // namespace
+
+void see_in(const Show& show, const Projection& projection, FrameState& state) {
+  for_both(state, [&](FrameState& one) {
+    set_axes(axes_in(show, projection, one), one);
+    one.projection = projection;
+  });
+}
+
+void turn_to(const ScreenLook& look, FrameState& state) {
+  const double azimuth = look.azimuth_deg * kRadian, altitude = look.altitude_deg * kRadian,
+               roll = look.roll_deg * kRadian;
+  const V3d ahead(std::sin(azimuth) * std::cos(altitude), std::cos(azimuth) * std::cos(altitude),
+                  std::sin(altitude));
+  const V3d level(std::cos(azimuth), -std::sin(azimuth), 0), steep = ahead.cross(level);
+  const V3d right = level * std::cos(roll) + steep * std::sin(roll);
+  const M33d flat = from_columns(right, ahead.cross(right), ahead);
+  for_both(state, [&](FrameState& one) {
+    const M33d camera = has_zenith(one.projection) ? dome_around(flat) : flat;
+    set_axes(one.observer.tetrad_from_camera * one.camera_from_audience * camera, one);
+  });
+}
+
+// The inverse of [Riazuelo] sec. sec_cam's rotations: Z = (cos theta, cos phi sin theta,
+// sin phi sin theta) in (R, Theta, Phi), and X at the angle psi from what the first two make of
+// Theta.
+std::string camera_as_yaml(const Show& show, const FrameState& state) {
+  M33d axes = state.observer.tetrad_from_camera;
+  if (has_zenith(show.projection) && !has_zenith(state.projection)) axes = dome_around(axes);
+  const V3d x = column(axes, 0), z = column(axes, 2);
+  const double sine = std::hypot(z.y, z.z), theta = std::atan2(sine, z.x),
+               phi = sine > 0 ? std::atan2(z.z, z.y) : 0;
+  const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
+  const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
+  const double psi = std::atan2(x.dot(b1), x.dot(a2));
+  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]}}", phi / kRadian, theta / kRadian,
+                     psi / kRadian);
+}
+
+}  // namespace domefall

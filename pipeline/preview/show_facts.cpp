@@ -1,0 +1,234 @@
+#include "pipeline/preview/show_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "pipeline/diagram/page_marks.h"
+#include "pipeline/grade/display_list.h"
+#include "pipeline/render/frame_bands.h"
+#include "pipeline/render/overlay/seen_better.h"
+#include "pipeline/render/rays/shift_range.h"
+#include "pipeline/survey/axis_stars.h"
+#include "pipeline/survey/light_survey.h"
+#include "pipeline/survey/title_warnings.h"
+
+namespace domefall {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kMostSamples = 2000;  // of a curve
+
+// Six digits, which a page shows; JSON has no infinity.
+Json number(double value) {
+  if (!std::isfinite(value)) return {};
+  return Json::parse(fmt::format("{:.6g}", value));
+}
+
+Json segments_of(const Show& show) {
+  const std::vector<double> times = segment_times(show);
+  Json list = Json::array();
+  for (std::size_t k = 0; k < show.timeline.size(); ++k) {
+    const Segment& segment = show.timeline[k];
+    list.push_back({{"type", segment.type},
+                    {"begin_s", number(times[k])},
+                    {"end_s", number(times[k] + segment.duration_s)},
+                    {"dissolve_s", number(segment.dissolve_s)},
+                    {"fade_in_s", number(segment.fades.in_s)},
+                    {"fade_out_s", number(segment.fades.out_s)}});
+  }
+  return list;
+}
+
+const char* group_of(Channel channel) {
+  if (channel < Channel::kEv) return "camera";
+  if (channel == Channel::kEv) return "exposure";
+  return channel < Channel::kSlopeR ? "sky" : "grade";
+}
+
+// Each instant at which something is keyframed, once for camera, exposure, sky and grade.
+Json keyframes_of(const Show& show) {
+  std::set<std::tuple<double, int, std::string>> keys;
+  const double end = end_of(show);
+  for (std::size_t k = 0; k < show.timeline.size(); ++k) {
+    const int segment = static_cast<int>(k) + 1;
+    for (const AttitudeKey& key : show.timeline[k].attitudes)
+      keys.emplace(key.at_s, segment, "camera");
+    for (const Channel channel : kEveryChannel)
+      if (const auto& curve = show.timeline[k].curves[channel]; curve && curve->keys.size() > 1)
+        for (const CurveKey& key : curve->keys) keys.emplace(key.at_s, segment, group_of(channel));
+  }
+  Json list = Json::array();
+  for (const auto& [at_s, segment, what] : keys)
+    if (at_s >= 0 && at_s <= end)
+      list.push_back({{"time_s", number(at_s)}, {"segment", segment}, {"what", what}});
+  return list;
+}
+
+Json markers_of(const Show& show) {
+  Json list = Json::array();
+  for (const Marker& marker : show.markers)
+    list.push_back({{"name", marker.name}, {"time_s", number(marker.at_s)}});
+  return list;
+}
+
+Json titles_of(const Show& show) {
+  Json list = Json::array();
+  const auto add = [&](const std::vector<Title>& titles) {
+    for (const Title& title : titles)
+      list.push_back({{"text", title.text},
+                      {"begin_s", number(title.begin_s)},
+                      {"end_s", number(title.end_s)}});
+  };
+  add(show.titles);
+  for (const Segment& segment : show.timeline) add(segment.titles);
+  return list;
+}
+
+// The speed against an observer at rest, or inside the horizon against one who falls freely.
+double speed_of(const ObserverState& o) {
+  const bool has_rest = is_flat(o) || o.r > 2;
+  const double celerity = (has_rest ? static_celerity(o) : o.celerity).length();
+  return celerity / std::hypot(1.0, celerity);
+}
+
+Json states_of(const Show& show) {
+  const int count = frame_count(show), samples = std::min(count, kMostSamples);
+  Json frames = Json::array(), r = Json::array(), regions = Json::array(), clocks = Json::array(),
+       speeds = Json::array(), shifts = Json::array();
+  for (int k = 0; k < samples; ++k) {
+    const int frame =
+        samples > 1 ? static_cast<int>(std::int64_t{k} * (count - 1) / (samples - 1)) : 0;
+    const FrameState state = frame_state(show, frame);
+    const ObserverState& o = seen_better(state).observer;
+    frames.push_back(frame);
+    r.push_back(number(o.r));
+    regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region)));
+    clocks.push_back(number(o.proper_time));
+    speeds.push_back(number(speed_of(o)));
+    const auto shift = frequency_range(o, false, !show.effects.lensing);
+    shifts.push_back(shift ? number(1 / shift->largest) : Json());
+  }
+  return {{"frame", frames},       {"r", r},          {"region", regions},
+          {"proper_time", clocks}, {"speed", speeds}, {"shift_ahead", shifts}};
+}
+
+Json plots_of(const Show& show) {
+  const MarkedPage page = marked_page(show, std::clamp(frame_count(show), 2, kMostSamples));
+  Json marks = Json::array();
+  for (const std::vector<PagePoint>& places : page.places) {
+    Json at = Json::array();
+    for (const PagePoint& p : places) {
+      at.push_back(std::round(10 * p.x) / 10);
+      at.push_back(std::round(10 * p.y) / 10);
+    }
+    marks.push_back(at);
+  }
+  return {
+      {"width", page.width}, {"height", page.height}, {"step_s", page.step_s}, {"marks", marks}};
+}
+
+Json effects_of(const Effects& effects) {
+  constexpr std::array kAmplified{"none", "stars", "everything"};
+  return {{"aberration", effects.aberration},
+          {"doppler_colour", effects.doppler_colour},
+          {"intensity", effects.intensity},
+          {"lensing", effects.lensing},
+          {"amplification", kAmplified[static_cast<std::size_t>(effects.amplification)]}};
+}
+
+Json displays_as_json(const Show& show) {
+  Json displays = Json::object();
+  for (const DisplayViews& display : displays_of(show.grade.config))
+    displays[display.display] = display.views;
+  return displays;
+}
+
+Json overlays_as_json() {
+  Json names = Json::array();
+  for (const auto& [kind, name] : kOverlays) names.push_back(name);
+  return names;
+}
+
+Json json_of(const ShowWarning& warning) {
+  Json json = {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}};
+  if (warning.segment != kWholeShow)
+    json = {{"time_s", number(warning.time_s)},
+            {"frame", warning.frame},
+            {"segment", warning.segment + 1}};
+  json["text"] = warning.text;
+  return json;
+}
+
+ShowWarning note_of(const FrameLight& light, const char* text) {
+  return {light.time_s, light.frame, light.segment, text};
+}
+
+// Bytes that are not UTF-8, of a configuration's names, do not end the page.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string show_facts(const LiveShow::Version& version, int threads) {
+  const Show& show = *version.show;
+  Json json = {{"revision", version.revision},
+               {"file", show.file.filename().string()},
+               {"title", show.title},
+               {"frames", frame_count(show)},
+               {"frames_per_second", show.frames_per_second},
+               {"duration_s", number(end_of(show))},
+               {"mistake", version.mistake.empty() ? Json() : Json(version.mistake)},
+               {"projection", projection_name(show.projection)},
+               {"width", columns(show.projection)},
+               {"height", rows(show.projection)},
+               {"mass_solar", show.mass_solar ? number(*show.mass_solar) : Json()},
+               {"default_view", "stereographic"},
+               {"threads", threads},
+               {"segments", segments_of(show)},
+               {"keyframes", keyframes_of(show)},
+               {"markers", markers_of(show)},
+               {"titles", titles_of(show)},
+               {"displays", displays_as_json(show)},
+               {"display", version.display},
+               {"view", version.view},
+               {"effects", effects_of(show.effects)},
+               {"skies", show.mass_solar ? Json({"I", "III", "IV"}) : Json({"I"})},
+               {"overlays", overlays_as_json()},
+               {"states", states_of(show)},
+               {"plots", plots_of(show)}};
+  return text_of(json);
+}
+
+std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop) {
+  std::vector<ShowWarning> warnings = show_warnings(show);
+  AxisStars axis(show);
+  for (int frame = 0; frame < frame_count(show); ++frame) {
+    if (stop) return {};
+    axis.add(frame_state(show, frame));
+  }
+  for (const ShowWarning& warning : axis.warnings()) warnings.push_back(warning);
+  for (const ShowWarning& warning : title_warnings(show)) warnings.push_back(warning);
+  Renderer renderer(show, 1, {}, kSurveyDetail);
+  renderer.stop_when(&stop);
+  try {
+    const LightSurvey light = survey_light(show, renderer, nullptr);
+    warnings.push_back(note_of(light.brightest, "here the show is brightest"));
+    warnings.push_back(note_of(light.darkest, "here the show is darkest"));
+  } catch (const RenderStopped&) {
+    return {};
+  }
+  std::stable_sort(warnings.begin(), warnings.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  Json list = Json::array();
+  for (const ShowWarning& warning : warnings) list.push_back(json_of(warning));
+  return text_of({{"done", true}, {"warnings", list}});
+}
+
+}  // namespace domefall

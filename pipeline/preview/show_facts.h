@@ -1,0 +1,19 @@
+// What the page of the live preview knows of a show besides its pictures, as JSON.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "pipeline/preview/live_show.h"
+
+namespace domefall {
+
+// The show's times, names and choices, and what its observer's instruments say along it.  It takes
+// some 0.1 s for a long show.
+std::string show_facts(const LiveShow::Version& version, int threads);
+
+// What `check` warns of: jumps, titles that nobody sees, and brightness.  A short show takes 0.1 s,
+// a long one seconds; returns early, with nothing, once `stop` is set.
+std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop);
+
+}  // namespace domefall

@@ -1,0 +1,57 @@
+#include "pipeline/preview/show_warnings.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "pipeline/preview/show_facts.h"
+
+namespace domefall {
+namespace {
+
+// For how long a version of the show must stay as it is, so that saves in a row are not followed.
+constexpr int kCalmSeconds = 2;
+
+}  // namespace
+
+ShowWarnings::ShowWarnings(LiveShow& show) : show_(show), finding_([this] { find(); }) {}
+
+ShowWarnings::~ShowWarnings() {
+  stop_ = true;
+  show_.stop();
+  finding_.join();
+}
+
+std::string ShowWarnings::as_json() const {
+  const std::lock_guard lock(mutex_);
+  if (revision_ != show_.version().revision) return R"({"done": false, "warnings": []})";
+  return found_;
+}
+
+void ShowWarnings::find() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);  // pictures come first
+  LiveShow::Version version = show_.version();
+  while (!stop_) {
+    const LiveShow::Version later =
+        show_.changed_since(version.revision, !version.mistake.empty(), kCalmSeconds);
+    const bool calm = later.revision == version.revision;
+    version = later;
+    bool known = false;
+    {
+      const std::lock_guard lock(mutex_);
+      known = revision_ == version.revision;
+    }
+    if (!calm || known || stop_) continue;
+    std::string found;
+    try {
+      found = show_warnings_as_json(*version.show, stop_);
+    } catch (const std::exception&) {
+      // What cannot be read now is told where a picture needs it.
+      found = R"({"done": true, "warnings": []})";
+    }
+    const std::lock_guard lock(mutex_);
+    revision_ = version.revision;
+    found_ = std::move(found);
+  }
+}
+
+}  // namespace domefall

@@ -1,0 +1,37 @@
+// What `check` warns of, found for the live preview while nothing else is to be done.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "pipeline/preview/live_show.h"
+
+namespace domefall {
+
+class ShowWarnings {
+ public:
+  // The show must outlive this.
+  explicit ShowWarnings(LiveShow& show);
+  ~ShowWarnings();
+  ShowWarnings(const ShowWarnings&) = delete;
+  ShowWarnings(ShowWarnings&&) = delete;
+  ShowWarnings& operator=(const ShowWarnings&) = delete;
+  ShowWarnings& operator=(ShowWarnings&&) = delete;
+
+  // Those of the present version, or that they are not found yet, as JSON.
+  std::string as_json() const;
+
+ private:
+  void find();
+
+  LiveShow& show_;
+  mutable std::mutex mutex_;  // of the two that follow
+  int revision_ = 0;
+  std::string found_;
+  std::atomic<bool> stop_ = false;
+  std::thread finding_;
+};
+
+}  // namespace domefall
