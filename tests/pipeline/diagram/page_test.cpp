@@ -1,6 +1,8 @@
 #include "pipeline/diagram/page.h"
 
 #include "pipeline/diagram/axis.h"
+#include "pipeline/diagram/page_marks.h"
+#include "pipeline/diagram/path.h"
 #include "pipeline/diagram/svg.h"
 #include "tests/pipeline/show/show_file.h"
 
@@ -85,6 +87,35 @@ TEST_F(Pages, SayThatFlatSpaceHasNoHole) {
   EXPECT_NE(page.find("flat space: no hole"), std::string::npos);
   EXPECT_NE(page.find("id=\"speed\""), std::string::npos);
   EXPECT_EQ(page.find("id=\"penrose\""), std::string::npos);
+}
+
+// The circles that the page draws at even seconds stand where it says the observer is then.
+TEST_F(Pages, TellWhereTheObserverIsInEachPanel) {
+  const Show show = read(
+      "black_hole: {mass_solar: 10}\ntimeline:\n"
+      "  - {duration_s: 4, trajectory: {type: circular, r: 8, orbits: 0.7}}\n"
+      "  - {duration_s: 6, trajectory: {type: infall, from_r: 8, to_r: 1}}\n");
+  const MarkedPage page = marked_page(show, 201);
+  EXPECT_EQ(page.svg, show_page(show));
+  EXPECT_NEAR(page.step_s, 0.05, 1e-12);
+  ASSERT_EQ(page.places.size(), 201);
+  for (const auto& places : page.places) ASSERT_EQ(places.size(), 3);
+  for (std::size_t k = 1; k < 80; ++k) {
+    EXPECT_GT(page.places[k][0].x, page.places[k - 1][0].x);
+    EXPECT_NEAR(page.places[k][0].y, page.places[0][0].y, 1e-6) << "r stays 8";
+  }
+  const PagePoint begin = page.places[0][1], quarter = page.places[20][1];
+  EXPECT_GT(std::hypot(begin.x - quarter.x, begin.y - quarter.y), 100);
+  EXPECT_GT(page.places[200][0].y, page.places[90][0].y) << "r falls, and the page grows downwards";
+  EXPECT_LT(page.places[200][2].y, page.places[90][2].y) << "the future is up";
+  // Each instant that the page marks by a small disc is one of the places.
+  const Path path = sample_path(show);
+  EXPECT_FALSE(path.instants.empty());
+  for (std::size_t k = 0; k < path.instants.size(); ++k) {
+    const double at = path.instants[k].time_s / page.step_s;
+    const PagePoint place = page.places[static_cast<std::size_t>(std::lround(at))][0];
+    EXPECT_NEAR(place.x, 80 + (1400 - 150 - 80) * path.instants[k].time_s / 10, 0.6);
+  }
 }
 
 }  // namespace
