@@ -101,6 +101,7 @@ struct PreviewServer::Inside {
   std::string token = new_token(), url;
   int port = 0;
   std::atomic<int> waiting_for_news = 0;
+  std::atomic<std::uint64_t> nobodies = 0;
   httplib::Server http;
 
   Inside(const std::filesystem::path& file, int wanted_port, int threads) : show(file, threads) {
@@ -215,8 +216,10 @@ struct PreviewServer::Inside {
 
   void picture(const httplib::Request& request, httplib::Response& response) {
     const bool can_stop = request.get_param_value("detail") != "moving";
-    const std::string name = (request.get_param_value("client") + " ").substr(0, 40) +
-                             request.get_param_value("kind").substr(0, 10);
+    // Who does not say who it is has no newer requests.
+    std::string name = request.get_param_value("client").substr(0, 40);
+    name = name.empty() ? fmt::format("nobody {}", ++nobodies)
+                        : name + ' ' + request.get_param_value("kind").substr(0, 10);
     auto made = show.picture(parameters_of(request), {name, whole_number(request, "n"), can_stop});
     if (!made) {
       response.status = 204;

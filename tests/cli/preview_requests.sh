@@ -1,0 +1,187 @@
+#!/usr/bin/env bash
+# domefall preview: what it serves, to whom, and that no request brings it down.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+write_show fall.yaml
+"$DOMEFALL" preview fall.yaml --no-open --threads 2 >address 2>said &
+server=$!
+trap 'kill "$server" ${holder:-} 2>/dev/null || true; rm -rf "$folder"' EXIT
+for ((k = 0; k < 1000; ++k)); do
+  [[ $(wc -l <address) -ge 2 ]] && break
+  kill -0 "$server" 2>/dev/null || fail "the preview ended: $(cat said)"
+  sleep 0.02
+done
+url=$(head -n 1 address)
+[[ $url =~ ^http://127\.0\.0\.1:([0-9]+)/[0-9a-f]{32}/$ ]] || fail "no address: $url"
+port=${BASH_REMATCH[1]}
+grep -q "ssh -L $port:127.0.0.1:$port " address || fail "no word of a tunnel: $(cat address)"
+
+# A still picture is the one that --out writes, but for what half a step of 12 bits of the grade does.
+exits 0 "$DOMEFALL" preview fall.yaml --frame 6 --out still.jpg --size 320x180
+python3 - "$url" "$server" still.jpg <<'END'
+import json, random, re, socket, sys, urllib.parse, urllib.request
+
+url, server, still = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+where = urllib.parse.urlsplit(url)
+host, token = where.netloc, where.path.strip('/')
+random.seed(5)
+
+
+def resident():
+    with open(f'/proc/{server}/status') as status:
+        return int(re.search(r'VmRSS:\s*(\d+)', status.read())[1]) / 1024  # MiB
+
+
+def get(path, headers=(), method='GET', base=url):
+    """The status, the headers and the body of one answer."""
+    request = urllib.request.Request(base + path, headers=dict(headers), method=method)
+    try:
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.status, dict(answer.headers), answer.read()
+    except urllib.error.HTTPError as error:
+        return error.code, dict(error.headers), error.read()
+
+
+def scan(jpeg):
+    """The coded pixels and tables of a JPEG, without its comments and profiles."""
+    kept, at = [], 2
+    while jpeg[at + 1] != 0xda:
+        size = 2 + int.from_bytes(jpeg[at + 2:at + 4], 'big')
+        if jpeg[at + 1] not in (0xfe, 0xe0, 0xe2):
+            kept.append(jpeg[at:at + size])
+        at += size
+    return b''.join(kept) + jpeg[at:]
+
+
+status, headers, page = get('')
+assert status == 200 and b'<title>' in page
+policy = headers['Content-Security-Policy']
+assert "default-src 'none'" in policy and headers['Cache-Control'] == 'no-store'
+for name in re.findall(rb'(?:src|href)="([^"]+)"', page):
+    assert get(name.decode())[0] == 200, name
+assert not re.search(rb'https?://(?!127)', page.replace(b'http://www.w3.org/', b'')), 'no other host'
+
+facts = json.loads(get('show')[2])
+assert facts['revision'] == 1 and facts['mistake'] is None and facts['frames'] > 6
+assert len(facts['states']['r']) == facts['frames']
+assert get('plot.svg')[2].startswith(b'<')
+
+# With a display of its own a picture is graded by the table from the first one on.
+picture = 'picture?frame=6&w=320&h=180&display=sRGB%20-%20Display'
+status, headers, before = get(picture)
+assert status == 200 and headers['Content-Type'] == 'image/jpeg'
+about = json.loads(headers['X-Domefall'])
+assert about['frame'] == 6 and about['projection'] == 'stereographic' and len(about['camera']) == 9
+again = get(picture)[2]
+assert scan(before) == scan(again)
+
+# Only this page, from this machine, with the token.
+port = host.split(':')[1]
+other = f'http://{host}/'
+assert get('', base=other)[0] == 403
+assert get(f'{"0" * 32}/', base=other)[0] == 403
+assert get(f'{token[:-1]}/', base=other)[0] == 403
+for path in ('../../etc/passwd', '%2e%2e/%2e%2e/etc/passwd', 'fall.yaml', '/etc/passwd', 'page/../show.h'):
+    assert get(path)[0] in (403, 404), path
+for name, value in (('Host', 'evil.example'), ('Host', f'evil.example:{port}'), ('Origin', 'http://evil.example'),
+                    ('Origin', 'null'), ('Origin', f'http://127.0.0.1:{int(port) + 1}'),
+                    ('Sec-Fetch-Site', 'cross-site'), ('Sec-Fetch-Site', 'same-site')):
+    assert get('show', [(name, value)])[0] == 403, (name, value)
+assert get('show', [('Origin', f'http://{host}'), ('Sec-Fetch-Site', 'same-origin')])[0] == 200
+assert get('show', [('Host', 'localhost:1')])[0] == 200, 'a tunnel may end at another port'
+for method in ('POST', 'PUT', 'DELETE', 'OPTIONS', 'PATCH'):
+    assert get('show', method=method)[0] == 403, method
+for address in ('127.0.0.2', socket.gethostbyname(socket.gethostname())):
+    if address != '127.0.0.1':
+        with socket.socket() as elsewhere:
+            assert elsewhere.connect_ex((address, int(port))) != 0, address
+
+# 10,000 random and hostile requests, over connections that are kept and some that break off.
+words = ['0', '1', '-1', '6', '1e18', '99999999999999999999', 'nan', 'inf', '', '%00', '../', 'I', 'III',
+         'moving', 'still', 'stereographic', 'rectilinear', 'domemaster', 'x' * 300, '%ff%fe', '16', '64', '4097',
+         '1e-300', 'lensing', 'rim,grid', 'sRGB - Display', 'Dome']
+names = ['frame', 'w', 'h', 'projection', 'fov', 'look', 'ev', 'display', 'view', 'effects', 'amplification',
+         'skies', 'stars', 'overlays', 'detail', 'client', 'n', 'kind', 'x', 'y', 'since', 'mistake', 'key']
+pages = ['picture', 'probe', 'camera', 'show', 'warnings', 'index.html', 'nothing', '']
+
+
+def hostile():
+    if random.random() < 0.1:
+        return bytes(random.randrange(256) for _ in range(random.randrange(60))) + b'\r\n\r\n'
+    page = random.choice(pages)
+    given = [f'{random.choice(names)}={urllib.parse.quote(random.choice(words), safe="%")}'
+             for _ in range(random.randrange(5))]
+    # Most small, so that the test does not spend its time on pictures.
+    if page in ('picture', 'probe', 'camera'):
+        given += ['w=16', 'h=16', 'fov=0'] if random.random() < 0.97 else ['w=16', 'h=16']
+    start = f'/{token}/' if random.random() < 0.9 else random.choice(['/', '//', f'/{token}', 'x', '/%2e/'])
+    verb = random.choice(['GET'] * 9 + ['HEAD', 'POST', 'get', 'G' * 50])
+    head = f'{verb} {start}{page}?{"&".join(given)} HTTP/1.1\r\nHost: {host}\r\n'
+    if random.random() < 0.05:
+        head += 'X: ' + 'y' * random.choice([100, 9000]) + '\r\n'
+    if random.random() < 0.05:
+        head += f'Content-Length: {random.choice(["5", "-1", "99999999999", "x"])}\r\n'
+    if random.random() < 0.05:
+        head += f'Range: bytes={random.choice(["0-", "-1", "5-2", "0-0,1-1,2-2", "99999999999-"])}\r\n'
+    return head.encode() + b'\r\n'
+
+
+low, connection, sent = resident(), None, 0
+while sent < 10_000:
+    try:
+        if connection is None:
+            connection = socket.create_connection(('127.0.0.1', int(port)), timeout=60)
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        connection.sendall(b''.join(hostile() for _ in range(10)))
+        sent += 10
+        connection.recv(65536)
+        if random.random() < 0.3:
+            connection.close()
+            connection = None
+    except OSError:
+        connection.close()
+        connection = None
+
+# 500 at once that say half of a request, and 100 that say nothing.
+slow = []
+for k in range(600):
+    try:
+        half = socket.create_connection(('127.0.0.1', int(port)), timeout=0.2)
+        half.sendall(f'GET /{token}/show HTTP/1.1\r\nHo'.encode()[:40 * (k < 500)])
+        slow.append(half)
+    except OSError:
+        pass
+assert len(slow) > 100
+for half in slow:
+    half.close()
+
+status, _, after = get(picture)
+assert status == 200 and scan(after) == scan(before), (status, len(after), len(before), after[:200])
+assert resident() < low + 400, (low, resident())
+with open(still, 'rb') as file:
+    shown, written = scan(before), scan(file.read())
+assert len(shown) > 2000 and abs(len(shown) - len(written)) < len(written) / 50, (len(shown), len(written))
+END
+
+# It ends as other programs do, and leaves nothing behind.
+kill -TERM "$server"
+code=0
+wait "$server" || code=$?
+[[ $code == 143 ]] || fail "ended with $code: $(cat said)"
+
+# What cannot be served is told.
+exits 2 "$DOMEFALL" preview fall.yaml --no-open --frame 3
+exits 2 "$DOMEFALL" preview nothing.yaml --no-open
+printf 'timelime: 3\n' >wrong.yaml
+exits 2 "$DOMEFALL" preview wrong.yaml --no-open
+python3 -c 'import socket, sys, time
+s = socket.socket()
+s.bind(("127.0.0.1", 0))
+s.listen()
+print(s.getsockname()[1], flush=True)
+time.sleep(60)' >taken &
+holder=$!
+while [[ ! -s taken ]]; do sleep 0.02; done
+exits 75 "$DOMEFALL" preview fall.yaml --no-open --port "$(cat taken)"
+kill "$holder"
