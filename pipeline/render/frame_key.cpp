@@ -21,7 +21,8 @@ constexpr int kPixelVersion = 8;
 
 void add_projection(Digest& digest, const Projection& p) {
   digest.add(projection_name(p)).add(columns(p)).add(rows(p));
-  if (const auto* flat = std::get_if<Stereographic>(&p)) digest.add(steady(flat->fov));
+  if (const auto fov = field_of_view(p)) digest.add(steady(*fov));
+  if (const auto* fisheye = std::get_if<Fisheye>(&p)) digest.add(steady(fisheye->cut_back));
 }
 
 // What came after the first version is added only where it is in use, so that other shows keep

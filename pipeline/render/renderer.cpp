@@ -17,6 +17,7 @@
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
 #include "pipeline/render/thread_limit.h"
+#include "projections/picture_parts.h"
 
 namespace domefall {
 namespace {
@@ -56,6 +57,16 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
     for (int k = 0; k < 3 * frame.width; ++k)
       own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
   }
+}
+
+// The state of a picture's part.
+FrameState looking_through(const FrameState& state, const PicturePart& part) {
+  FrameState looking = state;
+  looking.projection = part.projection;
+  const M33d& whole = state.observer.tetrad_from_camera;
+  looking.observer.tetrad_from_camera = from_columns(
+      apply(whole, part.axes[0]), apply(whole, part.axes[1]), apply(whole, part.axes[2]));
+  return looking;
 }
 
 }  // namespace
@@ -158,9 +169,29 @@ void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& fr
   if (state.fade < 1) fade(frame, state.fade);
 }
 
+// The faces of a cube are pictures of their own, each of which knows of the stars beyond its edges.
 template <class T>
 void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
                            StageTimes& times) {
+  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
+    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
+  const std::vector<PicturePart> parts = picture_parts(state.projection);
+  if (parts.empty()) return render_picture(state, state.projection, gap, frame, times);
+  ImageRgb<T> picture(columns(parts[0].projection), rows(parts[0].projection));
+  for (const PicturePart& part : parts) {
+    StageTimes own;
+    render_picture(looking_through(state, part), state.projection, gap, picture, own);
+    for (int row = 0; row < picture.height; ++row)
+      std::copy_n(picture.row(row), 3 * picture.width,
+                  frame.row(part.row + row) + 3 * static_cast<std::ptrdiff_t>(part.column));
+    times.add(own);
+  }
+}
+
+// `whole` is the projection of the frame that has this picture as a part, or is it.
+template <class T>
+void Renderer::render_picture(const FrameState& state, const Projection& whole, double gap,
+                              ImageRgb<T>& frame, StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
   const PerSky<const Sky*> skies = skies_.skies_of(plan);
@@ -172,10 +203,8 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
   times.table_nodes = node_count(optics);
   SkyMotion motion;
   if (plan.gravity) motion = {sky_turn(show_, state), gap};
-  const FrameScene scene(show_, state, plan, optics, skies, motion);
+  const FrameScene scene(show_, state, plan, optics, skies, motion, &whole);
   times.tables_s = watch.lap();
-  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
-    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
   memory_->arena.execute([&] {
     BlobLayer& stars = memory_->stars;
     stars.start(state.projection);

@@ -69,6 +69,9 @@ class Renderer {
   void render_faded(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
   template <class T>
   void render_view(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  template <class T>
+  void render_picture(const FrameState& state, const Projection& whole, double gap,
+                      ImageRgb<T>& frame, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "pipeline/render/blobs/metric_shape.h"
+
 namespace domefall {
 namespace {
 
@@ -73,6 +75,7 @@ bool BlobLayer::are_many(double images, const Projection& projection) {
 }
 
 void BlobLayer::use_splats(const PointSpread& widths) {
+  if (!has_blob_loops(projection_)) return;
   kernel_.emplace(projection_, widths.least());
   if (!kernel_->usable()) kernel_.reset();
 }
@@ -133,6 +136,19 @@ void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Tas
   last = std::max(last, last_row / kBandRows);
 }
 
+// On a picture of the whole sphere an ellipse goes on beyond the seam.
+void BlobLayer::place_with_copies(const EllipseBlob& ellipse, int first_row, Task& task) const {
+  place_one_ellipse(ellipse, first_row, task);
+  if (!std::holds_alternative<Equirectangular>(projection_)) return;
+  const auto width = static_cast<float>(columns(projection_));
+  for (const float shift : {-width, width}) {
+    EllipseBlob copy = ellipse;
+    copy.x += shift;
+    if (copy.x > -kMostEllipsePixels && copy.x < width + kMostEllipsePixels)
+      place_one_ellipse(copy, first_row, task);
+  }
+}
+
 void BlobLayer::place_parts(const Parts& parts, const PointSpread& widths, Task& task) const {
   std::array<EllipseBlob, kStep> ellipses;
   std::array<int, kStep> first_row;
@@ -143,7 +159,7 @@ void BlobLayer::place_parts(const Parts& parts, const PointSpread& widths, Task&
   for (std::size_t k = 0; k < parts.count; ++k) {
     bool seen = kind[k] == BlobKind::kEllipse;
     if (seen)
-      place_one_ellipse(ellipses[k], first_row[k], task);
+      place_with_copies(ellipses[k], first_row[k], task);
     else if (kind[k] == BlobKind::kCap)
       seen = place_one_cap(parts.image[k], parts.sigma[k], widths.paling(), task);
     task.size += seen && parts.is_middle[k] ? 1 : 0;

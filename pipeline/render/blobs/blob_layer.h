@@ -73,6 +73,7 @@ class BlobLayer {
   void place_parts(const Parts& parts, const PointSpread& widths, Task& task) const;
   bool place_one_cap(const StarImage& image, double sigma, float paling, Task& task) const;
   void place_one_ellipse(const EllipseBlob& ellipse, int first_row, Task& task) const;
+  void place_with_copies(const EllipseBlob& ellipse, int first_row, Task& task) const;
   void sort_splats();
   void sort_ellipses();
   void sort_caps();

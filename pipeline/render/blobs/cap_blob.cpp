@@ -7,7 +7,8 @@
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
-#include "pipeline/render/blobs/blob_shape.h"
+#include "pipeline/render/blobs/exact_cap.h"
+#include "pipeline/render/blobs/metric_shape.h"
 #include "pipeline/simd/dispatch.h"
 #include "pipeline/simd/lanes.h"
 
@@ -241,6 +242,7 @@ Dispatched<add_span_loop<true>> add_pale_span;
 }  // namespace
 
 bool place_cap(const Projection& projection, CapBlob& blob) {
+  if (!has_blob_loops(projection)) return place_exact_cap(projection, blob);
   blob.first_row = blob.first_column = 0;
   blob.last_row = blob.last_column = -1;
   const double width = columns(projection), height = rows(projection);
@@ -272,6 +274,7 @@ bool place_cap(const Projection& projection, CapBlob& blob) {
 }
 
 void draw_cap(const CapBlob& blob, const Projection& projection, const Canvas& canvas) {
+  if (!has_blob_loops(projection)) return draw_exact_cap(blob, projection, canvas);
   const int first = std::max(blob.first_row, canvas.first_row);
   const int last = std::min(blob.last_row, canvas.first_row + canvas.rows - 1);
   if (first > last) return;

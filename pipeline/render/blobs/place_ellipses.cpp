@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
-#include "pipeline/render/blobs/blob_shape.h"
 #include "pipeline/render/blobs/ellipse_blob.h"
+#include "pipeline/render/blobs/metric_shape.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
@@ -24,6 +25,14 @@ struct ImagePlane {
   double most_peak;
 };
 
+// The largest scale_change of an ellipse that is placed by the metric.  Its error, up to 3.6e-3 of
+// the peak, is three times that of others, because the caps that it saves cost more.
+constexpr double kMostScaleChangeByMetric = 0.006;
+// The largest scale_change with which a faint ellipse keeps its light, to 1e-3.
+constexpr double kMostFaintScaleChange = 0.03;
+// Farther from the picture than this, in pixels, no ellipse is tried.
+constexpr double kFarBeside = 1e5;
+
 // A batch of images, column by column, with what becomes of them.
 struct Placing {
   alignas(64) std::array<double, kBatch> x, y, red, green, blue, sigma;
@@ -31,7 +40,34 @@ struct Placing {
   alignas(64) std::array<int, kBatch> kind, first_row;
 };
 
-// The choices are selections and not branches, so that the loop becomes SIMD code.
+// Sets what becomes of the k-th image, whose blob has this shape, or is a cap if it is `far`.  The
+// choices are selections and not branches, so that loops over it become SIMD code.
+[[gnu::always_inline]] inline void place_one(const ImagePlane& plane, const BlobShape& s, bool far,
+                                             double most_scale_change, std::size_t k, Placing& p) {
+  const double warm = p.red[k] > p.green[k] ? p.red[k] : p.green[k];
+  const double brightest = warm > p.blue[k] ? warm : p.blue[k];
+  const BlobScale scale = blob_scale(s, brightest);
+  // The factor is 2, and 1 % more because drawing takes a logarithm that is up to 1 % larger.
+  const double q = -2.02 * logarithm(scale.cut);
+  const double half_x = std::sqrt(q * s.spread_x), half_y = std::sqrt(q * s.spread_y);
+  const double half = half_x > half_y ? half_x : half_y;
+  const double from_left = p.x[k] + half_x, from_top = p.y[k] + half_y;
+  const double to_right = plane.width - 1 - (p.x[k] - half_x);
+  const double to_bottom = plane.height - 1 - (p.y[k] - half_y);
+  const double across = from_left < to_right ? from_left : to_right;
+  const double down = from_top < to_bottom ? from_top : to_bottom;
+  int kind = brightest * scale.peak_per_flux > plane.most_peak ? kCap : kEllipse;
+  kind = s.scale_change > most_scale_change ? kCap : kind;
+  kind = 2 * half > kMostEllipsePixels - 1 ? kCap : kind;
+  kind = (across < down ? across : down) < 0 ? kNowhere : kind;
+  p.kind[k] = far ? kCap : kind;
+  p.first_row[k] = static_cast<int>(p.y[k] - half_y + 64) - 64;  // rounded down
+  p.xx[k] = static_cast<float>(s.xx);
+  p.xy[k] = static_cast<float>(s.xy);
+  p.yy[k] = static_cast<float>(s.yy);
+  p.peak_per_flux[k] = static_cast<float>(scale.peak_per_flux);
+}
+
 template <bool kDome>
 [[gnu::always_inline]] inline void place_loop(const ImagePlane& plane, Placing& p) {
   for (std::size_t k = 0; k < kBatch; ++k) {
@@ -39,36 +75,40 @@ template <bool kDome>
     // Far outside the half sphere ellipses grow without bound, so caps are drawn there.
     const bool far = kDome && plane.unit * plane.unit * (cx * cx + cy * cy) > 3;
     const BlobShape s = blob_shape<kDome>(plane.unit, far ? 0 : cx, far ? 0 : cy, p.sigma[k]);
-    const double warm = p.red[k] > p.green[k] ? p.red[k] : p.green[k];
-    const double brightest = warm > p.blue[k] ? warm : p.blue[k];
-    const BlobScale scale = blob_scale(s, brightest);
-    // The factor is 2, and 1 % more because drawing takes a logarithm that is up to 1 % larger.
-    const double q = -2.02 * logarithm(scale.cut);
-    const double half_x = std::sqrt(q * s.spread_x), half_y = std::sqrt(q * s.spread_y);
-    const double half = half_x > half_y ? half_x : half_y;
-    const double from_left = p.x[k] + half_x, from_top = p.y[k] + half_y;
-    const double to_right = plane.width - 1 - (p.x[k] - half_x);
-    const double to_bottom = plane.height - 1 - (p.y[k] - half_y);
-    const double across = from_left < to_right ? from_left : to_right;
-    const double down = from_top < to_bottom ? from_top : to_bottom;
-    int kind = brightest * scale.peak_per_flux > plane.most_peak ? kCap : kEllipse;
-    kind = s.scale_change > kMostScaleChange ? kCap : kind;
-    kind = 2 * half > kMostEllipsePixels - 1 ? kCap : kind;
-    kind = (across < down ? across : down) < 0 ? kNowhere : kind;
-    p.kind[k] = far ? kCap : kind;
-    p.first_row[k] = static_cast<int>(p.y[k] - half_y + 64) - 64;  // rounded down
-    p.xx[k] = static_cast<float>(s.xx);
-    p.xy[k] = static_cast<float>(s.xy);
-    p.yy[k] = static_cast<float>(s.yy);
-    p.peak_per_flux[k] = static_cast<float>(scale.peak_per_flux);
+    place_one(plane, s, far, kMostScaleChange, k, p);
   }
 }
 Dispatched<place_loop<true>> place_on_dome;
 Dispatched<place_loop<false>> place_on_flat;
 
+// Whether an ellipse is so long and so slanted that the factors exp(-P_xy x y) by which it is drawn
+// leave the range of floats: of a bright one they reach exp(40 c/(1 - c^2)), c^2 = P_xy^2/(P_xx
+// P_yy).
+bool is_slanted(const BlobShape& s) { return s.xy * s.xy > 0.25 * s.xx * s.yy; }
+
+// The same by the projection's metric.  Where the scale changes quickly an ellipse may stand for a
+// blob that is so faint that nobody sees the error.
+void place_by_metric(const Projection& projection, const ImagePlane& plane, Placing& p) {
+  for (std::size_t k = 0; k < kBatch; ++k) {
+    p.kind[k] = kCap;
+    p.first_row[k] = 0;
+    p.xx[k] = p.xy[k] = p.yy[k] = p.peak_per_flux[k] = 0;
+    if (!(std::abs(p.x[k]) < kFarBeside && std::abs(p.y[k]) < kFarBeside)) continue;
+    const PixelPosition at{p.x[k] + 1, p.y[k] + 1};
+    const CameraDirection n = direction_at(projection, at);
+    if (!(scale_change_per_radian(projection, n) * p.sigma[k] < kMostFaintScaleChange)) continue;
+    const BlobShape s = blob_shape(projection, pixel_metric(projection, at), n, p.sigma[k]);
+    if (is_slanted(s)) continue;
+    const double peak = std::max({p.red[k], p.green[k], p.blue[k]}) / s.solid_angle;
+    const bool faint = 0.6 * s.scale_change * peak <= kMostWideError;
+    place_one(plane, s, false, faint ? kMostFaintScaleChange : kMostScaleChangeByMetric, k, p);
+  }
+}
+
 // A batch of fewer than kBatch images is filled up with its last one.
-void place_batch(const ImagePlane& plane, bool dome, const StarImage* images, const double* sigma,
-                 std::size_t count, EllipseBlob* blobs, int* first_row, BlobKind* kind) {
+void place_batch(const Projection& projection, const ImagePlane& plane, const StarImage* images,
+                 const double* sigma, std::size_t count, EllipseBlob* blobs, int* first_row,
+                 BlobKind* kind) {
   Placing p;
   for (std::size_t k = 0; k < kBatch; ++k) {
     const StarImage& image = images[std::min(k, count - 1)];
@@ -79,7 +119,9 @@ void place_batch(const ImagePlane& plane, bool dome, const StarImage* images, co
     p.green[k] = image.rgb[1];
     p.blue[k] = image.rgb[2];
   }
-  if (dome)
+  if (!has_blob_loops(projection))
+    place_by_metric(projection, plane, p);
+  else if (std::holds_alternative<Domemaster>(projection))
     place_on_dome(plane, p);
   else
     place_on_flat(plane, p);
@@ -94,6 +136,27 @@ void place_batch(const ImagePlane& plane, bool dome, const StarImage* images, co
   }
 }
 
+// The shape of an ellipse that may stand for a cap, if any may.
+std::optional<BlobShape> wide_shape(const Projection& projection, const CapBlob& cap) {
+  const double sigma = cap.sigma, width = columns(projection);
+  if (!has_blob_loops(projection)) {
+    const PixelPosition at{cap.x + 1.0, cap.y + 1.0};
+    const CameraDirection n = direction_at(projection, at);
+    const bool on_seam = std::holds_alternative<Equirectangular>(projection) &&
+                         !(cap.x > cap.reach && cap.x + cap.reach < width - 1);
+    if (on_seam || !(scale_change_per_radian(projection, n) * sigma < kMostFaintScaleChange))
+      return std::nullopt;
+    const BlobShape s = blob_shape(projection, pixel_metric(projection, at), n, sigma);
+    return is_slanted(s) ? std::nullopt : std::optional(s);
+  }
+  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const double cx = cap.x - (width - 1) / 2.0, cy = cap.y - (rows(projection) - 1) / 2.0;
+  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
+  if (!dome) return blob_shape<false>(unit, cx, cy, sigma);
+  if (unit * std::hypot(cx, cy) > 1.7) return std::nullopt;
+  return blob_shape<true>(unit, cx, cy, sigma);
+}
+
 }  // namespace
 
 void place_ellipses(const Projection& projection, const StarImage* images, const double* sigma,
@@ -104,29 +167,24 @@ void place_ellipses(const Projection& projection, const StarImage* images, const
   const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
   const ImagePlane plane{unit, (width - 1) / 2, (height - 1) / 2, width, height, most_peak};
   for (std::size_t k = 0; k < count; k += kBatch)
-    place_batch(plane, dome, images + k, sigma + k, std::min(kBatch, count - k), blobs + k,
+    place_batch(projection, plane, images + k, sigma + k, std::min(kBatch, count - k), blobs + k,
                 first_row + k, kind + k);
 }
 
 bool place_wide_ellipse(const Projection& projection, const CapBlob& cap, double most_peak,
                         EllipseBlob& ellipse) {
-  const bool dome = std::holds_alternative<Domemaster>(projection);
-  const double cx = cap.x - (columns(projection) - 1) / 2.0;
-  const double cy = cap.y - (rows(projection) - 1) / 2.0;
-  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2), sigma = cap.sigma;
-  if (2 * cap.reach > kMostWideEllipsePixels || (dome && unit * std::hypot(cx, cy) > 1.7))
-    return false;
-  const BlobShape s =
-      dome ? blob_shape<true>(unit, cx, cy, sigma) : blob_shape<false>(unit, cx, cy, sigma);
+  if (2 * cap.reach > kMostWideEllipsePixels) return false;
+  const std::optional<BlobShape> s = wide_shape(projection, cap);
+  if (!s) return false;
   const double peak = double{cap.peak_per_flux} * std::max({cap.rgb[0], cap.rgb[1], cap.rgb[2]});
   if (peak > most_peak ||
-      (s.scale_change > kMostScaleChange && 0.6 * s.scale_change * peak > kMostWideError))
+      (s->scale_change > kMostScaleChange && 0.6 * s->scale_change * peak > kMostWideError))
     return false;
   ellipse = {cap.x,
              cap.y,
-             static_cast<float>(s.xx),
-             static_cast<float>(s.xy),
-             static_cast<float>(s.yy),
+             static_cast<float>(s->xx),
+             static_cast<float>(s->xy),
+             static_cast<float>(s->yy),
              {cap.rgb[0] * cap.peak_per_flux, cap.rgb[1] * cap.peak_per_flux,
               cap.rgb[2] * cap.peak_per_flux}};
   return true;

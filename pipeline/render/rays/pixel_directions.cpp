@@ -1,52 +1,107 @@
 #include "pipeline/render/rays/pixel_directions.h"
 
+#include <numbers>
+
 #include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
 #include "projections/inside_direction.h"
 
 namespace domefall {
 namespace {
 
-// The middle of the image, in pixels.
-struct Middle {
-  double i, j;
+// x, y: pixels from the middle, as the views of inside_direction.h take them.
+
+struct RectilinearView {
+  double scale;  // tan(theta) per pixel
+
+  CameraDirection direction(double x, double y) const {
+    const double u = x * scale, v = y * scale, cosine = 1 / std::sqrt(1 + u * u + v * v);
+    return {{u * cosine, v * cosine, cosine}};
+  }
+  // Across the direction to the middle it covers more than along it.
+  double pixel_angle(double x, double y) const {
+    return scale / std::sqrt(1 + (x * x + y * y) * scale * scale);
+  }
+};
+
+struct FisheyeView {
+  double scale;  // radians per pixel
+
+  CameraDirection direction(double x, double y) const {
+    const double r = std::sqrt(x * x + y * y);
+    const SineCosine theta = sin_cos(r * scale);
+    const double k = r > 1e-6 ? theta.sine / r : scale;
+    return {{x * k, y * k, theta.cosine}};
+  }
+  double pixel_angle(double, double) const { return scale; }
+};
+
+struct EquirectangularView {
+  double scale;  // radians per pixel
+
+  CameraDirection direction(double x, double y) const {
+    const SineCosine longitude = sin_cos(x * scale), latitude = sin_cos(-y * scale);
+    return {{longitude.sine * latitude.cosine, longitude.cosine * latitude.cosine, latitude.sine}};
+  }
+  double pixel_angle(double, double) const { return scale; }
+};
+
+// Positions in a picture, and what is found for them.
+struct Positions {
+  PixelPosition middle;
+  const double *i, *j;
+  int count;
+  CameraDirection* n;
+  double* angle;
 };
 
 template <class View>
-[[gnu::always_inline]] inline void find(const View& view, Middle middle, const double* i,
-                                        const double* j, int count, CameraDirection* n,
-                                        double* angle) {
+[[gnu::always_inline]] inline void find_loop(const View& view, const Positions& positions) {
   const View v = view;
-  for (int k = 0; k < count; ++k) {
-    const double x = i[k] - middle.i, y = j[k] - middle.j;
-    n[k] = v.direction(x, y);
-    angle[k] = v.pixel_angle(x, y);
+  const Positions p = positions;
+  for (int k = 0; k < p.count; ++k) {
+    const double x = p.i[k] - p.middle.i, y = p.j[k] - p.middle.j;
+    p.n[k] = v.direction(x, y);
+    p.angle[k] = v.pixel_angle(x, y);
   }
 }
+Dispatched<find_loop<DomemasterView>> find_on_dome;
+Dispatched<find_loop<StereographicView>> find_on_flat;
+Dispatched<find_loop<RectilinearView>> find_on_rectilinear;
+Dispatched<find_loop<FisheyeView>> find_on_fisheye;
+Dispatched<find_loop<EquirectangularView>> find_on_sphere;
 
-[[gnu::always_inline]] inline void find_on_dome_loop(const DomemasterView& view, Middle middle,
-                                                     const double* i, const double* j, int count,
-                                                     CameraDirection* n, double* angle) {
-  find(view, middle, i, j, count, n, angle);
-}
-Dispatched<find_on_dome_loop> find_on_dome;
+// Finds directions in the one picture or another.
+struct Finder {
+  Positions at;
 
-[[gnu::always_inline]] inline void find_on_flat_loop(const StereographicView& view, Middle middle,
-                                                     const double* i, const double* j, int count,
-                                                     CameraDirection* n, double* angle) {
-  find(view, middle, i, j, count, n, angle);
-}
-Dispatched<find_on_flat_loop> find_on_flat;
+  void operator()(const Domemaster& d) const { find_on_dome(DomemasterView(d), at); }
+  void operator()(const Stereographic& s) const { find_on_flat(StereographicView(s), at); }
+  void operator()(const Rectilinear& r) const {
+    find_on_rectilinear(RectilinearView{central_pixel_angle(r)}, at);
+  }
+  void operator()(const Fisheye& f) const {
+    find_on_fisheye(FisheyeView{central_pixel_angle(f)}, at);
+  }
+  void operator()(const Equirectangular& e) const {
+    find_on_sphere(EquirectangularView{central_pixel_angle(e)}, at);
+  }
+  // The renderer draws a cube face by face.
+  void operator()(const Cubemap& c) const {
+    for (int k = 0; k < at.count; ++k) {
+      at.n[k] = direction_at(c, {at.i[k], at.j[k]});
+      at.angle[k] = pixel_angle(c, {at.i[k], at.j[k]});
+    }
+  }
+};
 
 }  // namespace
 
 void find_directions(const Projection& projection, const double* i, const double* j, int count,
                      CameraDirection* n, double* angle) {
-  const Middle middle{(columns(projection) + 1) / 2.0, (rows(projection) + 1) / 2.0};
-  if (const auto* dome = std::get_if<Domemaster>(&projection))
-    find_on_dome(DomemasterView(*dome), middle, i, j, count, n, angle);
-  else
-    find_on_flat(StereographicView(std::get<Stereographic>(projection)), middle, i, j, count, n,
-                 angle);
+  PixelPosition middle{(columns(projection) + 1) / 2.0, (rows(projection) + 1) / 2.0};
+  if (std::holds_alternative<Fisheye>(projection)) middle = *pixel_of(projection, {{0, 0, 1}});
+  std::visit(Finder{{middle, i, j, count, n, angle}}, projection);
 }
 
 }  // namespace domefall

@@ -50,6 +50,8 @@ void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
+  // A rim across the seam of a whole sphere, or around a pole, is no closed curve in the picture.
+  if (std::holds_alternative<Equirectangular>(projection)) return;
   const ViewCircle& c = circles_.front();
   // A rim around the one direction without an image, -Z, has what it holds outside its image.
   if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;

@@ -36,14 +36,14 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-                       SkyMotion sky_motion)
+                       SkyMotion sky_motion, const Projection* whole)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
       optics(hole_optics),
       tracer(frame, hole_optics, show.effects),
       exposure(exposure_scale(frame.settings)),
-      point_spread(show.point_spread, frame.projection, exposure),
+      point_spread(show.point_spread, whole ? *whole : frame.projection, exposure),
       star_saturation(static_cast<float>(show.star_saturation)),
       least_star_radius(show.least_star_radius),
       motion(std::move(sky_motion)),

@@ -23,10 +23,11 @@ struct SkyMotion {
 
 struct FrameScene {
   // `skies` has null for a sky that the plan leaves out.  Everything that is passed, but for the
-  // plan, must outlive the scene.
+  // plan, must outlive the scene.  If the frame is a part of a picture, `whole` is the picture's
+  // projection, by which blobs have their widths.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-             SkyMotion sky_motion = {});
+             SkyMotion sky_motion = {}, const Projection* whole = nullptr);
 
   const FrameState& state;
   const Effects& effects;

@@ -21,10 +21,10 @@ constexpr double kFaintestHalo = 0.02;
 constexpr std::array<double, 3> kHaloSigma{1, 2.5, 6}, kHaloShare{0.5, 0.3, 0.2};
 
 // A law gives widths for a dome, whose frame is 180 degrees wide.  In a flat frame of another field
-// of view a blob takes the same part of the frame's width.
+// of view a blob takes the same part of the frame's width.  Around an audience it has the same
+// angle in every frame.
 double width_factor(const Projection& p) {
-  const auto* flat = std::get_if<Stereographic>(&p);
-  return flat ? flat->fov / pi : 1;
+  return has_zenith(p) ? 1 : field_of_view(p).value_or(pi) / pi;
 }
 
 // The light of an image's brightest channel for which the peak of a Gaussian with this share of it

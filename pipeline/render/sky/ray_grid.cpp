@@ -86,6 +86,12 @@ Dispatched<set_tolerances_loop> set_tolerances;
 
 void RayGrid::resize(const Projection& projection) {
   projection_ = projection;
+  circle_.reset();
+  if (std::holds_alternative<Domemaster>(projection) ||
+      std::holds_alternative<Fisheye>(projection)) {
+    const PixelPosition middle = *pixel_of(projection, {{0, 0, 1}});
+    circle_ = PixelPosition{middle.i - 1, middle.j - 1};
+  }
   cell_columns_ = (columns(projection) + kStep - 1) / kStep;
   cell_rows_ = (rows(projection) + kStep - 1) / kStep;
   node_columns_ = cell_columns_ + 1 + 2 * kMargin;
@@ -108,10 +114,11 @@ void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>
   for (const SkyRegion sky : kEverySky)
     if (shader.sampler(sky) && shader.sampler(sky)->map().kind() == SkyMapKind::kColour)
       tone_floor_ = kFaintGain;  // kTone holds gains then
-  special_.clear();
+  special_ = special;
+  special_pixels_.clear();
   for (const CameraDirection& n : special)
     if (const auto pixel = pixel_of(projection_, n))
-      special_.push_back({pixel->i - 1, pixel->j - 1});
+      special_pixels_.push_back({pixel->i - 1, pixel->j - 1});
   tbb::parallel_for(0, node_rows_, [this](int row) { trace_row(row); });
   tbb::parallel_for(kMargin, node_rows_ - kMargin, [this](int row) { check_row(row); });
   tbb::parallel_for(0, cell_rows_, [this](int row) { classify_row(row); });
@@ -218,18 +225,31 @@ bool RayGrid::is_smooth(int row, int column) const {
   for (int j = row + kMargin; j <= row + kMargin + 1; ++j)
     for (int i = column + kMargin; i <= column + kMargin + 1; ++i)
       if (!cubic_[at(j, i)] || !(edge_[at(j, i)] > kEdgeCells)) return false;
-  return std::none_of(special_.begin(), special_.end(), [&](const PixelPosition& p) {
+  return !is_near_special(row, column);
+}
+
+// On a picture with a seam, or with a point that is drawn out to a line, cells may lie near one
+// another on the sphere and far apart in the picture.  No pixel covers more than the central one.
+bool RayGrid::is_near_special(int row, int column) const {
+  if (has_zenith(projection_) && !std::holds_alternative<Domemaster>(projection_)) {
+    if (special_.empty()) return false;
+    const CameraDirection n = direction_at(projection_, {column * kStep + 1.0, row * kStep + 1.0});
+    const double reach = kSpecialCells * kStep * central_pixel_angle(projection_);
+    return std::any_of(special_.begin(), special_.end(),
+                       [&](const CameraDirection& s) { return (s.v - n.v).length() < reach; });
+  }
+  return std::any_of(special_pixels_.begin(), special_pixels_.end(), [&](const PixelPosition& p) {
     return std::hypot(p.i / kStep - column, p.j / kStep - row) < kSpecialCells;
   });
 }
 
 bool RayGrid::is_in_image(int row, int column) const {
-  if (!std::holds_alternative<Domemaster>(projection_)) return true;
-  const double middle = (columns(projection_) - 1) / 2.0, radius = columns(projection_) / 2.0;
-  const auto away = [middle](int cell) {
+  if (!circle_) return true;
+  const auto away = [](int cell, double middle) {
     return std::max({cell * kStep - middle, middle - (cell * kStep + kStep - 1), 0.0});
   };
-  const double x = away(column), y = away(row);
+  const double x = away(column, circle_->i), y = away(row, circle_->j);
+  const double radius = columns(projection_) / 2.0;
   return x * x + y * y <= radius * radius;
 }
 

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,7 @@ class RayGrid {
   void classify_row(int row);
   bool is_in_image(int row, int column) const;  // whether any pixel of a cell is
   bool is_smooth(int row, int column) const;
+  bool is_near_special(int row, int column) const;
   Cell classified(int row, int column) const;
   void choose_side(int cell_row, int cell, int count, SampleBatch& out) const;
   // The node above and to the left of a cell's first corner.
@@ -93,6 +95,7 @@ class RayGrid {
   }
 
   Projection projection_;
+  std::optional<PixelPosition> circle_;  // the middle of a fisheye's, in pixels counted from 0
   const PixelShader* shader_ = nullptr;
   int node_columns_ = 0, node_rows_ = 0, cell_columns_ = 0, cell_rows_ = 0;
   std::array<std::vector<float>, kQuantities> nodes_;
@@ -103,8 +106,9 @@ class RayGrid {
   std::vector<std::uint8_t> cubic_;    // whether the cubics are right at a node
   std::vector<SampleFilter> filters_;  // of a pixel at a node
   std::vector<Cell> cells_;
-  float tone_floor_ = 0;                // an error of kTone below this does not matter
-  std::vector<PixelPosition> special_;  // in pixels counted from 0
+  float tone_floor_ = 0;  // an error of kTone below this does not matter
+  std::vector<CameraDirection> special_;
+  std::vector<PixelPosition> special_pixels_;  // where they are seen, in pixels counted from 0
 };
 
 }  // namespace domefall

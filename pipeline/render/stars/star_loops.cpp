@@ -165,6 +165,24 @@ Dispatched<onto_plane_loop> onto_plane;
 }
 Dispatched<flag_loop> flag;
 
+// A view without an image becomes infinitely far, so that it is not listed.
+void onto_any(const Projection& projection, double least_z, int count, StarViews& views) {
+  for (int k = 0; k < count; ++k) {
+    const CameraDirection n{{views.x[k], views.y[k], views.z[k]}};
+    const auto pixel = n.v.z >= least_z ? pixel_of(projection, n) : std::nullopt;
+    views.i[k] = pixel ? pixel->i - 1 : -HUGE_VAL;
+    views.j[k] = pixel ? pixel->j - 1 : -HUGE_VAL;
+    if (!pixel) views.z[k] = -2;  // behind everything
+  }
+}
+
+// The largest angle from Z in a picture.
+double farthest_angle(const Projection& p) {
+  if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov / 2;
+  if (has_zenith(p)) return pi;
+  return std::acos(direction_at(p, {0.5, 0.5}).v.z);
+}
+
 // The number of pixels per radian in the middle of the frame.
 double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
 
@@ -191,33 +209,37 @@ void go_straight(const StarFrame& frame, const StarSources& sources, int count, 
 }
 
 StarPlane::StarPlane(const Projection& projection, double reach)
-    : dome_(std::holds_alternative<Domemaster>(projection)),
+    : projection_(projection),
       scale_(pixels_per_radian(projection)),
       middle_i_((columns(projection) - 1) / 2.0),
       middle_j_((rows(projection) - 1) / 2.0) {
-  if (dome_) {
+  half_i_ = half_j_ = HUGE_VAL;
+  if (std::holds_alternative<Domemaster>(projection)) {
     // The middle of a blob that reaches over the rim is no farther beyond it than `reach`.
     least_z_ = -std::sin(std::min(reach, pi / 2));
     usable_ = least_z_ >= kLeastCosine;
-    half_i_ = half_j_ = HUGE_VAL;
-    return;
+  } else if (std::holds_alternative<Stereographic>(projection)) {
+    // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin
+    // is that angle at the scale of the projection as far beyond a corner, which grows like
+    // 1/cos^2(theta/2).
+    scale_ *= 2;
+    const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
+    const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);
+    const double margin = reach * pixels_per_radian(projection) / (c * c) + 1;
+    half_i_ = middle_i_ + margin;
+    half_j_ = middle_j_ + margin;
+  } else {
+    least_z_ = std::cos(std::min(farthest_angle(projection) + reach, pi));
   }
-  // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin is
-  // that angle at the scale of the projection as far beyond a corner, which grows like
-  // 1/cos^2(theta/2).
-  scale_ *= 2;
-  const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
-  const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);
-  const double margin = reach * pixels_per_radian(projection) / (c * c) + 1;
-  half_i_ = middle_i_ + margin;
-  half_j_ = middle_j_ + margin;
 }
 
 int StarPlane::place(StarViews& views, int count, int* listed) const {
-  if (dome_)
+  if (std::holds_alternative<Domemaster>(projection_))
     onto_dome(scale_, middle_i_, count, views);
-  else
+  else if (std::holds_alternative<Stereographic>(projection_))
     onto_plane(scale_, middle_i_, middle_j_, count, views);
+  else
+    onto_any(projection_, least_z_, count, views);
   StarColumn<int> seen;
   flag(views, least_z_, middle_i_, middle_j_, half_i_, half_j_, count, seen.data());
   int number = 0;

@@ -68,7 +68,8 @@ void bend(const StarFrame& frame, const LensCurve& curve, double side, const Sta
 // Finds the images where light goes straight.
 void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
 
-// The projection of views to the frame's pixels.
+// The projection of views to the frame's pixels, by SIMD code on a Domemaster and a stereographic
+// picture.
 class StarPlane {
  public:
   // `reach` is the radius of the largest blob in radians.
@@ -81,7 +82,8 @@ class StarPlane {
   int place(StarViews& views, int count, int* listed) const;
 
  private:
-  bool dome_ = true, usable_ = true;
+  Projection projection_;
+  bool usable_ = true;
   double scale_ = 1;                    // pixels per radian, or per tan(theta/2) if not a dome
   double middle_i_ = 0, middle_j_ = 0;  // pixels
   double half_i_ = 0, half_j_ = 0;      // half the frame's sides with the margin, pixels

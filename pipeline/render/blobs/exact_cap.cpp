@@ -1,0 +1,296 @@
+#include "pipeline/render/blobs/exact_cap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/colour/colour_space.h"
+#include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/render/scene/point_spread.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/lanes.h"
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+CameraDirection middle_of(const CapBlob& b, const Projection& p) {
+  return direction_at(p, {b.x + 1.0, b.y + 1.0});
+}
+
+// On the sphere c^2/(2 sigma^2) = q covers 2 pi sigma^2 per unit, up to the point opposite.
+// Returns the integral of exp(-q) - cut.
+double integral_of_weight(double sigma, double cut) {
+  const double last = std::min(-logarithm(cut), 2 / (sigma * sigma));
+  return 2 * pi * sigma * sigma * (1 - exponential(-last) - cut * last);
+}
+
+double angular_reach(const CapBlob& b) {
+  const double chord = std::sqrt(-2 * logarithm(double{b.cut})) * b.sigma;
+  return 2 * std::asin(std::min(1.0, chord / 2));
+}
+
+// ---- the pixels that a blob may cover ----
+
+// The most pixels that an angle `reach` from a direction may be away, on a picture about Z; so many
+// that they are the whole picture where it might go around or to infinity.
+double farthest_pixels(const Projection& p, const CameraDirection& n, double reach) {
+  const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), far = theta + reach;
+  const double centre = 1 / central_pixel_angle(p);
+  constexpr double kAll = 1e9;
+  if (std::holds_alternative<Rectilinear>(p)) {
+    const double c = std::cos(std::min(far, pi / 2));
+    return c > 1e-4 ? reach * centre / (c * c) : kAll;
+  }
+  if (std::holds_alternative<Stereographic>(p)) {
+    const double c = std::cos(std::min(far, pi) / 2);
+    return c > 1e-4 ? reach * centre / (c * c) : kAll;
+  }
+  if (far < pi / 2) return reach * centre * far / std::sin(far);
+  // Far out the circle lies between two meridians, and between theta - reach and theta + reach.
+  const double ratio = std::sin(std::min(reach, pi / 2)) / std::sin(theta);
+  if (far >= pi || reach >= theta || ratio >= 1) return kAll;
+  return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
+}
+
+// The columns, from the middle of a blob, that it covers on a row of the whole sphere: all points at
+// the latitude within `reach` of the middle.  Their distance c has
+//     sin^2(c/2) = sin^2((lat - middle)/2) + cos(lat) cos(middle) sin^2(longitude/2).
+double half_width_at(double latitude, double middle, double reach, double per_radian) {
+  const double up = std::sin((latitude - middle) / 2), most = std::sin(reach / 2);
+  const double around = std::cos(latitude) * std::cos(middle);
+  const double left = most * most - up * up;
+  if (left < 0) return -1;
+  return left < around ? 2 * std::asin(std::sqrt(left / around)) * per_radian : pi * per_radian;
+}
+
+// Calls use(from, to) for the parts of a row that are within `reach` of a blob's distance from Z.
+// Far out on a fisheye a blob is long and bent, and covers little of the square about it.
+template <class Use>
+void each_span_of_ring(const CapBlob& b, const Projection& p, double reach, int row,
+                       const Use& use) {
+  constexpr double kAnywhere = 1e9, kNarrow = 2;
+  if (!std::holds_alternative<Fisheye>(p)) return use(-kAnywhere, kAnywhere);
+  const PixelPosition middle = *pixel_of(p, {{0, 0, 1}});
+  const double x = middle.i - 1, y = row - (middle.j - 1);
+  const double from_middle = std::hypot(b.x - x, b.y - (middle.j - 1));
+  const double half = reach / central_pixel_angle(p) + 1;
+  const auto along_row = [y](double r) { return r > std::abs(y) ? std::sqrt(r * r - y * y) : 0; };
+  const double outer = along_row(from_middle + half), inner = along_row(from_middle - half);
+  if (inner < kNarrow) return use(x - outer - 1, x + outer + 1);
+  use(x - outer - 1, x - inner + 1);
+  use(x + inner - 1, x + outer + 1);
+}
+
+// Calls use(first, last) for the columns of a row that a blob may cover, those of a sphere's seam
+// on both sides of it.
+template <class Use>
+void each_span(const CapBlob& b, const Projection& p, double reach, int row, const ColumnRange& in,
+               const Use& use) {
+  const auto clipped = [&](double from, double to) {
+    const int first = static_cast<int>(std::max(std::floor(from), double(in.first)));
+    const int last = static_cast<int>(std::min(std::ceil(to), double(in.last)));
+    if (first <= last) use(first, last);
+  };
+  if (!std::holds_alternative<Equirectangular>(p)) {
+    const double dy = row - double{b.y}, half2 = double{b.reach} * b.reach - dy * dy;
+    if (half2 < 0) return;
+    const double left = b.x - std::sqrt(half2), right = b.x + std::sqrt(half2);
+    each_span_of_ring(b, p, reach, row, [&](double from, double to) {
+      clipped(std::max(left, from), std::min(right, to));
+    });
+    return;
+  }
+  const double width = columns(p), per_radian = width / (2 * pi);
+  const auto latitude = [&](double y) { return (rows(p) - 1 - 2 * y) / (2 * per_radian); };
+  // Half a pixel more on each side, of which parts may be covered.
+  const double rim = 0.71 / per_radian;
+  const double half =
+      half_width_at(latitude(row), latitude(b.y), std::min(reach + rim, pi), per_radian) + 1;
+  if (half < 1) return;
+  if (2 * half >= width) return clipped(0, width - 1);
+  // The middle is within the picture, so that one copy of it on each side suffices.
+  for (const double shift : {-width, 0.0, width}) clipped(b.x + shift - half, b.x + shift + half);
+}
+
+// ---- drawing ----
+
+constexpr int kChunk = 32, kMostPoints = 3;
+
+// Gauss' points along a side of a pixel, from its middle, and their shares.  Their mean of a
+// Gaussian of width s (pixels) errs by 3/(4320 s^4) of its peak with two points, by
+// 15/(2016000 s^6) with three.
+struct Points {
+  std::size_t count;
+  std::array<double, kMostPoints> at, share;
+};
+const Points& points_for(double sigma_pixels) {
+  constexpr double kTwo = 0.28867513459481287, kThree = 0.3872983346207417;
+  static const Points one{1, {0}, {1}}, two{2, {-kTwo, kTwo}, {0.5, 0.5}},
+      three{3, {-kThree, 0, kThree}, {5.0 / 18, 8.0 / 18, 5.0 / 18}};
+  return sigma_pixels > 16 ? one : sigma_pixels > 2 ? two : three;
+}
+
+struct Weighing {
+  V3d middle;
+  double per_chord2;  // 1/(2 sigma^2)
+  float cut;
+};
+
+// Sets the weights of directions, less the cut.
+[[gnu::always_inline]] inline void weigh_loop(const Weighing& weighing, const CameraDirection* n,
+                                              int count, float* __restrict weight) {
+  const Weighing w = weighing;
+  for (int k = 0; k < count; ++k) {
+    const double x = n[k].v.x - w.middle.x, y = n[k].v.y - w.middle.y, z = n[k].v.z - w.middle.z;
+    const auto q = static_cast<float>((x * x + y * y + z * z) * w.per_chord2);
+    const float v = exponential_of_float(q < 80 ? -q : -80.0f) - w.cut;
+    weight[k] = v > 0 ? v : 0.0f;
+  }
+}
+Dispatched<weigh_loop> weigh;
+
+// Sets the solid angles of pixels at these directions, in some unit, on a whole sphere or, if
+// `fisheye`, at the places (x[k], y) from the middle of a circle, where they are `central`.
+[[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* x,
+                                                   double y, bool fisheye, double central,
+                                                   int count, float* __restrict area) {
+  for (int k = 0; k < count; ++k) {
+    const double aside = std::sqrt(n[k].v.x * n[k].v.x + n[k].v.y * n[k].v.y);
+    const double from_middle = fisheye ? std::sqrt(x[k] * x[k] + y * y) : 1.0;
+    const bool off = from_middle > 1e-3;
+    area[k] = static_cast<float>(off ? aside / (off ? from_middle : 1.0) : central);
+  }
+}
+Dispatched<find_areas_loop> find_areas;
+
+class ExactCap {
+ public:
+  ExactCap(const CapBlob& blob, const Projection& projection)
+      : projection_(projection),
+        points_(points_for(blob.sigma / central_pixel_angle(projection))),
+        weighing_{middle_of(blob, projection).v, 1 / (2 * double{blob.sigma} * blob.sigma),
+                  blob.cut},
+        middle_(pixel_of(projection, {{0, 0, 1}}).value_or(PixelPosition{0, 0})) {
+    const auto light =
+        static_cast<float>(luminance({blob.rgb[0], blob.rgb[1], blob.rgb[2]})) * blob.peak_per_flux;
+    // The bound keeps its square finite.
+    paling_ = std::min(1e9f, light * blob.paling);
+    for (std::size_t c = 0; c < 3; ++c) {
+      colour_[c] = blob.rgb[c] * blob.peak_per_flux;
+      pale_[c] = blob.paling > 0 ? light - colour_[c] : 0.0f;
+    }
+  }
+
+  // Adds the pixels from `first` to `last` of a row.
+  void add(int row, int first, int last, float* out) const {
+    for (int from = first; from <= last; from += kChunk) {
+      const int count = std::min(kChunk, last - from + 1);
+      Sums sums;
+      for (std::size_t line = 0; line < points_.count; ++line)
+        add_line(row, line, from, count, sums);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k, out += 3)
+        add_light(sums.light[k] / sums.area[k], out);
+    }
+  }
+
+ private:
+  // Of pixels, over their points: of the weight times the area for which a point stands, and of
+  // that area.  Both change within a pixel beside a pole.
+  struct Sums {
+    std::array<float, kChunk> light{}, area{};
+  };
+
+  // Adds one line of points through pixels.
+  void add_line(int row, std::size_t line, int from, int count, Sums& sums) const {
+    std::array<double, kChunk> i, j, x, angle;
+    std::array<CameraDirection, kChunk> n;
+    std::array<float, kChunk> weight, area;
+    area.fill(1);
+    j.fill(row + 1 + points_.at[line]);
+    const bool fisheye = std::holds_alternative<Fisheye>(projection_);
+    for (std::size_t m = 0; m < points_.count; ++m) {
+      for (int k = 0; k < count; ++k) {
+        i[static_cast<std::size_t>(k)] = from + k + 1 + points_.at[m];
+        x[static_cast<std::size_t>(k)] = i[static_cast<std::size_t>(k)] - middle_.i;
+      }
+      find_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
+      weigh(weighing_, n.data(), count, weight.data());
+      if (fisheye || std::holds_alternative<Equirectangular>(projection_))
+        find_areas(n.data(), x.data(), j[0] - middle_.j, fisheye, central_pixel_angle(projection_),
+                   count, area.data());
+      const auto share = static_cast<float>(points_.share[line] * points_.share[m]);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+        sums.light[k] += share * area[k] * weight[k];
+        sums.area[k] += share * area[k];
+      }
+    }
+  }
+
+  void add_light(float weight, float* out) const {
+    if (weight == 0) return;
+    const float bright = paling_ * weight, square = bright * bright;
+    const float pale = weight * (square / (1 + square));
+    for (std::size_t c = 0; c < 3; ++c) out[c] += colour_[c] * weight + pale_[c] * pale;
+  }
+
+  const Projection& projection_;
+  const Points& points_;
+  Weighing weighing_;
+  PixelPosition middle_;         // of a fisheye's circle
+  float paling_ = 0;             // half white where this times the weight is 1
+  std::array<float, 3> colour_;  // at the peak
+  std::array<float, 3> pale_;    // grey of the same luminance, less the colour
+};
+
+}  // namespace
+
+bool place_exact_cap(const Projection& projection, CapBlob& blob) {
+  blob.first_row = blob.first_column = 0;
+  blob.last_row = blob.last_column = -1;
+  const double sigma = blob.sigma, light = std::max({blob.rgb[0], blob.rgb[1], blob.rgb[2]});
+  const double whole = light / integral_of_weight(sigma, 0x1p-1000);
+  const double first = light / integral_of_weight(sigma, cut_of(whole));
+  blob.cut = static_cast<float>(cut_of(first));
+  blob.peak_per_flux = static_cast<float>(1 / integral_of_weight(sigma, double{blob.cut}));
+  const double width = columns(projection), height = rows(projection);
+  const CameraDirection n = middle_of(blob, projection);
+  const double reach = angular_reach(blob);
+  double across = 0, down = 0;
+  if (std::holds_alternative<Equirectangular>(projection)) {
+    // A circle's meridians touch it at asin(sin(reach)/cos(latitude)) from its middle.
+    const double ratio = std::sin(std::min(reach, pi / 2)) / std::hypot(n.v.x, n.v.y);
+    across = ratio < 1 ? std::asin(ratio) * width / (2 * pi) + 1 : width;
+    down = reach * width / (2 * pi) + 1;
+  } else {
+    across = down = farthest_pixels(projection, n, reach) + 1;
+  }
+  if (!(blob.x + across >= 0 && blob.y + down >= 0 && blob.x - across <= width - 1 &&
+        blob.y - down <= height - 1))
+    return false;
+  const auto within = [](double v, double last) {
+    return static_cast<int>(std::clamp(v, 0.0, last));
+  };
+  blob.reach = static_cast<float>(std::max(across, down));
+  blob.first_row = within(std::ceil(blob.y - down), height - 1);
+  blob.last_row = within(std::floor(blob.y + down), height - 1);
+  blob.first_column = within(std::ceil(blob.x - across), width - 1);
+  blob.last_column = within(std::floor(blob.x + across), width - 1);
+  return true;
+}
+
+void draw_exact_cap(const CapBlob& blob, const Projection& projection, const Canvas& canvas) {
+  const int first = std::max(blob.first_row, canvas.first_row);
+  const int last = std::min(blob.last_row, canvas.first_row + canvas.rows - 1);
+  if (first > last) return;
+  const ExactCap cap(blob, projection);
+  const double reach = angular_reach(blob);
+  for (int row = first; row <= last; ++row)
+    each_span(blob, projection, reach, row, canvas.columns[row - canvas.first_row],
+              [&](int left, int right) { cap.add(row, left, right, canvas.at(row, left)); });
+}
+
+}  // namespace domefall
