@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/render/overlay/seam.h"
+
 namespace domefall {
 namespace {
 
@@ -21,9 +23,11 @@ class OutlineBender {
   OutlineBender(TextPlace place, double pixels_of_radian)
       : place_(std::move(place)), pixels_of_radian_(pixels_of_radian) {}
 
-  void add(const LetteredText& text, Coverage& coverage) const {
+  // Calls use(polygon) for each outline that has an image.
+  template <class Use>
+  void each_polygon(const LetteredText& text, const Use& use) const {
     for (const TextOutline& outline : text.outlines)
-      if (const auto polygon = bent(outline)) coverage.add(*polygon);
+      if (const auto polygon = bent(outline)) use(*polygon);
   }
 
  private:
@@ -84,11 +88,14 @@ void add_text(const LetteredText& text, const TextSurface& surface, const TextPo
               const Projection& projection, Coverage& coverage) {
   const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
     const CameraDirection n = surface.direction({p.x + shift.x, p.y + shift.y});
-    const auto pixel = n.v.z > kBehind ? pixel_of(projection, n) : std::nullopt;
+    const bool seen = n.v.z > kBehind || std::holds_alternative<Equirectangular>(projection);
+    const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     return pixel ? std::optional(picture_point(*pixel)) : std::nullopt;
   };
   // A line may bend by as much as the edge of a dome does.
-  OutlineBender(place, std::max(columns(projection), rows(projection)) / 8.0).add(text, coverage);
+  OutlineBender(place, std::max(columns(projection), rows(projection)) / 8.0)
+      .each_polygon(
+          text, [&](const PicturePolygon& polygon) { add_unwound(polygon, projection, coverage); });
 }
 
 void add_flat_text(const LetteredText& text, const PicturePoint& middle, double capital,
@@ -96,7 +103,9 @@ void add_flat_text(const LetteredText& text, const PicturePoint& middle, double 
   const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
     return PicturePoint{middle.x + capital * p.x, middle.y - capital * p.y};
   };
-  OutlineBender(place, HUGE_VAL).add(text, coverage);
+  OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const PicturePolygon& polygon) {
+    coverage.add(polygon);
+  });
 }
 
 }  // namespace domefall

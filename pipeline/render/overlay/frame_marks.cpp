@@ -23,7 +23,10 @@ class Marks {
         coverage_(frame.width, frame.height) {}
 
   const Projection& projection() const { return projection_; }
-  bool dome() const { return std::holds_alternative<Domemaster>(projection_); }
+  bool dome() const {
+    return std::holds_alternative<Domemaster>(projection_) ||
+           std::holds_alternative<Fisheye>(projection_);
+  }
 
   void circle(const ViewCircle& circle) { add_circle(circle, width_, projection_, coverage_); }
 
@@ -54,7 +57,7 @@ class Marks {
 
   // A circle about the middle of a dome's picture, that many pixels from its edge.
   void circle_within(double pixels) {
-    const double angle = std::numbers::pi / 2 - pixels * central_pixel_angle(projection_);
+    const double angle = (columns(projection_) / 2.0 - pixels) * central_pixel_angle(projection_);
     circle({V3d(0, 0, 1), std::cos(angle), std::sin(angle)});
   }
 
@@ -93,7 +96,7 @@ void add_safe_area(Marks& marks) {
 }
 
 void add_sweet_spot(Marks& marks) {
-  if (!marks.dome()) return marks.box(kMiddleThird);
+  if (!has_zenith(marks.projection())) return marks.box(kMiddleThird);
   const double a = kSweetAzimuthDeg, low = kSweetLowestDeg, high = kSweetHighestDeg;
   marks.way({-a, low}, {a, low});
   marks.way({a, low}, {a, high});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/render/overlay/seam.h"
+
 namespace domefall {
 namespace {
 
@@ -24,6 +26,22 @@ PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double
   // 1/cos(t/2).
   const double scale = half * 2 / std::max(x * x + y * y, 1.0);
   return {x * scale, y * scale};
+}
+
+// Adds a line of points that were placed one by one.
+void add_run(std::vector<PicturePoint> run, bool closed, double width, const Projection& projection,
+             Coverage& coverage) {
+  unwind(projection, run);
+  // A closed line around a pole ends where it began, a width further on.
+  if (const double around = closed ? winding(projection, run) : 0; around != 0) {
+    run.push_back({run.front().x + around, run.front().y});
+    closed = false;
+  }
+  each_copy(projection, [&](double shift) {
+    std::vector<PicturePoint> copy = run;
+    for (PicturePoint& p : copy) p.x += shift;
+    add_stroke(copy, closed, width, coverage);
+  });
 }
 
 }  // namespace
@@ -61,16 +79,17 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
   bool whole = true;
   for (int k = 0; k < pieces + (closed ? 0 : 1); ++k) {
     const CameraDirection n{direction(static_cast<double>(k) / pieces)};
-    const auto pixel = n.v.z > kStrokeBehind ? pixel_of(projection, n) : std::nullopt;
+    const bool seen = n.v.z > kStrokeBehind || std::holds_alternative<Equirectangular>(projection);
+    const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     if (pixel) {
       run.push_back(picture_point(*pixel));
       continue;
     }
     whole = false;
-    add_stroke(run, false, width, coverage);
+    add_run(run, false, width, projection, coverage);
     run.clear();
   }
-  add_stroke(run, closed && whole, width, coverage);
+  add_run(run, closed && whole, width, projection, coverage);
 }
 
 void add_circle(const ViewCircle& circle, double width, const Projection& projection,
