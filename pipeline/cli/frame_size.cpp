@@ -1,10 +1,13 @@
 #include "pipeline/cli/frame_size.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <string_view>
 
 #include "pipeline/image/errors.h"
+#include "projections/picture_size.h"
 
 namespace domefall {
 namespace {
@@ -20,30 +23,47 @@ int whole_number(std::string_view text) {
 
 bool in_range(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
+Projection with_sides(const Projection& projection, const std::string& size) {
+  const std::size_t cross = std::min(size.find('x'), size.size());
+  const int width = whole_number(std::string_view(size).substr(0, cross));
+  const int height = whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
+  if (!in_range(width) || !in_range(height))
+    throw InputError("--size " + size +
+                     ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
+  if (std::holds_alternative<Fisheye>(projection) && height > width)
+    throw InputError("--size " + size + ": a fisheye is at most as high as wide");
+  return with_sides(projection, width, height);
+}
+
 }  // namespace
 
 Projection resized(const Projection& projection, const std::string& size) {
   if (size.empty()) return projection;
-  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
-    const std::size_t cross = std::min(size.find('x'), size.size());
-    const int width = whole_number(std::string_view(size).substr(0, cross));
-    const int height =
-        whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
-    if (!in_range(width) || !in_range(height))
-      throw InputError("--size " + size +
-                       ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
-    return Stereographic{width, height, flat->fov};
-  }
+  const bool fisheye = std::holds_alternative<Fisheye>(projection);
+  if (has_free_shape(projection) && (!fisheye || size.find('x') != std::string::npos))
+    return with_sides(projection, size);
+  const bool sphere = std::holds_alternative<Equirectangular>(projection);
+  const bool cube = std::holds_alternative<Cubemap>(projection);
   int pixels = whole_number(size);
   if (size.ends_with('k')) {
     const int thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
     if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
       pixels = thousands * 1024;
   }
-  if (!in_range(pixels))
-    throw InputError("--size " + size +
-                     ": a dome takes 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384");
-  return Domemaster{pixels};
+  if (cube) {
+    if (!in_range(pixels) || 3 * pixels > kLargest)
+      throw InputError(
+          fmt::format("--size {}: the faces of a cubemap take 1k, 2k, 4k or a number "
+                      "of pixels from {} to {}",
+                      size, kSmallest, kLargest / 3));
+    return Cubemap{pixels};
+  }
+  if (!in_range(pixels) || (sphere && pixels % 2 != 0))
+    throw InputError(fmt::format("--size {}: {} takes 1k, 2k, 4k, 8k or {} from {} to {}", size,
+                                 sphere ? "the width of a whole sphere" : "a dome",
+                                 sphere ? "an even number of pixels" : "a number of pixels",
+                                 kSmallest, kLargest));
+  return with_width(projection, pixels);
 }
 
 }  // namespace domefall

@@ -7,9 +7,9 @@
 
 namespace domefall {
 
-// A projection with the size that --size gives: 1k, 2k, 4k, 8k or pixels for a dome, and
-// WIDTHxHEIGHT for a flat image.  An empty text leaves it as it is.  Throws InputError for any
-// other text.
+// A projection with the size that --size gives: 1k, 2k, 4k, 8k or pixels for the width of a dome
+// or of a whole sphere and for the faces of a cubemap, and WIDTHxHEIGHT for a flat image or a part
+// of a fisheye.  An empty text leaves it as it is.  Throws InputError for any other text.
 Projection resized(const Projection& projection, const std::string& size);
 
 }  // namespace domefall

@@ -1,5 +1,7 @@
 #include "pipeline/cli/overlay_option.h"
 
+#include <algorithm>
+
 #include "pipeline/image/errors.h"
 
 namespace domefall {
@@ -22,6 +24,12 @@ void overlay(Show& show, const std::string& names) {
   } catch (const InputError& error) {
     throw InputError("--overlay " + names + ": " + error.what());
   }
+  const bool flat = std::ranges::all_of(
+      show.overlays, [](OverlayKind kind) { return kind == OverlayKind::kBurnIn; });
+  if (std::holds_alternative<Cubemap>(show.projection) && !flat)
+    throw InputError("--overlay " + names +
+                     ": only burn-in can be drawn on a cubemap, whose faces would cut the others; "
+                     "look at them in another projection");
   show.title += " (overlay " + overlay_names(show.overlays) + ")";
 }
 

@@ -17,6 +17,7 @@
 #include "pipeline/movie/burn_in.h"
 #include "pipeline/render/thread_limit.h"
 #include "pipeline/show/read_show.h"
+#include "projections/picture_size.h"
 
 namespace domefall {
 namespace {
@@ -44,9 +45,8 @@ Projection fitted(const Projection& projection, const MoviePreset& preset) {
   const MovieSize frames = size_of(projection);
   if (frames.width <= preset.most_width && frames.height <= preset.most_height) return projection;
   const MovieSize size = movie_size(preset, frames);
-  if (const auto* flat = std::get_if<Stereographic>(&projection))
-    return Stereographic{size.width, size.height, flat->fov};
-  return Domemaster{size.width};
+  return has_free_shape(projection) ? with_sides(projection, size.width, size.height)
+                                    : with_width(projection, size.width);
 }
 
 std::vector<int> chosen_frames(const Options& o, const Show& show) {

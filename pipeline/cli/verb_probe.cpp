@@ -47,10 +47,10 @@ void probe(const Options& o) {
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
   const ViewRay ray =
-      ViewTracer(state, optics, show.effects).trace(direction_at(show.projection, pixel));
+      ViewTracer(state, optics, show.effects).trace(direction_at(state.projection, pixel));
   std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
               state.observer.r);
-  if (!is_inside(show.projection, pixel)) std::puts("pixel        outside the dome");
+  if (!is_inside(state.projection, pixel)) std::puts("pixel        outside the dome");
   const Equatorial at = equatorial({ray.sky_direction});
   const bool singularity = ray.sky == SkyRegion::kIV;
   std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
@@ -60,7 +60,7 @@ void probe(const Options& o) {
   std::printf("compression  %.6g towards the hole, %.6g across\n", ray.radial_scale,
               ray.tangential_scale);
   if (!singularity && show.effects != Effects{})
-    print_effects(show.effects, ray, pixel_angle(show.projection, pixel));
+    print_effects(show.effects, ray, pixel_angle(state.projection, pixel));
 }
 
 }  // namespace

@@ -28,7 +28,11 @@ const char* kind_of(const GradedFormat& format) {
   return "JPEG";
 }
 
-bool is_dome(const Delivery& d) { return std::holds_alternative<Domemaster>(d.projection); }
+// Whether the audience's front is at the bottom of the pictures.
+bool has_front_below(const Delivery& d) {
+  return std::holds_alternative<Domemaster>(d.projection) ||
+         std::holds_alternative<Fisheye>(d.projection);
+}
 
 std::string transfer_of(const DisplayColour& colour) {
   return colour.curve == DisplayColour::Curve::kSrgb
@@ -115,7 +119,7 @@ std::string metadata_text(const Delivery& d) {
       {"width", columns(d.projection)},
       {"height", rows(d.projection)},
       {"projection", projection_name(d.projection)},
-      {"front", is_dome(d) ? Json("bottom") : Json()},
+      {"front", has_front_below(d) ? Json("bottom") : Json()},
       {"dimensions", "2D"},
       {"image",
        {{"kind", kind_of(d.format)},

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "pipeline/deliver/delivery.h"
 #include "trajectories/short_number.h"
@@ -8,8 +9,46 @@
 namespace domefall {
 namespace {
 
+constexpr const char* kDomeOrientation =
+    "  Orientation    BOTTOM of the picture = FRONT of the dome. Left and right are those\n"
+    "                 of the audience: nothing is mirrored.\n";
+
+// What is on the pictures, in lines below the word Projection.
+std::string projection_text(const Projection& p) {
+  struct Text {
+    std::string operator()(const Domemaster&) const {
+      return "  Projection     Domemaster: equidistant azimuthal fisheye of 180 degrees. The "
+             "circle\n"
+             "                 touches the edges of the square; the corners are black.\n" +
+             std::string(kDomeOrientation);
+    }
+    std::string operator()(const Fisheye& f) const {
+      return fmt::format(
+                 "  Projection     equidistant azimuthal fisheye of {} degrees. The circle "
+                 "touches\n"
+                 "                 the left and right edges; what is beside it is black.\n",
+                 short_number(f.fov * 180 / std::numbers::pi)) +
+             std::string(kDomeOrientation);
+    }
+    std::string operator()(const Equirectangular&) const {
+      return "  Projection     the whole sphere by longitude and latitude (equirectangular)\n"
+             "  Orientation    the front is in the middle, the zenith at the top edge\n";
+    }
+    std::string operator()(const Cubemap&) const {
+      return "  Projection     the whole sphere on the faces of a cube, three by two:\n"
+             "                 right, left, up; down, front, back\n";
+    }
+    std::string operator()(const Stereographic&) const {
+      return "  Projection     a flat picture (stereographic)\n";
+    }
+    std::string operator()(const Rectilinear&) const {
+      return "  Projection     a flat picture (rectilinear)\n";
+    }
+  };
+  return std::visit(Text(), p);
+}
+
 std::string pictures_text(const Delivery& d) {
-  const bool dome = std::holds_alternative<Domemaster>(d.projection);
   std::string text = fmt::format(
       "PICTURES\n"
       "  frames/        {} frames, {} to {}\n"
@@ -20,14 +59,7 @@ std::string pictures_text(const Delivery& d) {
       columns(d.projection), rows(d.projection), bits_of(d.format), 3 * bits_of(d.format));
   if (d.names.count() > kMostDeliveredInFolder)
     text += "                 10,000 frames to a folder, which is named after its first and last\n";
-  text +=
-      dome
-          ? "  Projection     Domemaster: equidistant azimuthal fisheye of 180 degrees. The "
-            "circle\n"
-            "                 touches the edges of the square; the corners are black.\n"
-            "  Orientation    BOTTOM of the picture = FRONT of the dome. Left and right are those\n"
-            "                 of the audience: nothing is mirrored.\n"
-          : "  Projection     a flat picture (stereographic)\n";
+  text += projection_text(d.projection);
   return text;
 }
 

@@ -109,7 +109,7 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects) {
   const auto target = target_direction(camera.attitude, observer, effects);
-  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const bool dome = has_zenith(projection);
   if (!target) {
     const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));
     return dome ? tilted(axes, camera.dome_tilt) : axes;
@@ -126,8 +126,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
 }
 
 M33d audience_axes(const Projection& projection, double dome_tilt) {
-  if (!std::holds_alternative<Domemaster>(projection))
-    return from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+  if (!has_zenith(projection)) return from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
   // What stood at elevation e of the front stands at e + dome_tilt.
   const double c = std::cos(dome_tilt), s = std::sin(dome_tilt);
   return from_columns({1, 0, 0}, {0, c, s}, {0, -s, c});

@@ -10,9 +10,9 @@
 namespace domefall {
 
 // The camera axes X, Y and Z, as columns in the boosted tetrad, for an observer that is otherwise
-// complete.  A flat projection puts the target in the middle of the image; a Domemaster puts it
-// `elevation` above the front of the rim.  Without aberration the tetrad is that of the observer at
-// rest (vantage.h).
+// complete.  A flat projection puts the target in the middle of the image; one with a zenith puts
+// it `elevation` above the front of the rim.  Without aberration the tetrad is that of the observer
+// at rest (vantage.h).
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects = {});
 

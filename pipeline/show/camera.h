@@ -25,9 +25,10 @@ struct Camera {
   Attitude attitude = LookAtHole{};
   // Radians about the line of sight, clockwise on the image.  Euler angles do not use it.
   double roll = 0;
-  // Radians above the dome's front rim at which a target stands.  Only a Domemaster uses it.
+  // Radians above the dome's front rim at which a target stands.  Only pictures with a zenith use
+  // it.
   double elevation = 0;
-  // Radians by which the theatre's dome leans towards the front.  The image of a Domemaster is
+  // Radians by which the theatre's dome leans towards the front.  A picture with a zenith is
   // turned so that what stood at elevation e stands at e + dome_tilt.
   double dome_tilt = 0;
 };

@@ -1,61 +1,20 @@
 #include "pipeline/show/camera_section.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/projection_section.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDomeElevationDeg = 45, kFovDeg = 90;
-constexpr int kFewestPixels = 16, kMostPixels = 16384;
-constexpr Range kPixels = Range{"pixels"}.within(kFewestPixels, kMostPixels);
-constexpr std::array<std::string_view, 4> kSizeNames{"1k", "2k", "4k", "8k"};
+constexpr double kDomeElevationDeg = 45;
 
-Domemaster read_dome(const Item* size) {
-  Domemaster dome{4096};
-  if (!size) return dome;
-  if (!size->node.IsScalar()) {
-    size->fail("must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got " +
-               kind_of(*size));
-    return dome;
-  }
-  for (std::size_t k = 0; k < kSizeNames.size(); ++k)
-    if (size->node.Scalar() == kSizeNames[k]) return {1024 << k};
-  // For a word, and for '3k', the message names the sizes; for a number it names the bounds.
-  if (size->node.Scalar().find_first_not_of("+-.0123456789") != std::string::npos)
-    size->fail("must be 1k, 2k, 4k, 8k or a number of pixels from 16 to 16384, got '" +
-               shown(size->node.Scalar()) + "'" + did_you_mean(size->node.Scalar(), kSizeNames));
-  else
-    dome.size = read_whole_number(*size, kPixels).value_or(dome.size);
-  return dome;
-}
-
-Stereographic read_flat(const Item* size) {
-  Stereographic flat{1920, 1080, radians(kFovDeg)};
-  if (!size) return flat;
-  if (!size->node.IsSequence() || size->node.size() != 2) {
-    size->fail("must be [width, height] in pixels (this projection is flat), got " +
-               kind_of(*size));
-    return flat;
-  }
-  const std::vector<Item> sides = *read_list(*size);
-  flat.columns = read_whole_number(sides[0], kPixels).value_or(flat.columns);
-  flat.rows = read_whole_number(sides[1], kPixels).value_or(flat.rows);
-  return flat;
-}
-
-Projection read_projection(const Section& show, const Section& camera) {
-  const Item* size = show.find("size");
-  const bool flat =
-      camera.word<bool>("projection", {{"domemaster", false}, {"stereographic", true}})
-          .value_or(false);
-  if (flat) return read_flat(size);
-  return read_dome(size);
-}
-
-constexpr std::array<std::string_view, 7> kKeys{
-    "projection", "fov_deg", "look_at", "euler_deg", "roll_deg", "elevation_deg", "dome_tilt_deg"};
+constexpr std::array<std::string_view, 8> kKeys{"projection",    "cut",          "fov_deg",
+                                                "look_at",       "euler_deg",    "roll_deg",
+                                                "elevation_deg", "dome_tilt_deg"};
 
 // Reads {keyframe: NAME}: the attitude of a keyframe that bears the name.
 std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
@@ -106,13 +65,17 @@ CameraKeys read_keys(const Section& camera, const Projection& projection, const 
   keys.values[Channel::kRoll] = read_angle(camera, "roll_deg", kDegrees.within(-3600, 3600));
   keys.values[Channel::kElevation] = read_angle(camera, "elevation_deg", kDegrees.within(-90, 90));
   keys.values[Channel::kDomeTilt] = read_angle(camera, "dome_tilt_deg", kDegrees.within(-90, 90));
-  keys.values[Channel::kFov] = read_angle(camera, "fov_deg", kDegrees.above(0).below(360));
-  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const bool zenith = has_zenith(projection);
   for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
-    if (const Item* item = camera.find(key); item && !dome)
+    if (const Item* item = camera.find(key); item && !zenith)
       item->fail("is for domes; this projection is flat");
-  if (const Item* fov = camera.find("fov_deg"); fov && dome)
-    fov->fail("goes with the stereographic projection only; a domemaster shows 180 degrees");
+  if (const auto range = fov_range(projection))
+    keys.values[Channel::kFov] = read_angle(camera, "fov_deg", *range);
+  else if (const Item* fov = camera.find("fov_deg"))
+    fov->fail(fmt::format(
+        "goes with the projections fisheye, stereographic and rectilinear; {} {} shows {} degrees",
+        std::holds_alternative<Equirectangular>(projection) ? "an" : "a",
+        projection_name(projection), std::holds_alternative<Domemaster>(projection) ? 180 : 360));
   return keys;
 }
 
@@ -123,8 +86,9 @@ bool is_euler(const std::optional<Attitude>& attitude) {
 // Reads a camera other than the show's own, which alone gives the projection.
 CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup& lookup) {
   const Section camera(item, kKeys);
-  if (const Item* fixed = camera.find("projection"))
-    fixed->fail("holds for the whole show; it belongs in the show's own camera section");
+  for (const std::string_view key : {"projection", "cut"})
+    if (const Item* fixed = camera.find(key))
+      fixed->fail("holds for the whole show; it belongs in the show's own camera section");
   CameraKeys own = read_keys(camera, show.projection, show.named, lookup);
   if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
@@ -149,8 +113,8 @@ ShowCamera read_show_camera(const Section& show, Lookup& lookup) {
   ShowCamera result;
   result.projection = read_projection(show, camera);
   result.keys = read_keys(camera, result.projection, result.named, lookup);
-  if (auto* flat = std::get_if<Stereographic>(&result.projection))
-    flat->fov = result.keys.values[Channel::kFov].value_or(flat->fov);
+  if (const auto fov = result.keys.values[Channel::kFov])
+    result.projection = with_field_of_view(result.projection, *fov);
   if (const Item* cameras = show.find("cameras")) read_named_cameras(*cameras, result, lookup);
   return result;
 }
@@ -178,12 +142,11 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
 
 // Euler angles do not use an elevation, but a keyframe may turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
-  const bool dome = std::holds_alternative<Domemaster>(projection);
   Camera camera;
   camera.attitude = keys.attitude.value_or(LookAtHole{});
   camera.roll = keys.values[Channel::kRoll].value_or(0);
-  camera.elevation =
-      keys.values[Channel::kElevation].value_or(dome ? radians(kDomeElevationDeg) : 0);
+  camera.elevation = keys.values[Channel::kElevation].value_or(
+      has_zenith(projection) ? radians(kDomeElevationDeg) : 0);
   camera.dome_tilt = keys.values[Channel::kDomeTilt].value_or(0);
   return camera;
 }

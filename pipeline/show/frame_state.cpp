@@ -63,8 +63,8 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   state.show_time_s = t;
   state.segment = segment;
   state.projection = show.projection;
-  if (auto* flat = std::get_if<Stereographic>(&state.projection))
-    flat->fov = value_at(s, Channel::kFov, t, flat->fov);
+  if (const auto fov = field_of_view(state.projection))
+    state.projection = with_field_of_view(state.projection, value_at(s, Channel::kFov, t, *fov));
   state.settings = settings_at(show, s, t);
   state.cdl = cdl_at(show, s, t);
   state.fade = fade_at(show, segment, t);
@@ -137,11 +137,8 @@ V3d sky_turn(const Show& show, const FrameState& state) {
 }
 
 void take_size(const FrameState& state, FrameState& other) {
-  const auto* flat = std::get_if<Stereographic>(&other.projection);
-  const std::optional<double> fov = flat ? std::optional(flat->fov) : std::nullopt;
-  other.projection = state.projection;
-  if (auto* sized = std::get_if<Stereographic>(&other.projection))
-    sized->fov = fov.value_or(sized->fov);
+  const auto fov = field_of_view(other.projection);
+  other.projection = fov ? with_field_of_view(state.projection, *fov) : state.projection;
   if (!other.vanishing) return;
   auto vanishing = std::make_shared<FrameState>(*other.vanishing);
   take_size(state, *vanishing);

@@ -32,7 +32,9 @@ DomeSettings read_dome(const Section& show, const Projection& projection) {
           .value_or(kNone);
   dome.reflectance = s.number("reflectance", kPureNumber.within(0, 1), dome.reflectance);
   if (dome.light != kNone && !std::holds_alternative<Domemaster>(projection))
-    s.find("light")->fail("is for domes; this projection is flat");
+    s.find("light")->fail(has_zenith(projection)
+                              ? "is for a whole half sphere, which the projection domemaster shows"
+                              : "is for domes; this projection is flat");
   return dome;
 }
 

@@ -118,8 +118,7 @@ class TimelineReader {
     values[Channel::kRoll] = camera.roll;
     values[Channel::kElevation] = camera.elevation;
     values[Channel::kDomeTilt] = camera.dome_tilt;
-    if (const auto* flat = std::get_if<Stereographic>(&show_.projection))
-      values[Channel::kFov] = flat->fov;
+    values[Channel::kFov] = field_of_view(show_.projection).value_or(0);
     values[Channel::kEv] = show_.exposure.ev;
     const Cdl& cdl = show_.grade.cdl;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -30,7 +30,7 @@ void read_words(const Section& s, Title& title) {
 }
 
 void read_title_place(const Section& s, const Projection& projection, Title& title) {
-  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const bool dome = has_zenith(projection);
   title.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-360, 360), 0));
   title.elevation =
       radians(s.number("elevation_deg", kDegrees.within(-90, 90), dome ? kDomeElevationDeg : 0));
@@ -86,6 +86,12 @@ std::vector<Title> read_titles(const Section& section, const TitleSpan& span, co
   const Item* list = section.find("titles");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return titles;
+  if (std::holds_alternative<Cubemap>(show.projection)) {
+    list->fail(
+        "cannot be drawn on a cubemap, whose faces would cut them; an equirectangular picture "
+        "shows them");
+    return titles;
+  }
   titles.reserve(items->size());
   for (const Item& item : *items) titles.push_back(read_title(item, span, show));
   return titles;

@@ -1,18 +1,16 @@
 #include "pipeline/survey/reduced_frame.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "projections/picture_size.h"
 
 namespace domefall {
 
 Projection reduced(const Projection& projection, int width) {
   constexpr int kLeastRows = 16;
-  if (const auto* flat = std::get_if<Stereographic>(&projection)) {
-    const double height = static_cast<double>(width) * flat->rows / flat->columns;
-    return Stereographic{width, std::max(kLeastRows, static_cast<int>(std::lround(height))),
-                         flat->fov};
-  }
-  return Domemaster{width};
+  const Projection small = with_width(projection, width);
+  if (!has_free_shape(small)) return small;
+  return with_sides(small, width, std::max(kLeastRows, rows(small)));
 }
 
 FrameState reduced(FrameState state, int width) {

@@ -73,6 +73,19 @@ TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
   EXPECT_DOUBLE_EQ(std::get<Stereographic>(frame_state(s, 2).projection).fov, 30 * kDegree);
 }
 
+TEST_F(Keyframes, OpeningAnglesOfEachKindChange) {
+  for (const char* projection : {"rectilinear", "fisheye"}) {
+    const Show s = show(
+        "frames_per_second: 1\nsize: [32, 32]\ncamera: {projection: " + std::string(projection) +
+        ", fov_deg: 90}\n"
+        "keyframes: [{at_s: 2, camera: {fov_deg: 30}}]\n"
+        "timeline:\n"
+        "  - {duration_s: 3, trajectory: {type: static, r: 9}}\n");
+    EXPECT_NEAR(field_of_view(frame_state(s, 1).projection).value(), 60 * kDegree, 1e-15);
+    EXPECT_NEAR(field_of_view(frame_state(s, 2).projection).value(), 30 * kDegree, 1e-15);
+  }
+}
+
 TEST_F(Keyframes, TheCdlChangesWithSegmentsAndKeyframes) {
   const Show s = show(
       "frames_per_second: 1\n"

@@ -70,8 +70,8 @@ TEST_F(ShowErrorsInKeyframes, AreToldWithTheirPlace) {
       {"FieldOfViewOfADome",
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\nkeyframes: [{at_s: "
                "1, camera: {fov_deg: 40}}]\n",
-       "3:41: keyframes[1].camera.fov_deg goes with the stereographic projection only; a "
-       "domemaster shows 180 degrees"},
+       "3:41: keyframes[1].camera.fov_deg goes with the projections fisheye, stereographic and "
+       "rectilinear; a domemaster shows 180 degrees"},
       {"SkyOfASegment",
        kHole + "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, sky: {region_I: "
                "{epoch: 2100}}}]\n",

@@ -29,6 +29,29 @@ TEST_F(ShowErrorsInPictures, FrameRateSizeAndHole) {
        kShow + "size: 4k\n"
                "camera: {projection: stereographic}\n",
        "3:7: size must be [width, height] in pixels (this projection is flat), got '4k'"},
+      {"FisheyeTooHigh",
+       kShow + "size: [100, 101]\n"
+               "camera: {projection: fisheye}\n",
+       "3:7: size must be at most as high as wide (the circle of a fisheye touches both sides), "
+       "got [100, 101]"},
+      {"OddSphere",
+       kShow + "size: 101\n"
+               "camera: {projection: equirectangular}\n",
+       "3:7: size must be even (a whole sphere is half as high as wide), got 101"},
+      {"CubeTooLarge",
+       kShow + "size: 5462\n"
+               "camera: {projection: cubemap}\n",
+       "3:7: size must be at most 5461 (pixels), got 5462"},
+      {"CubeOfEightK",
+       kShow + "size: 8k\n"
+               "camera: {projection: cubemap}\n",
+       "3:7: size must be at most 5461 (pixels; the edge of a face, of which three make the "
+       "width), got 8k"},
+      {"TitleOnACube",
+       kShow + "camera: {projection: cubemap}\n"
+               "titles: [{text: Hello}]\n",
+       "4:9: titles cannot be drawn on a cubemap, whose faces would cut them; an equirectangular "
+       "picture shows them"},
       {"NegativeMass",
        "black_hole: {mass_solar: -1}\n"
        "timeline: [{duration_s: 1, trajectory: {type: static, r: 9}}]\n",
@@ -54,8 +77,22 @@ TEST_F(ShowErrorsInPictures, FrameRateSizeAndHole) {
 TEST_F(ShowErrorsInPictures, Cameras) {
   expect_complaints({
       {"FovOnADome", kShow + "camera: {fov_deg: 90}\n",
-       "3:19: camera.fov_deg goes with the stereographic projection only; a domemaster shows 180 "
-       "degrees"},
+       "3:19: camera.fov_deg goes with the projections fisheye, stereographic and rectilinear; a "
+       "domemaster shows 180 degrees"},
+      {"FovOnASphere", kShow + "camera: {projection: equirectangular, fov_deg: 90}\n",
+       "3:48: camera.fov_deg goes with the projections fisheye, stereographic and rectilinear; an "
+       "equirectangular shows 360 degrees"},
+      {"FovOfAFisheyeTooWide", kShow + "camera: {projection: fisheye, fov_deg: 361}\n",
+       "3:40: camera.fov_deg must be at most 360 (degrees), got 361"},
+      {"FovOfARectilinearTooWide", kShow + "camera: {projection: rectilinear, fov_deg: 171}\n",
+       "3:44: camera.fov_deg must be at most 170 (degrees), got 171"},
+      {"ElevationOnARectilinear", kShow + "camera: {projection: rectilinear, elevation_deg: 3}\n",
+       "3:50: camera.elevation_deg is for domes; this projection is flat"},
+      {"CutOfASquare", kShow + "camera: {projection: fisheye, cut: back}\n",
+       "3:36: camera.cut is for a size of [width, height] that is lower than wide; this one is a "
+       "square"},
+      {"CutOfADome", kShow + "camera: {cut: back}\n",
+       "3:15: camera.cut goes with the fisheye projection only"},
       {"FovTooWide", kShow + "camera: {projection: stereographic, fov_deg: 360}\n",
        "3:46: camera.fov_deg must stay below 360 (degrees), got 360"},
       {"ElevationOnAFlatPicture", kShow + "camera: {projection: stereographic, elevation_deg: 3}\n",
@@ -223,6 +260,9 @@ TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
       {"DomeLightOnAFlatPicture",
        kShow + "camera: {projection: stereographic}\ndome: {light: simulate}\n",
        "4:15: dome.light is for domes; this projection is flat"},
+      {"DomeLightOfASphere",
+       kShow + "camera: {projection: equirectangular}\ndome: {light: simulate}\n",
+       "4:15: dome.light is for a whole half sphere, which the projection domemaster shows"},
       {"DomeLightUnknown", kShow + "dome: {light: on}\n",
        "3:15: dome.light must be none, simulate or compensate, got 'on'"},
       {"MoreThanAllReflected", kShow + "dome: {light: simulate, reflectance: 1.1}\n",

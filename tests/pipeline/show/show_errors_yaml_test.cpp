@@ -62,7 +62,8 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
        "3:5: timeline[1].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
        "bound, infall, thrown, kruskal, path, velocity or continue"},
       {"MergeKey", kShow + "camera: {<<: {look_at: hole}}\n",
-       "3:10: camera.<< is an unknown key; known here: projection, fov_deg, look_at, euler_deg, "
+       "3:10: camera.<< is an unknown key; known here: projection, cut, fov_deg, look_at, "
+       "euler_deg, "
        "roll_deg, elevation_deg or dome_tilt_deg"},
       {"TaggedValue", kShow + "title: !!str a\n",
        "3:8: title bears the YAML tag 'tag:yaml.org,2002:str'; shows use none"},
@@ -101,7 +102,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
        "3:1: size must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got "
        "nothing"},
       {"EmptySection", kShow + "camera:\n",
-       "3:1: camera must be a map of keys (projection, fov_deg, look_at, euler_deg, roll_deg, "
+       "3:1: camera must be a map of keys (projection, cut, fov_deg, look_at, euler_deg, roll_deg, "
        "elevation_deg or dome_tilt_deg), got nothing"},
       {"NullValue", kShow + "title: ~\n", "3:1: title must be text, got nothing"},
   });

@@ -1,0 +1,150 @@
+#include "pipeline/show/projection_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/show/lookup.h"
+#include "pipeline/show/nearest_word.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kFlatFovDeg = 90, kDomeFovDeg = 180;
+// A flat picture without distortion stretches its edges beyond use long before 180 degrees.
+constexpr double kWidestRectilinearDeg = 170;
+constexpr int kFewestPixels = 16, kMostPixels = 16384;
+constexpr Range kPixels = Range{"pixels"}.within(kFewestPixels, kMostPixels);
+constexpr std::array<std::string_view, 4> kSizeNames{"1k", "2k", "4k", "8k"};
+
+enum class PictureKind {
+  kDomemaster,
+  kFisheye,
+  kEquirectangular,
+  kCubemap,
+  kStereographic,
+  kRectilinear
+};
+
+// Reads 1k, 2k, 4k, 8k or a number of pixels, at most `most`.  `why` tells why it is one number.
+int read_one_size(const Item* size, int fallback, int most, std::string_view why) {
+  if (!size) return fallback;
+  if (!size->node.IsScalar()) {
+    size->fail(fmt::format("must be 1k, 2k, 4k, 8k or a number of pixels ({}), got {}", why,
+                           kind_of(*size)));
+    return fallback;
+  }
+  const Range range = kPixels.at_most(most);
+  for (std::size_t k = 0; k < kSizeNames.size(); ++k)
+    if (size->node.Scalar() == kSizeNames[k]) {
+      const int pixels = 1024 << k;
+      if (pixels > most)
+        size->fail(
+            fmt::format("must be at most {} (pixels; {}), got {}", most, why, kSizeNames[k]));
+      return pixels;
+    }
+  // For a word, and for '3k', the message names the sizes; for a number it names the bounds.
+  if (size->node.Scalar().find_first_not_of("+-.0123456789") == std::string::npos)
+    return read_whole_number(*size, range).value_or(fallback);
+  size->fail(fmt::format("must be 1k, 2k, 4k, 8k or a number of pixels from {} to {}, got '{}'{}",
+                         kFewestPixels, most, shown(size->node.Scalar()),
+                         did_you_mean(size->node.Scalar(), kSizeNames)));
+  return fallback;
+}
+
+struct PictureSides {
+  int width, height;
+};
+
+PictureSides read_sides(const Item& size, PictureSides sides) {
+  const std::vector<Item> items = *read_list(size);
+  sides.width = read_whole_number(items[0], kPixels).value_or(sides.width);
+  sides.height = read_whole_number(items[1], kPixels).value_or(sides.height);
+  return sides;
+}
+
+PictureSides read_flat_size(const Item* size) {
+  const PictureSides sides{1920, 1080};
+  if (!size) return sides;
+  if (size->node.IsSequence() && size->node.size() == 2) return read_sides(*size, sides);
+  size->fail("must be [width, height] in pixels (this projection is flat), got " + kind_of(*size));
+  return sides;
+}
+
+// A fisheye is a square, or lower where a part of it is cut off.
+PictureSides read_fisheye_size(const Item* size) {
+  if (!size || !size->node.IsSequence() || size->node.size() != 2) {
+    const int side =
+        read_one_size(size, 4096, kMostPixels, "of a square, or [width, height] of a part of it");
+    return {side, side};
+  }
+  const PictureSides sides = read_sides(*size, {4096, 4096});
+  if (sides.height <= sides.width) return sides;
+  size->fail("must be at most as high as wide (the circle of a fisheye touches both sides), got " +
+             fmt::format("[{}, {}]", sides.width, sides.height));
+  return {sides.width, sides.width};
+}
+
+Projection read_fisheye(const Item* size, const Section& camera) {
+  const PictureSides sides = read_fisheye_size(size);
+  const auto cut_back = camera.word<double>("cut", {{"back", 1.0}, {"front", 0.0}, {"both", 0.5}});
+  if (const Item* cut = camera.find("cut"); cut && sides.height == sides.width)
+    cut->fail("is for a size of [width, height] that is lower than wide; this one is a square");
+  return Fisheye{sides.width, sides.height, radians(kDomeFovDeg), cut_back.value_or(1)};
+}
+
+Projection read_equirectangular(const Item* size) {
+  const int width =
+      read_one_size(size, 4096, kMostPixels, "the width; a whole sphere is half as high as wide");
+  if (size && width % 2 != 0)
+    size->fail(fmt::format("must be even (a whole sphere is half as high as wide), got {}", width));
+  return Equirectangular{width + width % 2};
+}
+
+}  // namespace
+
+Projection read_projection(const Section& show, const Section& camera) {
+  using enum PictureKind;
+  const Item* size = show.find("size");
+  const PictureKind kind =
+      camera
+          .word<PictureKind>("projection", {{"domemaster", kDomemaster},
+                                            {"fisheye", kFisheye},
+                                            {"equirectangular", kEquirectangular},
+                                            {"cubemap", kCubemap},
+                                            {"stereographic", kStereographic},
+                                            {"rectilinear", kRectilinear}})
+          .value_or(kDomemaster);
+  if (const Item* cut = camera.find("cut"); cut && kind != kFisheye)
+    cut->fail("goes with the fisheye projection only");
+  switch (kind) {
+    case kDomemaster:
+      break;
+    case kFisheye:
+      return read_fisheye(size, camera);
+    case kEquirectangular:
+      return read_equirectangular(size);
+    case kCubemap:
+      return Cubemap{read_one_size(size, 1024, kMostPixels / 3,
+                                   "the edge of a face, of which three make the width")};
+    case kStereographic: {
+      const PictureSides sides = read_flat_size(size);
+      return Stereographic{sides.width, sides.height, radians(kFlatFovDeg)};
+    }
+    case kRectilinear: {
+      const PictureSides sides = read_flat_size(size);
+      return Rectilinear{sides.width, sides.height, radians(kFlatFovDeg)};
+    }
+  }
+  return Domemaster{read_one_size(size, 4096, kMostPixels, "a domemaster is square")};
+}
+
+std::optional<Range> fov_range(const Projection& projection) {
+  const Range range = kDegrees.above(0);
+  if (std::holds_alternative<Stereographic>(projection)) return range.below(360);
+  if (std::holds_alternative<Rectilinear>(projection)) return range.at_most(kWidestRectilinearDeg);
+  if (std::holds_alternative<Fisheye>(projection)) return range.at_most(360);
+  return std::nullopt;
+}
+
+}  // namespace domefall
