@@ -30,7 +30,7 @@ class HeldTurn {
 LiveShow::LiveShow(const std::filesystem::path& file, int threads) : file_(file), written_(file) {
   auto show = std::make_shared<const Show>(read_show(file));
   pictures_ = std::make_unique<LivePictures>(*show, threads);
-  version_ = {1, std::move(show), {}, pictures_->display(), pictures_->view()};
+  version_ = {1, 1, std::move(show), {}, pictures_->display(), pictures_->view()};
   threads_ = pictures_->threads();
   watching_ = std::thread([this] { watch(); });
 }
@@ -64,13 +64,15 @@ void LiveShow::reload() {
     with_pictures([&](LivePictures& pictures) {
       pictures.take(*show);
       const std::lock_guard lock(mutex_);
-      version_ = {version_.revision + 1, show, {}, pictures.display(), pictures.view()};
+      version_ = {version_.revision + 1, version_.readings, show, {},
+                  pictures.display(),    pictures.view()};
     });
   } catch (const std::exception& error) {
     mistake = error.what();
   }
   const std::lock_guard lock(mutex_);
   version_.mistake = mistake;
+  ++version_.readings;
   news_.notify_all();
 }
 
@@ -79,11 +81,10 @@ LiveShow::Version LiveShow::version() const {
   return version_;
 }
 
-LiveShow::Version LiveShow::changed_since(int revision, bool mistaken, int seconds) const {
+LiveShow::Version LiveShow::changed_since(int readings, int seconds) const {
   std::unique_lock lock(mutex_);
-  news_.wait_for(lock, std::chrono::seconds(seconds), [&] {
-    return stopped_ || version_.revision != revision || version_.mistake.empty() == mistaken;
-  });
+  news_.wait_for(lock, std::chrono::seconds(seconds),
+                 [&] { return stopped_ || version_.readings != readings; });
   return version_;
 }
 

@@ -29,15 +29,16 @@ class LiveShow {
 
   struct Version {
     int revision = 1;                  // grows with each good version
+    int readings = 1;                  // grows whenever the file is read
     std::shared_ptr<const Show> show;  // the last good one
     std::string mistake;               // what is wrong with the file now; empty if it is right
     std::string display, view;         // of the usual grade
   };
   Version version() const;
 
-  // Waits until the version is another than the caller knows, or has a mistake where `mistaken` is
-  // false or the other way around, or some seconds have passed.
-  Version changed_since(int revision, bool mistaken, int seconds) const;
+  // Waits until the file has been read more or less often than the caller knows, or some seconds
+  // have passed.
+  Version changed_since(int readings, int seconds) const;
 
   // Makes a picture when it is its turn; nothing if it is outdated before it is made, or given up.
   // Throws as LivePictures, and TemporaryError where too many wait.

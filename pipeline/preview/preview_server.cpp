@@ -237,9 +237,9 @@ struct PreviewServer::Inside {
     } const waiting{waiting_for_news};
     const int patience = waiting.number > kMostWaitingForNews ? 0 : kNewsSeconds;
     const LiveShow::Version version =
-        show.changed_since(static_cast<int>(whole_number(request, "since")),
-                           request.get_param_value("mistake") == "1", patience);
-    nlohmann::ordered_json json{{"revision", version.revision}, {"mistake", nullptr}};
+        show.changed_since(static_cast<int>(whole_number(request, "since")), patience);
+    nlohmann::ordered_json json{
+        {"revision", version.revision}, {"readings", version.readings}, {"mistake", nullptr}};
     if (!version.mistake.empty()) json["mistake"] = version.mistake;
     answer_json(response,
                 json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));

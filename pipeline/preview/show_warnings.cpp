@@ -31,9 +31,8 @@ void ShowWarnings::find() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);  // pictures come first
   LiveShow::Version version = show_.version();
   while (!stop_) {
-    const LiveShow::Version later =
-        show_.changed_since(version.revision, !version.mistake.empty(), kCalmSeconds);
-    const bool calm = later.revision == version.revision;
+    const LiveShow::Version later = show_.changed_since(version.readings, kCalmSeconds);
+    const bool calm = later.readings == version.readings;
     version = later;
     bool known = false;
     {

@@ -1,0 +1,336 @@
+// The viewer: what is to be seen, the show's clock, and the hands of whoever steers it.
+
+import { cameraFor, degreesPerPixel, fitted, lookOf, narrowest, widest } from './angles.js';
+import { clock, Instruments, tell, tellNothing } from './instruments.js';
+import { Pictures } from './pictures.js';
+import { Projector } from './projector.js';
+import { steer } from './steering.js';
+import { Timeline } from './timeline.js';
+
+const $ = (id) => document.getElementById(id);
+const canvas = $('view');
+
+let show = null;
+// own: the view is the show's camera, whose look the last picture told.
+const view = { az: 0, alt: 45, roll: 0, fov: 100, projection: 'stereographic', own: true };
+const play = { time: 0, on: false, speed: 1, loop: false, last: 0 };
+const tests = window.domefall = { drawn: 0, frame: -1, mistake: null, ready: false, view, play,
+  get fine() { return pictures.settled(); } };
+
+const projector = new Projector(canvas);
+const instruments = new Instruments();
+const timeline = new Timeline($('timeline'), (seconds) => seek(seconds));
+
+// ---- what is to be seen ----
+
+const frameNow = () => Math.max(0, Math.min(show.frames - 1, Math.round(play.time * show.frames_per_second)));
+const ticked = (group) => [...document.querySelectorAll(`#${group} input`)];
+const words = (group) => ticked(group).filter((box) => box.checked).map((box) => box.value);
+const all = (group) => ticked(group).every((box) => box.checked === box.defaultChecked);
+
+// The parameters that both kinds of picture share.
+function common() {
+  const query = new URLSearchParams({ frame: frameNow() });
+  if (+$('ev').value) query.set('ev', $('ev').value);
+  if ($('display').value !== show.display || $('grade').value !== show.view) {
+    query.set('display', $('display').value);
+    query.set('view', $('grade').value);
+  }
+  if (!all('effects')) query.set('effects', words('effects').join(','));
+  if ($('amplification').value !== show.effects.amplification) query.set('amplification', $('amplification').value);
+  const skies = words('skies').filter((word) => word !== 'stars');
+  if (!all('skies')) query.set('skies', skies.join(','));
+  if (!words('skies').includes('stars')) query.set('stars', '0');
+  query.set('revision', show.revision);
+  return query;
+}
+
+function wantedView() {
+  if (!show || document.hidden) return null;
+  const query = common();
+  query.set('projection', view.projection);
+  if (view.projection in widest) query.set('fov', view.fov);
+  if (!view.own) query.set('look', [view.az, view.alt, view.roll].map((x) => x.toFixed(7)).join(','));
+  if (words('overlays').length) query.set('overlays', words('overlays').join(','));
+  return { query: query.toString(), width: canvas.width, height: canvas.height,
+    fit: (w, h) => fitted(view.projection, w, h) };
+}
+
+// The sphere behind the view is wanted while nothing plays.
+function wantedSphere() {
+  if (!show || play.on || document.hidden || !projector.has.shown) return null;
+  const query = common();
+  query.set('projection', 'equirectangular');
+  return { query: query.toString(), width: 1024, height: 512, fit: (w, h) => fitted('equirectangular', w, h) };
+}
+
+function refused(text) {
+  if (!text && tests.refusal) { tests.refusal = ''; showMistake(tests.mistake); }
+  if (text) { tests.refusal = text; showMistake(text); }
+}
+
+const pictures = new Pictures('view', wantedView, (bitmap, about) => {
+  projector.take('shown', bitmap, about);
+  if (view.own && about.projection === view.projection) Object.assign(view, lookOf(about.camera, about.projection));
+  Object.assign(tests, { drawn: tests.drawn + 1, frame: about.frame, revision: about.revision, ready: true });
+  draw();
+}, refused);
+
+new Pictures('sphere', wantedSphere, (bitmap, about) => {
+  projector.take('whole', bitmap, about);
+  redraw();
+}, () => {});
+
+let asked = false;
+function redraw() {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(draw);
+}
+
+function draw() {
+  asked = false;
+  const ratio = devicePixelRatio, width = Math.round(canvas.clientWidth * ratio),
+    height = Math.round(canvas.clientHeight * ratio);
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  const [w, h] = fitted(view.projection, width, height);
+  projector.draw(view.projection, w, h, view.fov, cameraFor(view, view.projection));
+  if (!show) return;
+  timeline.draw(play.time);
+  const opening = view.projection in widest ? ` · ${+view.fov.toPrecision(3)}°` : '';
+  instruments.draw(frameNow(), (view.own ? "show's camera" : `${view.az.toFixed(1)}°, ${view.alt.toFixed(1)}°`) + opening);
+  $('time').textContent = `${clock(play.time)} / ${clock(show.duration_s)}`;
+}
+
+// ---- the clock ----
+
+// Frames are dropped where pictures take too long; the show's time is never slowed.
+function tick(now) {
+  if (!play.on) return;
+  play.time += (now - play.last) / 1000 * play.speed;
+  play.last = now;
+  const end = (show.frames - 1) / show.frames_per_second;
+  if (play.time > end) {
+    if (play.loop) play.time = end > 0 ? play.time % end : 0;
+    else { play.time = end; setPlaying(false); }
+  }
+  redraw();
+  requestAnimationFrame(tick);
+}
+
+function setPlaying(on) {
+  if (!show) return;
+  if (on && frameNow() === show.frames - 1) play.time = 0;
+  const begins = on && !play.on;
+  play.on = on;
+  play.last = performance.now();
+  $('play').textContent = on ? '❚❚' : '▶';
+  $('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
+  tellNothing();
+  if (begins) requestAnimationFrame(tick);
+  redraw();
+}
+
+function seek(seconds) {
+  play.time = Math.max(0, Math.min((show.frames - 1) / show.frames_per_second, seconds));
+  tellNothing();
+  redraw();
+}
+
+function step(frames) {
+  setPlaying(false);
+  seek((frameNow() + frames) / show.frames_per_second);
+}
+
+function setLoop(on) {
+  play.loop = on;
+  $('loop').setAttribute('aria-pressed', on);
+}
+
+// ---- the view ----
+
+function zoom(factor) {
+  if (!(view.projection in widest)) return;
+  view.fov = Math.max(narrowest, Math.min(widest[view.projection], view.fov * factor));
+  tellNothing();
+  redraw();
+}
+
+function turn(dx, dy, rolls) {
+  const [w, h] = fitted(view.projection, canvas.width, canvas.height);
+  const degrees = degreesPerPixel(view.projection, w, h, view.fov) * devicePixelRatio;
+  view.own = false;
+  if (rolls) view.roll += dx * 0.3;
+  else {
+    const roll = view.roll * Math.PI / 180, right = dx * Math.cos(roll) - dy * Math.sin(roll),
+      down = dx * Math.sin(roll) + dy * Math.cos(roll);
+    view.alt = Math.max(-90, Math.min(90, view.alt + down * degrees));
+    view.az -= right * degrees / Math.max(0.2, Math.cos(view.alt * Math.PI / 180));
+    view.az = ((view.az + 540) % 360) - 180;
+  }
+  tellNothing();
+  redraw();
+}
+
+function goHome() {
+  Object.assign(view, { own: true, fov: 100 });
+  tellNothing();
+  redraw();
+}
+
+async function probe(x, y) {
+  const wanted = wantedView(), ratio = devicePixelRatio;
+  const [w, h] = fitted(view.projection, canvas.width, canvas.height);
+  const left = (canvas.width - w) / 2, top = (canvas.height - h) / 2;
+  const query = `${wanted.query}&w=${w}&h=${h}&x=${x * ratio - left + 0.5}&y=${y * ratio - top + 0.5}`;
+  const answer = await fetch(`probe?${query}`);
+  if (!answer.ok) return;
+  const found = await answer.json();
+  tests.found = found;
+  if (!found.inside) return tellNothing();
+  tell(found, x, y, (i, j) => [(i - 0.5 + left) / ratio, (j - 0.5 + top) / ratio]);
+}
+
+async function copy(key) {
+  const wanted = wantedView();
+  const [w, h] = fitted(view.projection, canvas.width, canvas.height);
+  const answer = await fetch(`camera?${wanted.query}&w=${w}&h=${h}${key ? '&key=1' : ''}`);
+  const text = (await answer.text()).trim();
+  Object.assign($('copied'), { hidden: false, value: text });
+  tests.copied = text;
+  // Where the browser keeps the clipboard to itself, the text stands there to be taken.
+  await navigator.clipboard?.writeText(text).catch(() => $('copied').select());
+}
+
+function save() {
+  canvas.toBlob((blob) => {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = `${show.file.replace(/\.[^.]*$/, '')}_${String(frameNow()).padStart(5, '0')}.png`;
+    link.click();
+    tests.saved = blob.size;
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }, 'image/png');
+}
+
+const toggle = (id) => { $(id).hidden = !$(id).hidden; };
+
+steer(canvas, {
+  turn, zoom, probe, step, save, goHome,
+  togglePlay: () => setPlaying(!play.on),
+  toggleLoop: () => setLoop(!play.loop),
+  seekEnds: (end) => { setPlaying(false); seek(end ? Infinity : 0); },
+  stepSecond: (sign) => step(sign * Math.round(show.frames_per_second)),
+  faster: (by) => {
+    $('speed').selectedIndex = Math.max(0, Math.min($('speed').options.length - 1, $('speed').selectedIndex + by));
+    play.speed = +$('speed').value;
+  },
+  copy,
+  togglePanel: () => { document.body.classList.toggle('bare'); redraw(); },
+  toggleHelp: () => toggle('help'),
+  escape: () => { $('help').hidden = true; tellNothing(); },
+  ready: () => show !== null,
+});
+
+// ---- the panel ----
+
+function fillTicks(group, entries) {
+  const before = new Map(ticked(group).map((box) => [box.value, box.checked]));
+  $(group).replaceChildren(...entries.map(([value, on, text]) => {
+    const label = document.createElement('label'), box = document.createElement('input');
+    Object.assign(box, { type: 'checkbox', value, defaultChecked: on, checked: before.get(value) ?? on });
+    box.addEventListener('change', redraw);
+    label.append(box, text);
+    return label;
+  }));
+}
+
+function fillChoice(id, names, chosen) {
+  $(id).replaceChildren(...names.map((name) => new Option(name, name, name === chosen, name === chosen)));
+}
+
+function fillPanel(fresh) {
+  const nice = (word) => word.replaceAll('_', ' ');
+  fillTicks('effects', ['aberration', 'doppler_colour', 'intensity', 'lensing'].map((word) =>
+    [word, show.effects[word], nice(word)]));
+  fillTicks('skies', [...show.skies.map((name) => [name, true, `region ${name}`]), ['stars', true, 'stars']]);
+  fillTicks('overlays', show.overlays.map((word) => [word, false, nice(word)]));
+  if (!fresh) return;
+  fillChoice('display', Object.keys(show.displays), show.display);
+  fillChoice('grade', show.displays[show.display] ?? [show.view], show.view);
+  $('amplification').value = show.effects.amplification;
+}
+
+$('display').addEventListener('change', () => {
+  const views = show.displays[$('display').value];
+  fillChoice('grade', views, views.includes($('grade').value) ? $('grade').value : views[0]);
+});
+$('projection').addEventListener('change', () => {
+  view.projection = $('projection').value;
+  view.fov = Math.min(view.fov, widest[view.projection] ?? view.fov);
+  if (view.projection === 'fisheye') view.fov = 180;
+  tellNothing();
+  redraw();
+});
+$('ev').addEventListener('input', () => { $('ev-text').textContent = `${$('ev').value < 0 ? '−' : '+'}${Math.abs($('ev').value)} EV`; });
+for (const [id, act] of Object.entries({
+  play: () => setPlaying(!play.on), first: () => { setPlaying(false); seek(0); }, back: () => step(-1), ahead: () => step(1),
+  loop: () => setLoop(!play.loop), home: goHome, save, 'copy-camera': () => copy(false), 'copy-key': () => copy(true),
+  'show-help': () => toggle('help'), 'toggle-panel': () => { document.body.classList.toggle('bare'); redraw(); } }))
+  $(id).addEventListener('click', act);
+$('speed').addEventListener('change', () => { play.speed = +$('speed').value; });
+new ResizeObserver(redraw).observe($('stage'));
+document.addEventListener('visibilitychange', () => { play.last = performance.now(); });
+
+// ---- the show, as its author writes it ----
+
+function showMistake(text) {
+  $('mistake').textContent = text || '';
+  $('mistake').hidden = !text;
+}
+
+async function load() {
+  const fresh = show === null;
+  show = await (await fetch('show')).json();
+  tests.mistake = show.mistake;
+  showMistake(show.mistake);
+  instruments.take(show);
+  timeline.take(show);
+  fillPanel(fresh);
+  play.time = Math.min(play.time, show.duration_s);
+  redraw();
+  note(show.revision);
+}
+
+// The notes of check take a while, and are for this version only.
+async function note(revision) {
+  while (show.revision === revision) {
+    const { done, warnings } = await (await fetch('warnings')).json();
+    if (show.revision !== revision) return;
+    timeline.warnings = warnings;
+    instruments.list(warnings, done, (seconds) => { setPlaying(false); seek(seconds); });
+    tests.noted = done;
+    redraw();
+    if (done) return;
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+  }
+}
+
+async function follow() {
+  await load();
+  for (;;) {
+    try {
+      const { revision, readings, mistake } = await (await fetch(`changes?since=${show.readings}`)).json();
+      if (revision !== show.revision) await load();
+      if (readings === show.readings) continue;
+      Object.assign(show, { readings, mistake });
+      tests.mistake = mistake;
+      showMistake(mistake);
+    } catch {
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+    }
+  }
+}
+
+redraw();
+follow();

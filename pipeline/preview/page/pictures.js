@@ -1,0 +1,88 @@
+// Asks the server for pictures: one at a time, always the one that is wanted when the last has come.
+
+const client = Math.random().toString(36).slice(2, 12);
+const calm = 200;           // milliseconds until a view counts as still
+const mostMoving = 960 * 540;  // pixels of a moving picture
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+export class Pictures {
+  // wanted() gives {query, width, height, fit}: what is to be seen now, and the size of the canvas.
+  // taken(bitmap, about) gets each picture, refused(text) what the server says against one.
+  constructor(kind, wanted, taken, refused) {
+    Object.assign(this, { kind, wanted, taken, refused });
+    this.serial = Date.now();
+    this.scale = 1;      // of a moving picture's sides, by what the last ones took
+    this.have = '';      // what was got last, and whether finely
+    this.seen = '';      // and what was drawn last
+    this.changed = 0;    // when the wish changed last
+    this.wish = '';
+    this.run();
+  }
+
+  // Whether the fine picture of what is wanted is drawn.
+  settled() {
+    return this.next() === null && this.have.endsWith(' still') && this.seen === this.have;
+  }
+
+  size({ width, height, fit }, moving) {
+    const part = moving ? Math.min(1, this.scale * Math.sqrt(mostMoving / (width * height))) : 1;
+    return fit(Math.max(16, Math.min(4096, Math.round(width * part))),
+      Math.max(16, Math.min(4096, Math.round(height * part))));
+  }
+
+  // The next request, or nothing where the right picture is there.
+  next() {
+    const wanted = this.wanted();
+    if (!wanted) return null;
+    const wish = `${wanted.query}&${wanted.width}&${wanted.height}`, now = performance.now();
+    if (wish !== this.wish) { this.wish = wish; this.changed = now; }
+    const moving = now - this.changed < calm;
+    const goal = wish + (moving ? ' moving' : ' still');
+    if (this.have === wish + ' still' || this.have === goal) return null;
+    const [w, h] = this.size(wanted, moving);
+    return { goal, moving, query: `${wanted.query}&w=${w}&h=${h}&detail=${moving ? 'moving' : 'still'}` };
+  }
+
+  async run() {
+    for (;;) {
+      const request = this.next();
+      if (!request) { await pause(8); continue; }
+      const began = performance.now();
+      try {
+        const answer = await fetch(
+          `picture?${request.query}&kind=${this.kind}&client=${client}&n=${++this.serial}`);
+        if (answer.status === 200) {
+          this.have = request.goal;
+          const blob = await answer.blob();
+          if (request.moving) this.adapt(performance.now() - began);
+          // It is decoded while the server makes the next one.
+          this.show(blob, JSON.parse(answer.headers.get('X-Domefall')), request.goal);
+          this.refused('');
+        } else if (answer.status !== 204) {
+          this.have = request.goal;
+          this.refused((await answer.text()).trim());
+        }
+      } catch {
+        this.refused('the preview has ended; start it again and open its new address');
+        await pause(1000);
+      }
+    }
+  }
+
+  async show(blob, about, goal) {
+    const turn = this.turn = (this.turn || 0) + 1;
+    const bitmap = await createImageBitmap(blob);
+    if (turn >= (this.drawn || 0)) {
+      this.drawn = turn;
+      this.seen = goal;
+      this.taken(bitmap, about);
+    }
+    bitmap.close();
+  }
+
+  // Pictures become smaller where 25 a second would not be reached, and grow again.
+  adapt(ms) {
+    if (ms > 40) this.scale = Math.max(0.35, this.scale * 0.95);
+    else if (ms < 30) this.scale = Math.min(1, this.scale * 1.03);
+  }
+}

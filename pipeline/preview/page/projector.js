@@ -1,0 +1,123 @@
+// Draws the last picture, turned to where the view looks by now: one triangle, whose shader takes
+// each point of the screen back to a direction and from there into the picture. Where the picture
+// does not reach, a picture of the whole sphere lies behind it.
+
+import { shape } from './angles.js';
+
+const vertex = `#version 300 es
+void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }`;
+
+const fragment = `#version 300 es
+precision highp float;
+struct Picture { int kind; float scale; float most; vec2 size; mat3 camera; };
+uniform Picture screen, shown, whole;
+uniform bool has_shown, has_whole;
+uniform vec2 canvas;
+uniform sampler2D shown_pixels, whole_pixels;
+out vec4 colour;
+
+// The direction along the camera's axes through a place, in pixels from the middle.
+bool direction(Picture p, vec2 at, out vec3 n) {
+  vec2 w = at * p.scale;
+  float square = dot(w, w);
+  if (p.kind == 0) { n = vec3(2.0 * w, 1.0 - square) / (1.0 + square); return true; }
+  if (p.kind == 1) { n = vec3(w, 1.0) * inversesqrt(1.0 + square); return true; }
+  float theta = sqrt(square);
+  if (p.kind == 2) {
+    n = vec3(theta > 1e-6 ? w * (sin(theta) / theta) : w, cos(theta));
+    return theta <= p.most;
+  }
+  n = vec3(sin(w.x) * cos(w.y), cos(w.x) * cos(w.y), -sin(w.y));
+  return abs(w.y) <= 1.5707964;
+}
+
+bool place(Picture p, vec3 n, out vec2 at) {
+  if (p.kind == 0) { at = n.xy / max(1.0 + n.z, 1e-6); }
+  else if (p.kind == 1) { if (n.z <= 0.0) return false; at = n.xy / n.z; }
+  else if (p.kind == 2) {
+    float sine = length(n.xy), theta = atan(sine, n.z);
+    if (theta > p.most) return false;
+    at = sine > 1e-7 ? n.xy * (theta / sine) : n.xy;
+  } else { at = vec2(atan(n.x, n.y), -asin(clamp(n.z, -1.0, 1.0))); }
+  at /= p.scale;
+  return all(lessThan(abs(at), 0.5 * p.size));
+}
+
+void main() {
+  vec2 at = vec2(gl_FragCoord.x, canvas.y - gl_FragCoord.y) - 0.5 * canvas;
+  colour = vec4(0.0, 0.0, 0.0, 1.0);
+  vec3 n;
+  vec2 found;
+  if (!all(lessThanEqual(abs(at), 0.5 * screen.size)) || !direction(screen, at, n)) return;
+  vec3 audience = n * screen.camera;
+  if (has_shown && place(shown, shown.camera * audience, found))
+    colour.rgb = textureLod(shown_pixels, found / shown.size + 0.5, 0.0).rgb;
+  else if (has_whole && place(whole, whole.camera * audience, found))
+    colour.rgb = textureLod(whole_pixels, found / whole.size + 0.5, 0.0).rgb;
+}`;
+
+export class Projector {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.gl = canvas.getContext('webgl2', { antialias: false, alpha: false, preserveDrawingBuffer: true });
+    if (!this.gl) throw new Error('this browser has no WebGL 2, which the view needs');
+    this.start();
+    canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
+    canvas.addEventListener('webglcontextrestored', () => this.start());
+  }
+
+  start() {
+    const gl = this.gl;
+    this.program = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(this.program, shader);
+    }
+    gl.linkProgram(this.program);
+    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(gl.getProgramInfoLog(this.program));
+    gl.useProgram(this.program);
+    this.textures = { shown: gl.createTexture(), whole: gl.createTexture() };
+    ['shown', 'whole'].forEach((name, unit) => {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, this.textures[name]);
+      for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+        [gl.TEXTURE_WRAP_S, name === 'whole' ? gl.REPEAT : gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
+        gl.texParameteri(gl.TEXTURE_2D, key, value);
+      gl.uniform1i(this.at(name + '_pixels'), unit);
+    });
+    this.has = { shown: false, whole: false };
+  }
+
+  at(name) { return this.gl.getUniformLocation(this.program, name); }
+
+  // Takes a picture as the server described it: `shown`, or the `whole` sphere.
+  take(name, bitmap, about) {
+    const gl = this.gl;
+    gl.activeTexture(gl.TEXTURE0 + (name === 'shown' ? 0 : 1));
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, gl.RGB, gl.UNSIGNED_BYTE, bitmap);
+    this.describe(name, about.projection, about.width, about.height, about.fov_deg, about.camera);
+    this.has[name] = true;
+  }
+
+  describe(name, projection, width, height, fov, camera) {
+    const gl = this.gl, { kind, scale, most = 0 } = shape(projection, width, height, fov);
+    gl.uniform1i(this.at(name + '.kind'), kind);
+    gl.uniform1f(this.at(name + '.scale'), scale);
+    gl.uniform1f(this.at(name + '.most'), most);
+    gl.uniform2f(this.at(name + '.size'), width, height);
+    gl.uniformMatrix3fv(this.at(name + '.camera'), true, camera);
+  }
+
+  draw(projection, width, height, fov, camera) {
+    const gl = this.gl;
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.uniform2f(this.at('canvas'), this.canvas.width, this.canvas.height);
+    gl.uniform1i(this.at('has_shown'), this.has.shown);
+    gl.uniform1i(this.at('has_whole'), this.has.whole);
+    this.describe('screen', projection, width, height, fov, camera);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+}

@@ -1,0 +1,218 @@
+"""Drives the live preview's page in a real browser: live_page.py DOMEFALL SHOW [--shots FOLDER] [--rate SECONDS].
+
+It opens the page, plays, scrubs, drags, zooms, clicks, toggles, saves broken and mended shows, and
+looks at what is drawn. SHOW is rewritten. With --shots it saves pictures of the window at three
+sizes; with --rate it only plays for that time and says how many pictures a second were drawn.
+"""
+
+import argparse
+import base64
+import subprocess
+import time
+
+from selenium import webdriver
+from selenium.webdriver import ActionChains, Keys
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+PATIENCE = 40  # seconds; a loaded machine is slow
+
+
+def browser(width=960, height=720):
+    options = Options()
+    options.binary_location = '/usr/bin/chromium'
+    for word in ('--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+                 '--disable-dev-shm-usage', '--hide-scrollbars', f'--window-size={width},{height}'):
+        options.add_argument(word)
+    options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
+    return webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+
+
+class Page:
+    def __init__(self, window, url):
+        self.window = window
+        window.get(url)
+        self.until('window.domefall && window.domefall.ready', 'the first picture')
+
+    def ask(self, words):
+        return self.window.execute_script(f'return {words}')
+
+    def until(self, words, what):
+        end = time.monotonic() + PATIENCE
+        while not self.ask(words):
+            assert time.monotonic() < end, f'{what} did not come: {self.ask("window.domefall")} {self.log()}'
+            time.sleep(0.02)
+
+    def log(self):
+        return [entry['message'] for entry in self.window.get_log('browser') if entry['level'] == 'SEVERE']
+
+    def still(self):
+        """Waits until the fine picture of what is to be seen is drawn."""
+        self.until('window.domefall.fine && !window.domefall.play.on', 'a fine picture')
+
+    def pixels(self):
+        """The canvas as 32 x 18 pixels, rows of (red, green, blue)."""
+        values = self.ask('''(() => {
+            const small = new OffscreenCanvas(32, 18), pen = small.getContext('2d');
+            pen.drawImage(document.getElementById('view'), 0, 0, 32, 18);
+            return [...pen.getImageData(0, 0, 32, 18).data]; })()''')
+        return [tuple(values[k:k + 3]) for k in range(0, len(values), 4)]
+
+    def element(self, name):
+        return self.window.find_element(By.ID, name)
+
+    def keys(self, *keys):
+        ActionChains(self.window).send_keys(*keys).perform()
+
+
+def differ(a, b):
+    return sum(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q)) / len(a)
+
+
+def changed(page, before, what):
+    end = time.monotonic() + PATIENCE
+    while differ(page.pixels(), before) < 0.5:
+        assert time.monotonic() < end, f'nothing changed on the screen after {what}'
+        time.sleep(0.05)
+    page.still()
+    return page.pixels()
+
+
+def drive(page, show):
+    text = show.read_text()
+    page.still()
+    first = page.pixels()
+    assert sum(map(sum, first)) > 1000, 'the picture is black'
+    assert page.ask('document.getElementById("plot").naturalWidth') > 100
+    assert page.element('i-r').text.startswith('6 M'), page.element('i-r').text
+
+    page.element('play').click()
+    page.until('window.domefall.frame > 3', 'the fourth frame')
+    page.keys(' ')
+    page.still()
+    assert 'of' in page.element('i-frame').text
+
+    timeline = page.element('timeline')
+    ActionChains(page.window).move_to_element(timeline).click().perform()
+    page.until('window.domefall.frame == 12', 'the frame that was pointed at')
+    page.keys(Keys.ARROW_RIGHT)
+    page.until('window.domefall.frame == 13', 'the next frame')
+    page.keys(Keys.HOME)
+    page.until('window.domefall.frame == 0', 'the first frame')
+    page.still()
+
+    view, before = page.element('view'), page.pixels()
+    ActionChains(page.window).drag_and_drop_by_offset(view, 150, 60).perform()
+    assert not page.ask('window.domefall.view.own')
+    turned = changed(page, before, 'a drag')
+    asked = page.ask('window.domefall.view')
+    page.keys('-', '-')
+    assert abs(page.ask('window.domefall.view.fov') - asked['fov'] * 1.25 ** 2) < 1e-9
+    changed(page, turned, 'a zoom')
+    page.keys('0')
+    page.until('window.domefall.view.own && window.domefall.view.fov == 100', "the show's camera")
+    page.still()
+    back = page.pixels()
+    assert differ(back, before) < 2, f"the show's camera is not where it was: {differ(back, before)}"
+
+    # The hole is in the middle of this view, and sky at its corner.
+    ActionChains(page.window).click(view).perform()
+    page.until('window.domefall.found', 'what is seen')
+    assert page.ask('window.domefall.found.sky') == 'IV'
+    corner = -(view.size['width'] // 2) + 12, -(view.size['height'] // 2) + 12
+    ActionChains(page.window).move_to_element_with_offset(view, *corner).click().perform()
+    page.until('window.domefall.found.sky == "I"', 'the sky')
+    found = page.ask('window.domefall.found')
+    assert 0 <= found['ra_deg'] < 360 and abs(found['dec_deg']) <= 90 and found['redshift'] > 0
+    page.keys('c')
+    page.until('window.domefall.copied', 'the camera')
+    assert page.ask('window.domefall.copied').startswith('camera: {euler_deg: [')
+
+    stars = page.window.find_element(By.CSS_SELECTOR, '#skies input[value=I]')
+    page.ask('document.querySelectorAll("details").forEach((part) => { part.open = true; })')
+    before = page.pixels()
+    stars.click()
+    changed(page, before, 'a sky was left out')
+    stars.click()
+    page.still()
+    assert differ(page.pixels(), before) < 2, 'the sky did not come back'
+
+    # A mistake is told over the last good picture, another one in its place; then the show is mended.
+    page.keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+    page.until('window.domefall.frame == 2', 'the third frame')
+    show.write_text(text.replace('timeline:', 'timelime:'))
+    page.until('window.domefall.mistake', 'the mistake')
+    assert f'{show.name}:' in page.element('mistake').text and 'timelime' in page.element('mistake').text
+    show.write_text(text.replace('from_r: 6', 'from_r: -6'))
+    page.until('(window.domefall.mistake || "").includes("-6")', 'the second mistake')
+    page.still()
+    before = page.pixels()
+    show.write_text(text.replace('from_r: 6', 'from_r: 12'))
+    page.until('!window.domefall.mistake && window.domefall.revision == 2', 'the mended show')
+    assert not page.element('mistake').is_displayed()
+    changed(page, before, 'the show was mended')
+    assert page.ask('window.domefall.frame') == 2, 'the same instant'
+    show.write_text(text)
+    page.until('window.domefall.revision == 3', 'the show as it was')
+
+    page.keys('s')
+    page.until('window.domefall.saved > 1000', 'the saved picture')
+    page.until('window.domefall.noted', 'the notes of check')
+    assert page.element('warnings').text
+    assert not page.log(), page.log()
+
+
+def rate(page, seconds):
+    page.still()
+    page.keys(' ')
+    time.sleep(1)
+    drawn, began = page.ask('window.domefall.drawn'), time.monotonic()
+    time.sleep(seconds)
+    count, spent = page.ask('window.domefall.drawn') - drawn, time.monotonic() - began
+    print(f'{count / spent:.1f} pictures a second, frame {page.ask("window.domefall.frame")}')
+
+
+def shots(page, folder):
+    for name, width, height, ratio in (('phone', 390, 844, 2), ('laptop', 1366, 768, 1), ('projector', 1920, 1080, 1)):
+        page.window.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+            'width': width, 'height': height, 'deviceScaleFactor': ratio, 'mobile': ratio == 2})
+        time.sleep(1)
+        page.still()
+        picture = page.window.execute_cdp_cmd('Page.captureScreenshot', {'format': 'png'})
+        (folder / f'{name}.png').write_bytes(base64.b64decode(picture['data']))
+
+
+def main():
+    import pathlib
+    parser = argparse.ArgumentParser()
+    parser.add_argument('domefall')
+    parser.add_argument('show', type=pathlib.Path)
+    parser.add_argument('--shots', type=pathlib.Path)
+    parser.add_argument('--rate', type=float)
+    parser.add_argument('--frame', type=int, default=0)
+    given = parser.parse_args()
+    server = subprocess.Popen([given.domefall, 'preview', given.show, '--no-open'], stdout=subprocess.PIPE, text=True)
+    try:
+        url = server.stdout.readline().strip()
+        window = browser()
+        try:
+            page = Page(window, url)
+            if given.frame:
+                page.ask(f'window.domefall.play.time = {given.frame} / 30')
+                page.keys(Keys.ARROW_RIGHT)
+                page.until(f'window.domefall.frame > {given.frame}', 'the frame')
+            if given.rate:
+                rate(page, given.rate)
+            elif given.shots:
+                shots(page, given.shots)
+            else:
+                drive(page, given.show)
+        finally:
+            window.quit()
+    finally:
+        server.terminate()
+        server.wait()
+
+
+main()

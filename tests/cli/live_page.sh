@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# domefall preview: its page in a real browser, driven as a user drives it (live_page.py).
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+write_show "$folder/fall.yaml"
+exits 0 python3 "$(dirname "$0")/live_page.py" "$DOMEFALL" "$folder/fall.yaml"
