@@ -118,20 +118,18 @@ void each_span(const CapBlob& b, const Projection& p, double reach, int row, con
 
 // ---- drawing ----
 
-constexpr int kChunk = 32, kMostPoints = 3;
+constexpr int kChunk = 32, kMostPoints = 2;
 
-// Gauss' points along a side of a pixel, from its middle, and their shares.  Their mean of a
-// Gaussian of width s (pixels) errs by 3/(4320 s^4) of its peak with two points, by
-// 15/(2016000 s^6) with three.
+// Gauss' points along a side of a pixel, from its middle.  Their mean of a Gaussian of width s
+// (pixels) errs by 3/(4320 s^4) of its peak along each axis; with one point, by 1/(24 s^2).
 struct Points {
   std::size_t count;
-  std::array<double, kMostPoints> at, share;
+  std::array<double, kMostPoints> at;
 };
 const Points& points_for(double sigma_pixels) {
-  constexpr double kTwo = 0.28867513459481287, kThree = 0.3872983346207417;
-  static const Points one{1, {0}, {1}}, two{2, {-kTwo, kTwo}, {0.5, 0.5}},
-      three{3, {-kThree, 0, kThree}, {5.0 / 18, 8.0 / 18, 5.0 / 18}};
-  return sigma_pixels > 16 ? one : sigma_pixels > 2 ? two : three;
+  constexpr double kGauss = 0.28867513459481287;
+  static const Points one{1, {0}}, two{2, {-kGauss, kGauss}};
+  return sigma_pixels > 6 ? one : two;
 }
 
 struct Weighing {
@@ -153,14 +151,17 @@ struct Weighing {
 }
 Dispatched<weigh_loop> weigh;
 
-// Sets the solid angles of pixels at these directions, in some unit, on a whole sphere or, if
-// `fisheye`, at the places (x[k], y) from the middle of a circle, where they are `central`.
-[[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* x,
-                                                   double y, bool fisheye, double central,
-                                                   int count, float* __restrict area) {
+// Sets the solid angles of pixels at these directions and places, in some unit, on a whole sphere
+// or, if `fisheye`, about the middle of a circle, where they are `central`.
+[[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* i,
+                                                   const double* j, const PixelPosition& middle,
+                                                   bool fisheye, double central, int count,
+                                                   float* __restrict area) {
+  const PixelPosition m = middle;
   for (int k = 0; k < count; ++k) {
     const double aside = std::sqrt(n[k].v.x * n[k].v.x + n[k].v.y * n[k].v.y);
-    const double from_middle = fisheye ? std::sqrt(x[k] * x[k] + y * y) : 1.0;
+    const double x = i[k] - m.i, y = j[k] - m.j;
+    const double from_middle = fisheye ? std::sqrt(x * x + y * y) : 1.0;
     const bool off = from_middle > 1e-3;
     area[k] = static_cast<float>(off ? aside / (off ? from_middle : 1.0) : central);
   }
@@ -174,7 +175,9 @@ class ExactCap {
         points_(points_for(blob.sigma / central_pixel_angle(projection))),
         weighing_{middle_of(blob, projection).v, 1 / (2 * double{blob.sigma} * blob.sigma),
                   blob.cut},
-        middle_(pixel_of(projection, {{0, 0, 1}}).value_or(PixelPosition{0, 0})) {
+        middle_(pixel_of(projection, {{0, 0, 1}}).value_or(PixelPosition{0, 0})),
+        areas_differ_(std::holds_alternative<Equirectangular>(projection) ||
+                      std::holds_alternative<Fisheye>(projection)) {
     const auto light =
         static_cast<float>(luminance({blob.rgb[0], blob.rgb[1], blob.rgb[2]})) * blob.peak_per_flux;
     // The bound keeps its square finite.
@@ -189,45 +192,45 @@ class ExactCap {
   void add(int row, int first, int last, float* out) const {
     for (int from = first; from <= last; from += kChunk) {
       const int count = std::min(kChunk, last - from + 1);
-      Sums sums;
-      for (std::size_t line = 0; line < points_.count; ++line)
-        add_line(row, line, from, count, sums);
+      const std::array<float, kChunk> weight = weights(row, from, count);
       for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k, out += 3)
-        add_light(sums.light[k] / sums.area[k], out);
+        add_light(weight[k], out);
     }
   }
 
  private:
-  // Of pixels, over their points: of the weight times the area for which a point stands, and of
-  // that area.  Both change within a pixel beside a pole.
-  struct Sums {
-    std::array<float, kChunk> light{}, area{};
-  };
-
-  // Adds one line of points through pixels.
-  void add_line(int row, std::size_t line, int from, int count, Sums& sums) const {
-    std::array<double, kChunk> i, j, x, angle;
-    std::array<CameraDirection, kChunk> n;
-    std::array<float, kChunk> weight, area;
-    area.fill(1);
-    j.fill(row + 1 + points_.at[line]);
-    const bool fisheye = std::holds_alternative<Fisheye>(projection_);
-    for (std::size_t m = 0; m < points_.count; ++m) {
-      for (int k = 0; k < count; ++k) {
-        i[static_cast<std::size_t>(k)] = from + k + 1 + points_.at[m];
-        x[static_cast<std::size_t>(k)] = i[static_cast<std::size_t>(k)] - middle_.i;
+  // The mean weights of some pixels of a row, by the area for which each point stands, which
+  // changes within a pixel beside a pole.
+  std::array<float, kChunk> weights(int row, int from, int count) const {
+    constexpr std::size_t kMost = static_cast<std::size_t>(kChunk) * kMostPoints * kMostPoints;
+    std::array<double, kMost> i, j, angle;
+    std::array<CameraDirection, kMost> n;
+    std::array<float, kMost> of_point, area;
+    const auto pixels = static_cast<std::size_t>(count);
+    std::size_t all = 0;
+    for (std::size_t down = 0; down < points_.count; ++down)
+      for (std::size_t across = 0; across < points_.count; ++across, all += pixels)
+        for (std::size_t k = 0; k < pixels; ++k) {
+          i[all + k] = from + static_cast<double>(k) + 1 + points_.at[across];
+          j[all + k] = row + 1 + points_.at[down];
+        }
+    const auto number = static_cast<int>(all);
+    find_directions(projection_, i.data(), j.data(), number, n.data(), angle.data());
+    weigh(weighing_, n.data(), number, of_point.data());
+    if (areas_differ_)
+      find_areas(n.data(), i.data(), j.data(), middle_,
+                 std::holds_alternative<Fisheye>(projection_), central_pixel_angle(projection_),
+                 number, area.data());
+    else
+      std::fill_n(area.begin(), all, 1.0f);
+    std::array<float, kChunk> light{}, whole{};
+    for (std::size_t point = 0; point < all; point += pixels)
+      for (std::size_t k = 0; k < pixels; ++k) {
+        light[k] += area[point + k] * of_point[point + k];
+        whole[k] += area[point + k];
       }
-      find_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
-      weigh(weighing_, n.data(), count, weight.data());
-      if (fisheye || std::holds_alternative<Equirectangular>(projection_))
-        find_areas(n.data(), x.data(), j[0] - middle_.j, fisheye, central_pixel_angle(projection_),
-                   count, area.data());
-      const auto share = static_cast<float>(points_.share[line] * points_.share[m]);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-        sums.light[k] += share * area[k] * weight[k];
-        sums.area[k] += share * area[k];
-      }
-    }
+    for (std::size_t k = 0; k < pixels; ++k) light[k] /= whole[k];
+    return light;
   }
 
   void add_light(float weight, float* out) const {
@@ -241,6 +244,7 @@ class ExactCap {
   const Points& points_;
   Weighing weighing_;
   PixelPosition middle_;         // of a fisheye's circle
+  bool areas_differ_;            // notably within a pixel, somewhere in the picture
   float paling_ = 0;             // half white where this times the weight is 1
   std::array<float, 3> colour_;  // at the peak
   std::array<float, 3> pale_;    // grey of the same luminance, less the colour
