@@ -102,6 +102,11 @@ void movie(const Options& o) {
   overlay(show, o.overlays);
   show.projection = o.size.empty() && o.from.empty() ? fitted(show.projection, preset)
                                                      : resized(show.projection, o.size);
+  if (preset.whole_sphere && !std::holds_alternative<Equirectangular>(show.projection))
+    throw InputError(fmt::format(
+        "--preset {}: takes frames of the projection equirectangular, and those of this show are "
+        "{}",
+        preset.name, projection_name(show.projection)));
   const MovieSize size = size_of(show.projection), made = movie_size(preset, size);
   const std::vector<int> frames = chosen_frames(o, show);
   OutputFile out(chosen_out(o, show, preset));
@@ -148,7 +153,7 @@ void add_movie(CLI::App& app) {
   verb->add_option(
       "--audio", o->audio,
       "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs");
-  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4 or .mov");
+  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv");
   add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->footer(

@@ -52,12 +52,13 @@ Arguments ffmpeg_arguments(const MoviePlan& plan, int subtitles, const Arguments
 }
 
 Arguments movie_arguments(const MoviePlan& plan, int subtitles, int file) {
-  return ffmpeg_arguments(plan, subtitles,
-                          {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
-                           std::string(plan.preset.extension), "file:" + path_of_descriptor(file)});
+  return ffmpeg_arguments(
+      plan, subtitles,
+      {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
+       std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
 }
 
-constexpr const char* kPackage = "ffmpeg";
+constexpr const char *kPackage = "ffmpeg", *kMatroskaPackage = "mkvtoolnix";
 
 // ffmpeg says so in the words of the C library, and does not translate them.
 bool names_lack(const ChildOutcome& outcome) {
@@ -86,6 +87,8 @@ void try_ffmpeg(const MoviePlan& plan) {
       file_in_memory(plan.subtitles.substr(0, plan.subtitles.find("Dialogue"))));
   ChildProgram ffmpeg(ffmpeg_arguments(small, subtitles.number(), {"-f", "null", "-"}),
                       descriptors({subtitles.number()}), kPackage);
+  if (plan.preset.whole_sphere)
+    ChildProgram({"mkvmerge", "--version"}, {}, kMatroskaPackage).wait();
   const std::vector<unsigned short> black(std::size_t{3} * kSide * kSide);
   ffmpeg.write(black.data(), black.size() * sizeof black[0]);
   const ChildOutcome outcome = ffmpeg.wait();
@@ -95,10 +98,16 @@ void try_ffmpeg(const MoviePlan& plan) {
 }
 
 MovieFile::MovieFile(const std::filesystem::path& path, const MoviePlan& plan)
-    : path_(path), count_(plan.count), file_(path), subtitles_(file_in_memory(plan.subtitles)) {
-  ffmpeg_ = std::make_unique<ChildProgram>(
-      movie_arguments(plan, subtitles_.number(), file_.descriptor()),
-      descriptors({subtitles_.number(), file_.descriptor()}), kPackage);
+    : path_(path),
+      count_(plan.count),
+      rate_(plan.rate),
+      title_(plan.title),
+      file_(path),
+      subtitles_(file_in_memory(plan.subtitles)) {
+  if (plan.preset.whole_sphere) flat_.emplace(path);
+  ffmpeg_ =
+      std::make_unique<ChildProgram>(movie_arguments(plan, subtitles_.number(), by_ffmpeg()),
+                                     descriptors({subtitles_.number(), by_ffmpeg()}), kPackage);
 }
 
 void MovieFile::add(const RowPicture& frame) {
@@ -125,6 +134,7 @@ void MovieFile::finish() {
   // After a write that failed for a full disk ffmpeg may end with 0.
   if (!outcome.good() || names_lack(outcome)) fail(outcome);
   count_frames(outcome);
+  if (flat_) wrap_around();
   if (fsync(file_.descriptor()) != 0) throw_file_error(path_, errno);
   file_.put_in_place();
 }
@@ -132,8 +142,8 @@ void MovieFile::finish() {
 void MovieFile::count_frames(const ChildOutcome& made) const {
   ChildProgram probe({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
                       "stream=nb_frames", "-of", "default=noprint_wrappers=1:nokey=1", "-i",
-                      "file:" + path_of_descriptor(file_.descriptor())},
-                     {file_.descriptor()}, kPackage);
+                      "file:" + path_of_descriptor(by_ffmpeg())},
+                     {by_ffmpeg()}, kPackage);
   const ChildOutcome outcome = probe.wait();
   std::string found = probe.output();
   found.resize(std::min(found.size(), found.find('\n')));
@@ -142,6 +152,24 @@ void MovieFile::count_frames(const ChildOutcome& made) const {
         "{}: ffmpeg was given {} frames, and the movie that it wrote has {}; nothing was kept{}",
         path_.string(), count_, found.empty() ? "none that can be read" : found,
         made.said.empty() ? "" : ":\n" + made.said));
+}
+
+// Projection type 1 of Matroska is equirectangular.  Its times are whole milliseconds, so that the
+// exact rate is given beside them.  mkvmerge ends with 1 for warnings and writes what is wrong to
+// its standard output.
+void MovieFile::wrap_around() const {
+  ChildProgram mkvmerge(
+      {"mkvmerge", "--quiet", "--title", title_, "--output", path_of_descriptor(file_.descriptor()),
+       "--default-duration", fmt::format("0:{}/{}p", rate_.frames, rate_.seconds),
+       "--projection-type", "0:1", path_of_descriptor(by_ffmpeg())},
+      {file_.descriptor(), by_ffmpeg()}, kMatroskaPackage);
+  ChildOutcome outcome = mkvmerge.wait();
+  if (outcome.good()) return;
+  outcome.said += mkvmerge.output();
+  const std::string what = fmt::format("{}: mkvmerge, which says that it is a sphere, {}",
+                                       path_.string(), outcome.text());
+  if (outcome.killed() || names_lack(outcome)) throw TemporaryError(what);
+  throw std::runtime_error(what);
 }
 
 void MovieFile::fail(const ChildOutcome& outcome) const {

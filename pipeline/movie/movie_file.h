@@ -27,12 +27,13 @@ struct MoviePlan {
 };
 
 // Makes a movie of one small black frame, which goes nowhere, so that an ffmpeg that lacks
-// something says so before any frame is made.  Takes 0.1 s.  Throws TemporaryError without ffmpeg
-// and where it cannot make such a movie.
+// something says so before any frame is made, and asks for mkvmerge if the preset needs it.  Takes
+// 0.1 s.  Throws TemporaryError without either and where ffmpeg cannot make such a movie.
 void try_ffmpeg(const MoviePlan& plan);
 
 // Frames go through a pipe, and the file appears under its name when it is whole
-// (temporary_file.h).
+// (temporary_file.h).  A movie of the whole sphere is written twice: by ffmpeg, which cannot say
+// that it is one, and by mkvmerge, which can.
 class MovieFile {
  public:
   // Starts ffmpeg.  Throws as TemporaryFile and ChildProgram.
@@ -48,12 +49,18 @@ class MovieFile {
   void finish();
 
  private:
+  // The descriptor of the file that ffmpeg writes.
+  int by_ffmpeg() const { return flat_ ? flat_->descriptor() : file_.descriptor(); }
+  void wrap_around() const;
   [[noreturn]] void fail(const ChildOutcome& outcome) const;
   void count_frames(const ChildOutcome& made) const;
 
   std::filesystem::path path_;
   int count_, added_ = 0;
+  FrameRate rate_;
+  std::string title_;
   TemporaryFile file_;
+  std::optional<TemporaryFile> flat_;  // before a player knows that it is a sphere
   Descriptor subtitles_;
   std::unique_ptr<ChildProgram> ffmpeg_;
 };

@@ -36,11 +36,11 @@ std::vector<MoviePreset> make_presets() {
   return {
       {"review",
        "H.264, 1080 pixels high at most, with numbers burnt in: to look at and to talk about",
-       "mp4", 1920, 1080, 2, "yuv420p", false, true, h264(), aac()},
+       "mp4", 1920, 1080, 2, "yuv420p", false, true, false, h264(), aac()},
       {"dome", "HEVC Main 10, 4096 x 4096 at most: for the players of domes", "mp4", 4096, 4096, 2,
-       "yuv420p10le", false, false, hevc(""), aac()},
+       "yuv420p10le", false, false, false, hevc(""), aac()},
       {"dome8k", "HEVC Main 10, 8192 x 8192 at most: beyond level 6.2, which many decoders refuse",
-       "mp4", 8192, 8192, 2, "yuv420p10le", false, false, hevc(kBeyondLevels), aac()},
+       "mp4", 8192, 8192, 2, "yuv420p10le", false, false, false, hevc(kBeyondLevels), aac()},
       {"master",
        "ProRes 4444: to edit and to keep",
        "mov",
@@ -48,6 +48,7 @@ std::vector<MoviePreset> make_presets() {
        kAnySize,
        1,
        "yuv444p10le",
+       false,
        false,
        false,
        {"-c:v", "prores_ks", "-profile:v", "4444", "-vendor", "apl0"},
@@ -61,8 +62,13 @@ std::vector<MoviePreset> make_presets() {
        "rgba",
        true,
        false,
+       false,
        {"-c:v", "hap", "-format", "hap_q", "-chunks", "4"},
-       uncompressed()}};
+       uncompressed()},
+      {"vr360",
+       "HEVC Main 10 of the whole sphere, 8192 x 4096 at most: for headsets, of equirectangular "
+       "frames",
+       "mkv", 8192, 4096, 2, "yuv420p10le", false, false, true, hevc(""), aac()}};
 }
 
 void append(std::vector<std::string>& all, std::vector<std::string> more) {
@@ -101,14 +107,13 @@ const MoviePreset& movie_preset(const std::string& name) {
     if (preset.name == name) return preset;
     names.push_back(preset.name);
   }
-  if (name == "vr360")
-    throw InputError(
-        "--preset vr360: needs frames in an equirectangular projection, which Domefall does not "
-        "make yet; it has " +
-        listed(names));
   const std::string near = did_you_mean(name, names);
   throw InputError("--preset " + name + ": there is no such preset" +
                    (near.empty() ? "; there are " + listed(names) : near));
+}
+
+std::string_view format_of(const MoviePreset& preset) {
+  return preset.whole_sphere ? "mp4" : preset.extension;
 }
 
 MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames) {

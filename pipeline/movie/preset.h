@@ -12,19 +12,23 @@ namespace domefall {
 
 struct MoviePreset {
   std::string_view name, what;  // what: a line for people
-  std::string_view extension;   // of the file, which is also ffmpeg's name of the format
+  std::string_view extension;   // of the file
   int most_width, most_height;  // larger frames are scaled down to fit
   int multiple;                 // width and height are multiples of it
   std::string_view pixels;      // ffmpeg's name of the pixels' format
   bool rgb;                     // of full range; else YCbCr of limited range
   bool burn_in;
+  bool whole_sphere;  // of equirectangular frames, of which mkvmerge tells the players
   std::vector<std::string> video, sound;  // ffmpeg's options
 };
 
 const std::vector<MoviePreset>& movie_presets();
 
-// Throws InputError for other names; for `vr360` it says why.
+// Throws InputError for other names.
 const MoviePreset& movie_preset(const std::string& name);
+
+// ffmpeg's name of the format that it writes.
+std::string_view format_of(const MoviePreset& preset);
 
 struct MovieSize {
   int width = 0, height = 0;

@@ -8,7 +8,7 @@ write_grid_show show.yaml
 exits 2 "$DOMEFALL" movie show.yaml
 says '^--preset is required'
 exits 2 "$DOMEFALL" movie show.yaml --preset vr360
-says '^--preset vr360: needs frames in an equirectangular projection, which Domefall does not make yet; '
+says '^--preset vr360: takes frames of the projection equirectangular, and those of this show are domemaster$'
 exits 2 "$DOMEFALL" movie show.yaml --preset reveiw
 says '^--preset reveiw: there is no such preset; did you mean review\?$'
 exits 2 "$DOMEFALL" rendr show.yaml

@@ -78,6 +78,11 @@ TEST(MovieSize, LargerFramesAreScaledDownInTheirShape) {
   EXPECT_EQ(movie_size(movie_preset("dome"), {100, 100}), (MovieSize{100, 100}));
 }
 
+TEST(MovieSize, AWholeSphereIsTwiceAsWideAsHigh) {
+  EXPECT_EQ(movie_size(movie_preset("vr360"), {8192, 4096}), (MovieSize{8192, 4096}));
+  EXPECT_EQ(movie_size(movie_preset("vr360"), {16384, 8192}), (MovieSize{8192, 4096}));
+}
+
 TEST(MovieSize, OddSizesAreForProResAlone) {
   EXPECT_THROW(movie_size(movie_preset("review"), {101, 100}), InputError);
   EXPECT_THROW(movie_size(movie_preset("hap"), {102, 102}), InputError);
@@ -85,9 +90,8 @@ TEST(MovieSize, OddSizesAreForProResAlone) {
 }
 
 TEST(MoviePreset, AnUnknownOneIsRefusedWithWhatThereIs) {
-  EXPECT_THAT(refusal_of("vr360"), HasSubstr("equirectangular"));
   EXPECT_THAT(refusal_of("reveiw"), HasSubstr("did you mean review?"));
-  EXPECT_THAT(refusal_of("h264"), HasSubstr("review, dome, dome8k, master or hap"));
+  EXPECT_THAT(refusal_of("h264"), HasSubstr("review, dome, dome8k, master, hap or vr360"));
 }
 
 }  // namespace

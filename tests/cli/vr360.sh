@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# domefall movie --preset vr360: a movie that players know for a whole sphere.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+cd "$folder"
+command -v ffmpeg >/dev/null && command -v mkvmerge >/dev/null || exit 77
+nothing_left() {
+  [ ! -e "$1" ] || fail "$1 is there"
+  [ -z "$(find . -name '.*.tmp')" ] || fail "left: $(find . -name '.*.tmp')"
+}
+
+cat >sphere.yaml <<END
+title: Around
+frames_per_second: 29.97
+size: 128
+black_hole: {mass_solar: 4.3e6}
+camera: {projection: equirectangular}
+sky: {region_I: {background: grid, stars: none}}
+timeline: [{duration_s: 0.2669, trajectory: {type: infall, from_r: 6, to_r: 4}}]
+END
+ffmpeg -v error -f lavfi -i 'sine=r=48000:d=0.267' -c:a pcm_s16le sound.wav
+exits 0 "$DOMEFALL" movie sphere.yaml --preset vr360 --audio sound.wav
+[ "$(find . -name '.*.tmp')" = "" ] || fail "left: $(find . -name '.*.tmp')"
+ffprobe -v error -count_packets -show_streams -show_format -of json out/sphere_vr360.mkv >facts
+python3 - facts <<'END'
+import json, sys
+facts = json.load(open(sys.argv[1]))
+video, sound = facts['streams']
+for key, value in {'codec_name': 'hevc', 'profile': 'Main 10', 'pix_fmt': 'yuv420p10le', 'width': 128,
+                   'height': 64, 'color_range': 'tv', 'color_space': 'bt709', 'color_transfer': 'bt470m',
+                   'color_primaries': 'bt709', 'r_frame_rate': '30000/1001',
+                   'avg_frame_rate': '30000/1001', 'nb_read_packets': '8'}.items():
+    assert video.get(key) == value, (key, video.get(key), value)
+assert [d.get('projection') for d in video['side_data_list']] == ['equirectangular'], video
+assert sound['codec_name'] == 'aac' and sound['sample_rate'] == '48000', sound
+assert facts['format']['tags']['title'] == 'Around', facts['format']
+END
+
+# An .mp4 that is taken from it is a sphere, too.
+ffmpeg -v error -i out/sphere_vr360.mkv -c copy -tag:v hvc1 -strict unofficial sphere.mp4
+ffprobe -v error -show_streams sphere.mp4 | grep -q '^projection=equirectangular' ||
+  fail "the .mp4 is no sphere"
+
+# Frames of another projection are no sphere.
+sed 's/^camera:.*//' sphere.yaml >dome.yaml
+exits 2 "$DOMEFALL" movie dome.yaml --preset vr360 --out dome.mkv
+says '^--preset vr360: takes frames of the projection equirectangular, and those of this show are domemaster$'
+exits 2 "$DOMEFALL" movie sphere.yaml --preset vr360 --out sphere.mp4
+says '^--out sphere.mp4: a movie of the preset vr360 is a .mkv file$'
+
+# Without mkvmerge nothing is begun; where it fails, nothing is kept.
+mkdir programs
+ln -s "$(command -v ffmpeg)" "$(command -v ffprobe)" programs
+exits 75 env PATH="$folder/programs" "$DOMEFALL" movie sphere.yaml --preset vr360 --out none.mkv
+says 'mkvtoolnix'
+nothing_left none.mkv
+cat >programs/mkvmerge <<END
+#!/bin/sh
+[ "\$1" = --version ] && exit 0
+echo 'Error: it does not want to.'
+exit 2
+END
+chmod +x programs/mkvmerge
+exits 1 env PATH="$folder/programs" "$DOMEFALL" movie sphere.yaml --preset vr360 --out none.mkv
+says '^.*none.mkv: mkvmerge, which says that it is a sphere, ended with code 2'
+says 'it does not want to'
+nothing_left none.mkv
