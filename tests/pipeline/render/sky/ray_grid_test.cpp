@@ -96,8 +96,9 @@ void expect_close(const Show& show, const std::string& what, double least_part =
 
 const std::vector<Projection>& projections() {
   static const std::vector<Projection> all{
-      Domemaster{tries(512, 256)}, Domemaster{tries(1500, 400)}, Stereographic{640, 360, 2.0},
-      Stereographic{700, 700, 300 * kDegree}};
+      Domemaster{tries(512, 256)}, Domemaster{tries(1500, 400)},
+      Stereographic{tries(640, 320), tries(360, 180), 2.0},
+      Stereographic{tries(700, 350), tries(700, 350), 300 * kDegree}};
   return all;
 }
 
@@ -155,8 +156,10 @@ TEST(RayGrid, BlocksAreMadeOfRows) {
 }
 
 TEST(RayGrid, SparesNearlyAllViewRaysOfALargeImage) {
-  expect_close(show_of(StaticObserver{10}, Domemaster{4096}), "a dome", 0.95);
-  expect_close(show_of(RadialInfall{1}, Domemaster{4096}), "inside", 0.85);
+  // Edges, at which rays are traced, take a larger part of a smaller image.
+  const Projection dome = Domemaster{tries(4096, 1536)};
+  expect_close(show_of(StaticObserver{10}, dome), "a dome", kSanitized ? 0.85 : 0.95);
+  expect_close(show_of(RadialInfall{1}, dome), "inside", kSanitized ? 0.6 : 0.85);
 }
 
 Show without_stars(const Trajectory& t, const Projection& p) {

@@ -7,6 +7,7 @@
 #include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/render/stars/star_colours.h"
 #include "tests/pipeline/render/stars/star_scene.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -131,7 +132,7 @@ TEST(StarImageFinder, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
         SCOPED_TRACE("r " + std::to_string(c.r) + " celerity " +
                      std::to_string(c.celerity.length()) + " tetrad " + tetrad_name(c.tetrad) +
                      (far ? " far" : " home"));
-        for (int k = 0; k < 60; ++k) {
+        for (int k = 0; k < tries(60, 12); ++k) {
           V3d source = random_direction(random);
           if (k % 3 == 0) {  // about the axis
             const double angle = std::pow(10, decades(random));
