@@ -6,6 +6,8 @@ source "$(dirname "$0")/common.bash"
 cd "$folder"
 stars=$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv
 panorama=$DOMEFALL_SOURCE/shows/assets/milky_way.exr
+# The same at a quarter of the size takes a tenth of the time, where any picture will do.
+oiiotool "$panorama" --resize:filter=box 1024x512 -o small.exr
 
 # A sky of stars: all their light is in it, and it lies as it should.
 exits 0 "$DOMEFALL" sky build --stars "$stars" --fainter-than 6.5 --blur 2 --size 64 --out starlight.sky
@@ -26,13 +28,13 @@ if [ -e none.sky ] || [ -e coarse.sky ]; then fail "a failed build left a file";
 exits 0 "$DOMEFALL" sky import "$panorama" --size 128 --licence 'free with credit' --out as_it_is.sky
 says '^as_it_is.sky: equatorial, RA 0 deg in the middle, growing to the left, north up$'
 says '^it lies on the sky as stated'
-exits 0 "$DOMEFALL" sky import "$panorama" --size 128 --ra-right --out mirrored.sky
+exits 0 "$DOMEFALL" sky import small.exr --size 128 --ra-right --out mirrored.sky
 says '^warning: .*fits better as equatorial, RA 0 deg in the middle, growing to the left, north up$'
 exits 2 "$DOMEFALL" sky check mirrored.sky
 says 'fits better as equatorial, RA 0 deg in the middle, growing to the left, north up'
 exits 0 "$DOMEFALL" sky info as_it_is.sky
 grep -q '^licence: free with credit$' stdout || fail "the licence is not in the file"
-exits 0 "$DOMEFALL" sky check "$panorama"
+exits 0 "$DOMEFALL" sky check small.exr
 
 # What cannot be read is told by name, and where.
 exits 2 "$DOMEFALL" sky import nowhere.png --out x.sky
