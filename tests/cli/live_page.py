@@ -84,7 +84,7 @@ def drive(page, show):
     page.still()
     first = page.pixels()
     assert sum(map(sum, first)) > 1000, 'the picture is black'
-    assert page.ask('document.getElementById("plot").naturalWidth') > 100
+    page.until('document.getElementById("plot").width > 500', 'the plots')
     assert page.element('i-r').text.startswith('6 M'), page.element('i-r').text
 
     page.element('play').click()
@@ -164,6 +164,11 @@ def drive(page, show):
 
 
 def rate(page, seconds):
+    page.keys('p')
+    page.window.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+        'width': 960, 'height': 540 + page.window.find_element(By.TAG_NAME, 'footer').size['height'],
+        'deviceScaleFactor': 1, 'mobile': False})
+    page.until('document.getElementById("view").height == 540', 'the size')
     page.still()
     page.keys(' ')
     time.sleep(1)

@@ -19,8 +19,22 @@ export class Instruments {
     this.show = show;
     $('title').textContent = show.title || show.file;
     document.title = `${show.title || show.file} – Domefall`;
-    $('plot').src = `plot.svg?${show.revision}`;
+    this.drawPlots(show);
     $('now').setAttribute('viewBox', `0 0 ${show.plots.width} ${show.plots.height}`);
+  }
+
+  // The page of the plots is white; here it is dark, in the same hues. It is drawn once, since a
+  // browser without a graphics card takes long for an SVG.
+  async drawPlots({ revision, plots }) {
+    const page = new Image(), plot = $('plot');
+    page.src = `plot.svg?${revision}`;
+    await page.decode().catch(() => {});
+    if (this.show.revision !== revision || !page.naturalWidth) return;
+    const part = Math.min(1, 840 / plots.width);
+    Object.assign(plot, { width: plots.width * part, height: plots.height * part });
+    const pen = plot.getContext('2d');
+    pen.filter = 'invert(0.9) hue-rotate(180deg)';
+    pen.drawImage(page, 0, 0, plot.width, plot.height);
   }
 
   // A number of the states at a frame, straight between the samples.

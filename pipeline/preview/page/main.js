@@ -95,7 +95,15 @@ function draw() {
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   const [w, h] = fitted(view.projection, width, height);
   projector.draw(view.projection, w, h, view.fov, cameraFor(view, view.projection));
-  if (!show) return;
+  if (show) drawAround();
+}
+
+// What stands around the picture; while the show plays, ten times a second is enough.
+let around = 0;
+function drawAround() {
+  const now = performance.now();
+  if (play.on && now - around < 100) return;
+  around = now;
   timeline.draw(play.time);
   const opening = view.projection in widest ? ` · ${+view.fov.toPrecision(3)}°` : '';
   instruments.draw(frameNow(), (view.own ? "show's camera" : `${view.az.toFixed(1)}°, ${view.alt.toFixed(1)}°`) + opening);
@@ -104,7 +112,8 @@ function draw() {
 
 // ---- the clock ----
 
-// Frames are dropped where pictures take too long; the show's time is never slowed.
+// Frames are dropped where pictures take too long; the show's time is never slowed.  Each picture that
+// comes is drawn, and nothing between.
 function tick(now) {
   if (!play.on) return;
   play.time += (now - play.last) / 1000 * play.speed;
@@ -114,7 +123,6 @@ function tick(now) {
     if (play.loop) play.time = end > 0 ? play.time % end : 0;
     else { play.time = end; setPlaying(false); }
   }
-  redraw();
   requestAnimationFrame(tick);
 }
 

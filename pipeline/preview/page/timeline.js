@@ -73,9 +73,10 @@ export class Timeline {
       this.triangle(pen, begin, top, x(segment.begin_s + segment.fade_in_s), bottom);
       this.triangle(pen, end, top, x(segment.end_s - segment.fade_out_s), bottom);
       pen.fillRect(begin - 0.5, top, 1, bottom - top);
-      const room = tapers - grown - 8, words = `${k + 1} ${segment.type}`;
+      const clear = Math.max(grown, x(segment.begin_s + segment.fade_in_s));
+      const room = tapers - clear - 8, words = `${k + 1} ${segment.type}`;
       const text = pen.measureText(words).width < room ? words : `${k + 1}`;
-      if (pen.measureText(text).width < room) pen.fillText(text, grown + 5, bottom - 7);
+      if (pen.measureText(text).width < room) pen.fillText(text, clear + 5, bottom - 7);
     });
   }
 
