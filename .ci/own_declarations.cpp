@@ -1,7 +1,7 @@
 // A plugin of clang-tidy, whose one check has every other look at our own declarations alone.
 //
-// clang-tidy 14 matches all that a source includes, and drops what it finds in system headers at the
-// end: three quarters of its time go into those.  (Later versions leave them out by themselves.)
+// clang-tidy 14 matches all that a source includes, and drops at the end what it finds in system
+// headers: two thirds of its time go into those.
 #include <clang-tidy/ClangTidyCheck.h>
 #include <clang-tidy/ClangTidyModule.h>
 #include <clang-tidy/ClangTidyModuleRegistry.h>
@@ -24,8 +24,8 @@ class OwnDeclarations : public clang::tidy::ClangTidyCheck {
     finder->addMatcher(clang::ast_matchers::translationUnitDecl(), this);
   }
 
-  // The unit as a whole is matched before any of its declarations, which are then taken from the scope
-  // that is set here.
+  // The unit as a whole is matched before any of its declarations, which are then taken from the
+  // scope that is set here.
   void check(const MatchFinder::MatchResult& found) override {
     const clang::SourceManager& sources = *found.SourceManager;
     std::vector<clang::Decl*> own;

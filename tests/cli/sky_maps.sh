@@ -6,7 +6,7 @@ source "$(dirname "$0")/common.bash"
 cd "$folder"
 stars=$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv
 panorama=$DOMEFALL_SOURCE/shows/assets/milky_way.exr
-# The same at a quarter of the size takes a tenth of the time, where any picture will do.
+# Where any picture will do, the same at a quarter of the size takes a tenth of the time.
 oiiotool "$panorama" --resize:filter=box 1024x512 -o small.exr
 
 # A sky of stars: all their light is in it, and it lies as it should.
