@@ -1,5 +1,5 @@
-// From direction to pixel and back, for the camera of [Riazuelo] sec. sec_cam: unit vectors X, Y, Z,
-// (X, Y, Z) right-handed.
+// From direction to pixel and back, for the camera of [Riazuelo] sec. sec_cam: unit vectors X, Y
+// and Z, (X, Y, Z) right-handed.
 //
 // A flat picture has Z in its middle, X to its right edge and Y to its bottom edge.  Pictures for
 // an audience, which has_zenith() tells, take Z for its zenith, X for its right hand and Y for its

@@ -56,8 +56,8 @@ double farthest_pixels(const Projection& p, const CameraDirection& n, double rea
   return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
 }
 
-// The columns, from the middle of a blob, that it covers on a row of the whole sphere: all points at
-// the latitude within `reach` of the middle.  Their distance c has
+// The columns, from the middle of a blob, that it covers on a row of the whole sphere: all points
+// at the latitude within `reach` of the middle.  Their distance c has
 //     sin^2(c/2) = sin^2((lat - middle)/2) + cos(lat) cos(middle) sin^2(longitude/2).
 double half_width_at(double latitude, double middle, double reach, double per_radian) {
   const double up = std::sin((latitude - middle) / 2), most = std::sin(reach / 2);

@@ -1,6 +1,9 @@
 // Pictures in every projection against Domemasters, upwards and downwards, of the same instant.
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
 #include "tests/pipeline/render/scenes.h"
 #include "tests/sanitized.h"
@@ -91,6 +94,29 @@ Compared compare(const WholeSphere& sphere, const FloatImage& image, const Proje
   found.different /= count;
   found.mean /= count;
   return found;
+}
+
+TEST(PicturesInEveryProjection, HaveKeysOfTheirOwn) {
+  const std::vector<Projection> all{Domemaster{256},
+                                    Fisheye{256, 256, pi, 0},
+                                    Fisheye{256, 256, 1.1 * pi, 0},
+                                    Fisheye{256, 192, pi, 0},
+                                    Fisheye{256, 192, pi, 1},
+                                    Equirectangular{256},
+                                    Cubemap{64},
+                                    Rectilinear{256, 256, 1.5},
+                                    Rectilinear{256, 256, 1.6},
+                                    Cubemap{65},
+                                    Stereographic{256, 256, 1.5},
+                                    Equirectangular{258}};
+  std::set<std::string> keys;
+  for (const Projection& p : all) {
+    const Show show = show_for(p);
+    FrameState state = frame_state(show, 0);
+    state.projection = p;
+    keys.insert(FrameKeys(show, "").scene(state));
+  }
+  EXPECT_EQ(keys.size(), all.size());
 }
 
 // An edge of a sky is not interpolated, and pixels of other shapes blur an Einstein ring otherwise.

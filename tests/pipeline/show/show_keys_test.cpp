@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/show/frame_state.h"
-
 namespace domefall {
 namespace {
 
@@ -103,62 +101,6 @@ TEST_F(ShowKeys, FlatPicturesAreFullHdAtNinetyDegreesOrWhatIsGiven) {
   EXPECT_EQ(given.columns, 640);
   EXPECT_EQ(given.rows, 480);
   EXPECT_DOUBLE_EQ(given.fov, 270 * kDegree);
-}
-
-TEST_F(ShowKeys, RectilinearPicturesAreAsFlatOnes) {
-  const auto plain = std::get<Rectilinear>(with("camera: {projection: rectilinear}").projection);
-  EXPECT_EQ(plain.columns, 1920);
-  EXPECT_EQ(plain.rows, 1080);
-  EXPECT_DOUBLE_EQ(plain.fov, 90 * kDegree);
-  const auto given = std::get<Rectilinear>(
-      with("size: [640, 480]\ncamera: {projection: rectilinear, fov_deg: 170}").projection);
-  EXPECT_EQ(given.columns, 640);
-  EXPECT_DOUBLE_EQ(given.fov, 170 * kDegree);
-}
-
-TEST_F(ShowKeys, AFisheyeIsASquareOrAPartOfIt) {
-  const auto plain = std::get<Fisheye>(with("camera: {projection: fisheye}").projection);
-  EXPECT_EQ(plain.columns, 4096);
-  EXPECT_EQ(plain.rows, 4096);
-  EXPECT_DOUBLE_EQ(plain.fov, 180 * kDegree);
-  const auto whole =
-      std::get<Fisheye>(with("size: 2k\ncamera: {projection: fisheye, fov_deg: 360}").projection);
-  EXPECT_EQ(whole.columns, 2048);
-  EXPECT_DOUBLE_EQ(whole.fov, 360 * kDegree);
-  for (const auto& [word, cut_back] :
-       {std::pair{"", 1.0}, {", cut: back", 1.0}, {", cut: front", 0.0}, {", cut: both", 0.5}}) {
-    const auto cut = std::get<Fisheye>(
-        with("size: [4096, 3072]\ncamera: {projection: fisheye" + std::string(word) + "}")
-            .projection);
-    EXPECT_EQ(cut.columns, 4096);
-    EXPECT_EQ(cut.rows, 3072);
-    EXPECT_EQ(cut.cut_back, cut_back);
-  }
-}
-
-TEST_F(ShowKeys, PicturesOfTheWholeSphereHaveOneSize) {
-  for (const auto& [text, width] :
-       {std::pair{"", 4096}, {"size: 8k\n", 8192}, {"size: 500\n", 500}})
-    EXPECT_EQ(columns(with(text + std::string("camera: {projection: equirectangular}")).projection),
-              width);
-  for (const auto& [text, face] :
-       {std::pair{"", 1024}, {"size: 4k\n", 4096}, {"size: 5461\n", 5461}})
-    EXPECT_EQ(columns(with(text + std::string("camera: {projection: cubemap}")).projection),
-              3 * face);
-}
-
-// One camera serves all pictures for an audience.
-TEST_F(ShowKeys, PicturesWithAZenithHaveTheAxesOfADome) {
-  const std::string camera = ", look_at: hole, elevation_deg: 20, dome_tilt_deg: 10, roll_deg: 5}";
-  const auto state = [&](const std::string& projection) {
-    return frame_state(with("camera: {projection: " + projection + camera), 0);
-  };
-  const FrameState dome = state("domemaster");
-  for (const char* projection : {"fisheye", "equirectangular", "cubemap"}) {
-    const FrameState other = state(projection);
-    EXPECT_EQ(other.observer.tetrad_from_camera, dome.observer.tetrad_from_camera) << projection;
-    EXPECT_EQ(other.camera_from_audience, dome.camera_from_audience) << projection;
-  }
 }
 
 TEST_F(ShowKeys, TheHolesPlaceIsGivenInDegreesOrByAStar) {

@@ -64,7 +64,9 @@ TEST(BlobsInEveryProjection, AreRoundInAngle) {
       if (k % 5 == 1) at.i = k % 2 == 0 ? 0.6 : columns(p) + 0.3;
       if (k % 5 == 2) at.j = k % 2 == 0 ? 0.7 : rows(p) + 0.2;
       at = pixel_of(p, direction_at(p, at)).value();  // beyond a seam it is on the other side
-      const double pixel = central_pixel_angle(p), sigma = pixel * (k % 3 == 0 ? 0.95 : 2.5);
+      const double pixel = central_pixel_angle(p), sigma = pixel * (k % 3 == 0   ? 0.95
+                                                                    : k % 3 == 1 ? 2.5
+                                                                                 : 9);
       const double peak = k % 4 == 0 ? 0.02 : 5;
       const PointSpread widths = widths_of(p, sigma);
       const StarImage image = image_on(at, flux_of_peak(widths, peak));
