@@ -86,16 +86,20 @@ LivePictures::LivePictures(Show show, int threads)
       renderer_(std::make_unique<Renderer>(prepared_, threads)),
       labels_(std::make_unique<StarLabels>(prepared_)) {
   set_file_threads(renderer_->threads());
-  make_table();
 }
 
-LivePictures::~LivePictures() { making_table_.join(); }
+LivePictures::~LivePictures() { forget_table(); }
 
-// A picture need not wait for the table: without it a grade takes ten times as long, 0.1 us a
-// pixel.
-void LivePictures::make_table() {
+void LivePictures::forget_table() {
   if (making_table_.joinable()) making_table_.join();
+  making_table_ = std::thread();
   table_made_ = false;
+}
+
+// The first picture does not wait for the table: without it a grade takes ten times as long, 0.1 us
+// a pixel.
+void LivePictures::make_table() {
+  if (making_table_.joinable()) return;
   making_table_ = std::thread([this, grader = usual_.as_for(kLargeDome, kLargeDome)] {
     grader.grade(HalfFrame(1, 1));
     table_made_ = true;
@@ -116,7 +120,7 @@ void LivePictures::take(Show show) {
   if (!grader) return;
   usual_ = *grader;
   others_.clear();
-  make_table();
+  forget_table();
 }
 
 FrameState LivePictures::state_for(const PictureRequest& request) const {
@@ -156,6 +160,7 @@ LivePicture LivePictures::make(const PictureRequest& request, const std::atomic<
   renderer_->stop_when(&stop);
   renderer_->render(picture.state, frame_);
   picture.jpeg = encoded(request, picture.state, frame_);
+  make_table();
   return picture;
 }
 

@@ -57,8 +57,9 @@ class LivePictures {
   // The show as a request wants it, for the renderer, which reads it anew for each frame.
   void prepare(const PictureRequest& request);
   const Grader& grader_for(const PictureRequest& request);
-  // Makes the table of the usual grade beside the first pictures.
+  // Begins to make the table of the usual grade, beside what is done otherwise.
   void make_table();
+  void forget_table();
   std::string encoded(const PictureRequest& request, const FrameState& state,
                       const HalfFrame& frame);
 
