@@ -20,12 +20,18 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 }  // namespace
 
+// A link and the file that it leads to may each be replaced.
 FileWatch::FileWatch(const std::filesystem::path& file)
-    : inotify_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)), name_(file.filename()) {
-  if (inotify_.number() < 0 || inotify_add_watch(inotify_.number(), folder_of(file).c_str(),
-                                                 IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE) < 0)
-    throw TemporaryError(
-        fmt::format("{}: changes cannot be watched for: {}", file.string(), std::strerror(errno)));
+    : inotify_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
+  std::error_code unreadable;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(file, unreadable);
+  for (const std::filesystem::path& watched : {file, unreadable ? file : target}) {
+    names_.insert(watched.filename());
+    if (inotify_.number() < 0 || inotify_add_watch(inotify_.number(), folder_of(watched).c_str(),
+                                                   IN_CLOSE_WRITE | IN_MOVED_TO) < 0)
+      throw TemporaryError(fmt::format("{}: changes cannot be watched for: {}", file.string(),
+                                       std::strerror(errno)));
+  }
 }
 
 bool FileWatch::wait(int milliseconds) {
@@ -41,7 +47,8 @@ bool FileWatch::wait(int milliseconds) {
       std::memcpy(&event, events.data() + at, sizeof event);
       const char* name = events.data() + at + sizeof event;
       // After an overflow nobody knows what was written.
-      if ((event.mask & IN_Q_OVERFLOW) != 0 || (event.len > 0 && name_ == name)) written = true;
+      if ((event.mask & IN_Q_OVERFLOW) != 0 || (event.len > 0 && names_.contains(name)))
+        written = true;
       at += static_cast<ssize_t>(sizeof event + event.len);
     }
   }

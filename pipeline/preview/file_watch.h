@@ -2,13 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <set>
 
 #include "pipeline/image/descriptor.h"
 
 namespace domefall {
 
-// Watches the folder that holds the file, since most editors write another file and rename it.
+// Watches the folder that holds the file, since most editors write another file and rename it, and
+// that of the file which a link leads to.
 class FileWatch {
  public:
   // Throws TemporaryError if the system grants no watch.
@@ -20,7 +21,7 @@ class FileWatch {
 
  private:
   Descriptor inotify_;
-  std::filesystem::path name_;
+  std::set<std::filesystem::path> names_;
 };
 
 }  // namespace domefall

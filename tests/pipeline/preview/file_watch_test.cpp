@@ -28,6 +28,15 @@ TEST(FileWatch, SeesAFileThatIsWrittenAndOneThatTakesItsPlace) {
   EXPECT_FALSE(watch.wait(kShort));
 }
 
+TEST(FileWatch, SeesWhatALinkLeadsTo) {
+  const ScratchFolder folder, other;
+  write(other / "target.yaml", "one");
+  std::filesystem::create_symlink(other / "target.yaml", folder / "show.yaml");
+  FileWatch watch(folder / "show.yaml");
+  write(other / "target.yaml", "two");
+  EXPECT_TRUE(watch.wait(kLong));
+}
+
 TEST(FileWatch, SaysWhereItCannotWatch) {
   EXPECT_THROW(FileWatch("/nonexistent/show.yaml"), TemporaryError);
 }
