@@ -6,8 +6,6 @@
 #include <array>
 #include <cstdlib>
 
-extern char** environ;
-
 namespace domefall {
 
 // The desktop's own opener ends when the browser has the address, and whatever it says is not for

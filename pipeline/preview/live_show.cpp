@@ -18,7 +18,9 @@ class HeldTurn {
  public:
   explicit HeldTurn(NewestFirst& turns) : turns_(turns) {}
   HeldTurn(const HeldTurn&) = delete;
+  HeldTurn(HeldTurn&&) = delete;
   HeldTurn& operator=(const HeldTurn&) = delete;
+  HeldTurn& operator=(HeldTurn&&) = delete;
   ~HeldTurn() { turns_.leave(); }
 
  private:

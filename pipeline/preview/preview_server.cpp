@@ -179,7 +179,7 @@ struct PreviewServer::Inside {
   void add_pages() {
     for (const PageFile& file : page_files()) {
       const auto send = [file](const auto&, auto& response) {
-        response.set_content(file.bytes.data(), file.bytes.size(), std::string(file.type).c_str());
+        response.set_content(file.bytes.data(), file.bytes.size(), std::string(file.type));
       };
       on(std::string(file.name), send);
       if (file.name == "index.html") on("", send);
@@ -226,18 +226,14 @@ struct PreviewServer::Inside {
       return;
     }
     response.set_header("X-Domefall", described(*made));
-    response.set_content(std::move(made->picture.jpeg), "image/jpeg");
+    response.set_content(made->picture.jpeg, "image/jpeg");
   }
 
   void changes(const httplib::Request& request, httplib::Response& response) {
-    struct Waiting {
-      std::atomic<int>& count;
-      const int number = ++count;
-      ~Waiting() { --count; }
-    } const waiting{waiting_for_news};
-    const int patience = waiting.number > kMostWaitingForNews ? 0 : kNewsSeconds;
-    const LiveShow::Version version =
-        show.changed_since(static_cast<int>(whole_number(request, "since")), patience);
+    const bool room = ++waiting_for_news <= kMostWaitingForNews;
+    const LiveShow::Version version = show.changed_since(
+        static_cast<int>(whole_number(request, "since")), room ? kNewsSeconds : 0);
+    --waiting_for_news;
     nlohmann::ordered_json json{
         {"revision", version.revision}, {"readings", version.readings}, {"mistake", nullptr}};
     if (!version.mistake.empty()) json["mistake"] = version.mistake;

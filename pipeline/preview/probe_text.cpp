@@ -18,7 +18,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 void add_ray(const Show& show, const FrameState& state, const CameraDirection& along, double width,
              Json& json) {
   const HoleOptics optics =
-      make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
+      make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}, false});
   const ViewRay ray = ViewTracer(state, optics, show.effects).trace(along);
   json["sky"] = name_of(ray.sky);
   if (!ray.known) return;
