@@ -18,7 +18,8 @@ struct MarkedPage {
   std::vector<std::vector<PagePoint>> places;
 };
 
-// Places are taken straight between the points that the page draws, at `instants` (>= 2) even times.
+// Places are taken straight between the points that the page draws, at `instants` (>= 2) even
+// times.
 MarkedPage marked_page(const Show& show, int instants);
 
 }  // namespace domefall

@@ -39,11 +39,12 @@ class LivePictures {
   const std::string& view() const { return usual_.view(); }
   int threads() const { return renderer_->threads(); }
 
-  // Takes another version of the show.  Skies that it leaves as they are stay loaded.  Throws as the
-  // constructor, and then keeps the version before.
+  // Takes another version of the show.  Skies that it leaves as they are stay loaded.  Throws as
+  // the constructor, and then keeps the version before.
   void take(Show show);
 
-  // The state of the picture that is asked for.  Throws InputError where the show cannot be seen so.
+  // The state of the picture that is asked for.  Throws InputError where the show cannot be seen
+  // so.
   FrameState state_for(const PictureRequest& request) const;
 
   // Throws as Renderer::render, RenderStopped soon after `stop` becomes true, and InputError for a

@@ -1,5 +1,5 @@
-// A show file as it stands in its author's editor: the last version that is right, and what is wrong
-// with the file now.
+// A show file as it stands in its author's editor: the last version that is right, and what is
+// wrong with the file now.
 #pragma once
 
 #include <condition_variable>

@@ -12,8 +12,8 @@ namespace domefall {
 
 class NewestFirst {
  public:
-  // A client's picture, or one of two kinds that it has made side by side.  `number` grows with each
-  // request of that name.
+  // A client's picture, or one of two kinds that it has made side by side.  `number` grows with
+  // each request of that name.
   struct Ticket {
     std::string name;
     long number = 0;

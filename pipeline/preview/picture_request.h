@@ -37,8 +37,9 @@ using Parameters = std::function<std::optional<std::string>(std::string_view nam
 // Pictures are between so many pixels wide, and high.
 inline constexpr int kLeastSide = 16, kMostSide = 4096;
 
-// Reads what the address says.  A frame beyond the show's end becomes its last one, since a show may
-// have been cut while its page was open.  Throws InputError naming the parameter and what it may be.
+// Reads what the address says.  A frame beyond the show's end becomes its last one, since a show
+// may have been cut while its page was open.  Throws InputError naming the parameter and what it
+// may be.
 PictureRequest read_request(const Parameters& parameters, const Show& show);
 
 }  // namespace domefall

@@ -6,19 +6,19 @@
 
 namespace domefall {
 
-// Gives a frame another projection.  A flat view of a dome is that of someone in the seats, straight
-// at the camera's target or, where the camera is given by angles, 45 degrees up the front of the
-// dome.  A picture of the whole sphere has the audience's front in its middle and their zenith up.
-// Titles stay where they are for the audience.
+// Gives a frame another projection.  A flat view of a dome is that of someone in the seats,
+// straight at the camera's target or, where the camera is given by angles, 45 degrees up the front
+// of the dome.  A picture of the whole sphere has the audience's front in its middle and their
+// zenith up. Titles stay where they are for the audience.
 void see_in(const Show& show, const Projection& projection, FrameState& state);
 
-// Turns a frame's camera to look somewhere.  A flat picture has that place in its middle; one for an
-// audience has it 45 degrees above the front.
+// Turns a frame's camera to look somewhere.  A flat picture has that place in its middle; one for
+// an audience has it 45 degrees above the front.
 void turn_to(const ScreenLook& look, FrameState& state);
 
-// What a camera is said to be in a show's file, so that a frame of the show looks as a picture does:
-// `euler_deg`, as YAML.  A dome gets what is in the middle of a flat picture 45 degrees above its
-// front.
+// What a camera is said to be in a show's file, so that a frame of the show looks as a picture
+// does: `euler_deg`, as YAML.  A dome gets what is in the middle of a flat picture 45 degrees above
+// its front.
 std::string camera_as_yaml(const Show& show, const FrameState& state);
 
 }  // namespace domefall
