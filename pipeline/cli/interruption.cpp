@@ -74,8 +74,13 @@ void leave_nothing_when_stopped() {
 
 void catch_interruptions() { first_is_remembered = true; }
 
+std::optional<int> was_interrupted() {
+  const int signal = remembered;
+  return signal != 0 ? std::optional(signal) : std::nullopt;
+}
+
 void stop_if_interrupted() {
-  if (const int signal = remembered) throw Interrupted{signal};
+  if (const auto signal = was_interrupted()) throw Interrupted{*signal};
 }
 
 }  // namespace domefall

@@ -2,10 +2,13 @@
 // One that the program was started to ignore (nohup, a job in the background) stays ignored.
 #pragma once
 
+#include <optional>
+
 namespace domefall {
 
 struct Interrupted {
   int signal;
+  bool expected = false;  // there is nothing to go on with, and nothing to say
 };
 
 // From now on such a signal removes what is unfinished (unfinished.h) and ends the program at once,
@@ -15,6 +18,9 @@ void leave_nothing_when_stopped();
 // From now on the first signal is only remembered, so that a run can end between frames.  A second
 // one acts as above.
 void catch_interruptions();
+
+// The signal that has been remembered, if there is one.
+std::optional<int> was_interrupted();
 
 // Throws Interrupted if a signal has been remembered.
 void stop_if_interrupted();

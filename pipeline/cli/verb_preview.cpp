@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <thread>
@@ -72,18 +74,21 @@ void serve(const Options& o) {
               server.port(), server.port(), host_name().c_str());
   std::fflush(stdout);
   catch_interruptions();
-  std::thread serving([&] { server.serve(); });
+  std::atomic<bool> served = false;
+  std::thread serving([&] {
+    server.serve();
+    served = true;
+  });
   if (!o.no_open) open_browser(server.url());
-  try {
-    for (;;) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      stop_if_interrupted();
-    }
-  } catch (const Interrupted&) {
-    server.stop();
-    serving.join();
-    throw;
-  }
+  while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  server.stop();
+  // Whoever sends a byte now and then could keep a connection for ever.
+  constexpr int kGrace = 20;  // tenths of a second
+  for (int k = 0; k < kGrace && !served; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  if (!served) std::_Exit(128 + *was_interrupted());
+  serving.join();
+  throw Interrupted{*was_interrupted(), true};
 }
 
 void preview(const Options& o) {

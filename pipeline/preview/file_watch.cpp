@@ -22,13 +22,14 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 // A link and the file that it leads to may each be replaced.
 FileWatch::FileWatch(const std::filesystem::path& file)
-    : inotify_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)) {
+    : inotify_(inotify_init1(IN_CLOEXEC | IN_NONBLOCK)), file_(file) {
   std::error_code unreadable;
   const std::filesystem::path target = std::filesystem::weakly_canonical(file, unreadable);
   for (const std::filesystem::path& watched : {file, unreadable ? file : target}) {
     names_.insert(watched.filename());
     if (inotify_.number() < 0 || inotify_add_watch(inotify_.number(), folder_of(watched).c_str(),
-                                                   IN_CLOSE_WRITE | IN_MOVED_TO) < 0)
+                                                   IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE |
+                                                       IN_DELETE_SELF | IN_MOVE_SELF) < 0)
       throw TemporaryError(fmt::format("{}: changes cannot be watched for: {}", file.string(),
                                        std::strerror(errno)));
   }
@@ -46,9 +47,13 @@ bool FileWatch::wait(int milliseconds) {
       inotify_event event;
       std::memcpy(&event, events.data() + at, sizeof event);
       const char* name = events.data() + at + sizeof event;
+      if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) != 0)
+        throw TemporaryError(file_.string() + ": its folder is no longer there");
+      const bool named = event.len > 0 && names_.contains(name);
+      // A file that is created is told of again when it is closed, but a link is whole.
+      const bool whole = (event.mask & IN_CREATE) == 0 || std::filesystem::is_symlink(file_);
       // After an overflow nobody knows what was written.
-      if ((event.mask & IN_Q_OVERFLOW) != 0 || (event.len > 0 && names_.contains(name)))
-        written = true;
+      if ((event.mask & IN_Q_OVERFLOW) != 0 || (named && whole)) written = true;
       at += static_cast<ssize_t>(sizeof event + event.len);
     }
   }

@@ -16,11 +16,12 @@ class FileWatch {
   explicit FileWatch(const std::filesystem::path& file);
 
   // Waits until the file was written or replaced, or `milliseconds` have passed.  True for the
-  // former.
+  // former.  Throws TemporaryError if the folder is no longer there, after which nothing is seen.
   bool wait(int milliseconds);
 
  private:
   Descriptor inotify_;
+  std::filesystem::path file_;
   std::set<std::filesystem::path> names_;
 };
 

@@ -88,22 +88,24 @@ LivePictures::LivePictures(Show show, int threads)
   set_file_threads(renderer_->threads());
 }
 
-LivePictures::~LivePictures() { forget_table(); }
+LivePictures::~LivePictures() { wait_for_tables(); }
 
-void LivePictures::forget_table() {
-  if (making_table_.joinable()) making_table_.join();
-  making_table_ = std::thread();
-  table_made_ = false;
+void LivePictures::wait_for_tables() {
+  for (std::thread& making : making_tables_) making.join();
+  making_tables_.clear();
 }
 
 // The first picture does not wait for the table: without it a grade takes ten times as long, 0.1 us
-// a pixel.
+// a pixel.  Nor does another grade wait for the table of the one before.
 void LivePictures::make_table() {
-  if (making_table_.joinable()) return;
-  making_table_ = std::thread([this, grader = usual_.as_for(kLargeDome, kLargeDome)] {
+  if (table_made_) return;
+  constexpr std::size_t kMost = 4;
+  if (making_tables_.size() == kMost) wait_for_tables();
+  table_made_ = std::make_shared<std::atomic<bool>>(false);
+  making_tables_.emplace_back([made = table_made_, grader = usual_.as_for(kLargeDome, kLargeDome)] {
     try {
       grader.grade(HalfFrame(1, 1));
-      table_made_ = true;
+      *made = true;
     } catch (const std::exception&) {
       // Pictures are graded by the formulas, as before.
     }
@@ -124,7 +126,7 @@ void LivePictures::take(Show show) {
   if (!grader) return;
   usual_ = *grader;
   others_.clear();
-  forget_table();
+  table_made_.reset();
 }
 
 FrameState LivePictures::state_for(const PictureRequest& request) const {
@@ -172,7 +174,8 @@ std::string LivePictures::encoded(const PictureRequest& request, const FrameStat
                                   const HalfFrame& frame) {
   const Grader& asked = grader_for(request);
   Grader grader = asked.with(state.cdl);
-  if (&asked != &usual_ || table_made_) grader = grader.as_for(kLargeDome, kLargeDome);
+  if (&asked != &usual_ || (table_made_ && *table_made_))
+    grader = grader.as_for(kLargeDome, kLargeDome);
   JpegHead head;
   head.quality = request.moving ? kMovingQuality : kStillQuality;
   head.frame = request.frame;

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "pipeline/grade/grader.h"
 #include "pipeline/preview/picture_request.h"
@@ -60,7 +61,7 @@ class LivePictures {
   const Grader& grader_for(const PictureRequest& request);
   // Begins to make the table of the usual grade, beside what is done otherwise.
   void make_table();
-  void forget_table();
+  void wait_for_tables();
   std::string encoded(const PictureRequest& request, const FrameState& state,
                       const HalfFrame& frame);
 
@@ -71,8 +72,9 @@ class LivePictures {
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<StarLabels> labels_;
   std::map<std::pair<std::string, std::string>, Grader> others_;  // by display and view
-  std::thread making_table_;
-  std::atomic<bool> table_made_ = false;
+  // Set once the table of the usual grade is made; null before that has begun.
+  std::shared_ptr<std::atomic<bool>> table_made_;
+  std::vector<std::thread> making_tables_;
   HalfFrame frame_;
 };
 

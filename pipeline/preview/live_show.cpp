@@ -29,7 +29,9 @@ class HeldTurn {
 
 }  // namespace
 
-LiveShow::LiveShow(const std::filesystem::path& file, int threads) : file_(file), written_(file) {
+LiveShow::LiveShow(const std::filesystem::path& file, int threads) : file_(file) {
+  // One that cannot be watched because it is not there is told of by read_show.
+  if (std::filesystem::exists(file)) watch_.emplace(file);
   auto show = std::make_shared<const Show>(read_show(file));
   pictures_ = std::make_unique<LivePictures>(*show, threads);
   version_ = {1, 1, std::move(show), {}, pictures_->display(), pictures_->view()};
@@ -43,6 +45,7 @@ LiveShow::~LiveShow() {
 }
 
 void LiveShow::stop() {
+  turns_.end();
   const std::lock_guard lock(mutex_);
   stopped_ = true;
   news_.notify_all();
@@ -50,7 +53,18 @@ void LiveShow::stop() {
 
 void LiveShow::watch() {
   for (;;) {
-    const bool written = written_.wait(kPatience);
+    bool written = true;
+    try {
+      if (watch_) written = watch_->wait(kPatience);
+      // The file may stand in another folder by now, or be a link to another one.  Who watches
+      // before reading misses nothing.
+      if (written) watch_.emplace(file_);
+    } catch (const TemporaryError& error) {
+      watch_.reset();
+      written = false;
+      tell(error.what());
+      std::this_thread::sleep_for(std::chrono::milliseconds(kPatience));
+    }
     {
       const std::lock_guard lock(mutex_);
       if (stopped_) return;
@@ -73,6 +87,14 @@ void LiveShow::reload() {
     mistake = error.what();
   }
   const std::lock_guard lock(mutex_);
+  version_.mistake = mistake;
+  ++version_.readings;
+  news_.notify_all();
+}
+
+void LiveShow::tell(const std::string& mistake) {
+  const std::lock_guard lock(mutex_);
+  if (version_.mistake == mistake) return;
   version_.mistake = mistake;
   ++version_.readings;
   news_.notify_all();
@@ -107,9 +129,8 @@ std::optional<LiveShow::Made> LiveShow::picture(const Parameters& parameters,
 }
 
 void LiveShow::with_pictures(const std::function<void(LivePictures&)>& use) {
-  const NewestFirst::Turn turn = turns_.enter({"the program", 0, false});
-  if (turn != NewestFirst::Turn::kNow)
-    throw TemporaryError("too many pictures are asked for at once");
+  const NewestFirst::Turn turn = turns_.enter(NewestFirst::own_ticket());
+  if (turn != NewestFirst::Turn::kNow) throw TemporaryError("the preview ends");
   const HeldTurn held(turns_);
   use(*pictures_);
 }

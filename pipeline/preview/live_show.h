@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -52,12 +53,13 @@ class LiveShow {
   void with_pictures(const std::function<void(LivePictures&)>& use);
 
   int threads() const { return threads_; }
-  // Ends all waiting, for good.
+  // Ends all waiting and all pictures, for good.
   void stop();
 
  private:
   void watch();
   void reload();
+  void tell(const std::string& mistake);
 
   std::filesystem::path file_;
   mutable std::mutex mutex_;  // of what follows
@@ -68,7 +70,7 @@ class LiveShow {
   NewestFirst turns_;  // who has the pictures
   std::unique_ptr<LivePictures> pictures_;
   int threads_ = 0;
-  FileWatch written_;
+  std::optional<FileWatch> watch_;  // for the thread that watches
   std::thread watching_;
 };
 

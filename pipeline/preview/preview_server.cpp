@@ -59,6 +59,23 @@ long whole_number(const httplib::Request& request, const char* name) {
   return value;
 }
 
+// Counts the requests that are within a scope.
+class CountedIn {
+ public:
+  explicit CountedIn(std::atomic<int>& count) : count_(count), number_(++count) {}
+  CountedIn(const CountedIn&) = delete;
+  CountedIn(CountedIn&&) = delete;
+  CountedIn& operator=(const CountedIn&) = delete;
+  CountedIn& operator=(CountedIn&&) = delete;
+  ~CountedIn() { --count_; }
+
+  int number() const { return number_; }
+
+ private:
+  std::atomic<int>& count_;
+  int number_;
+};
+
 Parameters parameters_of(const httplib::Request& request) {
   return [&request](std::string_view name) -> std::optional<std::string> {
     const auto found = request.params.find(std::string(name));
@@ -219,7 +236,7 @@ struct PreviewServer::Inside {
     // Who does not say who it is has no newer requests.
     std::string name = request.get_param_value("client").substr(0, 40);
     name = name.empty() ? fmt::format("nobody {}", ++nobodies)
-                        : name + ' ' + request.get_param_value("kind").substr(0, 10);
+                        : "client " + name + ' ' + request.get_param_value("kind").substr(0, 10);
     auto made = show.picture(parameters_of(request), {name, whole_number(request, "n"), can_stop});
     if (!made) {
       response.status = 204;
@@ -230,10 +247,10 @@ struct PreviewServer::Inside {
   }
 
   void changes(const httplib::Request& request, httplib::Response& response) {
-    const bool room = ++waiting_for_news <= kMostWaitingForNews;
-    const LiveShow::Version version = show.changed_since(
-        static_cast<int>(whole_number(request, "since")), room ? kNewsSeconds : 0);
-    --waiting_for_news;
+    const CountedIn waiting(waiting_for_news);
+    const LiveShow::Version version =
+        show.changed_since(static_cast<int>(whole_number(request, "since")),
+                           waiting.number() > kMostWaitingForNews ? 0 : kNewsSeconds);
     nlohmann::ordered_json json{
         {"revision", version.revision}, {"readings", version.readings}, {"mistake", nullptr}};
     if (!version.mistake.empty()) json["mistake"] = version.mistake;
@@ -242,7 +259,6 @@ struct PreviewServer::Inside {
   }
 
   void camera(const httplib::Request& request, httplib::Response& response) {
-    const std::shared_ptr<const Show> seen = show.version().show;
     show.with_pictures([&](LivePictures& pictures) {
       const FrameState state =
           pictures.state_for(read_request(parameters_of(request), pictures.show()));

@@ -52,6 +52,19 @@ M33d axes_in(const Show& show, const Projection& projection, const FrameState& s
   return camera_axes_at(show, state.segment, state.show_time_s, projection, state.observer);
 }
 
+double dome_tilt(const Show& show, const FrameState& state) {
+  const Segment& segment = segment_of(show, state.segment);
+  return value_at(segment, Channel::kDomeTilt, state.show_time_s, segment.camera.dome_tilt);
+}
+
+// The axes of a dome that stands upright where another leans to its front by `tilt`, which a show
+// adds again to the angles of its camera.
+M33d untilted(const M33d& axes, double tilt) {
+  const V3d front = column(axes, 1), zenith = column(axes, 2);
+  const double c = std::cos(tilt), s = std::sin(tilt);
+  return from_columns(column(axes, 0), front * c + zenith * s, zenith * c - front * s);
+}
+
 // Keeps what belongs to the audience where it was.
 void set_axes(const M33d& axes, FrameState& state) {
   state.camera_from_audience =
@@ -98,15 +111,23 @@ void turn_to(const ScreenLook& look, FrameState& state) {
 // Theta.
 std::string camera_as_yaml(const Show& show, const FrameState& state) {
   M33d axes = state.observer.tetrad_from_camera;
-  if (has_zenith(show.projection) && !has_zenith(state.projection)) axes = dome_around(axes);
+  double tilt = 0;
+  if (has_zenith(show.projection)) {
+    if (!has_zenith(state.projection)) axes = dome_around(axes);
+    tilt = dome_tilt(show, state);
+    axes = untilted(axes, tilt);
+  } else if (has_zenith(state.projection)) {
+    axes = from_the_seats(axes);
+  }
   const V3d x = column(axes, 0), z = column(axes, 2);
   const double sine = std::hypot(z.y, z.z), theta = std::atan2(sine, z.x),
                phi = sine > 0 ? std::atan2(z.z, z.y) : 0;
   const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
   const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
   const double psi = std::atan2(x.dot(b1), x.dot(a2));
-  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]}}", phi / kRadian, theta / kRadian,
-                     psi / kRadian);
+  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]{}}}", phi / kRadian, theta / kRadian,
+                     psi / kRadian,
+                     tilt != 0 ? fmt::format(", dome_tilt_deg: {:.6g}", tilt / kRadian) : "");
 }
 
 }  // namespace domefall

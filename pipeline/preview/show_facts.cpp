@@ -13,6 +13,7 @@
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/shift_range.h"
+#include "pipeline/show/observer_track.h"
 #include "pipeline/survey/axis_stars.h"
 #include "pipeline/survey/light_survey.h"
 #include "pipeline/survey/title_warnings.h"
@@ -51,22 +52,22 @@ const char* group_of(Channel channel) {
   return channel < Channel::kSlopeR ? "sky" : "grade";
 }
 
-// Each instant at which something is keyframed, once for camera, exposure, sky and grade.
+// Each instant at which something is keyframed, once for camera, exposure, sky and grade: keyframes
+// of the show stand in each of its segments.
 Json keyframes_of(const Show& show) {
-  std::set<std::tuple<double, int, std::string>> keys;
+  std::set<std::pair<double, std::string>> keys;
   const double end = end_of(show);
-  for (std::size_t k = 0; k < show.timeline.size(); ++k) {
-    const int segment = static_cast<int>(k) + 1;
-    for (const AttitudeKey& key : show.timeline[k].attitudes)
-      keys.emplace(key.at_s, segment, "camera");
+  for (const Segment& segment : show.timeline) {
+    for (const AttitudeKey& key : segment.attitudes) keys.emplace(key.at_s, "camera");
     for (const Channel channel : kEveryChannel)
-      if (const auto& curve = show.timeline[k].curves[channel]; curve && curve->keys.size() > 1)
-        for (const CurveKey& key : curve->keys) keys.emplace(key.at_s, segment, group_of(channel));
+      if (const auto& curve = segment.curves[channel]; curve && curve->keys.size() > 1)
+        for (const CurveKey& key : curve->keys) keys.emplace(key.at_s, group_of(channel));
   }
   Json list = Json::array();
-  for (const auto& [at_s, segment, what] : keys)
+  for (const auto& [at_s, what] : keys)
     if (at_s >= 0 && at_s <= end)
-      list.push_back({{"time_s", number(at_s)}, {"segment", segment}, {"what", what}});
+      list.push_back(
+          {{"time_s", number(at_s)}, {"segment", segment_at(show, at_s) + 1}, {"what", what}});
   return list;
 }
 

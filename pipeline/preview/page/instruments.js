@@ -68,6 +68,7 @@ export class Instruments {
     const svg = $('now');
     while (svg.children.length < low.length / 2)
       svg.append(document.createElementNS('http://www.w3.org/2000/svg', 'circle'));
+    while (svg.children.length > low.length / 2) svg.lastChild.remove();
     [...svg.children].forEach((circle, k) => {
       const [x, y] = [0, 1].map((c) => low[2 * k + c] + part * (high[2 * k + c] - low[2 * k + c]));
       circle.setAttribute('cx', x);

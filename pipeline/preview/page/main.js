@@ -2,6 +2,7 @@
 
 import { cameraFor, degreesPerPixel, fitted, lookOf, narrowest, widest } from './angles.js';
 import { clock, Instruments, tell, tellNothing } from './instruments.js';
+import { Panel } from './panel.js';
 import { Pictures } from './pictures.js';
 import { Projector } from './projector.js';
 import { steer } from './steering.js';
@@ -17,30 +18,18 @@ const play = { time: 0, on: false, speed: 1, loop: false, last: 0 };
 const tests = window.domefall = { drawn: 0, frame: -1, mistake: null, ready: false, view, play,
   get fine() { return pictures.settled(); } };
 
-const projector = new Projector(canvas);
+const projector = new Projector(canvas, () => { pictures.renew(); spheres.renew(); });
 const instruments = new Instruments();
+const panel = new Panel(() => { tellNothing(); redraw(); });
 const timeline = new Timeline($('timeline'), (seconds) => seek(seconds));
 
 // ---- what is to be seen ----
 
 const frameNow = () => Math.max(0, Math.min(show.frames - 1, Math.round(play.time * show.frames_per_second)));
-const ticked = (group) => [...document.querySelectorAll(`#${group} input`)];
-const words = (group) => ticked(group).filter((box) => box.checked).map((box) => box.value);
-const all = (group) => ticked(group).every((box) => box.checked === box.defaultChecked);
-
 // The parameters that both kinds of picture share.
 function common() {
   const query = new URLSearchParams({ frame: frameNow() });
-  if (+$('ev').value) query.set('ev', $('ev').value);
-  if ($('display').value !== show.display || $('grade').value !== show.view) {
-    query.set('display', $('display').value);
-    query.set('view', $('grade').value);
-  }
-  if (!all('effects')) query.set('effects', words('effects').join(','));
-  if ($('amplification').value !== show.effects.amplification) query.set('amplification', $('amplification').value);
-  const skies = words('skies').filter((word) => word !== 'stars');
-  if (!all('skies')) query.set('skies', skies.join(','));
-  if (!words('skies').includes('stars')) query.set('stars', '0');
+  panel.add(query);
   query.set('revision', show.revision);
   return query;
 }
@@ -50,8 +39,8 @@ function wantedView() {
   const query = common();
   query.set('projection', view.projection);
   if (view.projection in widest) query.set('fov', view.fov);
-  if (!view.own) query.set('look', [view.az, view.alt, view.roll].map((x) => x.toFixed(7)).join(','));
-  if (words('overlays').length) query.set('overlays', words('overlays').join(','));
+  if (!view.own) query.set('look', [view.az, view.alt, view.roll].map((x) => x.toFixed(11)).join(','));
+  if (panel.overlays()) query.set('overlays', panel.overlays());
   return { query: query.toString(), width: canvas.width, height: canvas.height,
     fit: (w, h) => fitted(view.projection, w, h) };
 }
@@ -76,7 +65,7 @@ const pictures = new Pictures('view', wantedView, (bitmap, about) => {
   draw();
 }, refused);
 
-new Pictures('sphere', wantedSphere, (bitmap, about) => {
+const spheres = new Pictures('sphere', wantedSphere, (bitmap, about) => {
   projector.take('whole', bitmap, about);
   redraw();
 }, () => {});
@@ -186,10 +175,16 @@ function goHome() {
   redraw();
 }
 
+// Requests are about pictures of 4096 pixels at most, whatever the screen has.
+function withinLimits() {
+  const part = Math.min(1, 4096 / Math.max(canvas.width, canvas.height));
+  const [width, height] = [canvas.width, canvas.height].map((side) => Math.round(side * part));
+  const [w, h] = fitted(view.projection, width, height);
+  return { w, h, left: (width - w) / 2, top: (height - h) / 2, ratio: devicePixelRatio * part };
+}
+
 async function probe(x, y) {
-  const wanted = wantedView(), ratio = devicePixelRatio;
-  const [w, h] = fitted(view.projection, canvas.width, canvas.height);
-  const left = (canvas.width - w) / 2, top = (canvas.height - h) / 2;
+  const wanted = wantedView(), { w, h, left, top, ratio } = withinLimits();
   const query = `${wanted.query}&w=${w}&h=${h}&x=${x * ratio - left + 0.5}&y=${y * ratio - top + 0.5}`;
   const answer = await fetch(`probe?${query}`);
   if (!answer.ok) return;
@@ -200,9 +195,9 @@ async function probe(x, y) {
 }
 
 async function copy(key) {
-  const wanted = wantedView();
-  const [w, h] = fitted(view.projection, canvas.width, canvas.height);
+  const wanted = wantedView(), { w, h } = withinLimits();
   const answer = await fetch(`camera?${wanted.query}&w=${w}&h=${h}${key ? '&key=1' : ''}`);
+  if (!answer.ok) return;
   const text = (await answer.text()).trim();
   Object.assign($('copied'), { hidden: false, value: text });
   tests.copied = text;
@@ -242,37 +237,6 @@ steer(canvas, {
 
 // ---- the panel ----
 
-function fillTicks(group, entries) {
-  const before = new Map(ticked(group).map((box) => [box.value, box.checked]));
-  $(group).replaceChildren(...entries.map(([value, on, text]) => {
-    const label = document.createElement('label'), box = document.createElement('input');
-    Object.assign(box, { type: 'checkbox', value, defaultChecked: on, checked: before.get(value) ?? on });
-    box.addEventListener('change', redraw);
-    label.append(box, text);
-    return label;
-  }));
-}
-
-function fillChoice(id, names, chosen) {
-  $(id).replaceChildren(...names.map((name) => new Option(name, name, name === chosen, name === chosen)));
-}
-
-function fillPanel(fresh) {
-  const nice = (word) => word.replaceAll('_', ' ');
-  fillTicks('effects', ['aberration', 'doppler_colour', 'intensity', 'lensing'].map((word) =>
-    [word, show.effects[word], nice(word)]));
-  fillTicks('skies', [...show.skies.map((name) => [name, true, `region ${name}`]), ['stars', true, 'stars']]);
-  fillTicks('overlays', show.overlays.map((word) => [word, false, nice(word)]));
-  if (!fresh) return;
-  fillChoice('display', Object.keys(show.displays), show.display);
-  fillChoice('grade', show.displays[show.display] ?? [show.view], show.view);
-  $('amplification').value = show.effects.amplification;
-}
-
-$('display').addEventListener('change', () => {
-  const views = show.displays[$('display').value];
-  fillChoice('grade', views, views.includes($('grade').value) ? $('grade').value : views[0]);
-});
 $('projection').addEventListener('change', () => {
   view.projection = $('projection').value;
   view.fov = Math.min(view.fov, widest[view.projection] ?? view.fov);
@@ -280,7 +244,6 @@ $('projection').addEventListener('change', () => {
   tellNothing();
   redraw();
 });
-$('ev').addEventListener('input', () => { $('ev-text').textContent = `${$('ev').value < 0 ? '−' : '+'}${Math.abs($('ev').value)} EV`; });
 for (const [id, act] of Object.entries({
   play: () => setPlaying(!play.on), first: () => { setPlaying(false); seek(0); }, back: () => step(-1), ahead: () => step(1),
   loop: () => setLoop(!play.loop), home: goHome, save, 'copy-camera': () => copy(false), 'copy-key': () => copy(true),
@@ -298,13 +261,12 @@ function showMistake(text) {
 }
 
 async function load() {
-  const fresh = show === null;
   show = await (await fetch('show')).json();
   tests.mistake = show.mistake;
   showMistake(show.mistake);
   instruments.take(show);
   timeline.take(show);
-  fillPanel(fresh);
+  panel.take(show);
   play.time = Math.min(play.time, show.duration_s);
   redraw();
   note(show.revision);
@@ -313,7 +275,8 @@ async function load() {
 // The notes of check take a while, and are for this version only.
 async function note(revision) {
   while (show.revision === revision) {
-    const { done, warnings } = await (await fetch('warnings')).json();
+    const { done, warnings } = await fetch('warnings').then((answer) => answer.json())
+      .catch(() => ({ done: false, warnings: [] }));
     if (show.revision !== revision) return;
     timeline.warnings = warnings;
     instruments.list(warnings, done, (seconds) => { setPlaying(false); seek(seconds); });
@@ -325,17 +288,21 @@ async function note(revision) {
 }
 
 async function follow() {
-  await load();
+  const pause = () => new Promise((resolve) => setTimeout(resolve, 1000));
   for (;;) {
     try {
+      if (!show) await load();
+      const began = performance.now();
       const { revision, readings, mistake } = await (await fetch(`changes?since=${show.readings}`)).json();
       if (revision !== show.revision) await load();
-      if (readings === show.readings) continue;
-      Object.assign(show, { readings, mistake });
-      tests.mistake = mistake;
-      showMistake(mistake);
+      else if (readings !== show.readings) {
+        Object.assign(show, { readings, mistake });
+        tests.mistake = mistake;
+        showMistake(mistake);
+      } else if (performance.now() - began < 1000) await pause();  // too many pages wait for news
     } catch {
-      await new Promise((resolve) => setTimeout(resolve, 1000));
+      if (!show) showMistake('the preview does not answer');
+      await pause();
     }
   }
 }

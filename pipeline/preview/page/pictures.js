@@ -19,6 +19,9 @@ export class Pictures {
     this.run();
   }
 
+  // Asks anew for what is there, which was lost.
+  renew() { this.have = this.seen = ''; }
+
   // Whether the fine picture of what is wanted is drawn.
   settled() {
     return this.next() === null && this.have.endsWith(' still') && this.seen === this.have;
@@ -58,9 +61,13 @@ export class Pictures {
           // It is decoded while the server makes the next one.
           this.show(blob, JSON.parse(answer.headers.get('X-Domefall')), request.goal);
           this.refused('');
-        } else if (answer.status !== 204) {
-          this.have = request.goal;
+        } else if (answer.status === 204) {
+          await pause(20);
+        } else {
+          // What is wrong stays wrong; a server that has too much to do is asked again.
+          if (answer.status < 500) this.have = request.goal;
           this.refused((await answer.text()).trim());
+          if (answer.status >= 500) await pause(500);
         }
       } catch {
         this.refused('the preview has ended; start it again and open its new address');

@@ -9,7 +9,9 @@ void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 -
 
 const fragment = `#version 300 es
 precision highp float;
-struct Picture { int kind; float scale; float most; vec2 size; mat3 camera; };
+// from_screen: from the screen's camera to the picture's, one rotation for both, since a zoom to
+// milliarcseconds leaves nothing of a difference of two in floats.
+struct Picture { int kind; float scale; float most; vec2 size; mat3 from_screen; };
 uniform Picture screen, shown, whole;
 uniform bool has_shown, has_whole;
 uniform vec2 canvas;
@@ -40,7 +42,8 @@ bool place(Picture p, vec3 n, out vec2 at) {
     at = sine > 1e-7 ? n.xy * (theta / sine) : n.xy;
   } else { at = vec2(atan(n.x, n.y), -asin(clamp(n.z, -1.0, 1.0))); }
   at /= p.scale;
-  return all(lessThan(abs(at), 0.5 * p.size));
+  // A whole sphere has no edge.
+  return p.kind == 3 || all(lessThan(abs(at), 0.5 * p.size));
 }
 
 void main() {
@@ -49,21 +52,27 @@ void main() {
   vec3 n;
   vec2 found;
   if (!all(lessThanEqual(abs(at), 0.5 * screen.size)) || !direction(screen, at, n)) return;
-  vec3 audience = n * screen.camera;
-  if (has_shown && place(shown, shown.camera * audience, found))
+  if (has_shown && place(shown, shown.from_screen * n, found))
     colour.rgb = textureLod(shown_pixels, found / shown.size + 0.5, 0.0).rgb;
-  else if (has_whole && place(whole, whole.camera * audience, found))
+  else if (has_whole && place(whole, whole.from_screen * n, found))
     colour.rgb = textureLod(whole_pixels, found / whole.size + 0.5, 0.0).rgb;
 }`;
 
+// b transposed before a, each of nine numbers row by row: from b's camera to a's.
+function between(a, b) {
+  const entry = (i, j) => a[3 * i] * b[3 * j] + a[3 * i + 1] * b[3 * j + 1] + a[3 * i + 2] * b[3 * j + 2];
+  return a.map((_, k) => entry(Math.floor(k / 3), k % 3));
+}
+
 export class Projector {
-  constructor(canvas) {
+  // restored() is called when the pictures were lost with the graphics card.
+  constructor(canvas, restored) {
     this.canvas = canvas;
     this.gl = canvas.getContext('webgl2', { antialias: false, alpha: false, preserveDrawingBuffer: true });
     if (!this.gl) throw new Error('this browser has no WebGL 2, which the view needs');
     this.start();
     canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
-    canvas.addEventListener('webglcontextrestored', () => this.start());
+    canvas.addEventListener('webglcontextrestored', () => { this.start(); restored(); });
   }
 
   start() {
@@ -89,6 +98,7 @@ export class Projector {
       gl.uniform1i(this.at(name + '_pixels'), unit);
     });
     this.has = { shown: false, whole: false };
+    this.cameras = {};
   }
 
   at(name) { return this.gl.getUniformLocation(this.program, name); }
@@ -98,17 +108,17 @@ export class Projector {
     const gl = this.gl;
     gl.activeTexture(gl.TEXTURE0 + (name === 'shown' ? 0 : 1));
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, gl.RGB, gl.UNSIGNED_BYTE, bitmap);
-    this.describe(name, about.projection, about.width, about.height, about.fov_deg, about.camera);
+    this.describe(name, about.projection, about.width, about.height, about.fov_deg);
+    this.cameras[name] = about.camera;
     this.has[name] = true;
   }
 
-  describe(name, projection, width, height, fov, camera) {
+  describe(name, projection, width, height, fov) {
     const gl = this.gl, { kind, scale, most = 0 } = shape(projection, width, height, fov);
     gl.uniform1i(this.at(name + '.kind'), kind);
     gl.uniform1f(this.at(name + '.scale'), scale);
     gl.uniform1f(this.at(name + '.most'), most);
     gl.uniform2f(this.at(name + '.size'), width, height);
-    gl.uniformMatrix3fv(this.at(name + '.camera'), true, camera);
   }
 
   draw(projection, width, height, fov, camera) {
@@ -117,7 +127,10 @@ export class Projector {
     gl.uniform2f(this.at('canvas'), this.canvas.width, this.canvas.height);
     gl.uniform1i(this.at('has_shown'), this.has.shown);
     gl.uniform1i(this.at('has_whole'), this.has.whole);
-    this.describe('screen', projection, width, height, fov, camera);
+    this.describe('screen', projection, width, height, fov);
+    for (const name of ['shown', 'whole'])
+      if (this.has[name])
+        gl.uniformMatrix3fv(this.at(name + '.from_screen'), true, between(this.cameras[name], camera));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 }

@@ -52,6 +52,39 @@ TEST(NewestFirst, StopsWhatCanGiveWayAndNothingElse) {
   EXPECT_EQ(third.get(), Turn::kNow);
 }
 
+// Two clients that both want a fine picture would else stop each other for ever.
+TEST(NewestFirst, DoesNotStopOneThatCanGiveWayForAnotherThatCan) {
+  NewestFirst turns;
+  ASSERT_EQ(turns.enter({"a", 1, true}), Turn::kNow);
+  auto other = std::async(std::launch::async, [&] { return turns.enter({"b", 1, true}); });
+  EXPECT_EQ(other.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
+  EXPECT_FALSE(turns.stop());
+  auto newer = std::async(std::launch::async, [&] { return turns.enter({"a", 2, true}); });
+  while (!turns.stop()) std::this_thread::yield();
+  turns.leave();
+  // Both get in, one after the other, in any order.
+  auto first = std::async(std::launch::async, [&] {
+    const Turn turn = other.get();
+    turns.leave();
+    return turn;
+  });
+  EXPECT_EQ(newer.get(), Turn::kNow);
+  turns.leave();
+  EXPECT_EQ(first.get(), Turn::kNow);
+}
+
+TEST(NewestFirst, GivesNobodyATurnOnceItEnds) {
+  NewestFirst turns;
+  ASSERT_EQ(turns.enter({"a", 1, false}), Turn::kNow);
+  auto other =
+      std::async(std::launch::async, [&] { return turns.enter(NewestFirst::own_ticket()); });
+  turns.end();
+  EXPECT_TRUE(turns.stop());
+  EXPECT_EQ(other.get(), Turn::kTooMany);
+  turns.leave();
+  EXPECT_EQ(turns.enter({"a", 2, false}), Turn::kTooMany);
+}
+
 TEST(NewestFirst, LetsNoMoreWaitThanItSays) {
   NewestFirst turns;
   ASSERT_EQ(turns.enter({"a", 1, false}), Turn::kNow);

@@ -18,6 +18,11 @@ class ScreenView : public ShowFile {
     return read("black_hole: {mass_solar: 10}\nsize: 256\ncamera: " + camera +
                 "\ntimeline: [{duration_s: 5, trajectory: {type: circular, r: 8, orbits: 1}}]\n");
   }
+
+  Show flat_with(const std::string& camera) {
+    return read("black_hole: {mass_solar: 10}\nsize: [64, 36]\ncamera: " + camera +
+                "\ntimeline: [{duration_s: 5, trajectory: {type: circular, r: 8, orbits: 1}}]\n");
+  }
 };
 
 // The direction, along the audience's axes, of a pixel position.
@@ -80,29 +85,25 @@ TEST_F(ScreenView, OfTheWholeSphereHasTheFrontInItsMiddle) {
 }
 
 TEST_F(ScreenView, IsWrittenAsACameraThatSeesTheSame) {
-  for (const char* camera : {"{look_at: hole}", "{euler_deg: [20, 100, -50], dome_tilt_deg: 15}",
-                             "{projection: stereographic, look_at: motion}"}) {
+  for (const char* camera :
+       {"{look_at: hole}", "{euler_deg: [20, 100, -50], dome_tilt_deg: 15}",
+        "{look_at: motion, dome_tilt_deg: 25}", "{projection: stereographic, look_at: motion}"}) {
     const bool flat = std::string(camera).find("stereographic") != std::string::npos;
-    Show show =
-        flat ? read("black_hole: {mass_solar: 10}\nsize: [64, 36]\ncamera: " + std::string(camera) +
-                    "\ntimeline: [{duration_s: 5, trajectory: "
-                    "{type: circular, r: 8, orbits: 1}}]\n")
-             : with(camera);
+    const Show show = flat ? flat_with(camera) : with(camera);
     for (const ScreenLook& look : {ScreenLook{}, ScreenLook{-70, 10, 30}, ScreenLook{180, 90, 0}}) {
-      FrameState state = frame_state(show, 40);
+      FrameState state = frame_state(show, 40), in_dome = state;
       see_in(show, kScreen, state);
       turn_to(look, state);
-      std::string line = camera_as_yaml(show, state);
-      if (flat) line.replace(0, 1, "{projection: stereographic, ");
-      const Show other =
-          flat ? read("black_hole: {mass_solar: 10}\nsize: [64, 36]\ncamera: " + line +
-                      "\ntimeline: [{duration_s: 5, trajectory: {type: circular, r: 8, orbits: "
-                      "1}}]\n")
-               : with(line);
-      FrameState again = frame_state(other, 40);
-      see_in(other, kScreen, again);
-      for (const PixelPosition at : {kMiddle, PixelPosition{1, 1}})
-        EXPECT_LT((in_tetrad(again, at) - in_tetrad(state, at)).length(), 2e-5) << camera << line;
+      see_in(show, Domemaster{100}, in_dome);
+      turn_to(look, in_dome);
+      for (std::string line : {camera_as_yaml(show, state), camera_as_yaml(show, in_dome)}) {
+        if (flat) line.replace(0, 1, "{projection: stereographic, ");
+        const Show other = flat ? flat_with(line) : with(line);
+        FrameState again = frame_state(other, 40);
+        see_in(other, kScreen, again);
+        for (const PixelPosition at : {kMiddle, PixelPosition{1, 1}})
+          EXPECT_LT((in_tetrad(again, at) - in_tetrad(state, at)).length(), 2e-5) << camera << line;
+      }
     }
   }
 }
