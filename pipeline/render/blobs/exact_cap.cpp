@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/render/blobs/cap_bounds.h"
 #include "pipeline/render/rays/pixel_directions.h"
 #include "pipeline/render/scene/point_spread.h"
 #include "pipeline/simd/dispatch.h"
@@ -26,94 +27,6 @@ CameraDirection middle_of(const CapBlob& b, const Projection& p) {
 double integral_of_weight(double sigma, double cut) {
   const double last = std::min(-logarithm(cut), 2 / (sigma * sigma));
   return 2 * pi * sigma * sigma * (1 - exponential(-last) - cut * last);
-}
-
-double angular_reach(const CapBlob& b) {
-  const double chord = std::sqrt(-2 * logarithm(double{b.cut})) * b.sigma;
-  return 2 * std::asin(std::min(1.0, chord / 2));
-}
-
-// ---- the pixels that a blob may cover ----
-
-// The most pixels that an angle `reach` from a direction may be away, on a picture about Z; so many
-// that they are the whole picture where it might go around or to infinity.
-double farthest_pixels(const Projection& p, const CameraDirection& n, double reach) {
-  const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), far = theta + reach;
-  const double centre = 1 / central_pixel_angle(p);
-  constexpr double kAll = 1e9;
-  if (std::holds_alternative<Rectilinear>(p)) {
-    const double c = std::cos(std::min(far, pi / 2));
-    return c > 1e-4 ? reach * centre / (c * c) : kAll;
-  }
-  if (std::holds_alternative<Stereographic>(p)) {
-    const double c = std::cos(std::min(far, pi) / 2);
-    return c > 1e-4 ? reach * centre / (c * c) : kAll;
-  }
-  if (far < pi / 2) return reach * centre * far / std::sin(far);
-  // Far out the circle lies between two meridians, and between theta - reach and theta + reach.
-  const double ratio = std::sin(std::min(reach, pi / 2)) / std::sin(theta);
-  if (far >= pi || reach >= theta || ratio >= 1) return kAll;
-  return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
-}
-
-// The columns, from the middle of a blob, that it covers on a row of the whole sphere: all points
-// at the latitude within `reach` of the middle.  Their distance c has
-//     sin^2(c/2) = sin^2((lat - middle)/2) + cos(lat) cos(middle) sin^2(longitude/2).
-double half_width_at(double latitude, double middle, double reach, double per_radian) {
-  const double up = std::sin((latitude - middle) / 2), most = std::sin(reach / 2);
-  const double around = std::cos(latitude) * std::cos(middle);
-  const double left = most * most - up * up;
-  if (left < 0) return -1;
-  return left < around ? 2 * std::asin(std::sqrt(left / around)) * per_radian : pi * per_radian;
-}
-
-// Calls use(from, to) for the parts of a row that are within `reach` of a blob's distance from Z.
-// Far out on a fisheye a blob is long and bent, and covers little of the square about it.
-template <class Use>
-void each_span_of_ring(const CapBlob& b, const Projection& p, double reach, int row,
-                       const Use& use) {
-  constexpr double kAnywhere = 1e9, kNarrow = 2;
-  if (!std::holds_alternative<Fisheye>(p)) return use(-kAnywhere, kAnywhere);
-  const PixelPosition middle = *pixel_of(p, {{0, 0, 1}});
-  const double x = middle.i - 1, y = row - (middle.j - 1);
-  const double from_middle = std::hypot(b.x - x, b.y - (middle.j - 1));
-  const double half = reach / central_pixel_angle(p) + 1;
-  const auto along_row = [y](double r) { return r > std::abs(y) ? std::sqrt(r * r - y * y) : 0; };
-  const double outer = along_row(from_middle + half), inner = along_row(from_middle - half);
-  if (inner < kNarrow) return use(x - outer - 1, x + outer + 1);
-  use(x - outer - 1, x - inner + 1);
-  use(x + inner - 1, x + outer + 1);
-}
-
-// Calls use(first, last) for the columns of a row that a blob may cover, those of a sphere's seam
-// on both sides of it.
-template <class Use>
-void each_span(const CapBlob& b, const Projection& p, double reach, int row, const ColumnRange& in,
-               const Use& use) {
-  const auto clipped = [&](double from, double to) {
-    const int first = static_cast<int>(std::max(std::floor(from), double(in.first)));
-    const int last = static_cast<int>(std::min(std::ceil(to), double(in.last)));
-    if (first <= last) use(first, last);
-  };
-  if (!std::holds_alternative<Equirectangular>(p)) {
-    const double dy = row - double{b.y}, half2 = double{b.reach} * b.reach - dy * dy;
-    if (half2 < 0) return;
-    const double left = b.x - std::sqrt(half2), right = b.x + std::sqrt(half2);
-    each_span_of_ring(b, p, reach, row, [&](double from, double to) {
-      clipped(std::max(left, from), std::min(right, to));
-    });
-    return;
-  }
-  const double width = columns(p), per_radian = width / (2 * pi);
-  const auto latitude = [&](double y) { return (rows(p) - 1 - 2 * y) / (2 * per_radian); };
-  // Half a pixel more on each side, of which parts may be covered.
-  const double rim = 0.71 / per_radian;
-  const double half =
-      half_width_at(latitude(row), latitude(b.y), std::min(reach + rim, pi), per_radian) + 1;
-  if (half < 1) return;
-  if (2 * half >= width) return clipped(0, width - 1);
-  // The middle is within the picture, so that one copy of it on each side suffices.
-  for (const double shift : {-width, 0.0, width}) clipped(b.x + shift - half, b.x + shift + half);
 }
 
 // ---- drawing ----
@@ -260,30 +173,7 @@ bool place_exact_cap(const Projection& projection, CapBlob& blob) {
   const double first = light / integral_of_weight(sigma, cut_of(whole));
   blob.cut = static_cast<float>(cut_of(first));
   blob.peak_per_flux = static_cast<float>(1 / integral_of_weight(sigma, double{blob.cut}));
-  const double width = columns(projection), height = rows(projection);
-  const CameraDirection n = middle_of(blob, projection);
-  const double reach = angular_reach(blob);
-  double across = 0, down = 0;
-  if (std::holds_alternative<Equirectangular>(projection)) {
-    // A circle's meridians touch it at asin(sin(reach)/cos(latitude)) from its middle.
-    const double ratio = std::sin(std::min(reach, pi / 2)) / std::hypot(n.v.x, n.v.y);
-    across = ratio < 1 ? std::asin(ratio) * width / (2 * pi) + 1 : width;
-    down = reach * width / (2 * pi) + 1;
-  } else {
-    across = down = farthest_pixels(projection, n, reach) + 1;
-  }
-  if (!(blob.x + across >= 0 && blob.y + down >= 0 && blob.x - across <= width - 1 &&
-        blob.y - down <= height - 1))
-    return false;
-  const auto within = [](double v, double last) {
-    return static_cast<int>(std::clamp(v, 0.0, last));
-  };
-  blob.reach = static_cast<float>(std::max(across, down));
-  blob.first_row = within(std::ceil(blob.y - down), height - 1);
-  blob.last_row = within(std::floor(blob.y + down), height - 1);
-  blob.first_column = within(std::ceil(blob.x - across), width - 1);
-  blob.last_column = within(std::floor(blob.x + across), width - 1);
-  return true;
+  return bound_cap(projection, middle_of(blob, projection), blob);
 }
 
 void draw_exact_cap(const CapBlob& blob, const Projection& projection, const Canvas& canvas) {
@@ -292,9 +182,12 @@ void draw_exact_cap(const CapBlob& blob, const Projection& projection, const Can
   if (first > last) return;
   const ExactCap cap(blob, projection);
   const double reach = angular_reach(blob);
-  for (int row = first; row <= last; ++row)
-    each_span(blob, projection, reach, row, canvas.columns[row - canvas.first_row],
-              [&](int left, int right) { cap.add(row, left, right, canvas.at(row, left)); });
+  for (int row = first; row <= last; ++row) {
+    const CapSpans spans =
+        spans_of(blob, projection, reach, row, canvas.columns[row - canvas.first_row]);
+    for (std::size_t k = 0; k < spans.count; ++k)
+      cap.add(row, spans.span[k].first, spans.span[k].last, canvas.at(row, spans.span[k].first));
+  }
 }
 
 }  // namespace domefall

@@ -145,6 +145,17 @@ TEST_P(SimdFrames, MakesTheSameFlatImages) {
     compare(name, [&show = show] { return frame_of(show); });
 }
 
+// Which have loops of their own for directions and caps, so that one scene is enough.
+TEST_P(SimdFrames, MakesTheSamePicturesInOtherProjections) {
+  for (const Projection& p :
+       {Projection(Equirectangular{128}), Projection(Fisheye{96, 80, 300 * kDegree, 1}),
+        Projection(Rectilinear{96, 64, 120 * kDegree})}) {
+    Show show = scenes(p).front().second;
+    show.sky[SkyRegion::kI].stars->max_magnitude = 4;
+    compare(std::string(projection_name(p)), [&show] { return frame_of(show); });
+  }
+}
+
 Bytes grid_of(const Show& show, const SkyMap& map) {
   const FrameState state = frame_state(show, 0);
   const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;

@@ -81,6 +81,8 @@ TEST(BlobsInEveryProjection, AreRoundInAngle) {
           const double chord = (n - star.v).length();
           // The rim of the whole sphere's circle is one point, beyond which squares wind on.
           if (std::holds_alternative<Fisheye>(p) && n.z < std::cos(pi - pixel)) continue;
+          // Of a wide blob a part of the pixels is enough.
+          if (sigma > 5 * pixel && (row + column) % 5 != 0) continue;
           if (value == 0 && chord > 7 * sigma + pixel) continue;
           const double expected = mean_over_pixel(p, star, sigma, peak, column, row);
           worst = std::max(worst, std::abs(value - expected));

@@ -1,0 +1,182 @@
+#include "pipeline/render/blobs/cap_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kAll = 1e9;  // more pixels than any picture has
+
+// The distances in pixels, from the middle of a cap, of the box that holds it.
+struct CapBox {
+  double left, right, up, down;
+};
+
+CapBox square(double half) { return {half, half, half, half}; }
+
+// A plane z = x/X touches the cone of half angle `reach` about n where
+// (n.x - X n.z)^2 = sin^2(reach) (1 + X^2).
+void find_edges(double along, double z, double reach, double& least, double& most) {
+  const double s2 = std::sin(reach) * std::sin(reach);
+  const double a = z * z - s2, b = along * z,
+               root = std::sqrt(s2 * std::max(0.0, a + along * along));
+  least = (b - root) / a;
+  most = (b + root) / a;
+}
+
+CapBox rectilinear_box(const Projection& p, const CameraDirection& n, double reach) {
+  const double theta = std::acos(std::clamp(n.v.z, -1.0, 1.0));
+  if (theta + reach > pi / 2 - 1e-3) return square(kAll);
+  const double per_tangent = 1 / central_pixel_angle(p);
+  double left = 0, right = 0, top = 0, bottom = 0;
+  find_edges(n.v.x, n.v.z, reach, left, right);
+  find_edges(n.v.y, n.v.z, reach, top, bottom);
+  const double x = n.v.x / n.v.z, y = n.v.y / n.v.z;
+  return {(x - left) * per_tangent + 1, (right - x) * per_tangent + 1, (y - top) * per_tangent + 1,
+          (bottom - y) * per_tangent + 1};
+}
+
+// The most pixels that an angle `reach` from a direction may be away, on a picture about Z; so many
+// that they are the whole picture where it might go around or to infinity.
+double farthest_pixels(const Projection& p, const CameraDirection& n, double reach) {
+  const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), far = theta + reach;
+  const double centre = 1 / central_pixel_angle(p);
+  if (std::holds_alternative<Stereographic>(p)) {
+    const double c = std::cos(std::min(far, pi) / 2);
+    return c > 1e-4 ? reach * centre / (c * c) : kAll;
+  }
+  if (far < pi / 2) return reach * centre * far / std::sin(far);
+  // Far out the circle lies between two meridians, and between theta - reach and theta + reach.
+  const double ratio = std::sin(std::min(reach, pi / 2)) / std::sin(theta);
+  if (far >= pi || reach >= theta || ratio >= 1) return kAll;
+  return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
+}
+
+CapBox box_of(const Projection& p, const CameraDirection& n, double reach) {
+  if (std::holds_alternative<Rectilinear>(p)) return rectilinear_box(p, n, reach);
+  if (!std::holds_alternative<Equirectangular>(p)) return square(farthest_pixels(p, n, reach) + 1);
+  // A circle's meridians touch it at asin(sin(reach)/cos(latitude)) from its middle.
+  const double ratio = std::sin(std::min(reach, pi / 2)) / std::hypot(n.v.x, n.v.y);
+  const double per_radian = columns(p) / (2 * pi), down = reach * per_radian + 1;
+  const double across = ratio < 1 ? std::asin(ratio) * per_radian + 1 : columns(p);
+  return {across, across, down, down};
+}
+
+// Whether a blob lies outside the circle about Z that holds the whole picture.  Far beyond it a
+// picture is stretched so much that its pixels would not tell.
+bool is_beyond_circle(const Projection& p, const CameraDirection& n, double reach) {
+  double circle = pi;
+  if (const auto* fisheye = std::get_if<Fisheye>(&p)) circle = fisheye->fov / 2;
+  if (std::holds_alternative<Rectilinear>(p)) circle = std::acos(direction_at(p, {0.5, 0.5}).v.z);
+  const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z);
+  return theta - reach > circle + central_pixel_angle(p);
+}
+
+// Adds the columns from one place of a row to another, as far as they are within `inside`.
+void add_span(double from, double to, const ColumnRange& inside, CapSpans& spans) {
+  const int first = static_cast<int>(std::max(std::floor(from), double(inside.first)));
+  const int last = static_cast<int>(std::min(std::ceil(to), double(inside.last)));
+  if (first <= last) spans.span[spans.count++] = {first, last};
+}
+
+// Half of the columns that a blob covers on a row of the whole sphere: all points at the latitude
+// within `reach` of the middle.  Their distance c has
+//     sin^2(c/2) = sin^2((latitude - middle)/2) + cos(latitude) cos(middle) sin^2(longitude/2).
+double half_width_at(double latitude, double middle, double reach, double per_radian) {
+  const double up = std::sin((latitude - middle) / 2), most = std::sin(reach / 2);
+  const double around = std::cos(latitude) * std::cos(middle);
+  const double left = most * most - up * up;
+  if (left < 0) return -1;
+  return left < around ? 2 * std::asin(std::sqrt(left / around)) * per_radian : pi * per_radian;
+}
+
+CapSpans spans_on_sphere(const CapBlob& b, const Projection& p, double reach, int row,
+                         const ColumnRange& inside) {
+  CapSpans spans;
+  const double width = columns(p), per_radian = width / (2 * pi);
+  const auto latitude = [&](double y) { return (rows(p) - 1 - 2 * y) / (2 * per_radian); };
+  // Half a pixel more on each side, of which parts may be covered.
+  const double rim = 0.71 / per_radian;
+  const double half =
+      half_width_at(latitude(row), latitude(b.y), std::min(reach + rim, pi), per_radian) + 1;
+  if (half < 1) return spans;
+  if (2 * half >= width) {
+    add_span(0, width - 1, inside, spans);
+    return spans;
+  }
+  // The middle is within the picture, so that one copy of it on each side suffices.
+  for (const double shift : {-width, 0.0, width})
+    add_span(b.x + shift - half, b.x + shift + half, inside, spans);
+  return spans;
+}
+
+// Far out on a fisheye a blob is long and bent, and covers little of the square about it: only what
+// is about as far from the middle of the circle as its own.
+CapSpans spans_on_ring(const CapBlob& b, const Projection& p, double reach, int row, double left,
+                       double right, const ColumnRange& inside) {
+  constexpr double kNarrow = 2;
+  CapSpans spans;
+  const PixelPosition middle = *pixel_of(p, {{0, 0, 1}});
+  const double x = middle.i - 1, y = row - (middle.j - 1);
+  const double from_middle = std::hypot(b.x - x, b.y - (middle.j - 1));
+  const double half = reach / central_pixel_angle(p) + 1;
+  const auto along_row = [y](double r) { return r > std::abs(y) ? std::sqrt(r * r - y * y) : 0; };
+  const double outer = along_row(from_middle + half), inner = along_row(from_middle - half);
+  if (inner < kNarrow) {
+    add_span(std::max(left, x - outer - 1), std::min(right, x + outer + 1), inside, spans);
+    return spans;
+  }
+  add_span(std::max(left, x - outer - 1), std::min(right, x - inner + 1), inside, spans);
+  add_span(std::max(left, x + inner - 1), std::min(right, x + outer + 1), inside, spans);
+  return spans;
+}
+
+}  // namespace
+
+double angular_reach(const CapBlob& b) {
+  const double chord = std::sqrt(-2 * logarithm(double{b.cut})) * b.sigma;
+  return 2 * std::asin(std::min(1.0, chord / 2));
+}
+
+bool bound_cap(const Projection& projection, const CameraDirection& n, CapBlob& blob) {
+  const double width = columns(projection), height = rows(projection);
+  const double reach = angular_reach(blob);
+  if (is_beyond_circle(projection, n, reach)) return false;
+  const CapBox box = box_of(projection, n, reach);
+  if (!(blob.x + box.right >= 0 && blob.y + box.down >= 0 && blob.x - box.left <= width - 1 &&
+        blob.y - box.up <= height - 1))
+    return false;
+  const auto within = [](double v, double last) {
+    return static_cast<int>(std::clamp(v, 0.0, last));
+  };
+  blob.reach = static_cast<float>(
+      std::max({box.left, box.right, box.up, box.down}) *
+      (std::holds_alternative<Rectilinear>(projection) ? std::numbers::sqrt2 : 1));
+  blob.first_row = within(std::ceil(blob.y - box.up), height - 1);
+  blob.last_row = within(std::floor(blob.y + box.down), height - 1);
+  blob.first_column = within(std::ceil(blob.x - box.left), width - 1);
+  blob.last_column = within(std::floor(blob.x + box.right), width - 1);
+  return true;
+}
+
+CapSpans spans_of(const CapBlob& b, const Projection& p, double reach, int row,
+                  const ColumnRange& inside) {
+  if (std::holds_alternative<Equirectangular>(p)) return spans_on_sphere(b, p, reach, row, inside);
+  CapSpans spans;
+  const double dy = row - double{b.y}, half2 = double{b.reach} * b.reach - dy * dy;
+  if (half2 < 0) return spans;
+  const double left = std::max(b.x - std::sqrt(half2), double(b.first_column));
+  const double right = std::min(b.x + std::sqrt(half2), double(b.last_column));
+  if (std::holds_alternative<Fisheye>(p))
+    return spans_on_ring(b, p, reach, row, left, right, inside);
+  add_span(left, right, inside, spans);
+  return spans;
+}
+
+}  // namespace domefall
