@@ -38,8 +38,8 @@ END
 
 # An .mp4 that is taken from it is a sphere, too.
 ffmpeg -v error -i out/sphere_vr360.mkv -c copy -tag:v hvc1 -strict unofficial sphere.mp4
-ffprobe -v error -show_streams sphere.mp4 | grep -q '^projection=equirectangular' ||
-  fail "the .mp4 is no sphere"
+ffprobe -v error -show_streams sphere.mp4 >taken
+grep -q '^projection=equirectangular' taken || fail "the .mp4 is no sphere"
 
 # Frames of another projection are no sphere.
 sed 's/^camera:.*//' sphere.yaml >dome.yaml
