@@ -84,7 +84,7 @@ def drive(page, show):
     page.still()
     first = page.pixels()
     assert sum(map(sum, first)) > 1000, 'the picture is black'
-    page.until('document.getElementById("plot").width > 500', 'the plots')
+    page.until('document.getElementById("plot").height > 200', 'the plots')
     assert page.element('i-r').text.startswith('6 M'), page.element('i-r').text
 
     page.element('play').click()

@@ -19,22 +19,34 @@ export class Instruments {
     this.show = show;
     $('title').textContent = show.title || show.file;
     document.title = `${show.title || show.file} – Domefall`;
-    this.drawPlots(show);
+    this.loadPlots(show);
     $('now').setAttribute('viewBox', `0 0 ${show.plots.width} ${show.plots.height}`);
   }
 
-  // The page of the plots is white; here it is dark, in the same hues. It is drawn once, since a
-  // browser without a graphics card takes long for an SVG.
-  async drawPlots({ revision, plots }) {
-    const page = new Image(), plot = $('plot');
+  async loadPlots({ revision, plots }) {
+    const page = new Image();
     page.src = `plot.svg?${revision}`;
     await page.decode().catch(() => {});
     if (this.show.revision !== revision || !page.naturalWidth) return;
-    const part = Math.min(1, 840 / plots.width);
-    Object.assign(plot, { width: plots.width * part, height: plots.height * part });
+    this.page = page;
+    $('plots').style.setProperty('--wide', plots.width / plots.height);
+    this.drawPlots();
+  }
+
+  // The page of the plots is white; here it is dark, in the same hues. It is drawn once for each size,
+  // since a browser without a graphics card takes long for an SVG.
+  drawPlots() {
+    const plot = $('plot'), { width, height } = this.show.plots, across = plot.clientWidth * devicePixelRatio;
+    if (!this.page || !across) return;
+    Object.assign(plot, { width: across, height: across * height / width });
     const pen = plot.getContext('2d');
     pen.filter = 'invert(0.9) hue-rotate(180deg)';
-    pen.drawImage(page, 0, 0, plot.width, plot.height);
+    pen.drawImage(this.page, 0, 0, plot.width, plot.height);
+  }
+
+  resizePlots(large = !$('plots').classList.contains('large')) {
+    $('plots').classList.toggle('large', large);
+    this.drawPlots();
   }
 
   // A number of the states at a frame, straight between the samples.
@@ -66,6 +78,7 @@ export class Instruments {
     const { marks, step_s: step } = this.show.plots, at = Math.min(marks.length - 1, Math.max(0, time / step));
     const low = marks[Math.floor(at)], high = marks[Math.min(marks.length - 1, Math.floor(at) + 1)], part = at % 1;
     const svg = $('now');
+    while (svg.children.length > low.length / 2) svg.lastChild.remove();
     while (svg.children.length < low.length / 2)
       svg.append(document.createElementNS('http://www.w3.org/2000/svg', 'circle'));
     while (svg.children.length > low.length / 2) svg.lastChild.remove();

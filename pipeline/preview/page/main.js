@@ -42,12 +42,13 @@ function wantedView() {
   if (!view.own) query.set('look', [view.az, view.alt, view.roll].map((x) => x.toFixed(11)).join(','));
   if (panel.overlays()) query.set('overlays', panel.overlays());
   return { query: query.toString(), width: canvas.width, height: canvas.height,
-    fit: (w, h) => fitted(view.projection, w, h) };
+    fit: (w, h) => fitted(view.projection, w, h), plays: play.on };
 }
 
-// The sphere behind the view is wanted while nothing plays.
+// The sphere behind the view is wanted while nothing plays, and once the view has its fine picture:
+// a picture that is refined gives way to any other, so that two would stop each other for ever.
 function wantedSphere() {
-  if (!show || play.on || document.hidden || !projector.has.shown) return null;
+  if (!show || play.on || document.hidden || !pictures.settled()) return null;
   const query = common();
   query.set('projection', 'equirectangular');
   return { query: query.toString(), width: 1024, height: 512, fit: (w, h) => fitted('equirectangular', w, h) };
@@ -184,6 +185,7 @@ function withinLimits() {
 }
 
 async function probe(x, y) {
+  setPlaying(false);
   const wanted = wantedView(), { w, h, left, top, ratio } = withinLimits();
   const query = `${wanted.query}&w=${w}&h=${h}&x=${x * ratio - left + 0.5}&y=${y * ratio - top + 0.5}`;
   const answer = await fetch(`probe?${query}`);
@@ -200,6 +202,7 @@ async function copy(key) {
   if (!answer.ok) return;
   const text = (await answer.text()).trim();
   Object.assign($('copied'), { hidden: false, value: text });
+  $('copied').scrollIntoView({ block: 'nearest' });
   tests.copied = text;
   // Where the browser keeps the clipboard to itself, the text stands there to be taken.
   await navigator.clipboard?.writeText(text).catch(() => $('copied').select());
@@ -231,7 +234,8 @@ steer(canvas, {
   copy,
   togglePanel: () => { document.body.classList.toggle('bare'); redraw(); },
   toggleHelp: () => toggle('help'),
-  escape: () => { $('help').hidden = true; tellNothing(); },
+  togglePlots: () => instruments.resizePlots(),
+  escape: () => { $('help').hidden = true; instruments.resizePlots(false); tellNothing(); },
   ready: () => show !== null,
 });
 
@@ -250,6 +254,7 @@ for (const [id, act] of Object.entries({
   'show-help': () => toggle('help'), 'toggle-panel': () => { document.body.classList.toggle('bare'); redraw(); } }))
   $(id).addEventListener('click', act);
 $('speed').addEventListener('change', () => { play.speed = +$('speed').value; });
+$('plots').addEventListener('click', () => instruments.resizePlots());
 new ResizeObserver(redraw).observe($('stage'));
 document.addEventListener('visibilitychange', () => { play.last = performance.now(); });
 

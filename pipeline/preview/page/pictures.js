@@ -6,7 +6,8 @@ const mostMoving = 960 * 540;  // pixels of a moving picture
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 export class Pictures {
-  // wanted() gives {query, width, height, fit}: what is to be seen now, and the size of the canvas.
+  // wanted() gives {query, width, height, fit, plays}: what is to be seen now, the size of the canvas,
+  // and whether it will soon be another.
   // taken(bitmap, about) gets each picture, refused(text) what the server says against one.
   constructor(kind, wanted, taken, refused) {
     Object.assign(this, { kind, wanted, taken, refused });
@@ -39,7 +40,7 @@ export class Pictures {
     if (!wanted) return null;
     const wish = `${wanted.query}&${wanted.width}&${wanted.height}`, now = performance.now();
     if (wish !== this.wish) { this.wish = wish; this.changed = now; }
-    const moving = now - this.changed < calm;
+    const moving = wanted.plays || now - this.changed < calm;
     const goal = wish + (moving ? ' moving' : ' still');
     if (this.have === wish + ' still' || this.have === goal) return null;
     const [w, h] = this.size(wanted, moving);
@@ -50,29 +51,42 @@ export class Pictures {
     for (;;) {
       const request = this.next();
       if (!request) { await pause(8); continue; }
-      const began = performance.now();
-      try {
-        const answer = await fetch(
-          `picture?${request.query}&kind=${this.kind}&client=${client}&n=${++this.serial}`);
-        if (answer.status === 200) {
-          this.have = request.goal;
-          const blob = await answer.blob();
-          if (request.moving) this.adapt(performance.now() - began);
-          // It is decoded while the server makes the next one.
-          this.show(blob, JSON.parse(answer.headers.get('X-Domefall')), request.goal);
-          this.refused('');
-        } else if (answer.status === 204) {
-          await pause(20);
-        } else {
-          // What is wrong stays wrong; a server that has too much to do is asked again.
-          if (answer.status < 500) this.have = request.goal;
-          this.refused((await answer.text()).trim());
-          if (answer.status >= 500) await pause(500);
-        }
-      } catch {
-        this.refused('the preview has ended; start it again and open its new address');
-        await pause(1000);
+      const asked = this.get(request);
+      // What moves is waited for, so that nothing queues. A fine picture that is no longer wanted is
+      // not: the server gives it up when it hears of the next request.
+      await (request.moving ? asked : Promise.race([asked, this.newWish(request)]));
+    }
+  }
+
+  async newWish({ goal }) {
+    for (;;) {
+      await pause(8);
+      const next = this.next();
+      if (!next || next.goal !== goal) return;
+    }
+  }
+
+  async get(request) {
+    const began = performance.now(), serial = ++this.serial;
+    try {
+      const answer = await fetch(`picture?${request.query}&kind=${this.kind}&client=${client}&n=${serial}`);
+      if (answer.status === 204) return await pause(20);
+      const blob = await answer.blob();
+      if (serial !== this.serial) return;
+      // What is wrong stays wrong; a server that has too much to do is asked again.
+      if (answer.status < 500) this.have = request.goal;
+      if (answer.status !== 200) {
+        this.refused((await blob.text()).trim());
+        if (answer.status >= 500) await pause(500);
+        return;
       }
+      if (request.moving) this.adapt(performance.now() - began);
+      // It is decoded while the server makes the next one.
+      this.show(blob, JSON.parse(answer.headers.get('X-Domefall')), request.goal);
+      this.refused('');
+    } catch {
+      this.refused('the preview has ended; start it again and open its new address');
+      await pause(1000);
     }
   }
 

@@ -49,7 +49,7 @@ export function steer(canvas, act) {
     ArrowRight: (event) => (event.shiftKey ? act.stepSecond(1) : act.step(1)),
     '[': () => act.faster(-1), ']': () => act.faster(1), '+': () => act.zoom(0.8), '=': () => act.zoom(0.8),
     '-': () => act.zoom(1.25), 0: act.goHome, c: () => act.copy(false), k: () => act.copy(true), s: act.save,
-    p: act.togglePanel, '?': act.toggleHelp, Escape: act.escape,
+    p: act.togglePanel, d: act.togglePlots, '?': act.toggleHelp, Escape: act.escape,
   };
   window.addEventListener('keydown', (event) => {
     // A field keeps its own keys, and a button its space; the browser keeps its shortcuts.

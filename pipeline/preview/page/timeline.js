@@ -29,7 +29,7 @@ export class Timeline {
       if (title.begin_s <= time && time <= title.end_s) words.push('“' + title.text + '”');
     const segment = this.show.segments.findLastIndex((s) => s.begin_s <= time);
     if (segment >= 0) words.unshift(`${segment + 1} ${this.show.segments[segment].type}`);
-    return words.join('\n');
+    return [...new Set(words)].join('\n');
   }
 
   take(show) {
@@ -58,7 +58,7 @@ export class Timeline {
   }
 
   drawSegments(pen, x) {
-    const top = 14, bottom = 36;
+    const top = 14, bottom = 34;
     this.show.segments.forEach((segment, k) => {
       const [begin, end] = [x(segment.begin_s), x(segment.end_s)];
       const next = this.show.segments[k + 1];
@@ -90,11 +90,11 @@ export class Timeline {
   drawMarks(pen, x, width) {
     pen.fillStyle = '#8f98a8';
     for (const title of this.show.titles)
-      pen.fillRect(x(title.begin_s), 39, Math.max(2, x(title.end_s) - x(title.begin_s)), 3);
+      pen.fillRect(x(title.begin_s), 47, Math.max(2, x(title.end_s) - x(title.begin_s)), 3);
     pen.fillStyle = '#d5dae3';
     for (const key of this.show.keyframes) {
       pen.save();
-      pen.translate(x(key.time_s), 25);
+      pen.translate(x(key.time_s), 40);
       pen.rotate(Math.PI / 4);
       pen.fillRect(-3, -3, 6, 6);
       pen.restore();
@@ -102,7 +102,7 @@ export class Timeline {
     let free = 0;
     for (const marker of this.show.markers) {
       const at = x(marker.time_s);
-      pen.fillRect(at, 2, 1, 34);
+      pen.fillRect(at, 2, 1, 32);
       const room = pen.measureText(marker.name).width;
       if (at < free || at + room > width) continue;
       pen.fillText(marker.name, at + 3, 11);
@@ -113,7 +113,7 @@ export class Timeline {
       if (warning.time_s === null) continue;
       const at = x(warning.time_s);
       pen.beginPath();
-      pen.moveTo(at, 44); pen.lineTo(at + 5, 54); pen.lineTo(at - 5, 54);
+      pen.moveTo(at, 51); pen.lineTo(at + 5, 60); pen.lineTo(at - 5, 60);
       pen.fill();
     }
   }
