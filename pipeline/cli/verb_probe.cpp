@@ -1,8 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/json_number.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/render/rays/view_tracer.h"
@@ -13,9 +19,14 @@
 namespace domefall {
 namespace {
 
+using ProbeJson = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
 struct Options {
   std::string show, size, pixel;
   FrameChoice choice;
+  bool json = false;
 };
 
 PixelPosition parse_pixel(const std::string& text) {
@@ -26,6 +37,19 @@ PixelPosition parse_pixel(const std::string& text) {
     throw InputError("--pixel " + text + ": expected X,Y, counted from 1 at the top left");
   return at;
 }
+
+// What is known of the pixel that is asked for.
+struct Probed {
+  const Show& show;
+  FrameState state;
+  PixelPosition pixel;
+  ViewRay ray;
+
+  bool inside() const { return is_inside(state.projection, pixel); }
+  double width() const { return pixel_angle(state.projection, pixel); }
+  bool from_singularity() const { return ray.sky == SkyRegion::kIV; }
+  bool is_straight() const { return is_flat(state.observer) || !show.effects.lensing; }
+};
 
 // Prints what becomes of a blackbody at the place that the ray hits, under the effects of the show.
 void print_effects(const Effects& effects, const ViewRay& ray, double width) {
@@ -38,29 +62,70 @@ void print_effects(const Effects& effects, const ViewRay& ray, double width) {
                 amplification(ray.bundle, width));
 }
 
+void print_text(const Probed& p) {
+  const ObserverState& observer = p.state.observer;
+  std::printf("observer     region %s, r = %.9g M\n", region_name(observer.region), observer.r);
+  if (!p.inside()) std::puts("pixel        outside the dome");
+  const Equatorial at = equatorial({p.ray.sky_direction});
+  std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
+              p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
+              at.ra_deg, at.dec_deg);
+  if (!p.from_singularity()) std::printf("1 + z        %.9g\n", 1 / p.ray.frequency_ratio);
+  std::printf("compression  %.6g towards the hole, %.6g across\n", p.ray.radial_scale,
+              p.ray.tangential_scale);
+  if (!p.from_singularity() && p.show.effects != Effects{})
+    print_effects(p.show.effects, p.ray, p.width());
+}
+
+// Light from the singularity has no redshift, no order and no amplification.
+void add_shift(const Probed& p, ProbeJson& json) {
+  constexpr const char* kKeys[] = {"one_plus_z",    "temperature_ratio", "intensity_ratio",
+                                   "amplification", "swept_azimuth_deg", "order"};
+  for (const char* key : kKeys) json[key] = nullptr;
+  if (p.from_singularity()) return;
+  const double g = p.ray.frequency_ratio, colour = colour_ratio(p.show.effects, g);
+  json["one_plus_z"] = json_number(1 / g);
+  json["temperature_ratio"] = json_number(colour);
+  json["intensity_ratio"] =
+      json_number(surface_brightness_ratio(p.show.effects, g) * std::pow(colour, 4));
+  json["amplification"] = json_number(amplification(p.ray.bundle, p.width()));
+  if (p.is_straight()) return;  // its bundle has an azimuth of no meaning
+  json["swept_azimuth_deg"] = json_number(p.ray.bundle.azimuth * kDegrees);
+  json["order"] = static_cast<int>(p.ray.bundle.azimuth / std::numbers::pi);
+}
+
+void print_json(const Probed& p) {
+  const ObserverState& observer = p.state.observer;
+  const Equatorial at = equatorial({p.ray.sky_direction});
+  const V3d& to = p.ray.sky_direction;
+  ProbeJson json = {
+      {"frame", p.state.frame},
+      {"pixel", {p.pixel.i, p.pixel.j}},
+      {"inside", p.inside()},
+      {"region", is_flat(observer) ? ProbeJson() : ProbeJson(region_name(observer.region))},
+      {"r", json_number(observer.r)},
+      {"sky", name_of(p.ray.sky)},
+      {"direction", {json_number(to.x), json_number(to.y), json_number(to.z)}},
+      {"ra_deg", json_number(at.ra_deg)},
+      {"dec_deg", json_number(at.dec_deg)},
+      {"compression_towards_hole", json_number(p.ray.radial_scale)},
+      {"compression_across", json_number(p.ray.tangential_scale)},
+      {"to_edge_deg", json_number(p.ray.to_edge * kDegrees)}};
+  add_shift(p, json);
+  std::puts(json.dump(2).c_str());
+}
+
 void probe(const Options& o) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);
-  const int number = chosen_frame(o.choice, show);
-  const FrameState state = frame_state(show, number);
+  const FrameState state = frame_state(show, chosen_frame(o.choice, show));
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
   const ViewRay ray =
       ViewTracer(state, optics, show.effects).trace(direction_at(state.projection, pixel));
-  std::printf("observer     region %s, r = %.9g M\n", region_name(state.observer.region),
-              state.observer.r);
-  if (!is_inside(state.projection, pixel)) std::puts("pixel        outside the dome");
-  const Equatorial at = equatorial({ray.sky_direction});
-  const bool singularity = ray.sky == SkyRegion::kIV;
-  std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
-              singularity ? "the past singularity, region" : "sky", name_of(ray.sky), at.ra_deg,
-              at.dec_deg);
-  if (!singularity) std::printf("1 + z        %.9g\n", 1 / ray.frequency_ratio);
-  std::printf("compression  %.6g towards the hole, %.6g across\n", ray.radial_scale,
-              ray.tangential_scale);
-  if (!singularity && show.effects != Effects{})
-    print_effects(show.effects, ray, pixel_angle(state.projection, pixel));
+  const Probed probed{show, state, pixel, ray};
+  o.json ? print_json(probed) : print_text(probed);
 }
 
 }  // namespace
@@ -72,6 +137,7 @@ void add_probe(CLI::App& app) {
   add_frame_choice(*verb, o->choice);
   verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")->required();
   verb->add_option("--size", o->size, "as for render");
+  verb->add_flag("--json", o->json, "the same facts as JSON with all digits, for other programs");
   verb->callback([o] { probe(*o); });
 }
 

@@ -10,6 +10,7 @@
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
+#include "pipeline/cli/sky_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -102,30 +103,28 @@ void add_build(CLI::App& sky) {
   verb->callback([o] { build(*o); });
 }
 
-void info(const std::string& path, bool verify) {
-  require_file(path);
-  const SkyFile file(path);
-  const bool thermal = file.map().kind() == SkyMapKind::kThermal;
-  fmt::print("kind         {}\n",
-             thermal ? "thermal: radiance and temperature" : "colour: working-space RGB");
-  fmt::print("unit         {:.9g} {}\n", file.map().unit(), thermal ? "W/m^2/sr" : "cd/m^2");
-  fmt::print("faces        6 of {0} x {0}, {1} levels, {2:.1f} MB\n", file.map().levels()[0].size,
-             file.map().levels().size(), static_cast<double>(file.map().bytes()) / 1e6);
-  fmt::print("picture      {}\n",
-             file.origin().panorama ? orientation_phrase(*file.origin().panorama) : "none");
-  fmt::print("{}", file.origin().text);
-  if (!verify) return;
+struct InfoOptions {
+  std::string file;
+  bool verify = false, json = false;
+};
+
+void info(const InfoOptions& o) {
+  require_file(o.file);
+  const SkyFile file(o.file);
+  if (o.json && o.verify) file.verify();  // before anything is said
+  std::fputs((o.json ? sky_json(file, o.verify) : sky_page(file)).c_str(), stdout);
+  if (!o.verify || o.json) return;
   file.verify();
   fmt::print("verified     every face is as it was written\n");
 }
 
 void add_info(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("info", "Tell what a .sky file holds");
-  auto file = std::make_shared<std::string>();
-  auto verify = std::make_shared<bool>(false);
-  verb->add_option("FILE", *file, "a .sky file")->required();
-  verb->add_flag("--verify", *verify, "read it whole and compare every checksum");
-  verb->callback([file, verify] { info(*file, *verify); });
+  auto o = std::make_shared<InfoOptions>();
+  verb->add_option("FILE", o->file, "a .sky file")->required();
+  verb->add_flag("--verify", o->verify, "read it whole and compare every checksum");
+  verb->add_flag("--json", o->json, "the same facts as JSON, for other programs");
+  verb->callback([o] { info(*o); });
 }
 
 // The stars to check with: those named or, where none are, those that come with Domefall.

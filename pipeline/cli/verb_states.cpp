@@ -1,8 +1,17 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/json_number.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/diagram/page.h"
@@ -13,11 +22,67 @@
 namespace domefall {
 namespace {
 
-void print_states(const std::string& file, const std::string& frames, const std::string& plot) {
-  const Show show = read_show(file);
-  const std::vector<int> chosen = parse_frames(frames, frame_count(show));
-  if (!plot.empty()) write_output(plot, show_page(show));
-  std::puts(
+// The columns, whose names are those of the keys in JSON, too.
+constexpr std::array kColumns{
+    "frame",       "show_time_s", "segment",        "region",       "tetrad",   "r",
+    "proper_time", "celerity_r",  "celerity_theta", "celerity_phi", "ra_deg",   "dec_deg",
+    "azimuth_deg", "x_r",         "x_theta",        "x_phi",        "y_r",      "y_theta",
+    "y_phi",       "z_r",         "z_theta",        "z_phi",        "null_time"};
+
+// A number and how many digits of it the CSV has.
+struct DigitsOf {
+  double value;
+  int digits;
+};
+using StateCell = std::variant<int, const char*, DigitsOf>;
+
+std::array<StateCell, kColumns.size()> cells_of(const FrameState& s) {
+  constexpr int kTime = 9, kAngle = 15, kAll = 17;
+  const ObserverState& o = s.observer;
+  const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
+  const V3d x = column(o.tetrad_from_camera, 0), y = column(o.tetrad_from_camera, 1),
+            z = column(o.tetrad_from_camera, 2);
+  const auto all = [](double value) { return DigitsOf{value, kAll}; };
+  return {s.frame,
+          DigitsOf{s.show_time_s, kTime},
+          s.segment + 1,
+          region_name(o.region),
+          tetrad_name(o.tetrad),
+          all(o.r),
+          all(o.proper_time),
+          all(o.celerity.x),
+          all(o.celerity.y),
+          all(o.celerity.z),
+          DigitsOf{place.ra_deg, kAngle},
+          DigitsOf{place.dec_deg, kAngle},
+          DigitsOf{o.azimuth * 180 / std::numbers::pi, kAngle},
+          all(x.x),
+          all(x.y),
+          all(x.z),
+          all(y.x),
+          all(y.y),
+          all(y.z),
+          all(z.x),
+          all(z.y),
+          all(z.z),
+          all(o.null_time)};
+}
+
+std::string csv_text(const StateCell& cell) {
+  if (const auto* number = std::get_if<DigitsOf>(&cell))
+    return fmt::format("{:.{}g}", number->value, number->digits);
+  if (const auto* count = std::get_if<int>(&cell)) return std::to_string(*count);
+  return std::get<const char*>(cell);
+}
+
+nlohmann::ordered_json json_of_cell(const StateCell& cell) {
+  if (const auto* number = std::get_if<DigitsOf>(&cell)) return json_number(number->value);
+  if (const auto* count = std::get_if<int>(&cell)) return *count;
+  return std::get<const char*>(cell);
+}
+
+void print_csv(const Show& show, const std::vector<int>& frames) {
+  const std::string head = fmt::format(
       "# r and proper_time in M (proper_time in s without a hole); celerity (gamma v) against the "
       "tetrad along R,"
       " Theta, Phi;\n# ra_deg and dec_deg: the observer's place as seen from the hole; camera axes "
@@ -25,36 +90,53 @@ void print_states(const std::string& file, const std::string& frames, const std:
       " (R, Theta, Phi)\n"
       "# azimuth_deg: swept in the planes of its orbits since the start of the show\n"
       "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing\n"
-      "frame,show_time_s,segment,region,tetrad,r,proper_time,celerity_r,celerity_theta,celerity_"
-      "phi,ra_deg,dec_deg,azimuth_deg,"
-      "x_r,x_theta,x_phi,y_r,y_theta,y_phi,z_r,z_theta,z_phi,null_time");
-  for (const int n : chosen) {
-    const FrameState s = frame_state(show, n);
-    const ObserverState& o = s.observer;
-    const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
-    std::printf("%d,%.9g,%d,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.15g,%.15g,%.15g", n,
-                s.show_time_s, s.segment + 1, region_name(o.region), tetrad_name(o.tetrad), o.r,
-                o.proper_time, o.celerity.x, o.celerity.y, o.celerity.z, place.ra_deg,
-                place.dec_deg, o.azimuth * 180 / std::numbers::pi);
-    for (int k = 0; k < 3; ++k) {
-      const V3d axis = column(o.tetrad_from_camera, k);
-      std::printf(",%.17g,%.17g,%.17g", axis.x, axis.y, axis.z);
-    }
-    std::printf(",%.17g\n", o.null_time);
+      "{}\n",
+      fmt::join(kColumns, ","));
+  std::fputs(head.c_str(), stdout);
+  for (const int n : frames) {
+    std::string line;
+    for (const StateCell& cell : cells_of(frame_state(show, n)))
+      line += (line.empty() ? "" : ",") + csv_text(cell);
+    std::puts(line.c_str());
   }
+}
+
+// An array with a state in each line.
+void print_json(const Show& show, const std::vector<int>& frames) {
+  std::string before = "[\n";
+  for (const int n : frames) {
+    const auto cells = cells_of(frame_state(show, n));
+    nlohmann::ordered_json state;
+    for (std::size_t k = 0; k < cells.size(); ++k) state[kColumns[k]] = json_of_cell(cells[k]);
+    std::fputs((before + state.dump()).c_str(), stdout);
+    before = ",\n";
+  }
+  std::puts("\n]");
+}
+
+struct Options {
+  std::string show, frames, plot;
+  bool json = false;
+};
+
+void print_states(const Options& o) {
+  const Show show = read_show(o.show);
+  const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
+  if (!o.plot.empty()) write_output(o.plot, show_page(show));
+  o.json ? print_json(show, frames) : print_csv(show, frames);
 }
 
 }  // namespace
 
 void add_states(CLI::App& app) {
-  auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV");
-  auto show = std::make_shared<std::string>(), frames = std::make_shared<std::string>(),
-       plot = std::make_shared<std::string>();
-  verb->add_option("show", *show, "show file (YAML)")->required();
-  verb->add_option("--frames", *frames, "7, 0-299, 0-599x10; default all");
-  verb->add_option("--plot", *plot,
+  auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV or JSON");
+  auto o = std::make_shared<Options>();
+  verb->add_option("show", o->show, "show file (YAML)")->required();
+  verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all");
+  verb->add_option("--plot", o->plot,
                    "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram");
-  verb->callback([show, frames, plot] { print_states(*show, *frames, *plot); });
+  verb->add_flag("--json", o->json, "an array of objects with all digits instead of CSV");
+  verb->callback([o] { print_states(*o); });
 }
 
 }  // namespace domefall
