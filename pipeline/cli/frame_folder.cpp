@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char *kLinear = "linear", *kGraded = "graded";
+constexpr const char *kLinear = "linear", *kGraded = "graded", *kLens = "lens";
 
 // The first part of the path that is a link to nothing; empty if there is none.
 fs::path dangling_link(const fs::path& path) {
@@ -113,6 +113,8 @@ fs::path FrameFolder::path_of(const char* kind, int frame, const char* extension
 }
 
 fs::path FrameFolder::linear(int frame) const { return path_of(kLinear, frame, "exr"); }
+
+fs::path FrameFolder::lens(int frame) const { return path_of(kLens, frame, "exr"); }
 
 fs::path FrameFolder::graded(int frame) const {
   const GradedFormat format = show_.output.graded.value_or(GradedFormat{});
@@ -222,6 +224,12 @@ void FrameFolder::prepare(const std::vector<int>& frames) const {
   for (const fs::path& made : linear_folders) make_folder(made);
   for (const fs::path& made : graded_folders) make_folder(made);
   sweep_temporaries(folder_);
+}
+
+void FrameFolder::prepare_lens(const std::vector<int>& frames) const {
+  std::set<fs::path> folders;
+  for (const int frame : frames) folders.insert(lens(frame).parent_path());
+  for (const fs::path& made : folders) make_folder(made);
 }
 
 void FrameFolder::write_record() const {

@@ -25,6 +25,8 @@ class FrameFolder {
   // folders, linear/NAME_00000-09999/NAME_00000.exr.
   std::filesystem::path linear(int frame) const;
   std::filesystem::path graded(int frame) const;
+  // lens/NAME_00000.exr, likewise.
+  std::filesystem::path lens(int frame) const;
   bool has_linear() const { return show_.output.linear.has_value(); }
   bool has_graded() const { return show_.output.graded.has_value(); }
 
@@ -42,6 +44,8 @@ class FrameFolder {
   // Makes the folders that files of these frames are to be put into, and removes what dead writers
   // left.  Throws InputError where the path leads through a file, else TemporaryError.
   void prepare(const std::vector<int>& frames) const;
+  // The same for lens maps.
+  void prepare_lens(const std::vector<int>& frames) const;
 
   // Writes the record, to which a folder has a right once a frame is there.  It depends on the show
   // and its size alone, so that any number of workers may do this at once.

@@ -4,6 +4,7 @@
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/lens_run.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
@@ -15,7 +16,7 @@ namespace {
 struct Options {
   std::string show, frames, size, out, overlays;
   int threads = 0;
-  bool explain = false, replace = false, dry = false;
+  bool explain = false, replace = false, dry = false, lens_map = false;
 };
 
 // Does the work of render and of grade, which go over the same frames and put them in the same
@@ -24,6 +25,11 @@ void run(const Options& o, bool render) {
   Show show = read_show(o.show);
   overlay(show, o.overlays);
   show.projection = resized(show.projection, o.size);
+  if (o.lens_map) {
+    run_lens_maps({show, parse_frames(o.frames, frame_count(show)), frames_folder(show, o.out),
+                   o.threads, o.replace, o.dry});
+    return;
+  }
   run_frames({show, parse_frames(o.frames, frame_count(show)), frames_folder(show, o.out),
               o.threads, o.explain, render, o.replace, o.dry});
 }
@@ -47,7 +53,13 @@ void add_render(CLI::App& app) {
   auto o = std::make_shared<Options>();
   add_frame_options(*verb, o);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
-  verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
+  auto* explain =
+      verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
+  verb->add_flag("--lens-map", o->lens_map,
+                 "instead write EXR files in lens/ that say where each pixel's light started, by "
+                 "which other programs lens pictures")
+      ->excludes(explain)
+      ->excludes(verb->get_option("--overlay"));
   verb->add_flag("--dry-run", o->dry, "only print which frames would be made");
   verb->callback([o] { run(*o, true); });
 }

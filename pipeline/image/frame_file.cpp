@@ -58,8 +58,6 @@ std::optional<ExrTimeCode> time_code(const FrameInfo& info) {
 
 std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& info) {
   std::vector<std::pair<std::string, ExrValue>> all{
-      {"chromaticities", kAcesCg},
-      {"colorSpace", "ACEScg"},
       {kExrTitle, info.title},
       {kShow, info.show},
       {kExrKey, info.key},
@@ -141,14 +139,22 @@ std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
   return {pixels(HalfFrame(size.x, size.y)), std::move(info)};
 }
 
+void write_sealed(const std::filesystem::path& path, const ExrPicture& picture) {
+  NewFile made(path);
+  write_exr(made, picture);
+  seal_frame(made);
+  made.commit();
+}
+
 template <class T>
 void write_pixels(const std::filesystem::path& path, const ImageRgb<T>& frame,
                   const FrameInfo& info, ExrCompression compression) {
-  NewFile made(path);
-  write_exr(made,
-            {frame.width, frame.height, frame.pixels.data(), compression, attributes_of(info)});
-  seal_frame(made);
-  made.commit();
+  ExrPicture picture{frame.width, frame.height, frame.pixels.data(), compression,
+                     attributes_of(info)};
+  const std::pair<std::string, ExrValue> colours[] = {{"chromaticities", kAcesCg},
+                                                      {"colorSpace", "ACEScg"}};
+  picture.attributes.insert(picture.attributes.begin(), std::begin(colours), std::end(colours));
+  write_sealed(path, picture);
 }
 
 }  // namespace
@@ -166,6 +172,12 @@ void write_frame(const std::filesystem::path& path, const HalfFrame& frame, cons
 void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
                  ExrCompression compression) {
   write_pixels(path, frame, info, compression);
+}
+
+void write_channels(const std::filesystem::path& path, const ChannelImage& image,
+                    const FrameInfo& info) {
+  write_sealed(path, {image.width, image.height, image.pixels.data(), ExrCompression::kZip,
+                      attributes_of(info), image.channels});
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

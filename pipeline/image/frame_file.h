@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/image/channel_image.h"
 #include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/frame_buffer.h"
 
@@ -39,6 +40,10 @@ void write_frame(const std::filesystem::path& path, const HalfFrame& frame, cons
                  ExrCompression compression = ExrCompression::kZip);
 void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
                  ExrCompression compression = ExrCompression::kZip);
+
+// Writes a picture of other channels in the same way: 32-bit floats, and a header without colours.
+void write_channels(const std::filesystem::path& path, const ChannelImage& image,
+                    const FrameInfo& info);
 
 // Reads back what write_frame wrote; floats become halves as by half_frame().  Nothing is decoded before the digest of the file is right.
 // Throws InputError naming the file if it is missing, damaged or was not written by write_frame,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/image/digest.h"
+#include "pipeline/render/key_parts.h"
 #include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/rays/steady.h"
@@ -19,12 +20,6 @@ namespace {
 // It is raised with every change that alters a pixel, so that older frames are made again.
 constexpr int kPixelVersion = 8;
 
-void add_projection(Digest& digest, const Projection& p) {
-  digest.add(projection_name(p)).add(columns(p)).add(rows(p));
-  if (const auto fov = field_of_view(p)) digest.add(steady(*fov));
-  if (const auto* fisheye = std::get_if<Fisheye>(&p)) digest.add(steady(fisheye->cut_back));
-}
-
 // What came after the first version is added only where it is in use, so that other shows keep
 // their keys.
 void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
@@ -32,15 +27,6 @@ void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
     digest.add(v);
   if (law.halo > 0) digest.add("halo").add(law.halo).add(law.halo_sigma);
   digest.add("core").add(law.white_core);
-}
-
-// Shows that leave no effect out keep the keys that they had before effects could be left out.
-void add_effects(Digest& digest, const Effects& e) {
-  if (e == Effects{}) return;
-  digest.add("effects");
-  for (const bool on : {e.aberration, e.doppler_colour, e.intensity, e.lensing})
-    digest.add(on ? "on" : "off");
-  digest.add(static_cast<double>(e.amplification));
 }
 
 void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
@@ -155,15 +141,8 @@ std::string FrameKeys::exposed(const FrameState& state) const {
 std::string FrameKeys::instant(const FrameState& state) const {
   const ObserverState& o = state.observer;
   Digest digest;
-  digest.add(common_)
-      .add(state.frame)
-      .add(region_name(o.region))
-      .add(tetrad_name(o.tetrad))
-      .add(steady(o.r))
-      .add(steady(o.proper_time));
-  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
-  add_rotation(digest, o.sky_from_tetrad);
-  add_rotation(digest, o.tetrad_from_camera);
+  digest.add(common_).add(state.frame);
+  add_observer(digest, o);
   add_projection(digest, state.projection);
   digest.add(steady(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);

@@ -2,6 +2,8 @@
 
 #include <OpenEXR/openexr.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 
@@ -68,6 +70,11 @@ struct AttributeAdder {
   }
 };
 
+// Whether the channels are those for which our own packer is made.
+bool is_rgb(const ExrPicture& picture) {
+  return std::ranges::equal(picture.channels, std::array{"R", "G", "B"});
+}
+
 // A file in the making, its header written.
 class ExrInTheMaking {
  public:
@@ -99,9 +106,10 @@ class ExrInTheMaking {
     require(exr_initialize_required_attr_simple(file_, part, picture.width, picture.height,
                                                 code_of(picture.compression)));
     const exr_pixel_type_t type =
-        std::visit([](const auto* rgb) { return type_of(rgb); }, picture.rgb);
-    for (const char* channel : {"R", "G", "B"})
-      require(exr_add_channel(file_, part, channel, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+        std::visit([](const auto* pixels) { return type_of(pixels); }, picture.pixels);
+    const auto meaning = is_rgb(picture) ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR;
+    for (const std::string& channel : picture.channels)
+      require(exr_add_channel(file_, part, channel.c_str(), type, meaning, 1, 1));
     for (const auto& [name, value] : picture.attributes)
       std::visit(AttributeAdder{file_, name.c_str()}, value);
     require(exr_write_header(file_));
@@ -125,17 +133,19 @@ class BlockEncoder {
   void encode(exr_context_t file, const ExrPicture& picture, int first_row) {
     exr_chunk_info_t block;
     require(exr_write_scanline_chunk_info(file, 0, first_row, &block));
-    const bool zip =
-        picture.compression == ExrCompression::kZip || picture.compression == ExrCompression::kZips;
+    const bool zip = (picture.compression == ExrCompression::kZip ||
+                      picture.compression == ExrCompression::kZips) &&
+                     is_rgb(picture);
+    const std::size_t channels = picture.channels.size();
     const auto encode_rows = [&](const auto* first) {
-      const auto* rgb =
-          first + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(picture.width) * 3;
+      const auto* rows = first + static_cast<std::size_t>(first_row) *
+                                     static_cast<std::size_t>(picture.width) * channels;
       if (zip)
-        bytes_ = zip_.pack(rgb, picture.width, block.height);
+        bytes_ = zip_.pack(rows, picture.width, block.height);
       else
-        run(file, block, rgb);
+        run(file, block, rows, picture.channels);
     };
-    std::visit(encode_rows, picture.rgb);
+    std::visit(encode_rows, picture.pixels);
   }
   // The block as it stands in the file.
   std::string_view bytes() const { return bytes_; }
@@ -143,18 +153,19 @@ class BlockEncoder {
  private:
   // By OpenEXR's own steps, but for the last, which writes.
   template <class T>
-  void run(exr_context_t file, const exr_chunk_info_t& block, const T* rgb) {
+  void run(exr_context_t file, const exr_chunk_info_t& block, const T* rows,
+           const std::vector<std::string>& names) {
     require(begun_ ? exr_encoding_update(file, 0, &block, &pipeline_)
                    : exr_encoding_initialize(file, 0, &block, &pipeline_));
     begun_ = true;
     for (int c = 0; c < pipeline_.channel_count; ++c) {
       exr_coding_channel_info_t& channel = pipeline_.channels[c];
-      const std::string_view names = "RGB";
-      const auto place = names.find(channel.channel_name[0]);
-      channel.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(rgb + place);
+      const auto place = std::find(names.begin(), names.end(), channel.channel_name);
+      channel.encode_from_ptr =
+          reinterpret_cast<const std::uint8_t*>(rows + (place - names.begin()));
       channel.user_bytes_per_element = sizeof(T);
-      channel.user_data_type = static_cast<std::uint16_t>(type_of(rgb));
-      channel.user_pixel_stride = 3 * sizeof(T);
+      channel.user_data_type = static_cast<std::uint16_t>(type_of(rows));
+      channel.user_pixel_stride = static_cast<std::int32_t>(names.size() * sizeof(T));
       channel.user_line_stride = channel.user_pixel_stride * block.width;
     }
     require(exr_encoding_choose_default_routines(file, 0, &pipeline_));

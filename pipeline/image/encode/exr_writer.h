@@ -1,4 +1,4 @@
-// OpenEXR files of scan lines: channels R, G, B of floats of 16 or 32 bits.
+// OpenEXR files of scan lines: channels R, G, B, or others, of floats of 16 or 32 bits.
 #pragma once
 
 #include <Imath/half.h>
@@ -31,9 +31,11 @@ using ExrValue =
 
 struct ExrPicture {
   int width = 0, height = 0;
-  std::variant<const Imath::half*, const float*> rgb{};  // [height][width][3]
+  // [height][width][number of channels]
+  std::variant<const Imath::half*, const float*> pixels{};
   ExrCompression compression = ExrCompression::kZip;
   std::vector<std::pair<std::string, ExrValue>> attributes;  // beside those of every file
+  std::vector<std::string> channels{"R", "G", "B"};          // each name once, in pixels' order
 };
 
 // Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the picture

@@ -95,6 +95,35 @@ TEST_F(ExrWriter, GivesBackEveryBitOfFloats) {
       }
 }
 
+// Layers of names in no order, which a file has sorted, in blocks of more rows than there are.
+TEST_F(ExrWriter, GivesBackOtherChannelsByTheirNames) {
+  constexpr int kWidth = 33, kHeight = 37;
+  const std::vector<std::string> names{"sky.x", "st.t", "light.order", "A", "st.s"};
+  std::vector<float> pixels(names.size() * kWidth * kHeight);
+  std::mt19937 random(5);
+  for (float& value : pixels)
+    value = std::bit_cast<float>(static_cast<std::uint32_t>(random()) & 0xff7fffffU);
+  for (const Compression& compression : kCompressions) {
+    const auto path = folder_ / "channels.exr";
+    NewFile file(path);
+    write_exr(file, {kWidth, kHeight, pixels.data(), compression.ours, {}, names});
+    file.commit();
+    const auto in = OIIO::ImageInput::open(path.string());
+    ASSERT_TRUE(in) << OIIO::geterror();
+    ASSERT_EQ(in->spec().nchannels, 5);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      const int at = in->spec().channelindex(names[c]);
+      ASSERT_GE(at, 0) << names[c];
+      std::vector<float> read(kWidth * kHeight);
+      ASSERT_TRUE(in->read_image(0, 0, at, at + 1, OIIO::TypeDesc::FLOAT, read.data()));
+      for (std::size_t k = 0; k < read.size(); ++k)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(read[k]),
+                  std::bit_cast<std::uint32_t>(pixels[k * names.size() + c]))
+            << names[c] << " " << compression.name;
+    }
+  }
+}
+
 // Blocks are written in the order in which they lie in the picture, whoever is ready first.
 TEST_F(ExrWriter, HasTheSameBytesForAnyNumberOfThreads) {
   const HalfFrame frame = smooth(90, 700);

@@ -1,0 +1,31 @@
+#include "pipeline/render/key_parts.h"
+
+#include "pipeline/render/rays/steady.h"
+
+namespace domefall {
+
+void add_observer(Digest& digest, const ObserverState& o) {
+  digest.add(region_name(o.region))
+      .add(tetrad_name(o.tetrad))
+      .add(steady(o.r))
+      .add(steady(o.proper_time));
+  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
+  add_rotation(digest, o.sky_from_tetrad);
+  add_rotation(digest, o.tetrad_from_camera);
+}
+
+void add_projection(Digest& digest, const Projection& p) {
+  digest.add(projection_name(p)).add(columns(p)).add(rows(p));
+  if (const auto fov = field_of_view(p)) digest.add(steady(*fov));
+  if (const auto* fisheye = std::get_if<Fisheye>(&p)) digest.add(steady(fisheye->cut_back));
+}
+
+void add_effects(Digest& digest, const Effects& e) {
+  if (e == Effects{}) return;
+  digest.add("effects");
+  for (const bool on : {e.aberration, e.doppler_colour, e.intensity, e.lensing})
+    digest.add(on ? "on" : "off");
+  digest.add(static_cast<double>(e.amplification));
+}
+
+}  // namespace domefall

@@ -1,0 +1,17 @@
+// What the keys of frames and of lens maps have in common.
+#pragma once
+
+#include "pipeline/image/digest.h"
+#include "pipeline/show/show.h"
+#include "projections/projection.h"
+#include "trajectories/observer_state.h"
+
+namespace domefall {
+
+// Each adds all of its second argument, with numbers as steady.h rounds them.
+void add_observer(Digest& digest, const ObserverState& observer);
+void add_projection(Digest& digest, const Projection& projection);
+// Shows that leave no effect out keep the keys that they had before effects could be left out.
+void add_effects(Digest& digest, const Effects& effects);
+
+}  // namespace domefall
