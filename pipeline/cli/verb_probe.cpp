@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/json_number.h"
+#include "pipeline/cli/stars_at_pixel.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/render/rays/view_tracer.h"
@@ -44,6 +46,7 @@ struct Probed {
   FrameState state;
   PixelPosition pixel;
   ViewRay ray;
+  std::vector<StarAtPixel> stars;
 
   bool inside() const { return is_inside(state.projection, pixel); }
   double width() const { return pixel_angle(state.projection, pixel); }
@@ -75,6 +78,22 @@ void print_text(const Probed& p) {
               p.ray.tangential_scale);
   if (!p.from_singularity() && p.show.effects != Effects{})
     print_effects(p.show.effects, p.ray, p.width());
+  for (const StarAtPixel& star : p.stars) {
+    const std::string name = star.names.empty() ? "without a name" : star.names.front();
+    std::printf("star         %s, V %.2f seen as %.2f, image %d at %.2f,%.2f\n", name.c_str(),
+                star.v, star.seen_v, star.order, star.at.i, star.at.j);
+  }
+}
+
+ProbeJson json_of_star(const StarAtPixel& star) {
+  return {{"names", star.names},
+          {"sky", name_of(star.sky)},
+          {"ra_deg", json_number(star.ra_deg)},
+          {"dec_deg", json_number(star.dec_deg)},
+          {"v", json_number(star.v)},
+          {"seen_v", json_number(star.seen_v)},
+          {"order", star.order},
+          {"pixel", {json_number(star.at.i), json_number(star.at.j)}}};
 }
 
 // Light from the singularity has no redshift, no order and no amplification.
@@ -112,7 +131,10 @@ void print_json(const Probed& p) {
       {"compression_across", json_number(p.ray.tangential_scale)},
       {"to_edge_deg", json_number(p.ray.to_edge * kDegrees)}};
   add_shift(p, json);
-  std::puts(json.dump(2).c_str());
+  json["stars"] = ProbeJson::array();
+  for (const StarAtPixel& star : p.stars) json["stars"].push_back(json_of_star(star));
+  // A catalogue's names need not be UTF-8.
+  std::puts(json.dump(2, ' ', false, ProbeJson::error_handler_t::replace).c_str());
 }
 
 void probe(const Options& o) {
@@ -124,14 +146,14 @@ void probe(const Options& o) {
       make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
   const ViewRay ray =
       ViewTracer(state, optics, show.effects).trace(direction_at(state.projection, pixel));
-  const Probed probed{show, state, pixel, ray};
+  const Probed probed{show, state, pixel, ray, stars_at_pixel(show, state, pixel)};
   o.json ? print_json(probed) : print_text(probed);
 }
 
 }  // namespace
 
 void add_probe(CLI::App& app) {
-  auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift");
+  auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift, stars");
   auto o = std::make_shared<Options>();
   verb->add_option("show", o->show, "show file (YAML)")->required();
   add_frame_choice(*verb, o->choice);

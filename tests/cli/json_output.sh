@@ -19,6 +19,17 @@ size: 200
 sky: {region_I: {background: black, stars: none}}
 timeline: [{duration_s: 1, trajectory: {type: velocity, speed: 0.6, direction: Vega}}]
 END
+cat >stars.yaml <<'END'
+size: 64
+black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {background: black, stars: naked_eye}}
+timeline: [{duration_s: 1, trajectory: {type: infall, from_r: 15, to_r: 10}, camera: {look_at: hole}}]
+END
+cat >still.yaml <<'END'
+size: 64
+sky: {region_I: {background: black, stars: naked_eye}}
+timeline: [{duration_s: 1, camera: {look_at: Sirius, elevation_deg: 90}}]
+END
 
 python3 - "$DOMEFALL" <<'END'
 import csv, json, math, random, re, subprocess, sys
@@ -118,6 +129,29 @@ for frame in (0, 2, 3, 4, 7):
                 near(ray['one_plus_z'], fact['one_plus_z'], 1e-9)
                 near(math.degrees(float(ray['phi'])), fact['swept_azimuth_deg'], 1e-8)
 assert compared >= 24, compared
+
+# The images of stars on a pixel: the ray through the middle of each comes from the star.
+orders = set()
+for show, places in (('stars.yaml', ((24, 42), (32, 50), (38, 44))), ('still.yaml', ((32.5, 32.5),))):
+    for x, y in places:
+        fact, text = shown(show, 0, x, y)
+        stars = fact['stars']
+        assert len(stars) == len(re.findall('^star  ', text, re.M)) >= 1, (fact, text)
+        assert [s['seen_v'] for s in stars] == sorted(s['seen_v'] for s in stars)
+        for star in stars[:2] + [s for s in stars if s['order'] > 0][:2]:
+            orders.add(star['order'])
+            assert math.hypot(star['pixel'][0] - x, star['pixel'][1] - y) < 4, star
+            there, _ = shown(show, 0, *star['pixel'])
+            assert there['sky'] == star['sky'] and (there['order'] or 0) == star['order'], (there, star)
+            near(star['dec_deg'], there['dec_deg'], 1e-7)
+            near(0, math.remainder(star['ra_deg'] - there['ra_deg'], 360), 1e-5)
+            squeezed = there['compression_towards_hole'] * there['compression_across']
+            light = there['intensity_ratio'] / squeezed
+            near(star['seen_v'], star['v'] - 2.5 * math.log10(light), 1e-4)
+assert orders >= {0, 1}, orders
+brightest = stars[0]
+assert 'Sirius' in brightest['names'] and brightest['order'] == 0, brightest
+near(brightest['seen_v'], -1.44, 0.02)
 
 fact, text = shown('flat.yaml', 0, 50, 60)
 assert fact['region'] is None and fact['r'] is None and fact['to_edge_deg'] is None, fact

@@ -93,9 +93,11 @@ said = {}
 for name, (across, down) in places.items():
     command = [sys.argv[1], 'probe', name + '.yaml', '--frame', '0', '--pixel',
                f'{across + 0.5:.12f},{down + 0.5:.12f}']
-    said[name] = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    # Stars are named by their pixels, of which each picture has others.
+    said[name] = [line for line in text.splitlines() if not line.startswith('star ')]
 assert all(text == said['dome'] for text in said.values()), said
-assert 'sky' in said['dome'], said
+assert any('sky I' in line for line in said['dome']), said
 END
 
 # A change of the projection is another frame, which `render` makes again.

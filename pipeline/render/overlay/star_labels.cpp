@@ -8,15 +8,13 @@
 #include <utility>
 
 #include "pipeline/lettering/lettering.h"
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/overlay/ink.h"
 #include "pipeline/render/overlay/stroke.h"
 #include "pipeline/render/scene/star_light.h"
+#include "pipeline/render/scene/star_sight.h"
 #include "pipeline/show/stars_section.h"
-#include "pipeline/show/vantage.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 
 namespace domefall {
@@ -26,53 +24,6 @@ namespace {
 constexpr double kLabelPart = 1. / 120, kLeastLabel = 7;
 // The radius of the ring around an image, and the way from there to its name, in capitals.
 constexpr double kRing = 0.8, kGap = 1.2;
-
-// Finds the images of stars as one observer sees them.
-class NamedImageFinder {
- public:
-  NamedImageFinder(const Show& show, const FrameState& state)
-      : effects_(show.effects),
-        observer_(state.observer),
-        vantage_(vantage_of(state.observer, show.effects)),
-        optics_(make_hole_optics(state.observer.r, state.observer.tetrad,
-                                 {{true, true, false}, false})) {}
-
-  bool sees(SkyRegion sky) const {
-    if (is_flat(observer_) || !effects_.lensing) return sky == home_sky(observer_.tetrad);
-    return optics_.table_of(sky) != nullptr;
-  }
-  int orders() const { return is_flat(observer_) || !effects_.lensing ? 1 : 2; }
-
-  // The direction and by how much brighter than the star the image is, as the renderer draws it.
-  std::pair<CameraDirection, double> image(SkyRegion sky, const SkyDirection& star,
-                                           int order) const {
-    const V3d source = apply_transposed(observer_.sky_from_tetrad, star.v);
-    SkyImage at{{source}, 1, 1};
-    if (effects_.lensing)
-      at = image_of(optics_.table_of(sky), source, order, kLeastSource);
-    else
-      at = straight(source);
-    const AberratedLight seen = to_observer(vantage_.celerity, at.direction.v);
-    double g = at.frequency_ratio * seen.frequency_ratio;
-    if (vantage_.measured) g *= to_observer(*vantage_.measured, seen.direction).frequency_ratio;
-    return {{apply_transposed(observer_.tetrad_from_camera, seen.direction)},
-            received_flux(effects_, 1, at.amplification, seen.frequency_ratio, g)};
-  }
-
- private:
-  SkyImage straight(const V3d& source) const {
-    const AberratedLight at = to_tetrad(vantage_.rest, source);
-    const double ratio = at.frequency_ratio;
-    return {{at.direction}, gravitational_ratio(observer_.r) * ratio, 1 / (ratio * ratio)};
-  }
-
-  static constexpr double kLeastSource = 1e-4;  // radians; it bounds the light of one on the axis
-
-  const Effects& effects_;
-  const ObserverState& observer_;
-  Vantage vantage_;
-  HoleOptics optics_;
-};
 
 // Where names are already, as discs along them.
 class TakenPlaces {
@@ -128,19 +79,20 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
 
 std::vector<NamedImage> StarLabels::images(const FrameState& state) {
   std::vector<NamedImage> found;
-  const NamedImageFinder finder(show_, state);
+  const StarSight finder(show_, state);
   for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
-    if (state.observer.region == Region::kIV || !finder.sees(sky)) continue;
+    if (!finder.sees(sky)) continue;
     const FrameSettings::Sky& settings = state.settings.sky[sky];
     const double gain = settings.star_gain / default_star_gain(show_.point_spread);
     for (const NamedStarOfSky& star : stars_of(sky)) {
       const double drawn = gain * part_within_limit(settings, star.magnitude);
       if (!(drawn > 0)) break;  // those that follow are fainter
-      for (int order = 0; order < finder.orders(); ++order) {
-        const auto [direction, factor] = finder.image(sky, star.direction, order);
-        const double magnitude = star.magnitude - 2.5 * std::log10(drawn * factor);
+      for (int order = 0; order < std::min(finder.orders(), 2); ++order) {
+        const StarSight::Image image = finder.image(sky, star.direction, order);
+        const double magnitude = star.magnitude - 2.5 * std::log10(drawn * image.brightening);
         if (!(magnitude <= kFaintestNamedImage)) continue;
-        found.push_back({star.name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude});
+        found.push_back(
+            {star.name + (order > 0 ? "\u2032" : ""), order > 0, image.direction, magnitude});
       }
     }
   }
