@@ -143,7 +143,7 @@ void probe(const Options& o) {
   const FrameState state = frame_state(show, chosen_frame(o.choice, show));
   const PixelPosition pixel = parse_pixel(o.pixel);
   const HoleOptics optics =
-      make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true});
+      make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}});
   const ViewRay ray =
       ViewTracer(state, optics, show.effects).trace(direction_at(state.projection, pixel));
   const Probed probed{show, state, pixel, ray, stars_at_pixel(show, state, pixel)};
