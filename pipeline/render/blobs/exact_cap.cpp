@@ -39,10 +39,18 @@ struct Points {
   std::size_t count;
   std::array<double, kMostPoints> at;
 };
-const Points& points_for(double sigma_pixels) {
-  constexpr double kGauss = 0.28867513459481287;
-  static const Points one{1, {0}}, two{2, {-kGauss, kGauss}};
-  return sigma_pixels > 6 ? one : two;
+constexpr double kGauss = 0.28867513459481287;
+constexpr Points kOnePoint{1, {0}}, kTwoPoints{2, {-kGauss, kGauss}};
+constexpr double kWide = 6;  // pixels, of a Gaussian for which one point is enough
+
+// Whether the area of a row's pixels may grow notably from one side to the other: of the k-th row
+// from a pole the mean lies 1/(12 (k + 1/2)) rows from the middle, and the direction opposite to a
+// fisheye's middle is the whole rim.
+bool has_slanted_areas(const Projection& p, int row) {
+  constexpr int kRows = 2;
+  constexpr double kNearlyWhole = 5;  // radians
+  if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov > kNearlyWhole;
+  return std::holds_alternative<Equirectangular>(p) && (row < kRows || row >= rows(p) - kRows);
 }
 
 struct Weighing {
@@ -85,7 +93,7 @@ class ExactCap {
  public:
   ExactCap(const CapBlob& blob, const Projection& projection)
       : projection_(projection),
-        points_(points_for(blob.sigma / central_pixel_angle(projection))),
+        wide_(blob.sigma > kWide * central_pixel_angle(projection)),
         weighing_{middle_of(blob, projection).v, 1 / (2 * double{blob.sigma} * blob.sigma),
                   blob.cut},
         middle_(pixel_of(projection, {{0, 0, 1}}).value_or(PixelPosition{0, 0})),
@@ -119,13 +127,14 @@ class ExactCap {
     std::array<double, kMost> i, j, angle;
     std::array<CameraDirection, kMost> n;
     std::array<float, kMost> of_point, area;
+    const Points& points = wide_ && !has_slanted_areas(projection_, row) ? kOnePoint : kTwoPoints;
     const auto pixels = static_cast<std::size_t>(count);
     std::size_t all = 0;
-    for (std::size_t down = 0; down < points_.count; ++down)
-      for (std::size_t across = 0; across < points_.count; ++across, all += pixels)
+    for (std::size_t down = 0; down < points.count; ++down)
+      for (std::size_t across = 0; across < points.count; ++across, all += pixels)
         for (std::size_t k = 0; k < pixels; ++k) {
-          i[all + k] = from + static_cast<double>(k) + 1 + points_.at[across];
-          j[all + k] = row + 1 + points_.at[down];
+          i[all + k] = from + static_cast<double>(k) + 1 + points.at[across];
+          j[all + k] = row + 1 + points.at[down];
         }
     const auto number = static_cast<int>(all);
     find_directions(projection_, i.data(), j.data(), number, n.data(), angle.data());
@@ -154,7 +163,7 @@ class ExactCap {
   }
 
   const Projection& projection_;
-  const Points& points_;
+  bool wide_;
   Weighing weighing_;
   PixelPosition middle_;         // of a fisheye's circle
   bool areas_differ_;            // notably within a pixel, somewhere in the picture
