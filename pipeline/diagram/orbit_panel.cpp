@@ -48,7 +48,7 @@ PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path) {
   page.begin_group("orbit");
   draw_axes(page, box, plane.x, plane.y, 7, 7);
   draw_hole(page, plane);
-  const PlaceOnPage place = [plane](const PathPoint& p) {
+  PlaceOnPage place = [plane](const PathPoint& p) {
     const PagePoint at = in_plane(p);
     return PagePoint{plane.x(at.x), plane.y(at.y)};
   };

@@ -134,7 +134,7 @@ PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) 
   draw_radii(page, at);
   draw_borders(page, at);
   draw_names(page, at);
-  const PlaceOnPage place = [at](const PathPoint& p) { return at(p.penrose); };
+  PlaceOnPage place = [at](const PathPoint& p) { return at(p.penrose); };
   draw_path(page, path, place, is_joined);
   page.text({box.left, box.bottom + 52},
             "The whole spacetime, the future up; light runs at 45\u00b0. Grey: constant r (M).",

@@ -31,7 +31,9 @@ class UpperHalvesCleared {
  public:
   UpperHalvesCleared() = default;
   UpperHalvesCleared(const UpperHalvesCleared&) = delete;
+  UpperHalvesCleared(UpperHalvesCleared&&) = delete;
   UpperHalvesCleared& operator=(const UpperHalvesCleared&) = delete;
+  UpperHalvesCleared& operator=(UpperHalvesCleared&&) = delete;
   ~UpperHalvesCleared() {
     static const bool there = __builtin_cpu_supports("avx");
     if (there) clear_upper_halves();
