@@ -59,9 +59,9 @@ class Grader {
   // the formulas.
   std::optional<TableError> table_error(const HalfFrame& in) const;
 
-  // A digest of what it does to a pixel, but for the CDL, which frames may have of their own: of all
-  // transforms and of the contents of the files they read, and of what is done about the dome's own
-  // light.
+  // A digest of what it does to a pixel, but for the CDL, which frames may have of their own: of
+  // all transforms and of the contents of the files they read, and of what is done about the dome's
+  // own light.
   const std::string& transform_id() const { return transform_id_; }
 
   // Those of the settings, or the configuration's defaults.

@@ -25,8 +25,8 @@ unsigned char* bytes_of(std::string_view bytes) {
 __attribute__((target("avx"))) void clear_upper_halves() { _mm256_zeroupper(); }
 
 // To be had before each call of ISA-L, which leaves the upper halves of the vector registers in use
-// (2.30).  Until they are cleared, each instruction of SSE that follows on this thread waits for the
-// ones before it: OpenColorIO took ten times as long for a pixel.
+// (2.30).  Until they are cleared, each instruction of SSE that follows on this thread waits for
+// the ones before it: OpenColorIO took ten times as long for a pixel.
 class UpperHalvesCleared {
  public:
   UpperHalvesCleared() = default;
