@@ -104,8 +104,11 @@ TEST(NewestFirst, LetsNoMoreWaitThanItSays) {
         ++refused;
       }
   turns.leave();
-  for (auto& one : waiting)
-    if (one.valid()) EXPECT_EQ(one.get(), Turn::kNow);
+  for (auto& one : waiting) {
+    if (one.valid()) {
+      EXPECT_EQ(one.get(), Turn::kNow);
+    }
+  }
   EXPECT_EQ(refused, 1);
 }
 
