@@ -3,4 +3,5 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 write_show "$folder/fall.yaml"
-exits 0 python3 "$(dirname "$0")/live_page.py" "$DOMEFALL" "$folder/fall.yaml"
+# Debian's own Python, which knows Debian's selenium.
+exits 0 /usr/bin/python3 "$(dirname "$0")/live_page.py" "$DOMEFALL" "$folder/fall.yaml"
