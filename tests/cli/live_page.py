@@ -8,9 +8,11 @@ sizes; with --rate it only plays for that time and says how many pictures a seco
 import argparse
 import base64
 import subprocess
+import sys
 import time
 
 from selenium import webdriver
+from selenium.common.exceptions import WebDriverException
 from selenium.webdriver import ActionChains, Keys
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -200,7 +202,11 @@ def main():
     server = subprocess.Popen([given.domefall, 'preview', given.show, '--no-open'], stdout=subprocess.PIPE, text=True)
     try:
         url = server.stdout.readline().strip()
-        window = browser()
+        try:
+            window = browser()
+        except WebDriverException as error:
+            print(f'no browser can be started here: {error}')
+            sys.exit(77)
         try:
             page = Page(window, url)
             if given.frame:

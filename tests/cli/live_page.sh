@@ -4,4 +4,6 @@
 source "$(dirname "$0")/common.bash"
 write_show "$folder/fall.yaml"
 # Debian's own Python, which knows Debian's selenium.
-exits 0 /usr/bin/python3 "$(dirname "$0")/live_page.py" "$DOMEFALL" "$folder/fall.yaml"
+code=0
+/usr/bin/python3 "$(dirname "$0")/live_page.py" "$DOMEFALL" "$folder/fall.yaml" || code=$?
+exit "$code"  # 77 where no browser can be started, in a container without its own processes
