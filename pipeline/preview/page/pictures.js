@@ -16,6 +16,7 @@ export class Pictures {
     this.have = '';      // what was got last, and whether finely
     this.seen = '';      // and what was drawn last
     this.changed = 0;    // when the wish changed last
+    this.last = 0;       // when the last moving picture came
     this.wish = '';
     this.run();
   }
@@ -80,7 +81,7 @@ export class Pictures {
         if (answer.status >= 500) await pause(500);
         return;
       }
-      if (request.moving) this.adapt(performance.now() - began);
+      if (request.moving) this.adapt(began);
       // It is decoded while the server makes the next one.
       this.show(blob, JSON.parse(answer.headers.get('X-Domefall')), request.goal);
       this.refused('');
@@ -101,9 +102,12 @@ export class Pictures {
     bitmap.close();
   }
 
-  // Pictures become smaller where 25 a second would not be reached, and grow again.
-  adapt(ms) {
-    if (ms > 40) this.scale = Math.max(0.35, this.scale * 0.95);
-    else if (ms < 30) this.scale = Math.min(1, this.scale * 1.03);
+  // Pictures become smaller where fewer than 25 a second come, and grow again. What they take here,
+  // to be unpacked and drawn, counts as well as what the server takes.
+  adapt(began) {
+    const now = performance.now(), took = Math.max(now - began, began - this.last < calm ? now - this.last : 0);
+    this.last = now;
+    if (took > 40) this.scale = Math.max(0.35, this.scale * 0.95);
+    else if (took < 37) this.scale = Math.min(1, this.scale * 1.03);
   }
 }
