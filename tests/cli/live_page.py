@@ -86,6 +86,9 @@ def drive(page, show):
     page.still()
     first = page.pixels()
     assert sum(map(sum, first)) > 1000, 'the picture is black'
+    changes = page.ask('''performance.getEntriesByType('resource').map((entry) => entry.name)
+        .filter((name) => /picture\\?.*(ev|display|view|effects|amplification|skies|stars)=/.test(name))''')
+    assert not changes, f'the page changes the show by itself: {changes}'
     page.until('document.getElementById("plot").height > 200', 'the plots')
     assert page.element('i-r').text.startswith('6 M'), page.element('i-r').text
 

@@ -47,7 +47,7 @@ export class Panel {
   }
 
   choices(id, names, usual) {
-    const choice = $(id), changed = choice.value && choice.value !== choice.dataset.usual;
+    const choice = $(id), { usual: before } = choice.dataset, changed = before !== undefined && choice.value !== before;
     const value = changed && names.includes(choice.value) ? choice.value : names.includes(usual) ? usual : names[0];
     choice.replaceChildren(...names.map((name) => new Option(name, name, name === usual, name === value)));
     choice.dataset.usual = usual;
