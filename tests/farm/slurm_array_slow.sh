@@ -34,7 +34,25 @@ has_tasks() { # has_tasks JOB FOLDER line...
 }
 says() { grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 does not say: $2"; }; }
 
-both_work() { [[ -n $(workers 0-19) && -n $(workers 20-39) ]] && at_least "$1" 6; }
+# Writes a program whose worker on each of the two ranges stops itself at its third frame, once.
+write_pausing_program() { # write_pausing_program NAME FOLDER
+  cat >"$1" <<SCRIPT
+#!/bin/bash
+first=\$(sed -n 's/.* --frames \([0-9]*\)-.*/\1/p' <<<" \$*")
+if [[ -n \$SLURM_JOB_ID && \$1 == render && ! -e $scratch/$1.\$first ]]; then
+  touch "$scratch/$1.\$first"
+  third=$scratch/$2/linear/fall_\$(printf %05d \$((first + 2))).exr
+  (until [[ -e \$third || ! -e /proc/\$\$ ]]; do sleep 0.002; done; kill -STOP \$\$) &
+  exec nice -n 19 $DOMEFALL "\$@"
+fi
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x "$1"
+}
+is_stopped() { [[ $(ps -o state= -p "$(workers "$1")") == T ]]; }
+# SIGTERM waits for a stopped process.
+is_told_to_end() { (($(sed -n 's/^ShdPnd:\t/0x/p' "/proc/$1/status") & 1 << 14)); }
+both_stand() { is_stopped 0-19 && is_stopped 20-39; }
 
 a_wrong_show_is_not_submitted() {
   local code=0
@@ -67,16 +85,18 @@ what_is_anothers_is_refused_before_it_is_submitted() {
 # In two parts, so that the other array runs while this one waits for its second try.
 begin_torn() {
   local worker
-  torn=$("${launch[@]}" --out torn --chunk 20)
+  write_pausing_program pausing torn
+  torn=$(DOMEFALL=./pausing "${launch[@]}" --out torn --chunk 20)
   after=$(sbatch --parsable --output=/dev/null --dependency="afterok:$torn" \
     --wrap "touch $scratch/after.done")
-  until_ok 20 both_work torn || fail "no two tasks at work"
-  worker=$(workers 0-19)
-  kill -STOP "$worker"
+  until_ok 20 both_stand || fail "no two tasks at work"
   made torn >torn.made
-  kill -KILL "$worker"
+  kill -KILL "$(workers 0-19)"
   # What Slurm sends where the time limit is near.
+  worker=$(workers 20-39)
   scancel --batch --signal=USR1 "${torn}_1"
+  until_ok 20 is_told_to_end "$worker" || fail "the worker is not told to end"
+  kill -CONT "$worker"
 }
 a_killed_worker_and_a_short_time_limit_lose_nothing() {
   wait_for "$torn" torn
@@ -183,8 +203,9 @@ SCRIPT
 
 a_dead_task_and_a_cancelled_one_are_made_up_for() {
   local job worker
-  job=$("${launch[@]}" --out dead --chunk 20)
-  until_ok 20 both_work dead || fail "no two tasks at work"
+  write_pausing_program dying dead
+  job=$(DOMEFALL=./dying "${launch[@]}" --out dead --chunk 20)
+  until_ok 20 both_stand || fail "no two tasks at work"
   worker=$(workers 0-19)
   kill -KILL "$(ps -o ppid= -p "$worker" | tr -d ' ')" "$worker"
   scancel "${job}_1"
