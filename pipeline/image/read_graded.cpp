@@ -1,30 +1,18 @@
 #include "pipeline/image/read_graded.h"
 
-#include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <stdexcept>
 
-#include "pipeline/image/atomic_file.h"
-#include "pipeline/image/descriptor.h"
 #include "pipeline/image/image_formats.h"
+#include "pipeline/image/memory_file.h"
 
 namespace domefall {
 namespace {
 
-void copy_bytes(const FileBytes& file, int to, const std::filesystem::path& path) {
+void copy_bytes(const FileBytes& file, const MemoryFile& to) {
   constexpr std::uint64_t kPiece = 1 << 20;
-  for (std::uint64_t at = 0; at < file.size(); at += kPiece) {
-    const std::string piece = file.at(at, std::min(kPiece, file.size() - at));
-    for (std::size_t done = 0; done < piece.size();) {
-      const ssize_t written = write(to, piece.data() + done, piece.size() - done);
-      if (written < 0 && errno != EINTR) throw_file_error(path, errno);
-      if (written > 0) done += static_cast<std::size_t>(written);
-    }
-  }
+  for (std::uint64_t at = 0; at < file.size(); at += kPiece)
+    to.append(file.at(at, std::min(kPiece, file.size() - at)));
 }
 
 }  // namespace
@@ -33,10 +21,9 @@ FrameCondition read_graded(const std::filesystem::path& path, const WantedFrame&
                            GradedFrame& frame) {
   const auto file = FileBytes::open(path);
   if (!file) return FrameCondition::kMissing;
-  const Descriptor memory(memfd_create("frame", MFD_CLOEXEC));
-  if (memory.number() < 0) throw_file_error(path, errno);
+  const MemoryFile memory(path.string());
   try {
-    copy_bytes(*file, memory.number(), path);
+    copy_bytes(*file, memory);
   } catch (const DamagedFile&) {  // shortened meanwhile
     return FrameCondition::kDamaged;
   }
@@ -44,7 +31,7 @@ FrameCondition read_graded(const std::filesystem::path& path, const WantedFrame&
   const FrameCondition condition = examine_frame(bytes, path, wanted);
   if (condition != FrameCondition::kGood) return condition;
   try {
-    const auto reader = image_formats().open(fmt::format("/proc/self/fd/{}", memory.number()));
+    const auto reader = image_formats().open(memory.path());
     const ImageLayout& layout = reader->layout();
     if (layout.width != wanted.width || layout.height != wanted.height || layout.channels != 3)
       throw std::runtime_error("its pixels are not those of its header");

@@ -28,9 +28,12 @@ void UnfinishedList::drop(const std::filesystem::path& path) { unfinished().path
 void remove_unfinished() noexcept {
   Unfinished& all = unfinished();
   all.mutex.lock();  // and never unlocked
+  // Other threads still run: a folder is not empty where one of them makes a file in it meanwhile.
+  constexpr int kMostTries = 100;
   for (const std::filesystem::path& path : all.paths) {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
+    std::error_code error;
+    for (int tries = 0; tries < kMostTries; ++tries)
+      if (std::filesystem::remove_all(path, error); error != std::errc::directory_not_empty) break;
   }
 }
 

@@ -1,7 +1,6 @@
 #include "pipeline/movie/movie_file.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@ namespace domefall {
 namespace {
 
 using Arguments = std::vector<std::string>;
+using Subtitles = std::unique_ptr<MemoryFile>;
 
 void append_to(Arguments& all, const Arguments& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -26,32 +26,28 @@ void append_to(Arguments& all, const Arguments& more) {
 // A file of this process and of what it starts, under any name or under none.
 std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
 
-// ffmpeg reads subtitles from a file alone; this one is in memory, and gone with its users.
-int file_in_memory(const std::string& text) {
-  if (text.empty()) return -1;
-  const int made = memfd_create("subtitles", MFD_CLOEXEC);
-  if (made < 0) throw_file_error("the subtitles in memory", errno);
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t written = write(made, text.data() + done, text.size() - done);
-    if (written < 0 && errno != EINTR) throw_file_error("the subtitles in memory", errno);
-    if (written > 0) done += static_cast<std::size_t>(written);
-  }
-  return made;
+// ffmpeg reads subtitles from a file alone.
+Subtitles subtitle_file(const std::string& text) {
+  if (text.empty()) return nullptr;
+  auto file = std::make_unique<MemoryFile>("the subtitles");
+  file->append(text);
+  return file;
 }
 
-Arguments ffmpeg_arguments(const MoviePlan& plan, int subtitles, const Arguments& output) {
+Arguments ffmpeg_arguments(const MoviePlan& plan, const Subtitles& subtitles,
+                           const Arguments& output) {
   Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
   append_to(all, input_options(plan.frames, plan.rate));
   append_to(all, sound_inputs(plan.sound));
   append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
   append_to(all, video_options(plan.preset, plan.frames, plan.rate, plan.tags,
-                               subtitles >= 0 ? path_of_descriptor(subtitles) : std::string()));
+                               subtitles ? subtitles->path() : std::string()));
   if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
   append_to(all, output);
   return all;
 }
 
-Arguments movie_arguments(const MoviePlan& plan, int subtitles, int file) {
+Arguments movie_arguments(const MoviePlan& plan, const Subtitles& subtitles, int file) {
   return ffmpeg_arguments(
       plan, subtitles,
       {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
@@ -68,13 +64,6 @@ bool names_lack(const ChildOutcome& outcome) {
   return says(ENOSPC) || says(EDQUOT) || says(EIO) || says(EFBIG) || says(ENOMEM) || says(ESTALE);
 }
 
-std::vector<int> descriptors(std::initializer_list<int> numbers) {
-  std::vector<int> kept;
-  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(kept),
-               [](int number) { return number >= 0; });
-  return kept;
-}
-
 }  // namespace
 
 void try_ffmpeg(const MoviePlan& plan) {
@@ -83,10 +72,11 @@ void try_ffmpeg(const MoviePlan& plan) {
   small.frames = {kSide, kSide};
   small.first = 0, small.count = 1;
   small.sound = {};
-  const Descriptor subtitles(
-      file_in_memory(plan.subtitles.substr(0, plan.subtitles.find("Dialogue"))));
-  ChildProgram ffmpeg(ffmpeg_arguments(small, subtitles.number(), {"-f", "null", "-"}),
-                      descriptors({subtitles.number()}), kPackage);
+  const Subtitles subtitles =
+      subtitle_file(plan.subtitles.substr(0, plan.subtitles.find("Dialogue")));
+  std::vector<int> kept;
+  if (subtitles) kept.push_back(subtitles->number());
+  ChildProgram ffmpeg(ffmpeg_arguments(small, subtitles, {"-f", "null", "-"}), kept, kPackage);
   if (plan.preset.whole_sphere)
     ChildProgram({"mkvmerge", "--version"}, {}, kMatroskaPackage).wait();
   const std::vector<unsigned short> black(std::size_t{3} * kSide * kSide);
@@ -103,11 +93,12 @@ MovieFile::MovieFile(const std::filesystem::path& path, const MoviePlan& plan)
       rate_(plan.rate),
       title_(plan.title),
       file_(path),
-      subtitles_(file_in_memory(plan.subtitles)) {
+      subtitles_(subtitle_file(plan.subtitles)) {
   if (plan.preset.whole_sphere) flat_.emplace(path);
-  ffmpeg_ =
-      std::make_unique<ChildProgram>(movie_arguments(plan, subtitles_.number(), by_ffmpeg()),
-                                     descriptors({subtitles_.number(), by_ffmpeg()}), kPackage);
+  std::vector<int> kept{by_ffmpeg()};
+  if (subtitles_) kept.push_back(subtitles_->number());
+  ffmpeg_ = std::make_unique<ChildProgram>(movie_arguments(plan, subtitles_, by_ffmpeg()), kept,
+                                           kPackage);
 }
 
 void MovieFile::add(const RowPicture& frame) {

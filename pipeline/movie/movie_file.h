@@ -8,6 +8,7 @@
 
 #include "pipeline/image/descriptor.h"
 #include "pipeline/image/encode/row_source.h"
+#include "pipeline/image/memory_file.h"
 #include "pipeline/image/temporary_file.h"
 #include "pipeline/movie/child_program.h"
 #include "pipeline/movie/preset.h"
@@ -60,8 +61,8 @@ class MovieFile {
   FrameRate rate_;
   std::string title_;
   TemporaryFile file_;
-  std::optional<TemporaryFile> flat_;  // before a player knows that it is a sphere
-  Descriptor subtitles_;
+  std::optional<TemporaryFile> flat_;      // before a player knows that it is a sphere
+  std::unique_ptr<MemoryFile> subtitles_;  // none where the movie has none
   std::unique_ptr<ChildProgram> ffmpeg_;
 };
 

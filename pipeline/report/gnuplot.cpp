@@ -1,43 +1,39 @@
 #include "pipeline/report/gnuplot.h"
 
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "pipeline/image/errors.h"
-#include "pipeline/image/scratch_folder.h"
+#include "pipeline/image/memory_file.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): only some libraries declare it
 
 namespace domefall {
 namespace {
 
-std::string contents(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 struct Outcome {
   bool good;
   std::string out, said;  // standard output and standard error
 };
 
-Outcome gnuplot(const ScratchFolder& folder, const std::string& argument) {
-  const std::string out = (folder / "out").string(), said = (folder / "said").string();
+// It reads and writes files in memory alone: folders could not be removed while it writes there.
+Outcome gnuplot(std::string option, const std::string& script) {
+  const MemoryFile in("the script for gnuplot"), out("gnuplot's drawing"), said("gnuplot's words");
+  in.append(script);
+  in.rewind();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC, kMode = 0600;
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), kWrite, kMode);
-  posix_spawn_file_actions_addopen(&actions, 2, said.c_str(), kWrite, kMode);
-  std::string program = "gnuplot", only = argument;
-  char* const arguments[] = {program.data(), only.data(), nullptr};  // NOLINT(*-avoid-c-arrays)
+  posix_spawn_file_actions_adddup2(&actions, in.number(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, out.number(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, said.number(), STDERR_FILENO);
+  std::string program = "gnuplot";
+  char* const arguments[] = {program.data(), option.data(), nullptr};  // NOLINT(*-avoid-c-arrays)
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -50,26 +46,19 @@ Outcome gnuplot(const ScratchFolder& folder, const std::string& argument) {
     if (errno != EINTR) throw std::runtime_error("gnuplot was lost");
   constexpr int kNotFound = 127;  // the status where it is the child that finds no program
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound) throw InputError(kMissing);
-  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, contents(out), contents(said)};
+  return {WIFEXITED(status) && WEXITSTATUS(status) == 0, out.contents(), said.contents()};
 }
 
 }  // namespace
 
 std::string gnuplot_version() {
-  const ScratchFolder folder;
-  const Outcome outcome = gnuplot(folder, "--version");
+  const Outcome outcome = gnuplot("--version", "");
   if (!outcome.good) throw InputError("gnuplot does not work: " + outcome.said);
   return outcome.out.substr(0, outcome.out.find('\n'));
 }
 
 std::string run_gnuplot(const std::string& script) {
-  const ScratchFolder folder;
-  const std::string file = (folder / "plot.gp").string();
-  std::ofstream written(file);
-  written << script;
-  written.close();
-  if (!written) throw TemporaryError(file + ": cannot be written");
-  Outcome outcome = gnuplot(folder, file);
+  Outcome outcome = gnuplot("-", script);
   if (!outcome.good || outcome.out.empty()) throw std::runtime_error("gnuplot: " + outcome.said);
   return std::move(outcome.out);
 }

@@ -11,7 +11,7 @@ std::string gnuplot_version();
 
 // Returns what the script writes to its standard output.  Throws InputError if there is no gnuplot,
 // std::runtime_error with gnuplot's own words if it finds a fault in the script, and TemporaryError
-// if the temporary folder cannot be written to.
+// if there is no memory for either.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace domefall
