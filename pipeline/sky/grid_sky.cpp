@@ -1,10 +1,11 @@
 #include "pipeline/sky/grid_sky.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -15,67 +16,80 @@ constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
 // Luminance (cd/m^2) at no redshift: a light square is as bright as the heart of the Milky Way.
 constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
 
+double rounded(double x) { return (x + kRounding) - kRounding; }
+
 // Returns the mean, over a box of this width about x, of the square wave that is 1 on [0, 1) and -1
-// on [1, 2).
+// on [1, 2).  Its integral from 0 is the distance to the nearest even number.
 double box_filtered_wave(double x, double width) {
-  const auto integral = [](double t) {
-    const double phase = t - 2 * std::floor(t / 2);
-    return phase < 1 ? phase : 2 - phase;
-  };
-  return (integral(x + width / 2) - integral(x - width / 2)) / width;
+  const double above = x + width / 2, below = x - width / 2;
+  const double to_above = above - 2 * rounded(above / 2), to_below = below - 2 * rounded(below / 2);
+  return (std::abs(to_above) - std::abs(to_below)) / width;
 }
 
-// A place on the grid, in radians; `across` is its distance from the axis through the poles.
-struct GridPlace {
-  double across, right_ascension, declination, to_pole;
+double to_border(double angle) { return std::abs(angle - kCell * rounded(angle / kCell)); }
 
-  explicit GridPlace(const V3d& d)
-      : across(std::sqrt(d.x * d.x + d.y * d.y)),
-        right_ascension(std::atan2(d.y, d.x)),
-        declination(std::atan2(d.z, across)),
-        to_pole(std::numbers::pi / 2 - std::abs(declination)) {}
-};
+[[gnu::always_inline]] inline void lights_loop(const GridPlaces& places, int count,
+                                               const GridLights& lights) {
+  const GridPlaces at = places;
+  const GridLights to = lights;
+  constexpr double kMean = (kLightSquare + kDarkSquare) / 2,
+                   kSwing = (kLightSquare - kDarkSquare) / 2;
+  for (int k = 0; k < count; ++k) {
+    const double across = std::sqrt(at.x[k] * at.x[k] + at.y[k] * at.y[k]);
+    const double right_ascension = arc_tangent2(at.y[k], at.x[k]),
+                 declination = arc_tangent2(at.z[k], across);
+    const double from_disc = std::numbers::pi / 2 - kPolarRadius - std::abs(declination);
+    const double width = at.footprint[k] > 1e-9 ? at.footprint[k] : 1e-9;
+    // The disc's edge is blurred over the footprint.  Of a wider footprint it fills only a share.
+    const double whole = kCell * kCell / (width * width), share = whole < 1 ? whole : 1;
+    const double within = 0.5 - from_disc / width,
+                 bounded = within < 0   ? 0
+                           : within > 1 ? 1
+                                        : within,
+                 disc = share * bounded;
+    const double columns =
+        box_filtered_wave(right_ascension / kCell, width / kCell / (across > 1e-6 ? across : 1e-6));
+    const double rows = box_filtered_wave(declination / kCell, width / kCell);
+    to.squares[k] = static_cast<float>((kMean + kSwing * columns * rows) * (1 - disc));
+    to.discs[k] = static_cast<float>(kPolarDisc * disc);
+    // Of a small circle of declination `across` is the radius, so an angle along it is longer than
+    // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
+    const double reach = at.reach[k];
+    const int in_square =
+        int{to_border(declination) >= reach} & int{to_border(right_ascension) * across >= reach};
+    const int even = int{std::abs(from_disc) >= reach} & (int{from_disc < 0} | in_square);
+    to.even[k] = static_cast<float>(even);
+  }
+}
+Dispatched<lights_loop> lights_of;
 
 }  // namespace
 
-WorkingRgb grid_light(const SkyDirection& direction, double footprint, double g) {
+WorkingRgb grid_colour(const GridLight& light, double g) {
   static const double square_scale = 1 / blackbody_xyz(kSquareTemperature).y;
-  static const double polar_scale = 1 / blackbody_xyz(kPolarTemperature).y;
-  const GridPlace place(direction.v);
-  const double width = std::max(footprint, 1e-9);
-  // The disc's edge is blurred over the footprint.  Of a wider footprint it fills only a share.
-  const double share = std::min(1.0, kCell * kCell / (width * width));
-  const double disc = share * std::clamp((kPolarRadius - place.to_pole) / width + 0.5, 0.0, 1.0);
-  WorkingRgb light{0, 0, 0};
-  if (disc < 1) {
-    const double columns = box_filtered_wave(place.right_ascension / kCell,
-                                             width / kCell / std::max(place.across, 1e-6));
-    const double rows = box_filtered_wave(place.declination / kCell, width / kCell);
-    const double mean = (kLightSquare + kDarkSquare) / 2, swing = (kLightSquare - kDarkSquare) / 2;
-    const auto k = static_cast<float>((mean + swing * columns * rows) * (1 - disc) * square_scale);
-    const WorkingRgb c = blackbody_colours().surface(kSquareTemperature * g);
-    light = {c.r * k, c.g * k, c.b * k};
-  }
-  if (disc > 0) {
-    const auto k = static_cast<float>(kPolarDisc * disc * polar_scale);
-    const WorkingRgb c = blackbody_colours().surface(kPolarTemperature * g);
-    light = {light.r + c.r * k, light.g + c.g * k, light.b + c.b * k};
-  }
+  static const double disc_scale = 1 / blackbody_xyz(kPolarTemperature).y;
+  WorkingRgb sum{0, 0, 0};
+  const auto add = [&](double luminance, double temperature) {
+    const WorkingRgb c = blackbody_colours().surface(temperature * g);
+    const auto k = static_cast<float>(luminance);
+    sum = {sum.r + c.r * k, sum.g + c.g * k, sum.b + c.b * k};
+  };
+  if (light.squares > 0) add(light.squares * square_scale, kSquareTemperature);
+  if (light.discs > 0) add(light.discs * disc_scale, kPolarTemperature);
+  return sum;
+}
+
+GridLight grid_light(const SkyDirection& direction, double footprint) {
+  const V3d& d = direction.v;
+  const double no_reach = 0;
+  GridLight light{};
+  float even = 0;
+  grid_lights({&d.x, &d.y, &d.z, &footprint, &no_reach}, 1, {&light.squares, &light.discs, &even});
   return light;
 }
 
-bool grid_is_even(const SkyDirection& direction, double reach) {
-  const GridPlace place(direction.v);
-  const double from_disc = place.to_pole - kPolarRadius;
-  if (std::abs(from_disc) < reach) return false;
-  if (from_disc < 0) return true;
-  const auto to_border = [](double angle) {
-    return std::abs(angle - kCell * std::round(angle / kCell));
-  };
-  // Of a small circle of declination `across` is the radius, so an angle along it is longer than
-  // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
-  return to_border(place.declination) >= reach &&
-         to_border(place.right_ascension) * place.across >= reach;
+void grid_lights(const GridPlaces& places, int count, const GridLights& lights) {
+  lights_of(places, count, lights);
 }
 
 }  // namespace domefall

@@ -1,9 +1,10 @@
 #include "pipeline/sky/ring_sky.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "pipeline/colour/blackbody.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -13,18 +14,39 @@ using std::numbers::pi;
 constexpr double kTemperature = 3000;
 constexpr double kLight = 4e-4, kDark = kLight / 4;  // cd/m^2
 
+// The mean over a footprint, by which the cosine is blurred.
+inline double luminance_of(double phase, double width) {
+  const double blur = exponential(-pi * pi * width * width / 6);
+  const double turn = phase - ((phase + kRounding) - kRounding);
+  return (kLight + kDark) / 2 + (kLight - kDark) / 2 * sin_cos(2 * pi * turn).cosine * blur;
+}
+
+[[gnu::always_inline]] inline void lights_loop(const float* phase, const float* width, int count,
+                                               float* luminance) {
+  for (int k = 0; k < count; ++k)
+    luminance[k] = static_cast<float>(luminance_of(phase[k], width[k]));
+}
+Dispatched<lights_loop> lights;
+
 }  // namespace
 
-WorkingRgb ring_glow(double phase, double width) {
+WorkingRgb ring_colour() {
   static const WorkingRgb colour = [] {
     const WorkingRgb c = blackbody_colours().surface(kTemperature);
     const auto unit = static_cast<float>(1 / blackbody_xyz(kTemperature).y);
     return WorkingRgb{c.r * unit, c.g * unit, c.b * unit};
   }();
-  const double blur = std::exp(-pi * pi * width * width / 6);
-  const double wave = std::cos(2 * pi * (phase - std::round(phase)));
-  const auto k = static_cast<float>((kLight + kDark) / 2 + (kLight - kDark) / 2 * wave * blur);
+  return colour;
+}
+
+WorkingRgb ring_glow(double phase, double width) {
+  const WorkingRgb colour = ring_colour();
+  const auto k = static_cast<float>(luminance_of(phase, width));
   return {colour.r * k, colour.g * k, colour.b * k};
+}
+
+void ring_lights(const float* phase, const float* width, int count, float* luminance) {
+  lights(phase, width, count, luminance);
 }
 
 }  // namespace domefall

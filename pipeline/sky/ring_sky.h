@@ -14,4 +14,8 @@ namespace domefall {
 // mean.
 WorkingRgb ring_glow(double phase, double width);
 
+// The same in two parts: the colour, whose luminance is 1, and the luminances of many places.
+WorkingRgb ring_colour();
+void ring_lights(const float* phase, const float* width, int count, float* luminance);
+
 }  // namespace domefall

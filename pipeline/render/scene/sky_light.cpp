@@ -108,15 +108,26 @@ WorkingRgb SkyLight::at(const V3d& sky_direction, double footprint, double g) co
     return light * ((1 - black / seen) * (intensity(g) * scale_));
   }
   if (!std::holds_alternative<Grid>(sky_->background)) return {0, 0, 0};
-  return grid_light({sky_direction}, footprint, colour_ratio(effects_, g)) *
+  return grid_at(grid_light({sky_direction}, footprint), g);
+}
+
+WorkingRgb SkyLight::grid_at(const GridLight& light, double g) const {
+  return grid_colour(light, colour_ratio(effects_, g)) *
          (surface_brightness_ratio(effects_, g) * scale_);
 }
+
+LightShift SkyLight::grid_shift(double g) const {
+  return {static_cast<float>(std::min(surface_brightness_ratio(effects_, g) * scale_, kMostGain)),
+          static_cast<float>(colour_ratio(effects_, g))};
+}
+
+WorkingRgb SkyLight::ring_colour() const { return domefall::ring_colour() * scale_; }
 
 WorkingRgb SkyLight::rings_at(double phase, double width) const {
   return ring_glow(phase, width) * scale_;
 }
 
-MapShift SkyLight::shift(double g) const {
+LightShift SkyLight::shift(double g) const {
   if (map_->kind() == SkyMapKind::kColour) return {gain_of(intensity(g)), 0};
   const double ratio = colour_ratio(effects_, g), ratio2 = ratio * ratio;
   return {gain_of(ratio2 * ratio2 * surface_brightness_ratio(effects_, g)),
@@ -126,7 +137,7 @@ MapShift SkyLight::shift(double g) const {
 void SkyLight::shifts(const double* g, int count, float* gain, float* tone) const {
   if (map_->kind() == SkyMapKind::kThermal) {
     for (int k = 0; k < count; ++k) {
-      const MapShift one = shift(g[k]);
+      const LightShift one = shift(g[k]);
       gain[k] = one.gain;
       tone[k] = one.tone;
     }

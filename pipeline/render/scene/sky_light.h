@@ -7,12 +7,13 @@
 #pragma once
 
 #include "pipeline/render/scene/sky_store.h"
+#include "pipeline/sky/grid_sky.h"
 
 namespace domefall {
 
-// How a frequency ratio changes the values that SkySampler reads from a map.
-struct MapShift {
-  float gain;  // the pixel value per unit of the map
+// How a frequency ratio changes the light of a background.
+struct LightShift {
+  float gain;  // the pixel value per unit of the map, or per cd/m^2
   float tone;  // log2 of the factor to the temperatures of a thermal map; 0 for colours
 };
 
@@ -27,6 +28,10 @@ class SkyLight {
   // Null unless the background is a map.
   const SkyMap* map() const { return map_; }
 
+  bool is_grid() const { return std::holds_alternative<Grid>(sky_->background); }
+  // Null unless the background is rings.
+  const Rings* rings() const { return std::get_if<Rings>(&sky_->background); }
+
   // What is taken from the map's light before anything else is done to it, in units of the map: of
   // a colour map from the luminance, so that the hue is kept, of a thermal one from the radiance.
   double black() const { return black_; }
@@ -35,6 +40,13 @@ class SkyLight {
   // radians there, at frequency ratio g = 1/(1+z), with the effects that the show keeps.  The
   // caller applies the amplification.  A black sky gives 0.
   WorkingRgb at(const V3d& sky_direction, double footprint, double g) const;
+  // The pixel value of light of the grid at frequency ratio g.  The background must be the grid.
+  WorkingRgb grid_at(const GridLight& light, double g) const;
+  // The pixel value per cd/m^2 of the grid at the seen temperature (gain), and the factor to its
+  // temperatures (tone).
+  LightShift grid_shift(double g) const;
+  // The pixel value per cd/m^2 of rings.
+  WorkingRgb ring_colour() const;
   // The pixel value of rings at `phase` (emission time in periods), averaged over `width` periods.
   // The background must be rings.
   WorkingRgb rings_at(double phase, double width) const;
@@ -42,7 +54,7 @@ class SkyLight {
   // The background must be a map for what follows.  Many ratios at once, count <= kMostShifts, give
   // the same bits as one at a time.
   static constexpr int kMostShifts = 128;
-  MapShift shift(double g) const;
+  LightShift shift(double g) const;
   void shifts(const double* g, int count, float* gain, float* tone) const;
   // The gain of a colour panorama has a knee at g = 1, where one law takes over from another.
   // These are the gains by the laws of both sides for any g.  Each is smooth and can be

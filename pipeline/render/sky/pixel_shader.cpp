@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -19,9 +18,6 @@ static_assert(ViewRayBatch::kSize <= SkyLight::kMostShifts);
 constexpr double kEdgePixels = 4;
 // So is one whose footprint is that elongated, where backgrounds are amplified.
 constexpr double kElongation = 3;
-// On a grid, so is a pixel that a border may cross: its corners are that far from its middle, in
-// edges.  A blur by the footprint knows neither the slope of a border nor how the pixel lies on it.
-constexpr double kCorner = std::numbers::sqrt2 / 2;
 // The most taps along the footprint of one of many samples in a pixel, which do most of the
 // blurring.
 constexpr int kTapsOfSample = 4;
@@ -36,27 +32,61 @@ PixelShader::PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing,
     : scene_(scene), darkened_(std::move(darkened)), anti_aliasing_(anti_aliasing) {
   for (const SkyRegion sky : kEverySky) {
     const auto& background = scene.background[sky];
-    if (background && background->map())
+    if (!background) continue;
+    if (background->map())
       samplers_[sky].emplace(*background->map(), background->black());
+    else
+      formulas_[sky].emplace(*background, scene.state.observer.null_time, anti_aliasing.samples);
   }
 }
 
-// The ray stands for `sample_angle` radians of the view.  A fine one is one of many in its pixel.
+// What rays see that end on grids.
+struct PixelShader::GridSamples {
+  std::array<std::uint8_t, ViewRayBatch::kSize> places;  // of a ray, its place among the others
+  ViewRayBatch::Column<float> squares, discs, even;
+};
+
+bool PixelShader::is_grid(SkyRegion sky) const {
+  return scene_.background[sky] && scene_.background[sky]->is_grid();
+}
+
+void PixelShader::look_at_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
+                                GridSamples& grid) const {
+  if (std::none_of(kEverySky.begin(), kEverySky.end(),
+                   [this](SkyRegion sky) { return is_grid(sky); }))
+    return;
+  ViewRayBatch::Column<double> x, y, z, footprint, reach;
+  int places = 0;
+  for (int k = 0; k < count; ++k) {
+    if (!is_grid(rays.sky[k])) continue;
+    const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
+    const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
+    grid.places[k] = static_cast<std::uint8_t>(places);
+    x[places] = rays.sky_x[k];
+    y[places] = rays.sky_y[k];
+    z[places] = rays.sky_z[k];
+    // Many samples do the blurring themselves.  A box as long as each of them would also smear the
+    // lines of a grid across it, which an Einstein ring stretches without bound.
+    footprint[places] = angle[k] * (fine ? shorter : longer);
+    reach[places] = kGridReach * longer * angle[k];
+    ++places;
+  }
+  grid_lights({x.data(), y.data(), z.data(), footprint.data(), reach.data()}, places,
+              {grid.squares.data(), grid.discs.data(), grid.even.data()});
+}
+
+// The light of a ray that is on no map.  It stands for `sample_angle` radians of the view.
 WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_angle,
-                              bool fine) const {
+                              const GridSamples& grid) const {
   const auto& background = scene_.background[rays.sky[k]];
   if (!background) return {0, 0, 0};
-  const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
-  if (const auto* rings = std::get_if<Rings>(&background->sky().background))
+  if (const Rings* rings = background->rings())
     return background->rings_at(
         (scene_.state.observer.null_time + rays.emission_time[k]) / rings->period,
         rays.time_scale[k] * sample_angle / rings->period);
-  const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
-  // Many samples do the blurring themselves.  A box as long as each of them would also smear the
-  // lines of a grid across it, which an Einstein ring stretches without bound.
-  const bool short_box = fine && std::holds_alternative<Grid>(background->sky().background);
-  return background->at(rays.sky_direction(k), sample_angle * (short_box ? shorter : longer),
-                        rays.frequency_ratio[k]);
+  if (!is_grid(rays.sky[k])) return {0, 0, 0};
+  const std::size_t place = grid.places[k];
+  return background->grid_at({grid.squares[place], grid.discs[place]}, rays.frequency_ratio[k]);
 }
 
 // The amplification is that of a whole pixel, so that caustics are as bright however finely the
@@ -73,17 +103,17 @@ bool PixelShader::is_darkened(SkyRegion sky, const CameraDirection& n) const {
   });
 }
 
-bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle) const {
+bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle,
+                                     const GridSamples& grid) const {
   if (anti_aliasing_.samples == 1) return false;
   if (anti_aliasing_.everywhere || rays.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const auto& background = scene_.background[rays.sky[k]];
   // The light of rings is averaged over footprints exactly.
-  if (!background || std::holds_alternative<Rings>(background->sky().background)) return false;
+  if (!background || background->rings() != nullptr) return false;
   const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
   const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
   if (longer > kElongation * shorter && scene_.amplifies_backgrounds()) return true;
-  return std::holds_alternative<Grid>(background->sky().background) &&
-         !grid_is_even({rays.sky_direction(k)}, kCorner * longer * pixel_angle);
+  return is_grid(rays.sky[k]) && grid.even[grid.places[k]] == 0;
 }
 
 // Positions in the image that are sampled, and the light found there.
@@ -144,16 +174,18 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
                               MapSamples& maps) const {
   ViewRayBatch rays;
   scene_.tracer.trace(&samples.n[first], count, rays);
+  GridSamples grid;
+  look_at_grids(rays, &samples.angle[first], count, fine, grid);
   bool maps_seen = false;
   float* rgb = &samples.rgb[3 * first];
   for (int k = 0; k < count; ++k, rgb += 3) {
     const int at = first + k;
-    samples.difficult[at] = !fine && needs_more_samples(rays, k, samples.angle[at]);
+    samples.difficult[at] = !fine && needs_more_samples(rays, k, samples.angle[at], grid);
     const bool map = sampler(rays.sky[k]) != nullptr;
     maps_seen |= map;
     WorkingRgb c{0, 0, 0};
     if (!map && !samples.difficult[at] && !is_darkened(rays.sky[k], samples.n[at]))
-      c = light(rays, k, samples.angle[at], fine);
+      c = light(rays, k, samples.angle[at], grid);
     rgb[0] = c.r;
     rgb[1] = c.g;
     rgb[2] = c.b;

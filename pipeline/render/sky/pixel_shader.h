@@ -6,6 +6,7 @@
 
 #include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/render/sky/anti_aliasing_settings.h"
+#include "pipeline/render/sky/formula_shader.h"
 #include "pipeline/render/sky/sky_sampler.h"
 
 namespace domefall {
@@ -38,19 +39,30 @@ class PixelShader {
   const SkySampler* sampler(SkyRegion sky) const {
     return samplers_[sky] ? &*samplers_[sky] : nullptr;
   }
+  // Null for a sky that is no formula.
+  const FormulaShader* formula(SkyRegion sky) const {
+    return formulas_[sky] ? &*formulas_[sky] : nullptr;
+  }
 
  private:
   struct Samples;
   struct MapSamples;
+  struct GridSamples;
 
   void shade(Samples& samples, bool fine) const;
   void shade_batch(Samples& samples, int first, int count, bool fine, MapSamples& maps) const;
   void put_maps(const ViewRayBatch& rays, const Samples& samples, int first, int count, bool fine,
                 MapSamples& maps) const;
   bool is_darkened(SkyRegion sky, const CameraDirection& n) const;
-  WorkingRgb light(const ViewRayBatch& rays, int k, double sample_angle, bool fine) const;
+  bool is_grid(SkyRegion sky) const;
+  // A fine sample is one of many in its pixel.
+  void look_at_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
+                     GridSamples& grid) const;
+  WorkingRgb light(const ViewRayBatch& rays, int k, double sample_angle,
+                   const GridSamples& grid) const;
   double amplification(const CameraDirection& n, double pixel_angle) const;
-  bool needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle) const;
+  bool needs_more_samples(const ViewRayBatch& rays, int k, double pixel_angle,
+                          const GridSamples& grid) const;
   void supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
   float* pixel(const Pixel& at, int first_row, float* rgb) const {
     return rgb + 3 * (static_cast<std::size_t>(at.row - first_row) *
@@ -62,6 +74,7 @@ class PixelShader {
   std::vector<DarkenedCap> darkened_;
   AntiAliasing anti_aliasing_;
   PerSky<std::optional<SkySampler>> samplers_;
+  PerSky<std::optional<FormulaShader>> formulas_;
 };
 
 }  // namespace domefall

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/render/rays/footprint_batch.h"
-#include "pipeline/render/rays/pixel_directions.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
@@ -30,9 +28,6 @@ constexpr float kFaintGain = 1e-12f;
 // How many tolerances the coarser cubic may err by.  It errs 16 times as much as the finer one, but
 // the largest error need not be at a node, so that less than 16 is allowed.
 constexpr float kCoarser = 6;
-
-// What stands in RayGrid::sky_ besides the skies.
-constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 
 // The error, at p, of the cubic through p's neighbours 1 and 3 strides away on both sides: in the
 // middle its weights are -1/16, 9/16, 9/16 and -1/16.
@@ -68,19 +63,6 @@ struct NodeColumns {
   }
 }
 Dispatched<check_loop> check;
-
-// Converts kTolerance to radians on the sky by the shorter side of each footprint.  On an Einstein
-// ring that side is 0, so at least a tenth of the longer side counts.
-[[gnu::always_inline]] inline void set_tolerances_loop(const float* wide, const float* narrow,
-                                                       int count, float* tolerance) {
-  constexpr float kNarrowest = 0.1f;
-  for (int k = 0; k < count; ++k) {
-    const float least = kNarrowest * wide[k];
-    tolerance[k] =
-        static_cast<float>(RayGrid::kTolerance) * (narrow[k] > least ? narrow[k] : least);
-  }
-}
-Dispatched<set_tolerances_loop> set_tolerances;
 
 }  // namespace
 
@@ -122,91 +104,6 @@ void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>
   tbb::parallel_for(0, node_rows_, [this](int row) { trace_row(row); });
   tbb::parallel_for(kMargin, node_rows_ - kMargin, [this](int row) { check_row(row); });
   tbb::parallel_for(0, cell_rows_, [this](int row) { classify_row(row); });
-}
-
-// The nodes of a row that cells with pixels in the image depend on.  A dome needs only those about
-// its disc.
-std::pair<int, int> RayGrid::needed_nodes(int row) const {
-  if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
-  const double middle = (columns(projection_) - 1) / 2.0;
-  const double y =
-      std::max(std::abs((row - kMargin) * kStep - middle) - (kMargin + 1) * kStep, 0.0);
-  const double half = std::sqrt(std::max(middle * middle - y * y, 0.0)) + (kMargin + 2) * kStep;
-  return {std::clamp(static_cast<int>((middle - half) / kStep) + kMargin, 0, node_columns_),
-          std::clamp(static_cast<int>((middle + half) / kStep) + kMargin + 1, 0, node_columns_)};
-}
-
-void RayGrid::trace_row(int row) {
-  ViewRayBatch rays;
-  std::array<CameraDirection, ViewRayBatch::kSize> n;
-  ViewRayBatch::Column<double> i, j, angle;
-  j.fill((row - kMargin) * kStep + 1.0);
-  const auto [from, to] = needed_nodes(row);
-  for (int first = from; first < to; first += ViewRayBatch::kSize) {
-    const int count = std::min(ViewRayBatch::kSize, to - first);
-    for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
-    find_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
-    shader_->scene().tracer.trace(n.data(), count, rays);
-    store_nodes(at(row, first), rays, angle.data(), count);
-  }
-  const std::uint8_t* sky = sky_.data() + at(row, 0);
-  std::uint8_t* run = run_.data() + at(row, 0);
-  for (int k = 0; k < cell_columns_; ++k) {
-    bool same = true;
-    for (int m = 1; m < 2 * kMargin + 2; ++m) same &= sky[k + m] == sky[k];
-    run[k] = same ? sky[k] : kMixed;
-  }
-}
-
-void RayGrid::store_nodes(std::size_t first, const ViewRayBatch& rays, const double* angle,
-                          int count) {
-  const auto column = [&](Quantity q) { return &nodes_[q][first]; };
-  PerSky<std::uint8_t> marks{};
-  for (const SkyRegion sky : kEverySky) {
-    const bool map = shader_->sampler(sky) != nullptr;
-    marks[sky] = !shader_->scene().background[sky] ? kDark
-                 : map                             ? static_cast<std::uint8_t>(sky)
-                                                   : kMixed;
-  }
-  bool any_map = false;
-  for (int k = 0; k < count; ++k) {
-    const std::uint8_t mark = marks[rays.sky[k]];
-    sky_[first + k] = mark;
-    edge_[first + k] = static_cast<float>(rays.to_edge[k] / (angle[k] * kStep));
-    any_map |= mark < kDark;
-  }
-  if (!any_map) return;
-  set_footprints(rays, angle, count,
-                 {column(kX), column(kY), column(kZ), column(kWide), column(kNarrow),
-                  column(kAxisX), column(kAxisY), column(kAxisZ)});
-  set_tolerances(column(kWide), column(kNarrow), count, &tolerance_[first]);
-  store_shifts(first, rays, count);
-}
-
-// Stores shifts and filters.  A colour panorama's shift is stored as the gains of both of its
-// sides.
-void RayGrid::store_shifts(std::size_t first, const ViewRayBatch& rays, int count) {
-  ViewRayBatch::Column<float> gain, tone;
-  ViewRayBatch::Column<SampleFilter> filters;
-  for (const SkyRegion sky : kEverySky) {
-    const SkySampler* sampler = shader_->sampler(sky);
-    const auto end = rays.sky.begin() + count;
-    if (sampler == nullptr || std::find(rays.sky.begin(), end, sky) == end) continue;
-    sampler->choose_filters(&nodes_[kWide][first], &nodes_[kNarrow][first], count,
-                            SkySampler::kMostTaps, HUGE_VALF, filters.data());
-    const SkyLight& light = *shader_->scene().background[sky];
-    const double* g = rays.frequency_ratio.data();
-    if (sampler->map().kind() == SkyMapKind::kThermal)
-      light.shifts(g, count, gain.data(), tone.data());
-    else
-      light.shift_sides(g, count, gain.data(), tone.data());
-    for (int k = 0; k < count; ++k) {
-      if (rays.sky[k] != sky) continue;
-      nodes_[kGain][first + k] = gain[k];
-      nodes_[kTone][first + k] = tone[k];
-      filters_[first + k] = filters[k];
-    }
-  }
 }
 
 void RayGrid::check_row(int row) {
@@ -266,7 +163,8 @@ RayGrid::Cell RayGrid::classified(int row, int column) const {
   if (sky_[corners[0]] >= kDark || !is_smooth(row, column)) return cell;
   cell.kind = Kind::kSmooth;
   cell.sky = static_cast<SkyRegion>(sky_[corners[0]]);
-  cell.plain = std::all_of(corners.begin(), corners.end(),
+  cell.plain = shader_->sampler(cell.sky) != nullptr &&
+               std::all_of(corners.begin(), corners.end(),
                            [&](std::size_t n) { return filters_[n].is_plain(); });
   return cell;
 }

@@ -30,9 +30,8 @@ class RayGrid {
   static constexpr int kStep = 8;
   static constexpr double kTolerance = 0.01;
 
-  // Traces all nodes, on all threads of the arena, and classifies the cells.  Cells of skies that
-  // are no maps are exact, and so are those near the special directions, about which a grid may
-  // miss detail.  Memory is kept from frame to frame.
+  // Traces all nodes, on all threads of the arena, and classifies the cells.  Those near the special
+  // directions, about which a grid may miss detail, are exact.  Memory is kept from frame to frame.
   void make(const PixelShader& shader, const std::vector<CameraDirection>& special);
 
   enum class Kind : std::uint8_t {
@@ -67,16 +66,20 @@ class RayGrid {
 
  private:
   // The columns of SampleBatch, as they stand at the nodes.  kGain and kTone hold both sides of a
-  // panorama's shift (SkyLight::shift_sides) until a side is chosen.
+  // panorama's shift (SkyLight::shift_sides) until a side is chosen, and of the grid what
+  // SkyLight::grid_shift says.  On rings kX is the phase, and kWide how much of it a pixel covers.
   enum Quantity { kX, kY, kZ, kGain, kTone, kWide, kNarrow, kAxisX, kAxisY, kAxisZ, kQuantities };
   // Loops over nodes run on to whole registers, beyond the last node.
   static constexpr std::size_t kPadding = 96;
   static constexpr int kMargin = 3;  // nodes before the first cell, and behind the last
+  // What stands in sky_ and run_ besides the skies.
+  static constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 
   void resize(const Projection& projection);
   std::pair<int, int> needed_nodes(int row) const;  // first, end
   void trace_row(int row);
   void store_nodes(std::size_t first, const ViewRayBatch& rays, const double* angle, int count);
+  void store_rings(std::size_t first, const ViewRayBatch& rays, const double* angle, int count);
   void store_shifts(std::size_t first, const ViewRayBatch& rays, int count);
   void check_row(int row);
   void classify_row(int row);
@@ -101,7 +104,7 @@ class RayGrid {
   std::array<std::vector<float>, kQuantities> nodes_;
   std::vector<float> tolerance_;       // radians on the sky
   std::vector<float> edge_;            // cells to the nearest edge of a sky
-  std::vector<std::uint8_t> sky_;      // SkyRegion, kDark, or kMixed where nothing is interpolated
+  std::vector<std::uint8_t> sky_;      // SkyRegion, or kDark
   std::vector<std::uint8_t> run_;      // the sky of a node and the seven behind it, or kMixed
   std::vector<std::uint8_t> cubic_;    // whether the cubics are right at a node
   std::vector<SampleFilter> filters_;  // of a pixel at a node

@@ -121,7 +121,8 @@ Dispatched<choose_loop> choose;
 
 void RayGrid::choose_side(int cell_row, int cell, int count, SampleBatch& out) const {
   const SkyRegion sky = this->cell(cell_row, cell).sky;
-  if (shader_->sampler(sky)->map().kind() == SkyMapKind::kColour)
+  const SkySampler* sampler = shader_->sampler(sky);
+  if (sampler != nullptr && sampler->map().kind() == SkyMapKind::kColour)
     choose(out.gain.data(), out.tone.data(), shader_->scene().background[sky]->knee(), count,
            out.gain.data());
 }

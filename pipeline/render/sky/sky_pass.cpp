@@ -12,10 +12,11 @@ namespace {
 constexpr int kStep = RayGrid::kStep;
 // The shorter side of the smallest image that is worth a grid.
 constexpr int kSmallest = 64;
+static_assert(FormulaShader::kSide == kStep);
 
-bool has_maps(const FrameScene& scene) {
+bool has_backgrounds(const FrameScene& scene) {
   return std::any_of(scene.background.begin(), scene.background.end(),
-                     [](const auto& light) { return light && light->map(); });
+                     [](const auto& light) { return light.has_value(); });
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
     : scene_(scene),
       shader_(scene, anti_aliasing, std::move(darkened)),
       grid_(grid),
-      interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel && has_maps(scene) &&
-                    !scene.amplifies_backgrounds() &&
+      interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel &&
+                    has_backgrounds(scene) && !scene.amplifies_backgrounds() &&
                     std::min(columns(scene.projection()), rows(scene.projection())) >= kSmallest) {
   if (interpolates_) grid_.make(shader_, special_directions(scene));
 }
@@ -106,13 +107,18 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
   SampleBatch batch;
   std::array<SampleFilter, SampleBatch::kSize> filters;
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
-  const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
+  const SkyRegion sky = grid_.cell(band.number, first).sky;
   for (int from = first; from < end; from += RayGrid::kBlock) {
     const int to = std::min(end, from + RayGrid::kBlock), count = (to - from) * kStep * kStep;
     grid_.interpolate_block(band.number, from, to, batch);
-    sampler.choose_filters(batch.wide.data(), batch.narrow.data(), count, SkySampler::kMostTaps,
-                           HUGE_VALF, filters.data());
-    sampler.sample(batch, count, filters.data(), rgb.data());
+    if (const FormulaShader* formula = shader_.formula(sky)) {
+      formula->shade(batch, count, rgb.data());
+    } else {
+      const SkySampler& sampler = *shader_.sampler(sky);
+      sampler.choose_filters(batch.wide.data(), batch.narrow.data(), count, SkySampler::kMostTaps,
+                             HUGE_VALF, filters.data());
+      sampler.sample(batch, count, filters.data(), rgb.data());
+    }
     for (int row = 0; row < band.rows; ++row)
       for (int cell = from; cell < to; ++cell) {
         const float* cell_row = &rgb[3 * kStep * ((cell - from) * kStep + row)];

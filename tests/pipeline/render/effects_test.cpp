@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "pipeline/colour/blackbody.h"
-#include "pipeline/sky/grid_sky.h"
 #include "tests/pipeline/render/effect_shows.h"
+#include "tests/pipeline/sky/grid_is_even.h"
 #include "tests/sanitized.h"
 
 namespace domefall {

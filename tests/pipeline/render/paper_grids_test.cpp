@@ -78,7 +78,7 @@ TEST(PaperFigDev2, TheSquareInFrontIsDarkAndTheShiftIsMinus339TenThousandths) {
   const V3d centre = without.trace(0.501, 0.5).sky_direction;
   EXPECT_NEAR(std::asin(centre.z) / kOneDegree, -32.4, 1e-3);
   const auto light = [&](double x) {
-    return grid_light({without.trace(x, 0.5).sky_direction}, 1e-4, 1).g;
+    return grid_light({without.trace(x, 0.5).sky_direction}, 1e-4).squares;
   };
   EXPECT_NEAR(light(0.501) / light(0.5 + 5.5 / 90), 0.25, 1e-3);  // its neighbour
   EXPECT_NEAR(without.z(0.2, 0.3), 0, 2e-9);                      // 1/r

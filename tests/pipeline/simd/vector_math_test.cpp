@@ -44,5 +44,19 @@ TEST(VectorMath, TheLogarithmIsTheLibrarysToTheLastBits) {
   EXPECT_NEAR(logarithm(0x1p-1022), -1022 * std::numbers::ln2, 3e-13);
 }
 
+TEST(VectorMath, TheArcTangentIsTheLibrarysToTheLastBits) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> decades(-12, 12), sign(-1, 1);
+  const auto number = [&] { return std::copysign(std::pow(10, decades(random)), sign(random)); };
+  for (int k = 0; k < 200'000; ++k) {
+    const double y = number(), x = k % 2 ? number() : y * (1 + 0.5 * sign(random));
+    ASSERT_NEAR(arc_tangent2(y, x), std::atan2(y, x), 5e-16) << y << ' ' << x;
+  }
+  EXPECT_EQ(arc_tangent2(0, 0), 0);
+  EXPECT_EQ(arc_tangent2(0, 3), 0);
+  EXPECT_EQ(arc_tangent2(3, 0), std::numbers::pi / 2);
+  EXPECT_EQ(arc_tangent2(0, -3), std::numbers::pi);
+}
+
 }  // namespace
 }  // namespace domefall

@@ -6,14 +6,19 @@
 #include <numbers>
 #include <random>
 
+#include "tests/pipeline/sky/grid_is_even.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
 
+WorkingRgb seen(const SkyDirection& direction, double footprint) {
+  return grid_colour(grid_light(direction, footprint), 1);
+}
+
 TEST(Grid, IsTheChequerboardOfThePaperWithItsPolarDiscs) {
   const auto y = [](double ra, double dec) {
-    return static_cast<double>(luminance(grid_light(sky_direction(ra, dec), 0, 1)));
+    return static_cast<double>(luminance(seen(sky_direction(ra, dec), 0)));
   };
   const double light = std::max(y(2.5, 2.5), y(7.5, 2.5)),
                dark = std::min(y(2.5, 2.5), y(7.5, 2.5));
@@ -25,17 +30,16 @@ TEST(Grid, IsTheChequerboardOfThePaperWithItsPolarDiscs) {
     }
   EXPECT_NEAR(y(10, 88), y(200, -88), 1e-9);
   EXPECT_GT(y(10, 88), light);
-  const WorkingRgb pole = grid_light(sky_direction(0, 89), 0, 1),
-                   square = grid_light(sky_direction(2.5, 2.5), 0, 1);
+  const WorkingRgb pole = seen(sky_direction(0, 89), 0), square = seen(sky_direction(2.5, 2.5), 0);
   EXPECT_GT(pole.r / pole.b, 3 * square.r / square.b) << "2000 K against 8000 K";
 }
 
 TEST(Grid, BlurredByItsFootprintKeepsItsMean) {
-  const double sharp_light = luminance(grid_light(sky_direction(2.5, 2.5), 0, 1)),
-               sharp_dark = luminance(grid_light(sky_direction(7.5, 2.5), 0, 1));
+  const double sharp_light = luminance(seen(sky_direction(2.5, 2.5), 0)),
+               sharp_dark = luminance(seen(sky_direction(7.5, 2.5), 0));
   for (const double footprint : {0.8, 10.0})
-    EXPECT_NEAR(luminance(grid_light(sky_direction(33, 21), footprint, 1)),
-                (sharp_light + sharp_dark) / 2, 0.02 * sharp_light);
+    EXPECT_NEAR(luminance(seen(sky_direction(33, 21), footprint)), (sharp_light + sharp_dark) / 2,
+                0.02 * sharp_light);
 }
 
 // The oracle goes all round the direction and looks for another light.
@@ -49,7 +53,7 @@ TEST(Grid, IsEvenWhereAllWithinReachHasOneLight) {
     V3d d(normal(random), normal(random), normal(random) * (k % 3 == 0 ? 30 : 1));
     d.normalize();
     const double reach = std::pow(10, logarithm(random));
-    const float light = grid_light({d}, 0, 1).g;
+    const float light = seen({d}, 0).g;
     const V3d a = d.cross(std::abs(d.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized(),
               b = d.cross(a);
     // How far the nearest other light is, as a part of the reach.
@@ -59,8 +63,7 @@ TEST(Grid, IsEvenWhereAllWithinReachHasOneLight) {
         const double angle = at * std::numbers::pi / 45, away = part * reach;
         const V3d there =
             d * std::cos(away) + (a * std::cos(angle) + b * std::sin(angle)) * std::sin(away);
-        if (std::abs(grid_light({there}, 0, 1).g - light) > 0.01f * light)
-          nearest = std::min(nearest, part);
+        if (std::abs(seen({there}, 0).g - light) > 0.01f * light) nearest = std::min(nearest, part);
       }
     // Pixels that reach no border at all are not to be sampled for nothing, either.
     const bool is_even = grid_is_even({d}, reach);

@@ -6,6 +6,7 @@
 #include "pipeline/sky/make/panorama.h"
 #include "tests/pipeline/render/scenes.h"
 #include "tests/sanitized.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -74,7 +75,7 @@ Worst worst_of(const GridScene& g) {
           EXPECT_EQ(ray.sky, g.grid.cell(j, i).sky);
           const double error = (interpolated - ray.sky_direction).length() - kRounding;
           worst.direction = std::max(worst.direction, error / width);
-          const MapShift shift = g.scene.background[ray.sky]->shift(ray.frequency_ratio);
+          const LightShift shift = g.scene.background[ray.sky]->shift(ray.frequency_ratio);
           if (shift.gain > 1e-9f)
             worst.gain =
                 std::max(worst.gain, std::abs(double{batch.gain[k]} / double{shift.gain} - 1));
@@ -186,6 +187,68 @@ TEST(SkyPass, MakesTheFrameThatTracingEveryPixelMakes) {
             << k / 3 % static_cast<std::size_t>(quick.width) << " "
             << k / 3 / static_cast<std::size_t>(quick.width);
     }
+}
+
+// The errors of a frame against one all of whose view rays are traced, as parts of the larger value.
+struct PixelErrors {
+  double worst = 0;
+  std::size_t large = 0, all = 0;  // pixels with an error above a hundredth, lit pixels
+
+  explicit PixelErrors(const Show& show) {
+    const FrameState state = frame_state(show, 0);
+    const HalfFrame quick = Renderer(show, 2).render(state),
+                    slow = Renderer(show, 2, {4, false, true}).render(state);
+    for (std::size_t k = 0; k < quick.pixels.size(); k += 3) {
+      const double a = quick.pixels[k], b = slow.pixels[k],
+                   error = std::abs(a - b) / std::max(a, b);
+      if (!(std::max(a, b) > 1e-5)) continue;
+      ++all;
+      large += error > 0.01;
+      worst = std::max(worst, error);
+    }
+  }
+};
+
+// A border may lie on either side of a sample, and one of 16 samples is three quarters of a light
+// square's share.
+TEST(SkyPass, MakesTheBordersOfAGridWhereTracingEveryPixelMakesThem) {
+  for (const Projection& p : {projections()[0], projections()[3]})
+    for (const Trajectory& t :
+         {Trajectory(StaticObserver{10}), Trajectory(RadialInfall{1}), Trajectory(CircularOrbit{6}),
+          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})}) {
+      Show show = show_of(t, p);
+      show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
+      const PixelErrors errors(show);
+      EXPECT_LT(errors.worst, 0.4);
+      EXPECT_LT(static_cast<double>(errors.large), 0.01 * static_cast<double>(errors.all));
+      EXPECT_GT(errors.all, 10'000u);
+    }
+}
+
+TEST(SkyPass, MakesTheRingsThatTracingEveryPixelMakes) {
+  for (const Projection& p : {projections()[0], projections()[3]})
+    for (const double period : {0.02, 0.2, 4.0})
+      for (const double r : {0.3, 1.9, 4.0}) {
+        Show show = show_of(
+            GivenVelocity{r < 2 ? Region::kIV : Region::kI, Tetrad::kOutgoing, r, V3d(0.1, 0, 0.2)},
+            p);
+        show.sky[SkyRegion::kIV].background = RingsSky{period};
+        const PixelErrors errors(show);
+        // A hundredth of a pixel that covers half a period changes the cosine by a thirtieth.
+        EXPECT_LT(errors.worst, 0.03) << period << ' ' << r;
+        EXPECT_LT(static_cast<double>(errors.large), 0.01 * static_cast<double>(errors.all));
+        EXPECT_GT(errors.all, 1000u) << period << ' ' << r;
+      }
+}
+
+// A telescope sees directions that differ by less than a float's rounding.
+TEST(SkyPass, ResolvesABorderOfAGridAtAnyMagnification) {
+  Show show = show_of(StaticObserver{1e6}, Stereographic{128, 96, 1e-7});
+  show.sky[SkyRegion::kI].background = GridSky{};
+  show.timeline[0].camera.attitude = LookAtSky{sky_direction(35, 12)};
+  const PixelErrors errors(show);
+  EXPECT_LT(errors.worst, 0.4);
+  EXPECT_LT(static_cast<double>(errors.large), 0.01 * static_cast<double>(errors.all));
 }
 
 // Memory that is used again keeps nothing of the frame before.

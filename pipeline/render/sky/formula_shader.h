@@ -1,0 +1,55 @@
+// The light of skies that are formulas, the grid and the rings, in pixels whose view rays are
+// interpolated.  PixelShader, which traces every ray, is its oracle.
+#pragma once
+
+#include <numbers>
+
+#include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/scene/sky_light.h"
+#include "pipeline/render/sky/sample_batch.h"
+
+namespace domefall {
+
+// On the grid, a pixel is the mean of samples where a border may cross it: its corners are that far
+// from its middle, in edges.  A blur by the footprint knows neither the slope of a border nor how the
+// pixel lies on it.
+inline constexpr double kGridReach = std::numbers::sqrt2 / 2;
+
+class FormulaShader {
+ public:
+  // The light must outlive this, and be of the grid or of rings.  `null_time` is the observer's (M).
+  // Of the grid, a pixel that a border may cross is the mean of that many samples along each axis,
+  // at most kMostSamples where anything is shaded.
+  static constexpr int kMostSamples = 16;
+  FormulaShader(const SkyLight& light, double null_time, int samples);
+
+  // Where a ray ends on rings: the phase in periods, less a whole number that is the same for the
+  // whole frame, and how much of a period a pixel of that angle (radians) covers.
+  struct RingNode {
+    float phase, width;
+  };
+  RingNode ring_node(double emission_time, double time_scale, double pixel_angle) const;
+  // The error that an interpolated phase may always have: it changes the light by less than a half
+  // float's rounding.
+  static constexpr float kPhaseTolerance = 1e-4f;
+
+  // Writes the pixel values of count <= SampleBatch::kSize pixels: squares of kSide by kSide of
+  // them, row by row each.  On the grid, gain and tone are those of SkyLight::grid_shift.  Rings
+  // have their phase in column x and its width in column wide.
+  static constexpr int kSide = 8;
+  void shade(const SampleBatch& pixels, int count, float* rgb) const;
+
+ private:
+  struct Squares;
+  struct BorderSamples;
+  void shade_grid(const SampleBatch& pixels, int count, float* rgb) const;
+  void shade_rings(const SampleBatch& pixels, int count, float* rgb) const;
+  void look(const SampleBatch& pixels, int count, Squares& seen) const;
+  void sample_borders(const SampleBatch& pixels, int count, Squares& seen) const;
+
+  const SkyLight& light_;
+  double phase_ = 0, per_time_ = 0;  // of rings: the phase of the observer's time, periods per M
+  int samples_;
+};
+
+}  // namespace domefall

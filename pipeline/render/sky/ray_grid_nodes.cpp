@@ -1,0 +1,148 @@
+// The rays of a RayGrid's nodes, and what is kept of them.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/render/rays/footprint_batch.h"
+#include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/render/sky/ray_grid.h"
+#include "pipeline/simd/dispatch.h"
+
+namespace domefall {
+namespace {
+
+// Floats hold phases up to this one to kPhaseTolerance, and directions on the sky to this many
+// radians.  The borders of a grid are sharp however small a pixel is on it.
+constexpr float kLargestPhase = 1024, kLeastTolerance = 6e-8f;
+
+// Converts kTolerance to radians on the sky by the shorter side of each footprint.  On an Einstein
+// ring that side is 0, so at least a tenth of the longer side counts.
+[[gnu::always_inline]] inline void set_tolerances_loop(const float* wide, const float* narrow,
+                                                       int count, float* tolerance) {
+  constexpr float kNarrowest = 0.1f;
+  for (int k = 0; k < count; ++k) {
+    const float least = kNarrowest * wide[k];
+    tolerance[k] =
+        static_cast<float>(RayGrid::kTolerance) * (narrow[k] > least ? narrow[k] : least);
+  }
+}
+Dispatched<set_tolerances_loop> set_tolerances;
+
+}  // namespace
+
+// The nodes of a row that cells with pixels in the image depend on.  A dome needs only those about
+// its disc.
+std::pair<int, int> RayGrid::needed_nodes(int row) const {
+  if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
+  const double middle = (columns(projection_) - 1) / 2.0;
+  const double y =
+      std::max(std::abs((row - kMargin) * kStep - middle) - (kMargin + 1) * kStep, 0.0);
+  const double half = std::sqrt(std::max(middle * middle - y * y, 0.0)) + (kMargin + 2) * kStep;
+  return {std::clamp(static_cast<int>((middle - half) / kStep) + kMargin, 0, node_columns_),
+          std::clamp(static_cast<int>((middle + half) / kStep) + kMargin + 1, 0, node_columns_)};
+}
+
+void RayGrid::trace_row(int row) {
+  ViewRayBatch rays;
+  std::array<CameraDirection, ViewRayBatch::kSize> n;
+  ViewRayBatch::Column<double> i, j, angle;
+  j.fill((row - kMargin) * kStep + 1.0);
+  const auto [from, to] = needed_nodes(row);
+  for (int first = from; first < to; first += ViewRayBatch::kSize) {
+    const int count = std::min(ViewRayBatch::kSize, to - first);
+    for (int k = 0; k < count; ++k) i[k] = (first + k - kMargin) * kStep + 1.0;
+    find_directions(projection_, i.data(), j.data(), count, n.data(), angle.data());
+    shader_->scene().tracer.trace(n.data(), count, rays);
+    store_nodes(at(row, first), rays, angle.data(), count);
+  }
+  const std::uint8_t* sky = sky_.data() + at(row, 0);
+  std::uint8_t* run = run_.data() + at(row, 0);
+  for (int k = 0; k < cell_columns_; ++k) {
+    bool same = true;
+    for (int m = 1; m < 2 * kMargin + 2; ++m) same &= sky[k + m] == sky[k];
+    run[k] = same ? sky[k] : kMixed;
+  }
+}
+
+void RayGrid::store_nodes(std::size_t first, const ViewRayBatch& rays, const double* angle,
+                          int count) {
+  const auto column = [&](Quantity q) { return &nodes_[q][first]; };
+  PerSky<std::uint8_t> marks{};
+  for (const SkyRegion sky : kEverySky)
+    marks[sky] = shader_->scene().background[sky] ? static_cast<std::uint8_t>(sky) : kDark;
+  bool any_light = false;
+  for (int k = 0; k < count; ++k) {
+    const std::uint8_t mark = marks[rays.sky[k]];
+    sky_[first + k] = mark;
+    edge_[first + k] = static_cast<float>(rays.to_edge[k] / (angle[k] * kStep));
+    any_light |= mark < kDark;
+  }
+  if (!any_light) return;
+  set_footprints(rays, angle, count,
+                 {column(kX), column(kY), column(kZ), column(kWide), column(kNarrow),
+                  column(kAxisX), column(kAxisY), column(kAxisZ)});
+  store_rings(first, rays, angle, count);
+  set_tolerances(column(kWide), column(kNarrow), count, &tolerance_[first]);
+  store_shifts(first, rays, count);
+}
+
+// Where a ray ends on rings, its phase stands in the place of a direction: as its component at right
+// angles to a unit vector, by which the errors of both are measured in one way.
+void RayGrid::store_rings(std::size_t first, const ViewRayBatch& rays, const double* angle,
+                          int count) {
+  const FormulaShader* rings = shader_->formula(SkyRegion::kIV);
+  if (rings == nullptr || shader_->scene().background[SkyRegion::kIV]->is_grid()) return;
+  for (int k = 0; k < count; ++k) {
+    if (rays.sky[k] != SkyRegion::kIV) continue;
+    const std::size_t at = first + static_cast<std::size_t>(k);
+    const auto [phase, width] =
+        rings->ring_node(rays.emission_time[k], rays.time_scale[k], angle[k]);
+    nodes_[kX][at] = phase;
+    nodes_[kY][at] = 0;
+    nodes_[kZ][at] = 1;
+    nodes_[kWide][at] = width;
+    nodes_[kNarrow][at] =
+        std::max(width, FormulaShader::kPhaseTolerance / static_cast<float>(kTolerance));
+    nodes_[kGain][at] = nodes_[kTone][at] = 1;
+    cubic_[at] = std::abs(phase) < kLargestPhase;
+  }
+}
+
+// Stores shifts and filters.  A colour panorama's shift is stored as the gains of both of its
+// sides.
+void RayGrid::store_shifts(std::size_t first, const ViewRayBatch& rays, int count) {
+  ViewRayBatch::Column<float> gain, tone;
+  ViewRayBatch::Column<SampleFilter> filters;
+  for (const SkyRegion sky : kEverySky) {
+    const auto end = rays.sky.begin() + count;
+    if (std::find(rays.sky.begin(), end, sky) == end) continue;
+    const auto& background = shader_->scene().background[sky];
+    if (background && background->is_grid()) {
+      for (int k = 0; k < count; ++k) {
+        if (rays.sky[k] != sky) continue;
+        const LightShift shift = background->grid_shift(rays.frequency_ratio[k]);
+        nodes_[kGain][first + k] = shift.gain;
+        nodes_[kTone][first + k] = shift.tone;
+        cubic_[first + k] = tolerance_[first + k] >= kLeastTolerance;
+      }
+      continue;
+    }
+    const SkySampler* sampler = shader_->sampler(sky);
+    if (sampler == nullptr) continue;
+    sampler->choose_filters(&nodes_[kWide][first], &nodes_[kNarrow][first], count,
+                            SkySampler::kMostTaps, HUGE_VALF, filters.data());
+    const SkyLight& light = *background;
+    const double* g = rays.frequency_ratio.data();
+    if (sampler->map().kind() == SkyMapKind::kThermal)
+      light.shifts(g, count, gain.data(), tone.data());
+    else
+      light.shift_sides(g, count, gain.data(), tone.data());
+    for (int k = 0; k < count; ++k) {
+      if (rays.sky[k] != sky) continue;
+      nodes_[kGain][first + k] = gain[k];
+      nodes_[kTone][first + k] = tone[k];
+      filters_[first + k] = filters[k];
+    }
+  }
+}
+
+}  // namespace domefall
