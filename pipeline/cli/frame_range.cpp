@@ -63,6 +63,7 @@ void add_frame_choice(CLI::App& verb, FrameChoice& choice) {
   auto* frame = verb.add_option("--frame", choice.frame, "frame number, from 0")
                     ->check(number_in(0, kMostFrames - 1));
   verb.add_option("--at", choice.at, "instead: a time of the show, 34.5, 0:34.5 or a marker")
+      ->type_name("TIME")
       ->excludes(frame);
 }
 

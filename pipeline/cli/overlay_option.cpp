@@ -1,17 +1,20 @@
 #include "pipeline/cli/overlay_option.h"
 
 #include <algorithm>
+#include <string_view>
+#include <vector>
 
+#include "pipeline/cli/option_types.h"
 #include "pipeline/image/errors.h"
 
 namespace domefall {
 
 void add_overlay_option(CLI::App& verb, std::string& names) {
-  std::string known;
-  for (const auto& [kind, name] : kOverlays) known.append(known.empty() ? "" : ", ").append(name);
-  verb.add_option(
-          "--overlay", names,
-          "draw over the frames, for review and teaching: any of " + known + ", joined by commas")
+  std::vector<std::string_view> known;
+  for (const auto& [kind, name] : kOverlays) known.push_back(name);
+  verb.add_option("--overlay", names,
+                  "draw over the frames, for review and teaching: any of these, joined by commas")
+      ->type_name(one_of(known).append(kListMark))
       ->check([](const std::string& list) {
         return list.empty() ? std::string("got no name") : std::string();
       });

@@ -6,6 +6,7 @@
 
 #include "pipeline/cli/check_page.h"
 #include "pipeline/cli/frame_folder.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
@@ -89,8 +90,9 @@ void add_check(CLI::App& app) {
   auto show = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  verb->add_option("show", *show, "show file (YAML)")->required();
-  verb->add_option("--out", *out, "folder that the frames are to go to; default out/NAME");
+  add_show(*verb, *show)->required();
+  verb->add_option("--out", *out, "folder that the frames are to go to; default out/NAME")
+      ->type_name(kFolderType);
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
   verb->callback([show, out, json] { check(*show, *out, *json); });
 }

@@ -11,6 +11,7 @@
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/deliver/contact_sheet.h"
@@ -107,19 +108,23 @@ void add_deliver(CLI::App& app) {
   auto* verb = app.add_subcommand("deliver",
                                   "Make the folder that festivals and domes ask for, or check one");
   auto o = std::make_shared<DeliverOptions>();
-  auto* show = verb->add_option("show", o->show, "show file (YAML)");
-  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME");
-  auto* out = verb->add_option("--out", o->out, "folder to make");
-  verb->add_option("--size", o->size, "of the frames, where it is not the show's");
+  auto* show = add_show(*verb, o->show);
+  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME")
+      ->type_name(kFolderType);
+  auto* out = verb->add_option("--out", o->out, "folder to make")->type_name(kFolderType);
+  verb->add_option("--size", o->size, "of the frames, where it is not the show's")
+      ->type_name("SIZE");
   verb->add_option("--depth", o->bits,
                    "bits a colour: 8 (24-bit pictures) or 16; default as they are")
       ->check(CLI::IsMember({8, 16}));
-  verb->add_option("--name", o->name, "such as my_show_#####; default the show's file name");
-  verb->add_option("--audio", o->sounds, "WAV files, as long as the frames");
-  verb->add_option("--subtitles", o->subtitles, "SubRip files (.srt)");
+  verb->add_option("--name", o->name, "such as my_show_#####; default the show's file name")
+      ->type_name("NAME");
+  verb->add_option("--audio", o->sounds, "WAV files, as long as the frames")->type_name(kFileType);
+  verb->add_option("--subtitles", o->subtitles, "SubRip files (.srt)")->type_name(kFileType);
   verb->add_flag("--leader", o->leader, "slate and countdown, in a folder of their own");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->add_option("--check", o->check, "instead: say what a delivered folder lacks")
+      ->type_name(kFolderType)
       ->excludes(show)
       ->excludes(out);
   verb->callback([o] { deliver(*o); });
@@ -128,10 +133,14 @@ void add_deliver(CLI::App& app) {
 void add_sheet(CLI::App& app) {
   auto* verb = app.add_subcommand("sheet", "A contact sheet of finished frames");
   auto o = std::make_shared<SheetOptions>();
-  verb->add_option("show", o->show, "show file (YAML)")->required();
-  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME");
-  verb->add_option("--out", o->out, "picture to write, .png, .tif or .jpg")->required();
-  verb->add_option("--size", o->size, "of the frames, where it is not the show's");
+  add_show(*verb, o->show)->required();
+  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME")
+      ->type_name(kFolderType);
+  verb->add_option("--out", o->out, "picture to write, .png, .tif or .jpg")
+      ->type_name(kFileType)
+      ->required();
+  verb->add_option("--size", o->size, "of the frames, where it is not the show's")
+      ->type_name("SIZE");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->callback([o] { make_sheet(*o); });
 }

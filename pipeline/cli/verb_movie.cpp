@@ -8,6 +8,7 @@
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/movie_frames.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
@@ -35,6 +36,12 @@ std::string presets_for_help() {
   for (const MoviePreset& preset : movie_presets())
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", preset.name, preset.what);
   return text;
+}
+
+std::vector<std::string_view> preset_names() {
+  std::vector<std::string_view> names;
+  for (const MoviePreset& preset : movie_presets()) names.push_back(preset.name);
+  return names;
 }
 
 MovieSize size_of(const Projection& projection) { return {columns(projection), rows(projection)}; }
@@ -141,24 +148,27 @@ void add_movie(CLI::App& app) {
   auto* verb = app.add_subcommand(
       "movie", "Make a movie by ffmpeg, of frames rendered for it or of finished ones");
   auto o = std::make_shared<Options>();
-  verb->add_option("show", o->show, "show file (YAML)")->required();
-  verb->add_option("--preset", o->preset, presets_for_help())->required();
-  verb->add_option("--frames", o->frames, "one range, such as 0-299; default all");
+  add_show(*verb, o->show)->required();
+  verb->add_option("--preset", o->preset, presets_for_help())
+      ->type_name(one_of(preset_names()))
+      ->required();
+  verb->add_option("--frames", o->frames, "one range, such as 0-299; default all")
+      ->type_name("FRAMES");
   verb->add_option("--from", o->from,
                    "take the finished frames of this folder (the --out of render); default: render "
-                   "them and write no files");
+                   "them and write no files")
+      ->type_name(kFolderType);
   verb->add_option("--size", o->size,
                    "of the frames, as for render; default the show's, or less where the preset is "
-                   "smaller and frames are rendered");
-  verb->add_option(
-      "--audio", o->audio,
-      "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs");
-  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv");
+                   "smaller and frames are rendered")
+      ->type_name("SIZE");
+  verb->add_option("--audio", o->audio,
+                   "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs")
+      ->type_name(kFileType);
+  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv")
+      ->type_name(kFileType);
   add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
-  verb->footer(
-      "--audio takes all that follows it, so the show stands before it.\n"
-      "The preset review adds no numbers to frames that have them by --overlay burn_in.");
   verb->callback([o] { movie(*o); });
 }
 

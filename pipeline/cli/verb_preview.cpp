@@ -13,6 +13,7 @@
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
@@ -102,11 +103,13 @@ void add_preview(CLI::App& app) {
   auto* verb = app.add_subcommand(
       "preview", "A viewer in the browser, beside the editor; or one frame as a flat picture");
   auto o = std::make_shared<Options>();
-  verb->add_option("show", o->show, "show file (YAML)")->required();
+  add_show(*verb, o->show)->required();
   add_frame_choice(*verb, o->choice);
   auto* out =
-      verb->add_option("--out", o->out, "one picture to write, and no viewer: .png, .tif or .jpg");
+      verb->add_option("--out", o->out, "one picture to write, and no viewer: .png, .tif or .jpg")
+          ->type_name(kFileType);
   verb->add_option("--size", o->size, "WIDTHxHEIGHT of that picture")
+      ->type_name("SIZE")
       ->needs(out)
       ->capture_default_str();
   verb->add_option("--fov", o->fov_deg, "its horizontal opening angle, degrees")

@@ -10,6 +10,7 @@
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/json_number.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/stars_at_pixel.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
@@ -155,10 +156,12 @@ void probe(const Options& o) {
 void add_probe(CLI::App& app) {
   auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift, stars");
   auto o = std::make_shared<Options>();
-  verb->add_option("show", o->show, "show file (YAML)")->required();
+  add_show(*verb, o->show)->required();
   add_frame_choice(*verb, o->choice);
-  verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")->required();
-  verb->add_option("--size", o->size, "as for render");
+  verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")
+      ->type_name("X,Y")
+      ->required();
+  verb->add_option("--size", o->size, "as for render")->type_name("SIZE");
   verb->add_flag("--json", o->json, "the same facts as JSON with all digits, for other programs");
   verb->callback([o] { probe(*o); });
 }

@@ -6,6 +6,7 @@
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/lens_run.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/show/read_show.h"
@@ -35,12 +36,15 @@ void run(const Options& o, bool render) {
 }
 
 void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
-  verb.add_option("show", o->show, "show file (YAML)")->required();
+  add_show(verb, o->show)->required();
   verb.add_option("--frames", o->frames,
-                  "7, 0-299, 0-599x10 (every tenth), or several joined by commas; default all");
+                  "7, 0-299, 0-599x10 (every tenth), or several joined by commas; default all")
+      ->type_name("FRAMES");
   verb.add_option("--size", o->size,
-                  "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture");
-  verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME");
+                  "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture")
+      ->type_name("SIZE");
+  verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME")
+      ->type_name(kFolderType);
   add_overlay_option(verb, o->overlays);
   verb.add_flag("--replace", o->replace, "replace frames of another size, show or kind");
 }

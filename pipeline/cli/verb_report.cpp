@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/atomic_file.h"
@@ -64,6 +65,7 @@ void add_report(CLI::App& app) {
   auto options = std::make_shared<Options>();
   verb->add_option("--out", options->out,
                    "the folder for accuracy.md, costs.md, CSV files and plots/")
+      ->type_name(kFolderType)
       ->required();
   verb->add_flag("--quick", options->quick, "few rays and frames: seconds instead of minutes");
   verb->add_flag("--figures", options->figures,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/sky_check_page.h"
 #include "pipeline/cli/sky_page.h"
@@ -84,8 +85,8 @@ void add_build(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand(
       "build", "Make a starless Milky Way of a catalogue's faint stars, with their true colours");
   auto o = std::make_shared<BuildOptions>();
-  verb->add_option("--stars", o->stars, "the catalogue")->required();
-  verb->add_option("--out", o->out, "the .sky file to write")->required();
+  verb->add_option("--stars", o->stars, "the catalogue")->type_name(kFileType)->required();
+  verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();
   verb->add_option("--fainter-than", o->fainter_than, "V magnitude of the brightest star taken")
       ->check(number_in(-30.0, kEveryStar))
       ->capture_default_str();
@@ -121,7 +122,7 @@ void info(const InfoOptions& o) {
 void add_info(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("info", "Tell what a .sky file holds");
   auto o = std::make_shared<InfoOptions>();
-  verb->add_option("FILE", o->file, "a .sky file")->required();
+  verb->add_option("FILE", o->file, "a .sky file")->type_name(kFileType)->required();
   verb->add_flag("--verify", o->verify, "read it whole and compare every checksum");
   verb->add_flag("--json", o->json, "the same facts as JSON, for other programs");
   verb->callback([o] { info(*o); });
@@ -150,8 +151,11 @@ void add_check_of_sky(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand(
       "check", "Tell by stars and Milky Way whether a map lies on the sky as it is said to");
   auto file = std::make_shared<std::string>(), stars = std::make_shared<std::string>();
-  verb->add_option("FILE", *file, "a .sky file, or a panorama as shows take it")->required();
-  verb->add_option("--stars", *stars, "a catalogue [that which comes with Domefall]");
+  verb->add_option("FILE", *file, "a .sky file, or a panorama as shows take it")
+      ->type_name(kFileType)
+      ->required();
+  verb->add_option("--stars", *stars, "a catalogue [that which comes with Domefall]")
+      ->type_name(kFileType);
   verb->callback([file, stars] { check_map(*file, *stars); });
 }
 
@@ -230,9 +234,10 @@ void add_import(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
   auto o = std::make_shared<ImportOptions>();
   verb->add_option("IMAGE", o->image, "any picture OpenImageIO reads, or a HEALPix map in FITS")
+      ->type_name(kFileType)
       ->required();
-  verb->add_option("--out", o->out, "the .sky file to write")->required();
-  verb->add_option("--projection", o->projection)
+  verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();
+  verb->add_option("--projection", o->projection, "of the picture; auto: as the file tells")
       ->check(CLI::IsMember({"auto", "equirectangular", "healpix"}))
       ->capture_default_str();
   add_orientation(*verb, *o);
@@ -250,7 +255,8 @@ void add_import(CLI::App& sky) {
   add_cmb(*verb, *o);
   verb->add_option("--licence", o->licence, "a line to keep in the file: credit and terms");
   verb->add_option("--stars", o->stars,
-                   "the catalogue to check with [that which comes with Domefall]");
+                   "the catalogue to check with [that which comes with Domefall]")
+      ->type_name(kFileType);
   verb->callback([o] { import_map(*o); });
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/star_page.h"
 #include "pipeline/cli/verbs.h"
@@ -26,11 +27,14 @@ struct Options {
   double faintest = kFaintestV;
 };
 
-std::string format_names() {
-  std::string names;
-  for (const CatalogueFormat& each : catalogue_formats()) names += std::string(each.name) + ", ";
-  return names + "auto";
+std::vector<std::string_view> format_list() {
+  std::vector<std::string_view> names;
+  for (const CatalogueFormat& each : catalogue_formats()) names.push_back(each.name);
+  names.push_back("auto");
+  return names;
 }
+
+std::string format_names() { return fmt::format("{}", fmt::join(format_list(), ", ")); }
 
 const CatalogueFormat& format_of(const std::string& format, const Paths& inputs) {
   if (format == "auto") {
@@ -104,15 +108,22 @@ void import(const Options& o) {
 void add_import(CLI::App& stars) {
   auto* verb = stars.add_subcommand("import", "Make a .stars catalogue from one of another format");
   auto o = std::make_shared<Options>();
-  verb->add_option("format", o->format, format_names())->required();
-  verb->add_option("input", o->inputs, "files, or the folder they are in")->required();
-  verb->add_option("--out", o->out, "the .stars file to write")->required();
+  verb->add_option("FORMAT", o->format, "of the catalogue; auto: told by how it begins")
+      ->type_name(one_of(format_list()))
+      ->required();
+  verb->add_option("INPUT", o->inputs, "files, or the folder they are in")
+      ->type_name(kFileType)
+      ->required();
+  verb->add_option("--out", o->out, "the .stars file to write")->type_name(kFileType)->required();
   verb->add_option("--faintest", o->faintest, "leave out fainter stars than this V")
       ->check(number_in(kBrightestV, kFaintestV));
   verb->add_option("--hipparcos", o->hipparcos,
-                   "V, colours and missing stars from d3-celestial's stars.N.json");
-  verb->add_option("--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json");
-  verb->add_option("--corrections", o->corrections, "CSV of corrections made by hand");
+                   "V, colours and missing stars from d3-celestial's stars.N.json")
+      ->type_name(kFileType);
+  verb->add_option("--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json")
+      ->type_name(kFileType);
+  verb->add_option("--corrections", o->corrections, "CSV of corrections made by hand")
+      ->type_name(kFileType);
   verb->callback([o] { import(*o); });
 }
 
@@ -120,7 +131,7 @@ void add_info(CLI::App& stars) {
   auto* verb = stars.add_subcommand("info", "Say what a .stars catalogue holds");
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  verb->add_option("file", *file, ".stars file")->required();
+  verb->add_option("FILE", *file, ".stars file")->type_name(kFileType)->required();
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
   verb->callback([file, json] {
     require_file(*file);

@@ -12,6 +12,7 @@
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/json_number.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/diagram/page.h"
@@ -131,10 +132,11 @@ void print_states(const Options& o) {
 void add_states(CLI::App& app) {
   auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV or JSON");
   auto o = std::make_shared<Options>();
-  verb->add_option("show", o->show, "show file (YAML)")->required();
-  verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all");
+  add_show(*verb, o->show)->required();
+  verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all")->type_name("FRAMES");
   verb->add_option("--plot", o->plot,
-                   "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram");
+                   "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram")
+      ->type_name(kFileType);
   verb->add_flag("--json", o->json, "an array of objects with all digits instead of CSV");
   verb->callback([o] { print_states(*o); });
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/csv_file.h"
 #include "pipeline/optics/traced_ray.h"
@@ -145,6 +146,7 @@ void add_trace(CLI::App& app) {
   auto method = std::make_shared<std::string>("table");
   auto options = std::make_shared<TraceOptions>();
   verb->add_option("--table", *table, "CSV with the columns observer, r, delta, edge, offset")
+      ->type_name(kFileType)
       ->required();
   verb->add_option("--method", *method,
                    "table (what renders frames), exact, or an integrator: rk4 (the paper's own), "

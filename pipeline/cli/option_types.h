@@ -1,0 +1,29 @@
+// What the values of options are, in the words of --help and of the manual.  Bash completion goes by
+// them: it offers files, folders, shows or the words in braces.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+
+namespace domefall {
+
+inline constexpr const char *kFileType = "FILE", *kFolderType = "FOLDER", *kShowName = "SHOW";
+// It follows the words of a list whose members are joined by commas.
+inline constexpr std::string_view kListMark = ",...";
+
+// One of several words, as CLI::IsMember also writes them: {review,dome}.
+template <class Names>
+std::string one_of(const Names& names) {
+  return fmt::format("{{{}}}", fmt::join(names, ","));
+}
+
+// The show that a verb is about.
+inline CLI::Option* add_show(CLI::App& verb, std::string& file) {
+  return verb.add_option(kShowName, file, "show file (YAML)")->type_name(kFileType);
+}
+
+}  // namespace domefall

@@ -1,0 +1,31 @@
+// What the manual says of a verb beyond its options.  It is written once: --help closes with it, and
+// the manual pages are made of it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace domefall {
+
+struct VerbNotes {
+  std::string_view verb;  // as it is typed: render, sky import; empty: the program itself
+  std::string_view
+      about;  // paragraphs with an empty line between them; lines of at most 78 letters
+  std::vector<std::pair<std::string_view, std::string_view>> examples;  // a command, what it does
+  std::string_view document;                                            // below docs, or empty
+};
+
+// In the order of the verbs.
+const std::vector<VerbNotes>& all_verb_notes();
+
+// A name and what it means: an exit code, a variable of the environment, a folder.
+using Meaning = std::pair<std::string_view, std::string_view>;
+const std::vector<Meaning>& exit_code_meanings();
+const std::vector<Meaning>& environment_meanings();
+
+// What --help says after the options.
+std::string help_footer(const VerbNotes& notes);
+
+}  // namespace domefall
