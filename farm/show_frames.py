@@ -24,8 +24,12 @@ def stop(message, code):
 
 
 def find_domefall():
-    """The absolute path of the program: $DOMEFALL, else the first one on the PATH."""
-    name = os.environ.get("DOMEFALL") or "domefall"
+    """The absolute path of the program: $DOMEFALL, else the one that these launchers were installed
+    with, else the first one on the PATH."""
+    here = pathlib.Path(__file__).resolve().parent
+    with_us = here.parents[1] / "bin" / "domefall"
+    is_installed = here.parent.name == "libexec" and with_us.exists()
+    name = os.environ.get("DOMEFALL") or (str(with_us) if is_installed else "domefall")
     found = shutil.which(name)
     if not found:
         stop(f"{name}: no such program; put domefall on the PATH or name it in DOMEFALL", BAD_INPUT)

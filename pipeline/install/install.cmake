@@ -1,0 +1,55 @@
+# What `cmake --install` puts below the prefix, whichever that is: the program finds its libraries and
+# assets from its own place. 
+#
+# Other targets that are installed have their rules where they are made.
+
+set(data ${CMAKE_INSTALL_DATADIR}/domefall)
+install(TARGETS domefall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# ---- The manual and bash's completion, made of the command line's own description ----------------
+
+set(DOMEFALL_RELEASED 2026-11-22)  # the day of this version, which manual and changelog bear
+set(manual ${PROJECT_BINARY_DIR}/manual)
+add_executable(domefall_make_manual pipeline/cli/manual/main.cpp)
+target_link_libraries(domefall_make_manual PRIVATE domefall_cli)
+add_custom_command(OUTPUT ${manual}/completions/domefall
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual}  # a verb that is gone has no page
+  COMMAND domefall_make_manual ${DOMEFALL_RELEASED} ${manual}
+  COMMENT "Writing the manual pages")
+add_custom_target(domefall_manual DEPENDS ${manual}/completions/domefall)
+# Whoever builds the program alone can install it.
+add_dependencies(domefall domefall_manual)
+install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${manual}/completions/domefall
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
+# ---- Shows and what they need --------------------------------------------------------------------
+
+set(assets_source ${PROJECT_SOURCE_DIR}/shows/assets)
+install(FILES ${maps}
+  ${assets_source}/dome.ocio ${assets_source}/sky_places.csv ${assets_source}/star_corrections.csv
+  ${assets_source}/stars_to_8.csv ${assets_source}/stars_to_9.stars
+  ${assets_source}/milky_way.exr ${assets_source}/milky_way_deep.exr
+  DESTINATION ${data}/assets)
+install(PROGRAMS ${assets_source}/fetch_stars DESTINATION ${data}/assets)
+install(DIRECTORY shows/ DESTINATION ${data}/shows FILES_MATCHING
+  PATTERN "*.yaml" PATTERN assets EXCLUDE)
+# The paper's figures name ../assets/stars_to_8.csv, as in the source tree.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/installed)
+file(CREATE_LINK ../assets ${PROJECT_BINARY_DIR}/installed/assets SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/installed/assets DESTINATION ${data}/shows)
+
+# ---- The farm's launchers, which find the program from their own place ---------------------------
+
+# Python finds what they share in the folder where they are.
+install(PROGRAMS farm/render-local farm/render-slurm farm/slurm-array.sbatch
+  DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/domefall)
+install(FILES farm/show_frames.py DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/domefall)
+
+# ---- Documents and licences ----------------------------------------------------------------------
+
+install(FILES README.md LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.sh" EXCLUDE)
+install(FILES ${assets_source}/PROVENANCE.md ${assets_source}/LICENSE.d3-celestial
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/shows/assets)
+
