@@ -1,5 +1,5 @@
 # What `cmake --install` puts below the prefix, whichever that is: the program finds its libraries and
-# assets from its own place. 
+# assets from its own place.  CPack makes a Debian package of it (debian.cmake).
 #
 # Other targets that are installed have their rules where they are made.
 
@@ -53,3 +53,4 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "*.sh" EXCLUD
 install(FILES ${assets_source}/PROVENANCE.md ${assets_source}/LICENSE.d3-celestial
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/shows/assets)
 
+include(pipeline/install/debian.cmake)
