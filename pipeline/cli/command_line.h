@@ -1,19 +1,10 @@
 // The command line: its verbs and the options that all of them share.
 #pragma once
 
-#include <memory>
-
-namespace CLI {
-class App;
-}
-
 namespace domefall {
 
 // The exit code for input that is wrong, so that trying again is useless.
 inline constexpr int kBadInput = 2;
-
-// All verbs with their options, their help and what it closes with.
-std::unique_ptr<CLI::App> describe_command_line();
 
 // Parses the line, does what it asks for, and returns the exit code: 0, or kBadInput for a line
 // that no verb understands. What fails while it is done is thrown.

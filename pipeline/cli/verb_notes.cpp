@@ -16,7 +16,7 @@ const VerbNotes kProgram{
      {"domefall render fall.yaml --size 4k", "renders all frames to out/fall"}},
     "show-format.md"};
 
-// The verbs that follow a show from its file to the audience.
+// The verbs from a show's file to its frames.
 std::vector<VerbNotes> notes_of_shows() {
   return {
       {"check",
@@ -48,6 +48,12 @@ std::vector<VerbNotes> notes_of_shows() {
        {{"domefall preview fall.yaml --no-open", "on a machine without a screen"},
         {"domefall preview fall.yaml --at 0:34 --out still.png", "one picture for a screen"}},
        "preview.md"},
+  };
+}
+
+// The verbs from finished frames to the audience.
+std::vector<VerbNotes> notes_of_deliveries() {
+  return {
       {"movie",
        "Frames are rendered and handed to ffmpeg through a pipe, or taken from the folder\n"
        "--from. The preset review burns numbers in, but adds none to frames that have\n"
@@ -69,6 +75,12 @@ std::vector<VerbNotes> notes_of_shows() {
        "Puts up to 36 frames of the show on one picture, with their numbers.",
        {{"domefall sheet fall.yaml --from out/fall --out sheet.jpg", "of frames in out/fall"}},
        "delivery.md"},
+  };
+}
+
+// The verbs that answer with numbers.
+std::vector<VerbNotes> notes_of_numbers() {
+  return {
       {"states",
        "Prints region, radius, proper time, velocity and camera axes of each frame; r and\n"
        "proper times in units of M.",
@@ -80,15 +92,9 @@ std::vector<VerbNotes> notes_of_shows() {
        "shifted and amplified, and which stars have an image there.",
        {{"domefall probe fall.yaml --at 0:10 --pixel 512,300", "at 10 s, 300 rows from the top"}},
        "show-format.md"},
-  };
-}
-
-// The verbs about rays and data.
-std::vector<VerbNotes> notes_of_data() {
-  return {
       {"trace",
        "Each row of the table is a ray: who sees it, at which r, at which angle delta\n"
-       "from the direction away from the hole. The answer has as many rows: where the\n"
+       "from the direction of the hole. The answer has as many rows: where the\n"
        "light comes from, how far it was bent, its shift and amplification.",
        {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
        "accuracy.md"},
@@ -97,14 +103,20 @@ std::vector<VerbNotes> notes_of_data() {
        "some minutes, and calls gnuplot.",
        {{"domefall report --out report --quick", "in seconds, with fewer rays"}},
        "accuracy.md"},
+  };
+}
+
+// The verbs about what is in the sky.
+std::vector<VerbNotes> notes_of_skies() {
+  return {
       {"stars", "Star catalogues are .stars files, which a show names.", {}, "stars.md"},
       {"stars import",
        "A file appears whole or not at all.",
-       {{"domefall stars import auto hip_main.dat --out hip.stars", "the format by the file"}},
+       {{"domefall stars import auto hygdata_v41.csv --out hyg.stars", "the format by the file"}},
        "stars.md"},
       {"stars info",
        "Prints how many stars there are, how bright, from where, and under which licence.",
-       {{"domefall stars info hip.stars", "on one page"}},
+       {{"domefall stars info hyg.stars", "on one page"}},
        "stars.md"},
       {"sky", "Maps of the whole sky are .sky files, which a show names.", {}, "skies.md"},
       {"sky import",
@@ -138,7 +150,8 @@ std::string indented(std::string_view name, std::string_view meaning) {
 const std::vector<VerbNotes>& all_verb_notes() {
   static const std::vector<VerbNotes> kAll = [] {
     std::vector<VerbNotes> all{kProgram};
-    for (const auto& part : {notes_of_shows(), notes_of_data()})
+    for (const auto& part :
+         {notes_of_shows(), notes_of_deliveries(), notes_of_numbers(), notes_of_skies()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -1,6 +1,8 @@
 // The verbs of the command line, one file each.
 #pragma once
 
+#include <memory>
+
 namespace CLI {
 class App;
 }
@@ -21,5 +23,8 @@ void add_trace(CLI::App& app);
 void add_report(CLI::App& app);
 void add_stars(CLI::App& app);
 void add_sky(CLI::App& app);
+
+// All of them, with their help and what it closes with.
+std::unique_ptr<CLI::App> describe_command_line();
 
 }  // namespace domefall

@@ -10,6 +10,7 @@ namespace {
 // CLI11 keeps them in the order of their addresses, which differs from run to run.
 std::vector<std::string> sorted_names(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
+  names.reserve(options.size());
   for (const CLI::Option* option : options) names.push_back(option->get_name());
   std::ranges::sort(names);
   return names;

@@ -21,7 +21,7 @@ struct DescribedOption {
   std::vector<std::string> needs, excludes;  // names of other options, sorted
 };
 
-DescribedOption described(const CLI::Option& option);
+DescribedOption described(const CLI::Option& from);
 
 // Those of a verb, in the order of --help, which comes first.
 std::vector<DescribedOption> described_options(const CLI::App& verb);

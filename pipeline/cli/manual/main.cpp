@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "pipeline/cli/command_line.h"
 #include "pipeline/cli/manual/bash_completion.h"
 #include "pipeline/cli/manual/described_option.h"
 #include "pipeline/cli/manual/man_page.h"
+#include "pipeline/cli/verbs.h"
 
 namespace {
 

@@ -31,8 +31,8 @@ std::string page_name(const std::string& verb) {
 std::string page_head(const std::string& verb, const std::string& date, std::string what) {
   std::string upper = page_name(verb);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  // "Render frames" is a sentence; "H.264" and "SVG" would stay as they are.
-  if (what.size() > 1 && std::islower(static_cast<unsigned char>(what[1])))
+  // What begins with an abbreviation stays as it is.
+  if (what.size() > 1 && !std::isupper(static_cast<unsigned char>(what[1])))
     what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
   return fmt::format(".TH {} 1 {} \"Domefall {}\" \"Domefall Manual\"\n", roff_text(upper), date,
                      DOMEFALL_VERSION) +
@@ -149,7 +149,7 @@ std::string program_page(const CLI::App& program, const std::string& date) {
 }
 
 std::string verb_page(const CLI::App& verb, const std::string& date) {
-  const std::string name = verb.get_name();
+  const std::string& name = verb.get_name();
   const VerbNotes& notes = notes_of(name);
   std::string text = page_head(name, date, verb.get_description());
   const std::vector<const CLI::App*> below = verbs_of(verb);

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/cli/command_line.h"
 #include "pipeline/cli/manual/bash_completion.h"
 #include "pipeline/cli/manual/described_option.h"
 #include "pipeline/cli/manual/man_page.h"
 #include "pipeline/cli/manual/roff.h"
 #include "pipeline/cli/verb_notes.h"
+#include "pipeline/cli/verbs.h"
 
 namespace domefall {
 namespace {
