@@ -24,10 +24,6 @@ configure_file(pipeline/install/copyright.in installed/copyright @ONLY)
 
 # Lower than what Debian itself would give, so that its own package would take the place of this one.
 set(CPACK_DEBIAN_PACKAGE_RELEASE 0.1)
-execute_process(COMMAND date -u -d ${DOMEFALL_RELEASED} "+%a, %d %b %Y %H:%M:%S +0000"
-  OUTPUT_VARIABLE released_words OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND date -u -d ${DOMEFALL_RELEASED} +%s
-  OUTPUT_VARIABLE released_seconds OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 file(CONFIGURE OUTPUT installed/changelog CONTENT
 "domefall (@PROJECT_VERSION@-@CPACK_DEBIAN_PACKAGE_RELEASE@) bookworm; urgency=medium
 

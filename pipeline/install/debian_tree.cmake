@@ -5,6 +5,14 @@ set(doc ${root}/share/doc/domefall)
 # The time in all that is packed, so that the bytes do not depend on when that is.
 set(ENV{SOURCE_DATE_EPOCH} ${CPACK_DOMEFALL_RELEASED})
 
+# CPack would leave the libraries out of the dependencies, and say so among other lines.
+foreach(program file dpkg-shlibdeps)
+  find_program(found_${program} ${program})
+  if(NOT found_${program})
+    message(FATAL_ERROR "a Debian package needs ${program}: install the packages file and dpkg-dev")
+  endif()
+endforeach()
+
 # Debian keeps all licences in one file.
 file(REMOVE ${doc}/LICENSE ${doc}/shows/assets/LICENSE.d3-celestial)
 foreach(file README.md THIRD_PARTY.md shows/assets/PROVENANCE.md)

@@ -8,13 +8,21 @@ install(TARGETS domefall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # ---- The manual and bash's completion, made of the command line's own description ----------------
 
-set(DOMEFALL_RELEASED 2026-11-22)  # the day of this version, which manual and changelog bear
+# The day of this version, which manual and changelog bear, in seconds since 1970.
+set(released_seconds 1795305600)
+# string(TIMESTAMP) tells the time that this variable holds, where it is set.
+set(own_epoch "$ENV{SOURCE_DATE_EPOCH}")
+set(ENV{SOURCE_DATE_EPOCH} ${released_seconds})
+string(TIMESTAMP released_day "%Y-%m-%d" UTC)
+string(TIMESTAMP released_words "%a, %d %b %Y %H:%M:%S +0000" UTC)
+set(ENV{SOURCE_DATE_EPOCH} ${own_epoch})
 set(manual ${PROJECT_BINARY_DIR}/manual)
 add_executable(domefall_make_manual pipeline/cli/manual/main.cpp)
 target_link_libraries(domefall_make_manual PRIVATE domefall_cli)
 add_custom_command(OUTPUT ${manual}/completions/domefall
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual}  # a verb that is gone has no page
-  COMMAND domefall_make_manual ${DOMEFALL_RELEASED} ${manual}
+  COMMAND domefall_make_manual ${released_day} ${manual}
+  DEPENDS domefall_make_manual
   COMMENT "Writing the manual pages")
 add_custom_target(domefall_manual DEPENDS ${manual}/completions/domefall)
 # Whoever builds the program alone can install it.
