@@ -23,7 +23,7 @@ endforeach()
 configure_file(${CPACK_DOMEFALL_FILES}/copyright ${doc}/copyright COPYONLY)
 configure_file(${CPACK_DOMEFALL_FILES}/changelog ${doc}/changelog.Debian COPYONLY)
 
-file(GLOB binaries ${root}/bin/* ${root}/lib/domefall/modules/*)
+file(GLOB_RECURSE binaries ${root}/bin/* ${root}/lib/*.so)
 execute_process(COMMAND ${CPACK_DOMEFALL_STRIP} -R .comment -R .note ${binaries}
   COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB pages ${root}/share/man/man1/*.1)
