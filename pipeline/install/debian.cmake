@@ -6,11 +6,11 @@ set(DOMEFALL_MAINTAINER "The Domefall authors <domefall@example.org>" CACHE STRI
 
 # ---- What a Debian package says of itself --------------------------------------------------------
 
-# Each line of a licence is indented by a space, and an empty one is a dot.
+# Sets OUT to the terms of a licence's file, without the title and the holders above them.  Each line is
+# indented by a space, and an empty one is a dot.
 function(domefall_licence_text out file)
   file(READ ${file} text)
-  string(REGEX REPLACE "^MIT License\n+|^(Copyright[^\n]*\n|All rights reserved.\n|\n)+" "" text "${text}")
-  string(REGEX REPLACE "^Copyright[^\n]*\n+" "" text "${text}")
+  string(REGEX REPLACE "^(MIT License\n|Copyright[^\n]*\n|All rights reserved\\.\n|\n)+" "" text "${text}")
   string(STRIP "${text}" text)
   string(REGEX REPLACE "\n\n+" "\n.\n" text "${text}")
   string(REPLACE "\n" "\n " text " ${text}")

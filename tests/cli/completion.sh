@@ -3,6 +3,7 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
+export LC_ALL=C  # the order of letters
 # shellcheck source=/dev/null
 source "$(dirname "$DOMEFALL")/manual/completions/domefall"
 complete -p domefall | grep -q -- '-F _domefall domefall' || fail "nothing completes domefall"

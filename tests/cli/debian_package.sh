@@ -7,6 +7,7 @@ for program in cpack lintian dpkg-deb; do
   command -v "$program" >/dev/null || { echo "skipped: no $program"; exit 77; }
 done
 cd "$folder"
+export LC_ALL=C.UTF-8  # Perl would tell of a locale that is not there
 build=$(dirname "$DOMEFALL")
 
 # The maps and the gallery, nine tenths of the bytes, are left out: packing them takes most of the time.
