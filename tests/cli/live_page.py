@@ -161,6 +161,20 @@ def drive(page, show):
     show.write_text(text)
     page.until('window.domefall.revision == 3', 'the show as it was')
 
+    # A named star in the middle of the view is told by its name, with a ring around its image.
+    show.write_text(text.replace('timeline:', 'camera: {look_at: Sirius}\ntimeline:'))
+    page.until('window.domefall.revision == 4', 'the show that looks at a star')
+    page.still()
+    ActionChains(page.window).move_to_element(view).click().perform()
+    page.until('(window.domefall.found.star || {}).name == "Sirius"', 'the star')
+    assert 'Sirius' in page.element('found').text, page.element('found').text
+    rings = page.ask('''[...document.getElementById('marks').children].map((ring) => {
+        const at = ring.getBoundingClientRect();
+        return [(at.left + at.right) / 2, (at.top + at.bottom) / 2]; })''')
+    middle = page.ask('''(() => { const at = document.getElementById('view').getBoundingClientRect();
+        return [(at.left + at.right) / 2, (at.top + at.bottom) / 2]; })()''')
+    assert any(abs(x - middle[0]) < 4 and abs(y - middle[1]) < 4 for x, y in rings), (rings, middle)
+
     page.keys('s')
     page.until('window.domefall.saved > 1000', 'the saved picture')
     page.until('window.domefall.noted', 'the notes of check')
