@@ -16,20 +16,23 @@ constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
 // Luminance (cd/m^2) at no redshift: a light square is as bright as the heart of the Milky Way.
 constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
 
-double rounded(double x) { return (x + kRounding) - kRounding; }
+double nearest_whole(double x) { return (x + kRounding) - kRounding; }
 
 // Returns the mean, over a box of this width about x, of the square wave that is 1 on [0, 1) and -1
 // on [1, 2).  Its integral from 0 is the distance to the nearest even number.
 double box_filtered_wave(double x, double width) {
   const double above = x + width / 2, below = x - width / 2;
-  const double to_above = above - 2 * rounded(above / 2), to_below = below - 2 * rounded(below / 2);
+  const double to_above = above - 2 * nearest_whole(above / 2),
+               to_below = below - 2 * nearest_whole(below / 2);
   return (std::abs(to_above) - std::abs(to_below)) / width;
 }
 
-double to_border(double angle) { return std::abs(angle - kCell * rounded(angle / kCell)); }
+double to_square_border(double angle) {
+  return std::abs(angle - kCell * nearest_whole(angle / kCell));
+}
 
-[[gnu::always_inline]] inline void lights_loop(const GridPlaces& places, int count,
-                                               const GridLights& lights) {
+[[gnu::always_inline]] inline void grid_lights_loop(const GridPlaces& places, int count,
+                                                    const GridLights& lights) {
   const GridPlaces at = places;
   const GridLights to = lights;
   constexpr double kMean = (kLightSquare + kDarkSquare) / 2,
@@ -55,13 +58,13 @@ double to_border(double angle) { return std::abs(angle - kCell * rounded(angle /
     // Of a small circle of declination `across` is the radius, so an angle along it is longer than
     // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
     const double reach = at.reach[k];
-    const int in_square =
-        int{to_border(declination) >= reach} & int{to_border(right_ascension) * across >= reach};
+    const int in_square = int{to_square_border(declination) >= reach} &
+                          int{to_square_border(right_ascension) * across >= reach};
     const int even = int{std::abs(from_disc) >= reach} & (int{from_disc < 0} | in_square);
     to.even[k] = static_cast<float>(even);
   }
 }
-Dispatched<lights_loop> lights_of;
+Dispatched<grid_lights_loop> grid_lights_by_set;
 
 }  // namespace
 
@@ -89,7 +92,7 @@ GridLight grid_light(const SkyDirection& direction, double footprint) {
 }
 
 void grid_lights(const GridPlaces& places, int count, const GridLights& lights) {
-  lights_of(places, count, lights);
+  grid_lights_by_set(places, count, lights);
 }
 
 }  // namespace domefall

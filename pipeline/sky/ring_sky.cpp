@@ -15,18 +15,18 @@ constexpr double kTemperature = 3000;
 constexpr double kLight = 4e-4, kDark = kLight / 4;  // cd/m^2
 
 // The mean over a footprint, by which the cosine is blurred.
-inline double luminance_of(double phase, double width) {
+inline double ring_luminance(double phase, double width) {
   const double blur = exponential(-pi * pi * width * width / 6);
   const double turn = phase - ((phase + kRounding) - kRounding);
   return (kLight + kDark) / 2 + (kLight - kDark) / 2 * sin_cos(2 * pi * turn).cosine * blur;
 }
 
-[[gnu::always_inline]] inline void lights_loop(const float* phase, const float* width, int count,
-                                               float* luminance) {
+[[gnu::always_inline]] inline void ring_lights_loop(const float* phase, const float* width,
+                                                    int count, float* luminance) {
   for (int k = 0; k < count; ++k)
-    luminance[k] = static_cast<float>(luminance_of(phase[k], width[k]));
+    luminance[k] = static_cast<float>(ring_luminance(phase[k], width[k]));
 }
-Dispatched<lights_loop> lights;
+Dispatched<ring_lights_loop> ring_lights_by_set;
 
 }  // namespace
 
@@ -41,12 +41,12 @@ WorkingRgb ring_colour() {
 
 WorkingRgb ring_glow(double phase, double width) {
   const WorkingRgb colour = ring_colour();
-  const auto k = static_cast<float>(luminance_of(phase, width));
+  const auto k = static_cast<float>(ring_luminance(phase, width));
   return {colour.r * k, colour.g * k, colour.b * k};
 }
 
 void ring_lights(const float* phase, const float* width, int count, float* luminance) {
-  lights(phase, width, count, luminance);
+  ring_lights_by_set(phase, width, count, luminance);
 }
 
 }  // namespace domefall
