@@ -21,7 +21,8 @@ for k in 0 1 2 3; do
   same_pixels plain/linear/show_0000$k.exr drawn/linear/show_0000$k.exr && fail "frame $k has no overlay"
 done
 exits 0 "$DOMEFALL" render show.yaml --out alone --frames 2 --threads 1 --overlay "$all"
-cmp drawn/linear/show_00002.exr alone/linear/show_00002.exr || fail "a frame alone has other bytes"
+cmp drawn/linear/show_00002.exr alone/linear/show_00002.exr ||
+  fail "a frame alone has other bytes: $(oiiotool {drawn,alone}/linear/show_00002.exr --diff 2>&1)"
 
 # Neither replaces the other unasked, and each is found again.
 exits 2 "$DOMEFALL" render show.yaml --out plain --overlay rim
