@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/keyed_renderer.h"
@@ -19,6 +18,7 @@
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
+#include "pipeline/render/frame_grading.h"
 #include "pipeline/render/rays/steady.h"
 #include "pipeline/render/rendered_frame.h"
 #include "pipeline/render/thread_limit.h"

@@ -5,13 +5,13 @@
 #include <cstdio>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
+#include "pipeline/render/frame_grading.h"
 #include "pipeline/render/lens_map.h"
 #include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/steady.h"

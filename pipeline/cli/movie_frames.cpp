@@ -10,12 +10,12 @@
 #include <string>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/keyed_renderer.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_graded.h"
+#include "pipeline/render/frame_grading.h"
 
 namespace domefall {
 namespace {

@@ -8,7 +8,6 @@
 #include "pipeline/cli/delivery_run.h"
 #include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/frame_sheet.h"
-#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
@@ -17,6 +16,7 @@
 #include "pipeline/deliver/contact_sheet.h"
 #include "pipeline/deliver/delivery_check.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {

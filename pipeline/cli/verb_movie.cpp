@@ -3,9 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/movie_frames.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
@@ -16,7 +14,9 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/movie/burn_in.h"
+#include "pipeline/render/frame_grading.h"
 #include "pipeline/render/thread_limit.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 #include "projections/picture_size.h"
 

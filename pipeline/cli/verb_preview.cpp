@@ -10,7 +10,6 @@
 #include "pipeline/cli/browser.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
-#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
@@ -24,6 +23,7 @@
 #include "pipeline/preview/screen_view.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/json_number.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/stars_at_pixel.h"
@@ -16,6 +15,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/effect_ratios.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 #include "trajectories/equatorial.h"
 

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,66 +16,20 @@
 #include "pipeline/diagram/page.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
-#include "trajectories/equatorial.h"
+#include "pipeline/show/state_columns.h"
 
 namespace domefall {
 namespace {
 
-// The columns, whose names are those of the keys in JSON, too.
-constexpr std::array kColumns{
-    "frame",       "show_time_s", "segment",        "region",       "tetrad",   "r",
-    "proper_time", "celerity_r",  "celerity_theta", "celerity_phi", "ra_deg",   "dec_deg",
-    "azimuth_deg", "x_r",         "x_theta",        "x_phi",        "y_r",      "y_theta",
-    "y_phi",       "z_r",         "z_theta",        "z_phi",        "null_time"};
-
-// A number and how many digits of it the CSV has.
-struct DigitsOf {
-  double value;
-  int digits;
-};
-using StateCell = std::variant<int, const char*, DigitsOf>;
-
-std::array<StateCell, kColumns.size()> cells_of(const FrameState& s) {
-  constexpr int kTime = 9, kAngle = 15, kAll = 17;
-  const ObserverState& o = s.observer;
-  const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
-  const V3d x = column(o.tetrad_from_camera, 0), y = column(o.tetrad_from_camera, 1),
-            z = column(o.tetrad_from_camera, 2);
-  const auto all = [](double value) { return DigitsOf{value, kAll}; };
-  return {s.frame,
-          DigitsOf{s.show_time_s, kTime},
-          s.segment + 1,
-          region_name(o.region),
-          tetrad_name(o.tetrad),
-          all(o.r),
-          all(o.proper_time),
-          all(o.celerity.x),
-          all(o.celerity.y),
-          all(o.celerity.z),
-          DigitsOf{place.ra_deg, kAngle},
-          DigitsOf{place.dec_deg, kAngle},
-          DigitsOf{o.azimuth * 180 / std::numbers::pi, kAngle},
-          all(x.x),
-          all(x.y),
-          all(x.z),
-          all(y.x),
-          all(y.y),
-          all(y.z),
-          all(z.x),
-          all(z.y),
-          all(z.z),
-          all(o.null_time)};
-}
-
 std::string csv_text(const StateCell& cell) {
-  if (const auto* number = std::get_if<DigitsOf>(&cell))
+  if (const auto* number = std::get_if<StateNumber>(&cell))
     return fmt::format("{:.{}g}", number->value, number->digits);
   if (const auto* count = std::get_if<int>(&cell)) return std::to_string(*count);
   return std::get<const char*>(cell);
 }
 
 nlohmann::ordered_json json_of_cell(const StateCell& cell) {
-  if (const auto* number = std::get_if<DigitsOf>(&cell)) return json_number(number->value);
+  if (const auto* number = std::get_if<StateNumber>(&cell)) return json_number(number->value);
   if (const auto* count = std::get_if<int>(&cell)) return *count;
   return std::get<const char*>(cell);
 }
@@ -92,11 +44,11 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
       "# azimuth_deg: swept in the planes of its orbits since the start of the show\n"
       "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing\n"
       "{}\n",
-      fmt::join(kColumns, ","));
+      fmt::join(kStateColumns, ","));
   std::fputs(head.c_str(), stdout);
   for (const int n : frames) {
     std::string line;
-    for (const StateCell& cell : cells_of(frame_state(show, n)))
+    for (const StateCell& cell : state_cells(frame_state(show, n)))
       line += (line.empty() ? "" : ",") + csv_text(cell);
     std::puts(line.c_str());
   }
@@ -106,9 +58,9 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
 void print_json(const Show& show, const std::vector<int>& frames) {
   std::string before = "[\n";
   for (const int n : frames) {
-    const auto cells = cells_of(frame_state(show, n));
+    const auto cells = state_cells(frame_state(show, n));
     nlohmann::ordered_json state;
-    for (std::size_t k = 0; k < cells.size(); ++k) state[kColumns[k]] = json_of_cell(cells[k]);
+    for (std::size_t k = 0; k < cells.size(); ++k) state[kStateColumns[k]] = json_of_cell(cells[k]);
     std::fputs((before + state.dump()).c_str(), stdout);
     before = ",\n";
   }

@@ -1,115 +1,60 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
-#include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <numbers>
+#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/csv_file.h"
-#include "pipeline/optics/traced_ray.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/optics/ray_request.h"
 
 namespace domefall {
 namespace {
+
+// The cells of a ray, as written.
+struct RayCells {
+  std::string observer, r, delta, edge, offset;
+};
 
 class RayTable {
  public:
   explicit RayTable(const std::string& file) : rows_(file, {"observer", "r", "delta"}) {}
 
-  // The cells observer, r, delta, edge, offset of the next ray, as written; false at the end.
-  bool next(std::array<std::string, 5>& cells) {
-    constexpr std::array<std::string_view, 5> kNames{"observer", "r", "delta", "edge", "offset"};
+  // Reads the next ray; false at the end.
+  bool next(RayCells& cells) {
     if (!rows_.next()) return false;
-    for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = rows_.text(kNames[c]);
+    cells = {cell("observer"), cell("r"), cell("delta"), cell("edge"), cell("offset")};
     return true;
   }
 
-  [[noreturn]] void fail(const std::string& what) const { rows_.fail(what); }
-
-  long double number(const std::string& text, const char* name) const {
-    char* end = nullptr;
-    const long double value = std::strtold(text.c_str(), &end);
-    const bool decimal = text.find_first_not_of("+-.0123456789eE") == std::string::npos;
-    if (text.empty() || !decimal || *end != 0 || !std::isfinite(value))
-      fail(std::string(name) + " must be a number, got '" + text + "'");
-    return value;
+  // Throws InputError, with the line, for cells that are no ray.
+  RayRequest request(const RayCells& cells) const {
+    try {
+      return request_of(cells);
+    } catch (const InputError& error) {
+      rows_.fail(error.what());
+    }
   }
-
-  enum { kObserver, kR, kDelta, kEdge, kOffset };
 
  private:
+  std::string cell(std::string_view name) const { return std::string(rows_.text(name)); }
+
+  static RayRequest request_of(const RayCells& cells) {
+    const TraceObserver observer = trace_observer(cells.observer);
+    const Radius at = decimal_radius(cells.r);
+    if (!cells.edge.empty())
+      return ray_at_edge(observer, at, cells.edge,
+                         static_cast<double>(decimal_number(cells.offset, "offset")));
+    if (!cells.offset.empty()) throw InputError("offset is given without an edge");
+    return ray_at_angle(observer, at, decimal_number(cells.delta, "delta"));
+  }
+
   CsvFile rows_;
 };
-
-constexpr std::array<std::pair<const char*, TraceObserver>, 5> kObservers{
-    {{"rain", TraceObserver::kRain},
-     {"static", TraceObserver::kStatic},
-     {"outgoing", TraceObserver::kOutgoing},
-     {"T_II", TraceObserver::kTwo},
-     {"T_IV", TraceObserver::kFour}}};
-
-TraceObserver observer_of(const RayTable& table, const std::string& name) {
-  for (const auto& [known, observer] : kObservers)
-    if (name == known) return observer;
-  table.fail("observer must be rain, static, outgoing, T_II or T_IV, got '" + name + "'");
-}
-
-// Reads r.  Beyond 1e12 the silhouette is a point to double precision, and below 1e-9 the two skies
-// touch.  The distances from the horizon and the light circle come from the decimals, most of which
-// a double of an r near them would lose.
-Radius radius_of(const RayTable& table, TraceObserver observer, const std::string& text) {
-  const long double r = table.number(text, "r");
-  if (!(r >= 1e-9L && r <= 1e12L))
-    table.fail("r must be from 1e-9 to 1e12 (units of M), got " + text);
-  using Decimal = boost::multiprecision::cpp_dec_float_50;
-  const Decimal exact(text);
-  if (observer == TraceObserver::kStatic && !(exact > 2))
-    table.fail("r must exceed 2 (units of M) for a static observer, got " + text);
-  const bool inside = observer == TraceObserver::kTwo || observer == TraceObserver::kFour;
-  if (inside && !(exact < 2))
-    table.fail("r must be below 2 (units of M) for the observers T_II and T_IV, got " + text);
-  return {static_cast<double>(exact), static_cast<double>(Decimal(exact - 2)),
-          static_cast<double>(Decimal(exact - 3))};
-}
-
-// Reads a ray that is given by its offset from an edge.  The sum must be an angle from 0 to pi.
-void read_edge(const RayTable& table, const std::string& edge, const std::string& offset,
-               RayRequest& q) {
-  if (edge != "silhouette" && edge != "region3")
-    table.fail("edge must be silhouette, region3 or empty, got '" + edge + "'");
-  q.edge = edge == "silhouette" ? Edge::kSilhouette : Edge::kRegionThree;
-  if (!has_edge(q.observer, q.at, *q.edge))
-    table.fail("this observer sees no edge " + edge + " at this r");
-  q.offset = static_cast<double>(table.number(offset, "offset"));
-  const double place = edge_delta(q.observer, q.at, *q.edge);
-  if (!(q.offset >= -place * (1 + 1e-12) && q.offset <= (M_PI - place) * (1 + 1e-12)))
-    table.fail("offset must keep delta from 0 to pi, got " + offset);
-}
-
-RayRequest request_of(const RayTable& table, const std::array<std::string, 5>& cell) {
-  RayRequest q;
-  q.observer = observer_of(table, cell[RayTable::kObserver]);
-  q.at = radius_of(table, q.observer, cell[RayTable::kR]);
-  if (!cell[RayTable::kEdge].empty()) {
-    read_edge(table, cell[RayTable::kEdge], cell[RayTable::kOffset], q);
-    return q;
-  }
-  if (!cell[RayTable::kOffset].empty()) table.fail("offset is given without an edge");
-  q.delta = table.number(cell[RayTable::kDelta], "delta");
-  // A decimal that is pi rounded up is taken as pi.
-  constexpr long double kPi = std::numbers::pi_v<long double>;
-  if (!(q.delta >= 0 && q.delta <= kPi * (1 + 1e-12L)))
-    table.fail("delta must be from 0 to pi, got " + cell[RayTable::kDelta]);
-  q.delta = std::min(q.delta, kPi);
-  return q;
-}
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
@@ -118,18 +63,14 @@ std::vector<std::string> method_names() {
   return names;
 }
 
-TraceMethod method_named(const std::string& name) {
-  for (const auto& [known, method] : kTraceMethods)
-    if (name == known) return method;
-  return TraceMethod::kTable;
-}
-
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
   std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");
-  for (std::array<std::string, 5> cell; table.next(cell);) {
-    const TracedRay ray = trace_ray(request_of(table, cell), method, options);
-    for (const std::string& text : cell) std::printf("%s,", text.c_str());
+  for (RayCells cells; table.next(cells);) {
+    const TracedRay ray = trace_ray(table.request(cells), method, options);
+    for (const std::string* text :
+         {&cells.observer, &cells.r, &cells.delta, &cells.edge, &cells.offset})
+      std::printf("%s,", text->c_str());
     std::printf("%s", ray.decided ? name_of(ray.origin) : "");
     for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification})
       std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
@@ -158,7 +99,7 @@ void add_trace(CLI::App& app) {
                    "edge than that may lose its origin")
       ->check(number_in(1e-13, 1e-3))
       ->capture_default_str();
-  verb->callback([table, method, options] { trace(*table, method_named(*method), *options); });
+  verb->callback([table, method, options] { trace(*table, trace_method(*method), *options); });
 }
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-#include "pipeline/cli/frame_size.h"
+#include "pipeline/show/frame_size.h"
 
 #include <fmt/format.h>
 
@@ -23,25 +23,27 @@ int whole_number(std::string_view text) {
 
 bool in_range(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
-Projection with_sides(const Projection& projection, const std::string& size) {
+Projection with_sides(const Projection& projection, const std::string& size,
+                      const std::string& asked) {
   const std::size_t cross = std::min(size.find('x'), size.size());
   const int width = whole_number(std::string_view(size).substr(0, cross));
   const int height = whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
   if (!in_range(width) || !in_range(height))
-    throw InputError("--size " + size +
+    throw InputError(asked + size +
                      ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
   if (std::holds_alternative<Fisheye>(projection) && height > width)
-    throw InputError("--size " + size + ": a fisheye is at most as high as wide");
+    throw InputError(asked + size + ": a fisheye is at most as high as wide");
   return with_sides(projection, width, height);
 }
 
 }  // namespace
 
-Projection resized(const Projection& projection, const std::string& size) {
+Projection resized(const Projection& projection, const std::string& size, const std::string& name) {
   if (size.empty()) return projection;
+  const std::string asked = name + " ";
   const bool fisheye = std::holds_alternative<Fisheye>(projection);
   if (has_free_shape(projection) && (!fisheye || size.find('x') != std::string::npos))
-    return with_sides(projection, size);
+    return with_sides(projection, size, asked);
   const bool sphere = std::holds_alternative<Equirectangular>(projection);
   const bool cube = std::holds_alternative<Cubemap>(projection);
   int pixels = whole_number(size);
@@ -53,13 +55,13 @@ Projection resized(const Projection& projection, const std::string& size) {
   if (cube) {
     if (!in_range(pixels) || 3 * pixels > kLargest)
       throw InputError(
-          fmt::format("--size {}: the faces of a cubemap take 1k, 2k, 4k or a number "
+          fmt::format("{}{}: the faces of a cubemap take 1k, 2k, 4k or a number "
                       "of pixels from {} to {}",
-                      size, kSmallest, kLargest / 3));
+                      asked, size, kSmallest, kLargest / 3));
     return Cubemap{pixels};
   }
   if (!in_range(pixels) || (sphere && pixels % 2 != 0))
-    throw InputError(fmt::format("--size {}: {} takes 1k, 2k, 4k, 8k or {} from {} to {}", size,
+    throw InputError(fmt::format("{}{}: {} takes 1k, 2k, 4k, 8k or {} from {} to {}", asked, size,
                                  sphere ? "the width of a whole sphere" : "a dome",
                                  sphere ? "an even number of pixels" : "a number of pixels",
                                  kSmallest, kLargest));

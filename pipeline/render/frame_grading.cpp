@@ -1,4 +1,4 @@
-#include "pipeline/cli/frame_grading.h"
+#include "pipeline/render/frame_grading.h"
 
 #include <algorithm>
 #include <future>

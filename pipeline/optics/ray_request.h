@@ -1,0 +1,36 @@
+// Rays as users give them, by names and numbers: a row of `domefall trace`, or elements of arrays.
+//
+// Each function throws InputError for what is no ray, without a place, which its caller knows.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "pipeline/optics/traced_ray.h"
+
+namespace domefall {
+
+// rain, static, outgoing, T_II or T_IV.
+TraceObserver trace_observer(std::string_view name);
+
+// One of kTraceMethods.
+TraceMethod trace_method(std::string_view name);
+
+// A finite decimal number.  `name` is what a message calls it.
+long double decimal_number(const std::string& text, const char* name);
+
+// A radius (M) from its decimals, which keep the distances from the horizon and the light circle
+// that a double of an r near them would lose.
+Radius decimal_radius(const std::string& text);
+
+// A ray by its angle delta (radians, 0 to pi) from -R.  r must be from 1e-9 to 1e12 (M): beyond,
+// the silhouette is a point to double precision, and below, the two skies touch.  A static observer
+// has r > 2, and T_II and T_IV have r < 2.
+RayRequest ray_at_angle(TraceObserver observer, const Radius& at, long double delta);
+
+// A ray by its offset (radians) from an edge, which is silhouette or region3.  The sum must be an
+// angle from 0 to pi, and the radius as above.
+RayRequest ray_at_edge(TraceObserver observer, const Radius& at, std::string_view edge,
+                       double offset);
+
+}  // namespace domefall

@@ -1,0 +1,33 @@
+// The state of a frame as a row of a table, for other programs.
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include "pipeline/show/frame_state.h"
+
+namespace domefall {
+
+// r and null_time are in M, and so is proper_time where there is a hole, else it is in seconds.
+// celerity (gamma v) is against the tetrad, along R, Theta and Phi.  ra_deg and dec_deg are the
+// observer's place as seen from the hole, azimuth_deg was swept in the planes of its orbits since
+// the start of the show, x, y and z are the camera's axes in the boosted (R, Theta, Phi), and
+// null_time is v = t + r* where the tetrad is rain and u = t - r* where it is outgoing.
+inline constexpr std::array kStateColumns{
+    "frame",       "show_time_s", "segment",        "region",       "tetrad",   "r",
+    "proper_time", "celerity_r",  "celerity_theta", "celerity_phi", "ra_deg",   "dec_deg",
+    "azimuth_deg", "x_r",         "x_theta",        "x_phi",        "y_r",      "y_theta",
+    "y_phi",       "z_r",         "z_theta",        "z_phi",        "null_time"};
+
+// A number and how many digits of it a text has.
+struct StateNumber {
+  double value;
+  int digits;
+};
+
+// A segment is counted from 1.  Each column holds one of the three kinds in all frames.
+using StateCell = std::variant<int, const char*, StateNumber>;
+
+std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state);
+
+}  // namespace domefall
