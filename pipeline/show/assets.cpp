@@ -13,13 +13,21 @@ fs::path named_folder() {
   return named ? named : "";
 }
 
+fs::path& given_program_folder() {
+  static fs::path folder;
+  return folder;
+}
+
 // The folder of the running program; empty where the system does not tell.
 fs::path program_folder() {
+  if (!given_program_folder().empty()) return given_program_folder();
   std::error_code error;
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
 }  // namespace
+
+void take_program_folder(const fs::path& folder) { given_program_folder() = folder; }
 
 fs::path assets_folder() {
   if (fs::path named = named_folder(); !named.empty()) return named;

@@ -24,6 +24,10 @@ inline constexpr std::string_view kDomeConfig = "dome.ocio";
 // shows/assets of the source tree.
 std::filesystem::path assets_folder();
 
+// Names the folder that stands for the program's, for a library that another program has loaded, such
+// as the Python module.  To be called before all other functions here.
+void take_program_folder(const std::filesystem::path& folder);
+
 // The path of one of these files, which need not exist.  What the build makes is also looked for
 // in the folder `assets` beside the program and in that of the build tree, unless $DOMEFALL_ASSETS
 // is set.

@@ -3,7 +3,9 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 command -v readelf >/dev/null || exit 77
-libraries=("$(dirname "$DOMEFALL")"/lib/libdomefall_{image_formats,pango_lettering}.so)
+build=$(dirname "$DOMEFALL")
+libraries=("$build"/lib/libdomefall_{image_formats,pango_lettering}.so)
+[ -z "${DOMEFALL_PYTHON:-}" ] || libraries+=("$build"/python/domefall.*.so)
 
 # has FILE OPTION PATTERN WHAT: readelf says so of the file.
 has() { readelf -W "$2" "$1" | grep -E -- "$3" >/dev/null || fail "$1 has no $4"; }

@@ -1,0 +1,135 @@
+// The Python module domefall.
+//
+// It shows to Python what the program shows at the command line, by the same functions.  What each
+// of its names means is said in manual.h, where help(domefall) finds it.
+
+#include <dlfcn.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "pipeline/image/errors.h"
+#include "pipeline/optics/traced_ray.h"
+#include "pipeline/python/manual.h"
+#include "pipeline/python/ray_arrays.h"
+#include "pipeline/python/show_object.h"
+#include "pipeline/show/assets.h"
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+namespace domefall {
+namespace {
+
+// Raises an exception whose message may hold a path that is not UTF-8.
+void raise(PyObject* type, const char* message) {
+  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(message));
+  if (text) PyErr_SetObject(type, text.ptr());
+}
+
+// The two kinds of error, as classes of the module.
+void define_errors(py::module_& module) {
+  static PyObject* const input_error = PyErr_NewExceptionWithDoc(
+      "domefall.InputError", manual::kInputError, PyExc_ValueError, nullptr);
+  static PyObject* const temporary_error = PyErr_NewExceptionWithDoc(
+      "domefall.TemporaryError", manual::kTemporaryError, PyExc_OSError, nullptr);
+  if (!input_error || !temporary_error) throw py::error_already_set();
+  module.attr("InputError") = py::handle(input_error);
+  module.attr("TemporaryError") = py::handle(temporary_error);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      raise(input_error, error.what());
+    } catch (const TemporaryError& error) {
+      raise(temporary_error, error.what());
+    } catch (const std::system_error& error) {
+      raise(temporary_error, error.what());
+    }
+  });
+}
+
+// The program is looked for where an installation has it, and with it the assets.
+void find_assets() {
+  Dl_info here{};
+  if (dladdr(reinterpret_cast<const void*>(&find_assets), &here) == 0 || !here.dli_fname) return;
+  std::error_code error;
+  const fs::path file = fs::canonical(here.dli_fname, error);
+  const fs::path program = file.parent_path() / DOMEFALL_PROGRAM_FROM_MODULE;
+  if (!error) take_program_folder(program.lexically_normal());
+}
+
+void define_show(py::module_& module) {
+  py::class_<ShowObject>(module, "Show", manual::kShow)
+      .def(py::init<const fs::path&, int>(), py::arg("file"), py::arg("threads") = 0,
+           manual::kShowInit)
+      .def_property_readonly(
+          "file", [](const ShowObject& s) { return s.show().file; }, manual::kFile)
+      .def_property_readonly(
+          "title", [](const ShowObject& s) { return s.show().title; }, manual::kTitle)
+      .def_property_readonly(
+          "frames", [](const ShowObject& s) { return frame_count(s.show()); }, manual::kFrames)
+      .def_property_readonly(
+          "frames_per_second", [](const ShowObject& s) { return s.show().frames_per_second; },
+          manual::kFramesPerSecond)
+      .def_property_readonly(
+          "mass_solar",
+          [](const ShowObject& s) -> py::object {
+            if (!s.show().mass_solar) return py::none();
+            return py::float_(*s.show().mass_solar);
+          },
+          manual::kMassSolar)
+      .def_property_readonly(
+          "projection",
+          [](const ShowObject& s) { return std::string(projection_name(s.show().projection)); },
+          manual::kProjection)
+      .def_property_readonly(
+          "size",
+          [](const ShowObject& s) {
+            return py::make_tuple(columns(s.show().projection), rows(s.show().projection));
+          },
+          manual::kSize)
+      .def("states", &ShowObject::states, py::arg("frames") = py::none(), manual::kStates)
+      .def("frame", &ShowObject::frame, py::arg("number"), py::arg("size") = py::none(),
+           manual::kFrame)
+      .def("graded", &ShowObject::graded, py::arg("number"), py::arg("size") = py::none(),
+           manual::kGraded)
+      .def("__repr__", [](const ShowObject& s) {
+        return py::str("<domefall.Show {!r}: {} frames>")
+            .format(s.show().title, frame_count(s.show()));
+      });
+}
+
+void define_trace(py::module_& module) {
+  const py::object none = py::none();
+  module.def(
+      "trace",
+      [](py::object r, py::object delta, py::object edge, py::object offset, py::object observer,
+         const std::string& method, double tolerance) {
+        return trace_arrays({std::move(r), std::move(delta), std::move(edge), std::move(offset),
+                             std::move(observer)},
+                            method, tolerance);
+      },
+      py::arg("r"), py::arg("delta") = none, py::kw_only(), py::arg("edge") = none,
+      py::arg("offset") = none, py::arg("observer") = "rain", py::arg("method") = "table",
+      py::arg("tolerance") = TraceOptions{}.tolerance, manual::kTrace);
+}
+
+}  // namespace
+}  // namespace domefall
+
+PYBIND11_MODULE(domefall, module) {
+  using namespace domefall;
+  py::options options;
+  options.disable_function_signatures();  // the manual has them in the words of Python
+  module.doc() = manual::kModule;
+  module.attr("__version__") = DOMEFALL_VERSION;
+  module.attr("SECONDS_PER_SOLAR_MASS") = kSecondsPerSolarMass;
+  find_assets();
+  define_errors(module);
+  define_show(module);
+  define_trace(module);
+}

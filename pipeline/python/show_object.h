@@ -1,0 +1,52 @@
+// A show as an object of Python.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/frame_grading.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/show/show.h"
+
+namespace domefall {
+
+// Any number of Python's threads may use one; their frames are rendered one after the other, each
+// by all `threads` (0: one for each processor).
+class ShowObject {
+ public:
+  // Throws as read_show, and InputError unless 0 <= threads <= 1024.
+  ShowObject(const std::filesystem::path& file, int threads);
+
+  const Show& show() const { return show_; }
+
+  // The states of frames as records with the columns of state_columns.h: of all frames for None,
+  // else in the shape of `frames`, an integer or an array of them.
+  pybind11::array states(const pybind11::object& frames) const;
+
+  // A frame in linear light as float32 [row][column][RGB], in ACEScg; its bytes are those of the
+  // files of `linear: float`.  `size` is None, an integer, a pair or a text as --size takes it.
+  pybind11::array frame(const pybind11::object& number, const pybind11::object& size);
+
+  // A graded frame as uint16 [row][column][RGB], as in the files of 16 bits.
+  pybind11::array graded(const pybind11::object& number, const pybind11::object& size);
+
+ private:
+  FrameState state_of(const pybind11::object& number, const pybind11::object& size) const;
+  void with_renderer(const std::atomic<bool>& stop, const std::function<void(Renderer&)>& use);
+
+  Show show_;
+  int threads_;
+  std::timed_mutex turn_;  // of what follows
+  std::optional<Renderer> renderer_;
+  std::optional<Grader> grader_;
+  std::optional<FrameGrading> grading_;
+};
+
+}  // namespace domefall

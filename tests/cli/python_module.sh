@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# The Python module gives the numbers of the program: states, rays, frames and graded frames, bit
+# for bit, in the build tree and installed.  It loads little, its errors are Python's, and Ctrl-C
+# ends its work.
+# shellcheck source=tests/cli/common.bash
+source "$(dirname "$0")/common.bash"
+[ -n "${DOMEFALL_PYTHON:-}" ] || exit 77  # built without the module
+"$DOMEFALL_PYTHON" -c 'import numpy' || exit 77
+here=$(cd "$(dirname "$0")" && pwd)
+build=$(dirname "$DOMEFALL")
+export PYTHONDONTWRITEBYTECODE=1
+python() { exits 0 env PYTHONPATH="$build/python" "$DOMEFALL_PYTHON" "$@"; }
+cd "$folder"
+
+# A dome that falls through the horizon, and a flat picture with an open shutter and a dissolve.
+write_show dome.yaml
+printf '%s\n' 'output: {linear: float, compression: none}' >>dome.yaml
+cat >flat.yaml <<'END'
+title: Ein flaches Bild – 平
+frames_per_second: 10
+size: [80, 48]
+camera: {projection: stereographic}
+output: {compression: none}
+black_hole: {mass_solar: 10}
+timeline:
+  - {duration_s: 1, trajectory: {type: circular, r: 8, orbits: 0.02}}
+  - {duration_s: 1, dissolve_s: 0.5, trajectory: {type: infall, from_r: 5, to_r: 3}}
+exposure: {shutter_deg: 180}
+END
+exits 0 "$DOMEFALL" render dome.yaml --frames 3,20 --out dome
+exits 0 "$DOMEFALL" render dome.yaml --frames 20 --size 130 --out larger
+exits 0 "$DOMEFALL" render flat.yaml --frames 7,12 --out flat
+for frame in dome/graded/dome_000{03,20} larger/graded/dome_00020 flat/graded/flat_000{07,12}; do
+  convert "$frame.png" -depth 16 -endian LSB "rgb:$frame.raw"
+done
+for show in dome flat; do
+  exits 0 "$DOMEFALL" states $show.yaml --json
+  mv stdout $show.json
+  exits 0 "$DOMEFALL" states $show.yaml
+  mv stdout $show.csv
+done
+rays=$DOMEFALL_SOURCE/tests/reference/rays.csv
+for method in table exact binet-dopri5; do
+  exits 0 "$DOMEFALL" trace --table "$rays" --method $method
+  mv stdout rays_$method.csv
+done
+python "$here/python_numbers.py" "$rays"
+python "$here/python_errors.py"
+
+# Neither numpy nor the libraries of images and text are loaded before they are needed.
+python - <<'END'
+import sys
+import domefall
+assert "numpy" not in sys.modules
+domefall.Show("dome.yaml").frame(3)
+maps = open("/proc/self/maps").read()
+assert "TBB" in maps.upper() and "OpenImageIO" not in maps and "pango" not in maps
+END
+
+# An installed module finds its assets beside it, as a damaged one shows, and the libraries that it
+# loads.
+cmake --install "$build" --prefix "$folder/prefix" >/dev/null
+module=$(find prefix -name 'domefall*.so')
+[ -f "$(dirname "$module")/domefall.pyi" ] || fail "no types stand beside $module"
+printf '%s\n' 'titles: [{text: Vega, at_s: 1}]' >>dome.yaml
+exits 0 env PYTHONPATH="$(dirname "$module")" "$DOMEFALL_PYTHON" - <<'END'
+import os
+import domefall
+assert domefall.__file__.endswith(".so") and "prefix" in domefall.__file__, domefall.__file__
+domefall.Show("dome.yaml").frame(12)
+assert "/lib/domefall/libdomefall_pango_lettering.so" in open("/proc/self/maps").read()
+sky = "prefix/share/domefall/assets/milky_way.sky"
+os.truncate(sky, 1000)
+try:
+    domefall.Show("dome.yaml").frame(12)
+except domefall.InputError as error:
+    assert sky in str(error), error
+else:
+    raise AssertionError("the sky was not the installed one")
+END
