@@ -77,9 +77,9 @@ def stop(number, stack):
 
 def is_stopped(call):
     """Stops a call that would take much longer, as Ctrl-C does."""
-    signal.setitimer(signal.ITIMER_REAL, 0.2)
     start = time.monotonic()
     try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
         call()
     except Enough:
         return time.monotonic() - start < 60
