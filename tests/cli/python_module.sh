@@ -79,7 +79,7 @@ import os
 import domefall
 assert domefall.__file__.endswith(".so") and "prefix" in domefall.__file__, domefall.__file__
 domefall.Show("dome.yaml").frame(12)
-assert "/lib/domefall/libdomefall_pango_lettering.so" in open("/proc/self/maps").read()
+assert "prefix/lib/domefall/modules/libdomefall_pango_lettering.so" in open("/proc/self/maps").read()
 sky = "prefix/share/domefall/assets/milky_way.sky"
 os.truncate(sky, 1000)
 try:
