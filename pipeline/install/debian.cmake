@@ -54,6 +54,14 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Titles are written in the letters of fonts-dejavu-core; the launchers are Python.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, python3:any")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, mkvtoolnix, xdg-utils")
+if(TARGET domefall_python)
+  # The module is for one version of Python.
+  get_target_property(minor domefall_python INTERPRETER_MINOR)
+  math(EXPR next "${minor} + 1")
+  string(REPLACE "python3:any" "python3 (>= 3.${minor}~), python3 (<< 3.${next}~)"
+    CPACK_DEBIAN_PACKAGE_DEPENDS "${CPACK_DEBIAN_PACKAGE_DEPENDS}")
+  string(APPEND CPACK_DEBIAN_PACKAGE_RECOMMENDS ", python3-numpy")
+endif()
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, slurm-client, npm")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "A YAML timeline becomes numbered Domemaster frames, as scene-linear EXR and

@@ -44,6 +44,11 @@ write_grid_show show.yaml
 exits 0 "$DOMEFALL" render show.yaml --frames 7 --out built
 exits 0 env -i PATH=/usr/bin:/bin root/usr/bin/domefall render show.yaml --frames 7 --out packed
 same_frames built packed
+if [ -n "${DOMEFALL_PYTHON:-}" ]; then
+  exits 0 env -i PATH=/usr/bin:/bin PYTHONPATH=root/usr/lib/python3/dist-packages \
+    "$DOMEFALL_PYTHON" -c 'import domefall; assert domefall.Show("show.yaml").frames == 60'
+  grep -qE '^Depends:.* python3 \(<< 3\.' control || fail "Python's version is not named: $(cat control)"
+fi
 zcat root/usr/share/man/man1/domefall-render.1.gz | grep -q '^\.TH ' || fail "no manual page"
 zcat root/usr/share/doc/domefall/changelog.Debian.gz |
   grep -qF "domefall ($(sed -n 's/^Version: //p' control))" || fail "the changelog is of another version"
