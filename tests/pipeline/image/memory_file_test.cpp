@@ -21,9 +21,9 @@ TEST(MemoryFile, IsReadFromItsBeginningAfterRewind) {
   const MemoryFile file("a test's file");
   file.append("script");
   char first = 0;
-  EXPECT_EQ(read(file.number(), &first, 1), 0);
+  EXPECT_EQ(::read(file.number(), &first, 1), 0);
   file.rewind();
-  EXPECT_EQ(read(file.number(), &first, 1), 1);
+  EXPECT_EQ(::read(file.number(), &first, 1), 1);
   EXPECT_EQ(first, 's');
 }
 
