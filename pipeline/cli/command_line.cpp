@@ -57,6 +57,7 @@ std::unique_ptr<CLI::App> describe_command_line() {
   add_report(*app);
   add_stars(*app);
   add_sky(*app);
+  add_farm(*app);
   for (const VerbNotes& notes : all_verb_notes()) verb_of(*app, notes).footer(help_footer(notes));
   return app;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +14,8 @@
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/keyed_renderer.h"
 #include "pipeline/cli/progress.h"
+#include "pipeline/farm/brightest_value.h"
+#include "pipeline/farm/manifest.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_condition.h"
@@ -45,6 +48,7 @@ class Run {
   explicit Run(const FrameRun& run)
       : run_(run),
         folder_(run.folder, run.show),
+        manifest_(run.folder),
         grader_(grader_of(run.show)),
         renderer_(run.show, run.frames, grade_id(), run.threads, run.explain) {
     if (grader_) grading_.emplace(*grader_, all_threads(run.threads));
@@ -95,6 +99,8 @@ class Run {
         progress.skipped();
         continue;
       }
+      const Stopwatch watch;
+      if (linear_good || run_.render) manifest_.begin(number);
       if (linear_good)
         frame->half = read_frame(folder_.linear(number)).first;
       else if (run_.render)
@@ -103,9 +109,10 @@ class Run {
         missing_.push_back(number);
         continue;
       }
+      const double render_s = watch.seconds();
       finish();
-      writing = std::async(std::launch::async, [this, state, key, frame, linear_good, graded_good] {
-        write(state, key, *frame, !linear_good && folder_.has_linear(), !graded_good);
+      writing = std::async(std::launch::async, [=, this] {
+        write(state, key, *frame, !linear_good && folder_.has_linear(), !graded_good, render_s);
       });
       if (large)
         finish();
@@ -183,8 +190,10 @@ class Run {
   // Writes the files that are asked for, side by side: while one waits for the disk, the other is
   // packed.
   void write(const FrameState& state, const std::string& key, const RenderedFrame& frame,
-             bool linear, bool graded) {
+             bool linear, bool graded, double render_s) {
+    const Stopwatch all;
     double linear_s = 0, graded_s = 0;
+    std::atomic<unsigned short> brightest{0};
     std::future<void> other;
     if (linear)
       other = std::async(std::launch::async, [&] {
@@ -196,12 +205,19 @@ class Run {
       const Stopwatch watch;
       // Rows are graded by the threads that pack them.
       grading_->grade(frame.half, state, [&](const RowPicture& rows) {
-        write_graded(folder_.graded(state.frame), rows, graded_info(state, key),
+        write_graded(folder_.graded(state.frame),
+                     manifest_.is_on() ? watched(rows, brightest) : rows, graded_info(state, key),
                      *run_.show.output.graded);
       });
       graded_s = watch.seconds();
     }
     if (other.valid()) other.get();
+    const double took_s = render_s + all.seconds();
+    if (linear && manifest_.is_on())
+      manifest_.made(state.frame, folder_.linear(state.frame), took_s, brightest_value(frame.half));
+    constexpr double kWhite = 65535;
+    if (graded)
+      manifest_.made(state.frame, folder_.graded(state.frame), took_s, brightest / kWhite);
     if (run_.explain)
       std::fprintf(stderr, "frame %d: linear file %.3f s, graded file %.3f s\n%s", state.frame,
                    linear_s, graded_s, graded ? describe_grade(frame.half).c_str() : "");
@@ -232,6 +248,7 @@ class Run {
 
   const FrameRun& run_;
   FrameFolder folder_;
+  ManifestWriter manifest_;
   std::optional<Grader> grader_;
   std::optional<FrameGrading> grading_;
   KeyedRenderer renderer_;

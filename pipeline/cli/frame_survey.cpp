@@ -109,17 +109,18 @@ std::string describe_work(const FrameSurvey& survey) {
   return describe(survey.older, "made") + describe(survey.older_grades, "graded");
 }
 
-std::string describe_strangers(const FrameFolder& folder) {
-  const auto found = folder.strangers();
-  if (found.empty()) return {};
-  std::vector<std::string> names;
-  names.reserve(found.size());
-  for (const auto& file : found) names.push_back(file.string());
+std::string describe_strangers(const std::vector<std::string>& files) {
   constexpr std::size_t kMost = 3;
-  return fmt::format("{}: {} file{} not this show's, and {} left alone: {}\n",
-                     folder.path().string(), grouped(static_cast<int>(found.size())),
-                     found.size() > 1 ? "s are" : " is", found.size() > 1 ? "are" : "is",
-                     joined(shortened(names, kMost)));
+  const bool many = files.size() > 1;
+  return fmt::format("{} file{} not this show's, and {} left alone: {}\n",
+                     grouped(static_cast<int>(files.size())), many ? "s are" : " is",
+                     many ? "are" : "is", joined(shortened(files, kMost)));
+}
+
+std::string describe_strangers(const FrameFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& file : folder.strangers()) names.push_back(file.string());
+  return names.empty() ? std::string() : folder.path().string() + ": " + describe_strangers(names);
 }
 
 std::string as_ranges(const std::vector<int>& frames) {

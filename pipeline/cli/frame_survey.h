@@ -35,7 +35,10 @@ void refuse_to_replace(const FrameSurvey& survey, const FrameFolder& folder);
 // "segments 3 and 4: 1,260 frames will be made again", a line for each kind of work; perhaps empty.
 std::string describe_work(const FrameSurvey& survey);
 
-// What lies in the folder and is not the show's, in one line; empty where there is nothing.
+// "40 files are not this show's, and are left alone: ..." in one line.
+std::string describe_strangers(const std::vector<std::string>& files);
+// What lies in the folder and is not the show's, with the folder's path; empty where there is
+// nothing.
 std::string describe_strangers(const FrameFolder& folder);
 
 // 0-9,12

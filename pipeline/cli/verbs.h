@@ -23,6 +23,11 @@ void add_trace(CLI::App& app);
 void add_report(CLI::App& app);
 void add_stars(CLI::App& app);
 void add_sky(CLI::App& app);
+void add_farm(CLI::App& app);
+
+// Those of `domefall farm`.
+void add_farm_status(CLI::App& farm);
+void add_farm_verify(CLI::App& farm);
 
 // All of them, with their help and what it closes with.
 std::unique_ptr<CLI::App> describe_command_line();

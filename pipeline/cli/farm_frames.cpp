@@ -1,0 +1,130 @@
+#include "pipeline/cli/farm_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/number_in.h"
+#include "pipeline/cli/overlay_option.h"
+#include "pipeline/farm/manifest.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
+#include "pipeline/show/read_show.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostOfPlan = std::uint64_t{1} << 30;
+
+// The value behind an option, as "--size 512" or as "--size=512"; empty if it is not there.
+std::string option_in(const std::vector<std::string>& options, const std::string& name) {
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    if (options[k] == name && k + 1 < options.size()) return options[k + 1];
+    if (options[k].starts_with(name + "=")) return options[k].substr(name.size() + 1);
+  }
+  return {};
+}
+
+std::string grade_id_of(const std::optional<Grader>& grader, const Show& show) {
+  return grader ? grader->transform_id() + format_id(*show.output.graded) : std::string();
+}
+
+void require_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) return;
+  if (!error && fs::exists(folder, error)) throw InputError(folder.string() + ": is no folder");
+  // Another machine may have it, or a file server may come back.
+  throw TemporaryError(folder.string() + ": there is no such folder here");
+}
+
+}  // namespace
+
+void add_farm_options(CLI::App& verb, FarmRequest& request) {
+  verb.add_option("folder", request.folder, "folder of the frames")->required();
+  verb.add_option("--show", request.show, "show file (YAML); default as in DIR/farm/plan.json");
+  verb.add_option("--frames", request.frames,
+                  "such as 7, 0-299 or 3-5,9; default as planned, or all");
+  verb.add_option("--size", request.size, "of the frames; default as planned, or the show's");
+  add_overlay_option(verb, request.overlays);
+  verb.add_option("--threads", request.threads, "0: one per processor")->check(number_in(0, 1024));
+}
+
+void FarmFrames::read_plan(FarmRequest& request) {
+  const fs::path path = farm_folder(request.folder) / "plan.json";
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) {
+    if (request.show.empty())
+      throw InputError(path.string() + ": there is no plan; name the show by --show");
+    return;
+  }
+  try {
+    const auto plan = nlohmann::json::parse(read_file(path, kMostOfPlan));
+    const auto options = plan.value("options", std::vector<std::string>());
+    // A plan for one show says nothing of another.
+    if (request.show.empty()) {
+      request.show = plan.at("show").get<std::string>();
+      if (request.frames.empty()) request.frames = plan.value("frames", "");
+      if (request.size.empty()) request.size = option_in(options, "--size");
+      if (request.overlays.empty()) request.overlays = option_in(options, "--overlay");
+    }
+    for (const auto& chunk : plan.value("chunks", nlohmann::json::array()))
+      chunks_.push_back({chunk.at("task").get<int>(),
+                         parse_frames(chunk.at("frames").get<std::string>(), kMostFrames)});
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: is no plan of a farm: {}", path.string(), error.what()));
+  }
+}
+
+FarmFrames::FarmFrames(FarmRequest request) {
+  require_folder(request.folder);
+  read_plan(request);
+  show_ = read_show(request.show);
+  overlay(show_, request.overlays);
+  show_.projection = resized(show_.projection, request.size);
+  frames_ = parse_frames(request.frames, frame_count(show_));
+  folder_.emplace(request.folder, show_);
+  if (show_.output.graded) grader_.emplace(show_.grade);
+  keys_.emplace(show_, grade_id_of(grader_, show_));
+}
+
+ExpectedFile FarmFrames::expected(int frame, fs::path path, std::string key) const {
+  std::string name = path.lexically_relative(folder_->path()).string();
+  return {frame, std::move(path), std::move(name), folder_->wanted(std::move(key))};
+}
+
+std::vector<ExpectedFile> FarmFrames::files() const {
+  std::vector<ExpectedFile> files;
+  files.reserve(2 * frames_.size());
+  for (const int frame : frames_) {
+    const FrameState state = frame_state(show_, frame);
+    const std::string key = keys_->scene(state);
+    if (folder_->has_linear()) files.push_back(expected(frame, folder_->linear(frame), key));
+    if (folder_->has_graded())
+      files.push_back(expected(frame, folder_->graded(frame), keys_->graded(key, state)));
+  }
+  return files;
+}
+
+FrameSurvey FarmFrames::invalidated(const FolderFindings& found) const {
+  FrameSurvey survey;
+  for (const int frame : found.stale_linear) ++survey.older[frame_state(show_, frame).segment];
+  for (const int frame : found.stale_grades)
+    ++survey.older_grades[frame_state(show_, frame).segment];
+  return survey;
+}
+
+std::vector<std::string> FarmFrames::foreign(const FolderFindings& found) const {
+  std::vector<std::string> names;
+  for (const fs::path& file : folder_->strangers()) names.push_back(file.string());
+  for (const fs::path& file : found.others_files) names.push_back(file.string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace domefall

@@ -1,0 +1,69 @@
+// What a folder of frames is to hold, as the verbs of the farm are asked for it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/cli/frame_folder.h"
+#include "pipeline/cli/frame_survey.h"
+#include "pipeline/farm/folder_findings.h"
+#include "pipeline/farm/work_summary.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/frame_key.h"
+
+namespace domefall {
+
+// Texts are those of the options of `domefall render`; an empty one stands for what
+// DIR/farm/plan.json says, or else for that option's default.
+struct FarmRequest {
+  std::string folder, show, frames, size, overlays;
+  int threads = 0;
+};
+
+void add_farm_options(CLI::App& verb, FarmRequest& request);
+
+class FarmFrames {
+ public:
+  // Throws InputError where no show is named, by the request or by a plan, for a plan that cannot
+  // be understood, and as read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no
+  // such folder.
+  explicit FarmFrames(FarmRequest request);
+  FarmFrames(const FarmFrames&) = delete;
+  FarmFrames(FarmFrames&&) = delete;
+  FarmFrames& operator=(const FarmFrames&) = delete;
+  FarmFrames& operator=(FarmFrames&&) = delete;
+  ~FarmFrames() = default;
+
+  const Show& show() const { return show_; }
+  const FrameFolder& folder() const { return *folder_; }
+  const std::vector<int>& frames() const { return frames_; }
+  // Of the plan; empty where there is none.
+  const std::vector<FarmChunk>& chunks() const { return chunks_; }
+  // The grade of the show; nothing where it keeps no graded frames.
+  const std::optional<Grader>& grader() const { return grader_; }
+
+  // The files of the frames, each with the key that it has today.
+  std::vector<ExpectedFile> files() const;
+
+  // What a changed show costs, by segments, as `domefall render` says it.
+  FrameSurvey invalidated(const FolderFindings& found) const;
+
+  // Files that are not the show's, and those of others under the names of its frames, sorted and
+  // below the folder.
+  std::vector<std::string> foreign(const FolderFindings& found) const;
+
+ private:
+  void read_plan(FarmRequest& request);
+  ExpectedFile expected(int frame, std::filesystem::path path, std::string key) const;
+
+  Show show_;
+  std::vector<int> frames_;
+  std::vector<FarmChunk> chunks_;
+  std::optional<FrameFolder> folder_;
+  std::optional<Grader> grader_;
+  std::optional<FrameKeys> keys_;
+};
+
+}  // namespace domefall

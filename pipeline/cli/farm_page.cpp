@@ -1,0 +1,158 @@
+#include "pipeline/cli/farm_page.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/cli/interruption.h"
+
+namespace domefall {
+namespace {
+
+using StatusJson = nlohmann::ordered_json;
+
+constexpr std::size_t kMostSlow = 3, kMostShown = 8;
+
+// 1:02:03
+std::string duration_text(double seconds) {
+  const auto s = std::lround(std::max(seconds, 0.0));
+  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+}
+
+// By this machine's clock and time zone.
+std::string clock_of(double since_1970_s) {
+  const auto time = static_cast<std::time_t>(since_1970_s);
+  std::tm local{};
+  return localtime_r(&time, &local) ? fmt::format("{:%F %T}", local)
+                                    : std::string("an unknown time");
+}
+
+std::optional<double> seconds_left(const FarmStatus& status) {
+  const auto rate = status.frames_per_second;
+  if (!rate) return std::nullopt;
+  return static_cast<double>(status.found.to_make().size()) / *rate;
+}
+
+void add_frames(std::string& page, const char* what, const std::vector<int>& frames) {
+  if (!frames.empty())
+    page += fmt::format("  {:<12} {}: {}\n", what, frames.size(), as_ranges(frames));
+}
+
+void add_writers(std::string& page, const FarmStatus& status) {
+  std::size_t shown = 0, more = 0;
+  for (const FrameWriter& writer : status.manifest.writers)
+    for (const auto& [frame, since] : writer.being_made) {
+      if (++shown > kMostShown && ++more) continue;
+      page += fmt::format("  {:<12} {} by {}, process {}, since {} ({})\n", "being made", frame,
+                          writer.host, writer.pid, clock_of(since),
+                          duration_text(status.now_s - since));
+    }
+  if (more > 0) page += fmt::format("  {:<12} {} more\n", "being made", more);
+}
+
+void add_failed(std::string& page, const FarmStatus& status) {
+  for (const FailedChunk& chunk : status.failed)
+    page += fmt::format("  task {} lacks {}; {}: {}\n", chunk.task, as_ranges(chunk.lacking),
+                        chunk.log.string(), chunk.last_line);
+}
+
+}  // namespace
+
+FarmStatus farm_status(const FarmFrames& frames, int threads) {
+  FarmStatus status;
+  const std::filesystem::path& folder = frames.folder().path();
+  status.manifest = read_manifest(folder, threads);
+  const std::vector<ExpectedFile> files = frames.files();
+  status.found =
+      sum_up(files, look_at_files(files, status.manifest, glance_at, threads, stop_if_interrupted));
+  status.foreign = frames.foreign(status.found);
+  status.invalidated = frames.invalidated(status.found);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  status.now_s = std::chrono::duration<double>(now).count();
+  status.frames_per_second = frames_per_second(status.manifest, status.now_s);
+  status.slowest = slowest_frames(status.manifest, kMostSlow);
+  status.failed = failed_chunks(frames.chunks(), status.found.to_make(), status.manifest, folder);
+  return status;
+}
+
+bool is_complete(const FarmStatus& status) {
+  return status.found.to_make().empty() && status.found.unreadable.empty();
+}
+
+std::string farm_page(const FarmFrames& frames, const FarmStatus& status) {
+  const FolderFindings& found = status.found;
+  const std::size_t all = frames.frames().size();
+  std::string page =
+      fmt::format("{}: {} of {} frames are done ({:.1f} %)\n", frames.folder().path().string(),
+                  found.good.size(), all,
+                  100.0 * static_cast<double>(found.good.size()) / static_cast<double>(all));
+  add_frames(page, "missing", found.missing);
+  add_frames(page, "damaged", found.damaged);
+  add_frames(page, "another's", found.others);
+  add_frames(page, "stale", found.stale);
+  add_frames(page, "unreadable", found.unreadable);
+  page += describe_work(status.invalidated);
+  if (!status.foreign.empty()) page += describe_strangers(status.foreign);
+  add_writers(page, status);
+  if (status.frames_per_second)
+    page += fmt::format("  {:<12} {:.3g} frames/s, {} left\n", "rate", *status.frames_per_second,
+                        duration_text(*seconds_left(status)));
+  for (const SlowFrame& slow : status.slowest)
+    page += fmt::format("  {:<12} {} took {:.1f} s on {}\n", "slow", slow.frame, slow.seconds,
+                        slow.host);
+  add_failed(page, status);
+  return page;
+}
+
+std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int indent) {
+  const FolderFindings& found = status.found;
+  const auto number = [](const std::optional<double>& value) {
+    return value ? StatusJson(*value) : StatusJson();
+  };
+  StatusJson json = {{"title", frames.show().title},
+                     {"folder", frames.folder().path().string()},
+                     {"frames", frames.frames().size()},
+                     {"done", found.good.size()},
+                     {"missing", as_ranges(found.missing)},
+                     {"damaged", as_ranges(found.damaged)},
+                     {"others", as_ranges(found.others)},
+                     {"stale", as_ranges(found.stale)},
+                     {"unreadable", as_ranges(found.unreadable)},
+                     {"invalidated", StatusJson::array()},
+                     {"foreign", status.foreign},
+                     {"being_made", StatusJson::array()},
+                     {"frames_per_second", number(status.frames_per_second)},
+                     {"seconds_left", number(seconds_left(status))},
+                     {"slowest", StatusJson::array()},
+                     {"failed_chunks", StatusJson::array()},
+                     {"todo", as_ranges(found.to_make())}};
+  const auto add_segments = [&](const std::map<int, int>& frames_of, const char* work) {
+    for (const auto& [segment, count] : frames_of)
+      json["invalidated"].push_back({{"segment", segment + 1}, {"frames", count}, {"work", work}});
+  };
+  add_segments(status.invalidated.older, "render");
+  add_segments(status.invalidated.older_grades, "grade");
+  for (const FrameWriter& writer : status.manifest.writers)
+    for (const auto& [frame, since] : writer.being_made)
+      json["being_made"].push_back({{"frame", frame},
+                                    {"host", writer.host},
+                                    {"pid", writer.pid},
+                                    {"since_s", since},
+                                    {"last_sign_s", writer.last_sign_s}});
+  for (const SlowFrame& slow : status.slowest)
+    json["slowest"].push_back(
+        {{"frame", slow.frame}, {"seconds", slow.seconds}, {"host", slow.host}});
+  for (const FailedChunk& chunk : status.failed)
+    json["failed_chunks"].push_back({{"task", chunk.task},
+                                     {"frames", as_ranges(chunk.lacking)},
+                                     {"log", chunk.log.string()},
+                                     {"last_line", chunk.last_line}});
+  return json.dump(indent, ' ', false, StatusJson::error_handler_t::replace);
+}
+
+}  // namespace domefall

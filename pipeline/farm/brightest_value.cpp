@@ -1,0 +1,57 @@
+#include "pipeline/farm/brightest_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "pipeline/image/image_formats.h"
+
+namespace domefall {
+
+double brightest_value(const HalfFrame& frame) {
+  // Without the sign, halves are ordered as their bits are; infinities and NaNs come last.
+  constexpr unsigned short kMagnitude = 0x7fff;
+  unsigned short most = 0;
+  for (const Imath::half value : frame.pixels)
+    most = std::max(most, static_cast<unsigned short>(value.bits() & kMagnitude));
+  const Imath::half brightest(Imath::half::FromBits, most);
+  return brightest.isFinite() ? static_cast<double>(brightest)
+                              : std::numeric_limits<double>::infinity();
+}
+
+RowPicture watched(const RowPicture& picture, std::atomic<unsigned short>& brightest) {
+  const auto rows = [&picture, &brightest](int first, int end, unsigned short* rgb) {
+    picture.rows(first, end, rgb);
+    const std::size_t count =
+        static_cast<std::size_t>(end - first) * static_cast<std::size_t>(picture.width) * 3;
+    unsigned short most = 0;
+    for (std::size_t k = 0; k < count; ++k) most = std::max(most, rgb[k]);
+    unsigned short known = brightest;
+    while (known < most && !brightest.compare_exchange_weak(known, most)) {
+    }
+  };
+  return {picture.width, picture.height, rows};
+}
+
+double brightest_in_file(const std::filesystem::path& path) {
+  const auto reader = image_formats().open(path);
+  const ImageLayout& layout = reader->layout();
+  const int band = std::max(layout.band, 1);
+  std::vector<float> rgb(static_cast<std::size_t>(band) * static_cast<std::size_t>(layout.width) *
+                         3);
+  float most = 0;
+  for (int first = 0; first < layout.height; first += band) {
+    const int end = std::min(first + band, layout.height);
+    reader->read(first, end, rgb.data());
+    const std::size_t count =
+        static_cast<std::size_t>(end - first) * static_cast<std::size_t>(layout.width) * 3;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!std::isfinite(rgb[k])) return std::numeric_limits<double>::infinity();
+      most = std::max(most, std::fabs(rgb[k]));
+    }
+  }
+  return most;
+}
+
+}  // namespace domefall
