@@ -35,6 +35,20 @@ std::string grade_id_of(const std::optional<Grader>& grader, const Show& show) {
   return grader ? grader->transform_id() + format_id(*show.output.graded) : std::string();
 }
 
+// Its log is named after the engine's job and the task, or where there are no jobs after the round.
+TaskFrames task_of(const nlohmann::json& chunk, const nlohmann::json& rounds) {
+  TaskFrames task;
+  task.round = chunk.value("round", 0);
+  task.task = chunk.at("task").get<int>();
+  task.frames = parse_frames(chunk.at("frames").get<std::string>(), kMostFrames);
+  task.logs.push_back(fmt::format("_{}_{}", task.round, task.task));
+  for (const auto& round : rounds)
+    if (const auto job = round.value("job", std::string());
+        round.at("round").get<int>() == task.round && !job.empty())
+      task.logs.push_back(fmt::format("_{}_{}", job, task.task));
+  return task;
+}
+
 void require_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return;
@@ -56,7 +70,7 @@ void add_farm_options(CLI::App& verb, FarmRequest& request) {
 }
 
 void FarmFrames::read_plan(FarmRequest& request) {
-  const fs::path path = farm_folder(request.folder) / "plan.json";
+  const fs::path path = fs::path(request.folder) / "farm" / "plan.json";
   std::error_code ignored;
   if (!fs::exists(path, ignored)) {
     if (request.show.empty())
@@ -74,8 +88,7 @@ void FarmFrames::read_plan(FarmRequest& request) {
       if (request.overlays.empty()) request.overlays = option_in(options, "--overlay");
     }
     for (const auto& chunk : plan.value("chunks", nlohmann::json::array()))
-      chunks_.push_back({chunk.at("task").get<int>(),
-                         parse_frames(chunk.at("frames").get<std::string>(), kMostFrames)});
+      tasks_.push_back(task_of(chunk, plan.value("rounds", nlohmann::json::array())));
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: is no plan of a farm: {}", path.string(), error.what()));
   }

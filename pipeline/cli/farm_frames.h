@@ -40,7 +40,7 @@ class FarmFrames {
   const FrameFolder& folder() const { return *folder_; }
   const std::vector<int>& frames() const { return frames_; }
   // Of the plan; empty where there is none.
-  const std::vector<FarmChunk>& chunks() const { return chunks_; }
+  const std::vector<TaskFrames>& tasks() const { return tasks_; }
   // The grade of the show; nothing where it keeps no graded frames.
   const std::optional<Grader>& grader() const { return grader_; }
 
@@ -60,7 +60,7 @@ class FarmFrames {
 
   Show show_;
   std::vector<int> frames_;
-  std::vector<FarmChunk> chunks_;
+  std::vector<TaskFrames> tasks_;
   std::optional<FrameFolder> folder_;
   std::optional<Grader> grader_;
   std::optional<FrameKeys> keys_;

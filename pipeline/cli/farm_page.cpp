@@ -57,8 +57,8 @@ void add_writers(std::string& page, const FarmStatus& status) {
 
 void add_failed(std::string& page, const FarmStatus& status) {
   for (const FailedChunk& chunk : status.failed)
-    page += fmt::format("  task {} lacks {}; {}: {}\n", chunk.task, as_ranges(chunk.lacking),
-                        chunk.log.string(), chunk.last_line);
+    page += fmt::format("  round {}, task {} lacks {}; {}: {}\n", chunk.round, chunk.task,
+                        as_ranges(chunk.lacking), chunk.log.string(), chunk.last_line);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ FarmStatus farm_status(const FarmFrames& frames, int threads) {
   status.now_s = std::chrono::duration<double>(now).count();
   status.frames_per_second = frames_per_second(status.manifest, status.now_s);
   status.slowest = slowest_frames(status.manifest, kMostSlow);
-  status.failed = failed_chunks(frames.chunks(), status.found.to_make(), status.manifest, folder);
+  status.failed = failed_chunks(frames.tasks(), status.found.to_make(), status.manifest, folder);
   return status;
 }
 
@@ -148,7 +148,8 @@ std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int in
     json["slowest"].push_back(
         {{"frame", slow.frame}, {"seconds", slow.seconds}, {"host", slow.host}});
   for (const FailedChunk& chunk : status.failed)
-    json["failed_chunks"].push_back({{"task", chunk.task},
+    json["failed_chunks"].push_back({{"round", chunk.round},
+                                     {"task", chunk.task},
                                      {"frames", as_ranges(chunk.lacking)},
                                      {"log", chunk.log.string()},
                                      {"last_line", chunk.last_line}});

@@ -51,8 +51,7 @@ std::string text_of(const BegunFrame& begun);
 // Nothing for what is no whole line of this kind.
 std::optional<ManifestLine> parse_manifest_line(std::string_view line);
 
-// The folder of a farm's files beside the frames, and that of its manifests.
-std::filesystem::path farm_folder(const std::filesystem::path& frames);
+// The folder of the manifests, in that of a farm's files beside the frames.
 std::filesystem::path manifest_folder(const std::filesystem::path& frames);
 
 // Writes this process's manifest into a folder of frames that has a farm folder, and nothing into

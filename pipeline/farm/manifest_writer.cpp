@@ -31,13 +31,11 @@ double seconds_since_1970() {
 
 }  // namespace
 
-fs::path farm_folder(const fs::path& frames) { return frames / "farm"; }
-
-fs::path manifest_folder(const fs::path& frames) { return farm_folder(frames) / "manifest"; }
+fs::path manifest_folder(const fs::path& frames) { return frames / "farm" / "manifest"; }
 
 ManifestWriter::ManifestWriter(fs::path frames) : frames_(std::move(frames)), host_(this_host()) {
   std::error_code ignored;
-  on_ = fs::is_directory(farm_folder(frames_), ignored);
+  on_ = fs::is_directory(manifest_folder(frames_).parent_path(), ignored);
 }
 
 ManifestWriter::~ManifestWriter() {

@@ -1,10 +1,9 @@
 #include "pipeline/farm/work_summary.h"
 
 #include <algorithm>
-#include <charconv>
-#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -17,33 +16,33 @@ namespace fs = std::filesystem;
 constexpr double kWindow = 600;                // seconds
 constexpr std::uint64_t kMostOfLog = 1 << 14;  // bytes, in which its last line is sought
 
-// The last number in a name; nothing if there is none.
-std::optional<int> last_number(const std::string& stem) {
-  const auto end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return std::nullopt;
-  const auto before = stem.find_last_not_of("0123456789", end);
-  const auto begin = before == std::string::npos ? 0 : before + 1;
-  int number = 0;
-  const auto result = std::from_chars(stem.data() + begin, stem.data() + end + 1, number);
-  return result.ec == std::errc() ? std::optional(number) : std::nullopt;
-}
+struct FoundLog {
+  std::string stem;
+  fs::path path;
+  fs::file_time_type written;
+};
 
-// The log that was written last, by task.
-std::map<int, fs::path> logs_in(const fs::path& folder) {
-  std::map<int, std::pair<fs::file_time_type, fs::path>> newest;
+std::vector<FoundLog> logs_in(const fs::path& folder) {
+  std::vector<FoundLog> logs;
   std::error_code error;  // a folder that is not there has none
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const auto task = last_number(entry->path().stem().string());
     std::error_code ignored;
-    const auto time = entry->last_write_time(ignored);
-    if (!task || ignored) continue;
-    const auto [found, is_new] = newest.try_emplace(*task, time, entry->path());
-    if (!is_new && found->second.first < time) found->second = {time, entry->path()};
+    const auto written = entry->last_write_time(ignored);
+    if (!ignored) logs.push_back({entry->path().stem().string(), entry->path(), written});
   }
-  std::map<int, fs::path> logs;
-  for (const auto& [task, log] : newest) logs[task] = log.second;
+  std::ranges::sort(logs,
+                    [](const FoundLog& a, const FoundLog& b) { return a.written > b.written; });
   return logs;
+}
+
+// The one that was written last; empty if there is none.
+fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_first) {
+  for (const FoundLog& log : newest_first)
+    if (std::ranges::any_of(task.logs,
+                            [&](const std::string& end) { return log.stem.ends_with(end); }))
+      return log.path;
+  return {};
 }
 
 // Its last line that is not empty, without what a terminal would do with it.
@@ -106,24 +105,27 @@ std::vector<SlowFrame> slowest_frames(const Manifest& manifest, std::size_t most
   return frames;
 }
 
-std::vector<FailedChunk> failed_chunks(const std::vector<FarmChunk>& chunks,
+std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
                                        const std::vector<int>& lacking, const Manifest& manifest,
                                        const fs::path& frames) {
-  std::set<int> being_made;
+  std::set<int> being_made, untold(lacking.begin(), lacking.end());
   for (const FrameWriter& writer : manifest.writers)
     for (const auto& [frame, since] : writer.being_made) being_made.insert(frame);
-  const std::map<int, fs::path> logs = logs_in(farm_folder(frames) / "log");
+  const std::vector<FoundLog> logs = logs_in(frames / "farm" / "log");
   std::vector<FailedChunk> failed;
-  for (const FarmChunk& chunk : chunks) {
-    const auto log = logs.find(chunk.task);
-    if (log == logs.end() ||
-        std::ranges::any_of(chunk.frames, [&](int frame) { return being_made.contains(frame); }))
-      continue;
-    std::vector<int> lacks;
-    std::ranges::set_intersection(chunk.frames, lacking, std::back_inserter(lacks));
-    if (!lacks.empty())
-      failed.push_back({chunk.task, std::move(lacks), log->second, last_line_of(log->second)});
+  for (auto task = tasks.rbegin(); task != tasks.rend(); ++task) {
+    FailedChunk chunk{task->round, task->task, {}, {}, {}};
+    for (const int frame : task->frames)
+      if (untold.erase(frame) > 0) chunk.lacking.push_back(frame);
+    const bool works =
+        std::ranges::any_of(task->frames, [&](int frame) { return being_made.contains(frame); });
+    if (chunk.lacking.empty() || works) continue;
+    chunk.log = log_of(*task, logs);
+    if (chunk.log.empty()) continue;
+    chunk.last_line = last_line_of(chunk.log);
+    failed.push_back(std::move(chunk));
   }
+  std::ranges::reverse(failed);
   return failed;
 }
 

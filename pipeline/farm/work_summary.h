@@ -25,22 +25,24 @@ struct SlowFrame {
 std::vector<SlowFrame> slowest_frames(const Manifest& manifest, std::size_t most);
 
 // The frames that one task of a farm is to make.
-struct FarmChunk {
-  int task = 0;
-  std::vector<int> frames;  // sorted
+struct TaskFrames {
+  int round = 0, task = 0;
+  std::vector<int> frames;        // sorted
+  std::vector<std::string> logs;  // ends of the stems that its logs may have: _JOB_TASK
 };
 
 struct FailedChunk {
-  int task = 0;
+  int round = 0, task = 0;
   std::vector<int> lacking;
   std::filesystem::path log;
   std::string last_line;
 };
 
-// Chunks that lack frames, of which none is being made, and whose task has left a log.  `lacking`
-// is sorted.  The log is the file in DIR/farm/log that was written last of those in whose stems the
-// last number is that of the task.
-std::vector<FailedChunk> failed_chunks(const std::vector<FarmChunk>& chunks,
+// Tasks of which frames are lacking, none is being made, and a log is in DIR/farm/log: the one that
+// was written last.  A frame counts for the last task that has it, so that one that is submitted
+// again has not failed before that task began.  `tasks` are in the order of their rounds; `lacking`
+// is sorted.
+std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
                                        const std::vector<int>& lacking, const Manifest& manifest,
                                        const std::filesystem::path& frames);
 

@@ -109,7 +109,7 @@ TEST_F(ManifestFiles, AreWrittenWhereAFarmIsAndSayWhatTheFileIs) {
 }
 
 TEST_F(ManifestFiles, AreNotWrittenWhereNoFarmIs) {
-  fs::remove_all(farm_folder(folder_));
+  fs::remove_all(folder_ / "farm");
   ManifestWriter writer(folder_);
   EXPECT_FALSE(writer.is_on());
   writer.begin(7);

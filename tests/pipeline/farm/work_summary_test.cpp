@@ -65,12 +65,14 @@ class FailedChunks : public TestFolder {
   void put_log(const char* name, const std::string& text) const {
     put(folder_ / "farm" / "log" / name, text);
   }
-  const std::vector<FarmChunk> chunks_{{0, {0, 1}}, {1, {2, 3}}, {12, {4, 5}}};
+  const std::vector<TaskFrames> chunks_{{0, 0, {0, 1}, {"_0_0", "_7_0"}},
+                                        {0, 1, {2, 3}, {"_0_1", "_7_1"}},
+                                        {0, 12, {4, 5}, {"_7_12"}}};
 };
 
 TEST_F(FailedChunks, AreToldWithTheLastLineOfTheirLogs) {
-  put_log("job7_1.log", "begins\nframe 3: the pixel (1, 2) is no number\n\n  \n");
-  put_log("job7_12.log", "\x1b[Kdisk is\x07 full\r\n");
+  put_log("slurm_7_1.log", "begins\nframe 3: the pixel (1, 2) is no number\n\n  \n");
+  put_log("slurm_7_12.log", "\x1b[Kdisk is\x07 full\r\n");
   const auto failed = failed_chunks(chunks_, {1, 3, 4, 5}, {}, folder_);
   ASSERT_THAT(failed, SizeIs(2));
   EXPECT_EQ(failed[0].task, 1);
@@ -81,8 +83,8 @@ TEST_F(FailedChunks, AreToldWithTheLastLineOfTheirLogs) {
 }
 
 TEST_F(FailedChunks, AreNotThoseThatAreDoneOrBeingMade) {
-  put_log("job7_1.log", "begins\n");
-  put_log("job7_0.log", "");
+  put_log("slurm_7_1.log", "begins\n");
+  put_log("slurm_7_0.log", "");
   Manifest manifest;
   manifest.writers.emplace_back().being_made[2] = 100;
   EXPECT_THAT(failed_chunks(chunks_, {2, 3}, manifest, folder_), IsEmpty());
@@ -91,11 +93,26 @@ TEST_F(FailedChunks, AreNotThoseThatAreDoneOrBeingMade) {
 }
 
 TEST_F(FailedChunks, AreToldByTheLogThatWasWrittenLast) {
-  put_log("round0_1.log", "old\n");
-  put_log("round1_1.log", "new\n");
-  fs::last_write_time(folder_ / "farm/log/round0_1.log",
+  put_log("slurm_7_1.log", "old\n");
+  put_log("local_0_1.log", "new\n");
+  put_log("verify_1.log", "of another kind\n");
+  fs::last_write_time(folder_ / "farm/log/slurm_7_1.log",
                       fs::file_time_type::clock::now() - std::chrono::hours(1));
   EXPECT_EQ(failed_chunks(chunks_, {3}, {}, folder_).at(0).last_line, "new");
+}
+
+// Frame 3 failed in the first round and is submitted again.
+TEST_F(FailedChunks, HaveNotFailedAgainBeforeTheirNextTaskBegan) {
+  std::vector<TaskFrames> tasks = chunks_;
+  tasks.push_back({1, 0, {3}, {"_1_0", "_8_0"}});
+  put_log("slurm_7_1.log", "first\n");
+  EXPECT_THAT(failed_chunks(tasks, {3}, {}, folder_), IsEmpty());
+  put_log("slurm_8_0.log", "second\n");
+  const auto failed = failed_chunks(tasks, {2, 3}, {}, folder_);
+  ASSERT_THAT(failed, SizeIs(2));
+  EXPECT_THAT(failed[0].lacking, ElementsAre(2));
+  EXPECT_EQ(failed[1].round, 1);
+  EXPECT_EQ(failed[1].last_line, "second");
 }
 
 }  // namespace
