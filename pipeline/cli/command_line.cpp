@@ -51,13 +51,13 @@ std::unique_ptr<CLI::App> describe_command_line() {
   add_movie(*app);
   add_deliver(*app);
   add_sheet(*app);
+  add_farm(*app);
   add_states(*app);
   add_probe(*app);
   add_trace(*app);
   add_report(*app);
   add_stars(*app);
   add_sky(*app);
-  add_farm(*app);
   for (const VerbNotes& notes : all_verb_notes()) verb_of(*app, notes).footer(help_footer(notes));
   return app;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_size.h"
 #include "pipeline/cli/number_in.h"
@@ -66,7 +67,13 @@ void add_farm_options(CLI::App& verb, FarmRequest& request) {
                   "such as 7, 0-299 or 3-5,9; default as planned, or all");
   verb.add_option("--size", request.size, "of the frames; default as planned, or the show's");
   add_overlay_option(verb, request.overlays);
-  verb.add_option("--threads", request.threads, "0: one per processor")->check(number_in(0, 1024));
+  verb.add_option("--threads", request.threads, "0: four, or one per processor")
+      ->check(number_in(0, 1024));
+}
+
+int reading_threads(const FarmRequest& request) {
+  constexpr int kLeast = 4;
+  return request.threads > 0 ? request.threads : std::max(kLeast, all_threads(0));
 }
 
 void FarmFrames::read_plan(FarmRequest& request) {
@@ -132,9 +139,10 @@ FrameSurvey FarmFrames::invalidated(const FolderFindings& found) const {
   return survey;
 }
 
-std::vector<std::string> FarmFrames::foreign(const FolderFindings& found) const {
+std::vector<std::string> FarmFrames::foreign(const FolderFindings& found,
+                                             const std::vector<fs::path>& strangers) {
   std::vector<std::string> names;
-  for (const fs::path& file : folder_->strangers()) names.push_back(file.string());
+  for (const fs::path& file : strangers) names.push_back(file.string());
   for (const fs::path& file : found.others_files) names.push_back(file.string());
   std::sort(names.begin(), names.end());
   return names;

@@ -24,6 +24,10 @@ struct FarmRequest {
 
 void add_farm_options(CLI::App& verb, FarmRequest& request);
 
+// How many threads look at files: as many as are asked for, or else four at least, since they wait
+// for disks and file servers and not for processors.
+int reading_threads(const FarmRequest& request);
+
 class FarmFrames {
  public:
   // Throws InputError where no show is named, by the request or by a plan, for a plan that cannot
@@ -50,9 +54,10 @@ class FarmFrames {
   // What a changed show costs, by segments, as `domefall render` says it.
   FrameSurvey invalidated(const FolderFindings& found) const;
 
-  // Files that are not the show's, and those of others under the names of its frames, sorted and
-  // below the folder.
-  std::vector<std::string> foreign(const FolderFindings& found) const;
+  // Files that are not the show's (FrameFolder::strangers), and those of others under the names of
+  // its frames, sorted and below the folder.
+  static std::vector<std::string> foreign(const FolderFindings& found,
+                                          const std::vector<std::filesystem::path>& strangers);
 
  private:
   void read_plan(FarmRequest& request);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/cli/interruption.h"
@@ -66,11 +67,14 @@ void add_failed(std::string& page, const FarmStatus& status) {
 FarmStatus farm_status(const FarmFrames& frames, int threads) {
   FarmStatus status;
   const std::filesystem::path& folder = frames.folder().path();
-  status.manifest = read_manifest(folder, threads);
+  // Keys, names and manifests take about as long, and do not wait for each other.
+  auto manifest = std::async(std::launch::async, [&] { return read_manifest(folder, threads); });
+  auto strangers = std::async(std::launch::async, [&] { return frames.folder().strangers(); });
   const std::vector<ExpectedFile> files = frames.files();
+  status.manifest = manifest.get();
   status.found =
       sum_up(files, look_at_files(files, status.manifest, glance_at, threads, stop_if_interrupted));
-  status.foreign = frames.foreign(status.found);
+  status.foreign = FarmFrames::foreign(status.found, strangers.get());
   status.invalidated = frames.invalidated(status.found);
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   status.now_s = std::chrono::duration<double>(now).count();

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "pipeline/cli/farm_page.h"
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
 
@@ -33,9 +32,10 @@ std::string status_text(const StatusOptions& o, const FarmFrames& frames,
 void watch_folder(const StatusOptions& o) {
   constexpr std::chrono::milliseconds kPause(2000), kStep(50);
   const bool terminal = isatty(STDOUT_FILENO) != 0;
-  const FarmFrames frames(o.request);
   for (;;) {
-    const FarmStatus status = farm_status(frames, all_threads(o.request.threads));
+    // The show may have been changed meanwhile, and the plan has a new round now and then.
+    const FarmFrames frames(o.request);
+    const FarmStatus status = farm_status(frames, reading_threads(o.request));
     if (terminal && !o.json) fmt::print("\x1b[H\x1b[J");
     fmt::print("{}", status_text(o, frames, status));
     std::fflush(stdout);
@@ -51,7 +51,7 @@ void show_status(const StatusOptions& o) {
   catch_interruptions();
   if (!o.watch) {
     const FarmFrames frames(o.request);
-    fmt::print("{}", status_text(o, frames, farm_status(frames, all_threads(o.request.threads))));
+    fmt::print("{}", status_text(o, frames, farm_status(frames, reading_threads(o.request))));
     return;
   }
   try {

@@ -9,7 +9,6 @@
 
 #include "pipeline/cli/black_frames.h"
 #include "pipeline/cli/farm_frames.h"
-#include "pipeline/cli/frame_grading.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
@@ -28,13 +27,15 @@ struct VerifyOptions {
 // Looks at every byte of a folder's frames, and has those made again that are not good.
 class Verification {
  public:
-  Verification(const FarmFrames& frames, int threads)
-      : frames_(frames), threads_(threads), files_(frames.files()) {
+  // Renders by so many threads, 0 standing for one per processor, and reads by so many.
+  Verification(const FarmFrames& frames, int threads, int readers)
+      : frames_(frames), threads_(threads), readers_(readers), files_(frames.files()) {
     findings_ = look(files_);
     sum_up_again();
   }
 
   const FolderFindings& found() const { return found_; }
+  const std::vector<std::string>& foreign() const { return foreign_; }
   const std::vector<int>& black() const { return black_; }
 
   // What a run has to make again; of what cannot be read nobody knows.
@@ -61,12 +62,13 @@ class Verification {
 
  private:
   std::vector<FileFinding> look(const std::vector<ExpectedFile>& files) const {
-    const Manifest manifest = read_manifest(frames_.folder().path(), threads_);
-    return look_at_files(files, manifest, examine_file, threads_, stop_if_interrupted);
+    const Manifest manifest = read_manifest(frames_.folder().path(), readers_);
+    return look_at_files(files, manifest, examine_file, readers_, stop_if_interrupted);
   }
 
   void sum_up_again() {
     found_ = sum_up(files_, findings_);
+    foreign_ = FarmFrames::foreign(found_, frames_.folder().strangers());
     const auto& grader = frames_.grader();
     black_ = unexpectedly_black(frames_.show(), found_, grader ? &*grader : nullptr, threads_);
   }
@@ -102,10 +104,11 @@ class Verification {
   }
 
   const FarmFrames& frames_;
-  int threads_;
+  int threads_, readers_;
   std::vector<ExpectedFile> files_;
   std::vector<FileFinding> findings_;
   FolderFindings found_;
+  std::vector<std::string> foreign_;
   std::vector<int> black_;
 };
 
@@ -118,7 +121,7 @@ nlohmann::ordered_json verify_json(const FarmFrames& frames, const Verification&
           {"others", as_ranges(found.others)},
           {"stale", as_ranges(found.stale)},
           {"unreadable", as_ranges(found.unreadable)},
-          {"foreign", frames.foreign(found)},
+          {"foreign", verified.foreign()},
           {"suspicious",
            {{"black", as_ranges(verified.black())},
             {"not_finite", as_ranges(found.not_finite)},
@@ -142,9 +145,8 @@ void print_page(const FarmFrames& frames, const Verification& verified) {
   line("not with the bytes that their writers noted", found.unlike);
   line("cannot be read", found.unreadable);
   for (const auto& [frame, why] : found.reasons) fmt::print("    {}: {}\n", frame, why);
-  const std::vector<std::string> foreign = frames.foreign(found);
-  if (!foreign.empty()) fmt::print("  not this show's, and left alone:\n");
-  for (const std::string& file : foreign) fmt::print("    {}\n", file);
+  if (!verified.foreign().empty()) fmt::print("  not this show's, and left alone:\n");
+  for (const std::string& file : verified.foreign()) fmt::print("    {}\n", file);
 }
 
 // Ends with the code that the findings come to.
@@ -158,7 +160,7 @@ void end_by(const FarmFrames& frames, const Verification& verified) {
   if (const auto count = verified.todo().size())
     throw std::runtime_error(
         fmt::format("{}: {} to be made; --repair makes them", folder, counted(count, "frame")));
-  if (const auto count = frames.foreign(verified.found()).size())
+  if (const auto count = verified.foreign().size())
     throw std::runtime_error(folder + ": all frames are good, and " + counted(count, "file") +
                              " among them not this show's");
 }
@@ -166,7 +168,7 @@ void end_by(const FarmFrames& frames, const Verification& verified) {
 void verify_folder(const VerifyOptions& o) {
   catch_interruptions();
   const FarmFrames frames(o.request);
-  Verification verified(frames, all_threads(o.request.threads));
+  Verification verified(frames, o.request.threads, reading_threads(o.request));
   if (o.repair) verified.repair();
   if (o.json)
     fmt::print("{}\n", verify_json(frames, verified)

@@ -40,8 +40,11 @@ double brightest_in_file(const std::filesystem::path& path) {
   const int band = std::max(layout.band, 1);
   std::vector<float> rgb(static_cast<std::size_t>(band) * static_cast<std::size_t>(layout.width) *
                          3);
+  // Codes are always numbers, so that a frame need not be decoded beyond the first that is light.
+  const bool codes = path.extension() != ".exr";
   float most = 0;
   for (int first = 0; first < layout.height; first += band) {
+    if (codes && most > kBrightestOfBlackCodes) break;
     const int end = std::min(first + band, layout.height);
     reader->read(first, end, rgb.data());
     const std::size_t count =

@@ -20,8 +20,9 @@ double brightest_value(const HalfFrame& frame);
 // outlive the picture.
 RowPicture watched(const RowPicture& picture, std::atomic<unsigned short>& brightest);
 
-// That of a file: of light for an .exr, else the greatest code as a part of white.  Throws
-// std::runtime_error where it cannot be decoded, and as RegularFile.
+// That of a file: of light for an .exr, else a code as a part of white, which is the greatest one if
+// the frame is black and else the first that is found to exceed black.  Throws std::runtime_error
+// where it cannot be decoded, and as RegularFile.
 double brightest_in_file(const std::filesystem::path& path);
 
 }  // namespace domefall
