@@ -54,6 +54,12 @@ class Verification {
     if (frames.empty()) return;
     // The files of other shows may go only where the folder is this show's.
     frames_.folder().check_owner();
+    if (!found_.others.empty() && found_.good.empty() && found_.stale.empty())
+      throw InputError(fmt::format(
+          "{}: no frame is of this show, and {} are of another show, size or kind, such as {}; "
+          "domefall render --replace makes them this one's",
+          frames_.folder().path().string(), found_.others.size(),
+          found_.others_files.front().string()));
     remove_what_would_be_kept();
     run_frames({frames_.show(), frames, frames_.folder().path(), threads_, false, true, true});
     look_again(frames);

@@ -113,14 +113,15 @@ std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
     for (const auto& [frame, since] : writer.being_made) being_made.insert(frame);
   const std::vector<FoundLog> logs = logs_in(frames / "farm" / "log");
   std::vector<FailedChunk> failed;
-  for (auto task = tasks.rbegin(); task != tasks.rend(); ++task) {
-    FailedChunk chunk{task->round, task->task, {}, {}, {}};
-    for (const int frame : task->frames)
+  for (std::size_t k = tasks.size(); k-- > 0;) {
+    const TaskFrames& task = tasks[k];
+    FailedChunk chunk{task.round, task.task, {}, {}, {}};
+    for (const int frame : task.frames)
       if (untold.erase(frame) > 0) chunk.lacking.push_back(frame);
     const bool works =
-        std::ranges::any_of(task->frames, [&](int frame) { return being_made.contains(frame); });
+        std::ranges::any_of(task.frames, [&](int frame) { return being_made.contains(frame); });
     if (chunk.lacking.empty() || works) continue;
-    chunk.log = log_of(*task, logs);
+    chunk.log = log_of(task, logs);
     if (chunk.log.empty()) continue;
     chunk.last_line = last_line_of(chunk.log);
     failed.push_back(std::move(chunk));

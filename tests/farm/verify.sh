@@ -168,6 +168,9 @@ fi
 # Another show's folder is not made this one's.
 exits 2 domefall farm verify others/out --show fall.yaml --repair
 says 'belongs to'
+rm others/out/fall.json
+exits 2 domefall farm verify others/out --show fall.yaml --repair
+says 'no frame is of this show, and 20 are of another'
 exits 1 domefall farm verify out --show others/fall.yaml
 same_frames whole/linear out/linear
 
@@ -202,7 +205,9 @@ said = []
 for process, out in watchers:
     text = b""
     while text.count(b"19 of 20 frames are done") < 2:
-        text += os.read(out, 4096)
+        piece = os.read(out, 4096)
+        assert piece, (process.wait(), process.stderr.read())
+        text += piece
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=60) == 130, process.returncode
     assert process.stderr.read() == b""
