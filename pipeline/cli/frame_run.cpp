@@ -55,15 +55,16 @@ class Run {
     catch_interruptions();
   }
 
-  // Says what the run will do with what is there.  Throws InputError if it may not.
-  void survey() {
+  // Says what the run will do with what is there, and returns what it will make.  Throws InputError if
+  // it may not.
+  std::vector<int> survey() {
     const FrameSurvey found = survey_frames(folder_, run_.show, keys(), run_.frames, run_.render);
     if (!run_.replace) {
       refuse_to_replace(found, folder_);
       folder_.check_owner();
     }
     std::fputs((describe_work(found) + describe_strangers(folder_)).c_str(), stderr);
-    if (run_.dry && !found.to_make.empty()) fmt::print("{}\n", as_ranges(found.to_make));
+    return found.to_make;
   }
 
   void prepare() {
@@ -257,10 +258,15 @@ class Run {
 
 }  // namespace
 
+std::vector<int> frames_to_make(const FrameRun& run) { return Run(run).survey(); }
+
 void run_frames(const FrameRun& run) {
   Run made(run);
-  made.survey();
-  if (run.dry) return;
+  const std::vector<int> to_make = made.survey();
+  if (run.dry) {
+    if (!to_make.empty()) fmt::print("{}\n", as_ranges(to_make));
+    return;
+  }
   made.prepare();
   made.all();
 }

@@ -24,6 +24,10 @@ struct FrameRun {
   bool dry = false;              // only prints the frames that it would make, judged by their heads
 };
 
+// The frames of a run that it would make, judged by their heads; says on standard error what an edit of
+// the show costs, and which files are not its own.  Throws as run_frames().
+std::vector<int> frames_to_make(const FrameRun& run);
+
 // Makes the frames.  Throws InputError, TemporaryError or Interrupted; frames finished before stay.
 void run_frames(const FrameRun& run);
 

@@ -5,11 +5,13 @@
 namespace domefall {
 
 void add_farm(CLI::App& app) {
-  auto* verb =
-      app.add_subcommand("farm", "A show over many machines: how it goes, and whether it is whole");
-  verb->require_subcommand(1);
-  add_farm_status(*verb);
-  add_farm_verify(*verb);
+  CLI::App* farm = app.add_subcommand("farm", "Render a show on many machines, and verify it");
+  farm->require_subcommand(1);
+  add_farm_submit(*farm);
+  add_farm_status(*farm);
+  add_farm_verify(*farm);
+  add_farm_work(*farm);
+  add_farm_conclude(*farm);
 }
 
 }  // namespace domefall

@@ -28,6 +28,9 @@ void add_farm(CLI::App& app);
 // Those of `domefall farm`.
 void add_farm_status(CLI::App& farm);
 void add_farm_verify(CLI::App& farm);
+void add_farm_submit(CLI::App& farm);
+void add_farm_work(CLI::App& farm);
+void add_farm_conclude(CLI::App& farm);
 
 // All of them, with their help and what it closes with.
 std::unique_ptr<CLI::App> describe_command_line();

@@ -1,0 +1,161 @@
+#include "pipeline/cli/farm_submission.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/cli/frame_folder.h"
+#include "pipeline/cli/frame_grading.h"
+#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_run.h"
+#include "pipeline/cli/frame_size.h"
+#include "pipeline/cli/frame_survey.h"
+#include "pipeline/farm/equal_chunks.h"
+#include "pipeline/farm/job_lists.h"
+#include "pipeline/farm/slurm.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/movie/preset.h"
+#include "pipeline/show/read_show.h"
+#include "pipeline/survey/frame_costs.h"
+#include "pipeline/survey/render_time.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTaskSeconds = 300;  // of a task where there is much to do
+constexpr int kFewestFrames = 10;     // a task of this length spends little time on being started
+constexpr int kManyMachines = 100;    // a show is cut for, if its tasks are not too short then
+constexpr int kLongestLocalChunk = 100, kMostChunks = 10000, kTaskThreads = 4;
+
+fs::path absolute_path(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
+
+// Where the nodes find domefall: what --program says, or else this program itself.
+std::string program_path(const SubmitOptions& o) {
+  if (!o.program.empty()) return absolute_path(o.program).string();
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw TemporaryError("/proc/self/exe: " + error.message() + "; name --program");
+  return self.string();
+}
+
+// Seconds that each of these frames takes with that many threads; 1 each where the show is too small
+// to be measured.
+std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads) {
+  std::vector<double> costs = relative_costs(show, frames);
+  if (!is_worth_measuring(show)) return costs;
+  Renderer renderer(show);
+  std::optional<Grader> grader;
+  if (show.output.graded) grader.emplace(show.grade);
+  const RenderTime time = estimate_render_time(show, renderer, grader ? &*grader : nullptr);
+  for (double& cost : costs) cost *= time.frame_s * time.threads / threads;
+  return costs;
+}
+
+int most_tasks(const SubmitOptions& o) {
+  if (o.engine == "slurm") return most_array_tasks();
+  return o.engine == "openjd" ? kMostOpenJdTasks : kMostChunks;
+}
+
+int divided_up(int count, int by) { return (count + by - 1) / by; }
+
+// How many chunks to cut frames into, that take `seconds` one after another on one machine.
+int chunk_count(const SubmitOptions& o, const FarmPlan& plan, int frames, double seconds) {
+  const int most = most_tasks(o);
+  if (o.chunk > 0) {
+    const int count = divided_up(frames, o.chunk);
+    if (count > most)
+      throw InputError(fmt::format(
+          "--chunk {}: {} frames would make more than the {} tasks that "
+          "{}; --chunk {} or more fits",
+          o.chunk, frames, most,
+          o.engine == "slurm" ? "Slurm allows (MaxArraySize)" : "a job of this kind may have",
+          divided_up(frames, most)));
+    return count;
+  }
+  const int by_time = static_cast<int>(std::min(1e6, std::ceil(seconds / kTaskSeconds)));
+  int count = std::max(by_time, std::min(kManyMachines, divided_up(frames, kFewestFrames)));
+  if (o.engine == "local")
+    count = std::max(4 * plan.at_once, divided_up(frames, kLongestLocalChunk));
+  return std::clamp(count, 1, std::min(most, frames));
+}
+
+void add_chunks(FarmPlan& plan, const SubmitOptions& o, const Show& show,
+                const std::vector<int>& frames) {
+  if (frames.empty()) return;
+  const int threads = o.engine == "local" ? std::max(1, plan.threads / plan.at_once) : plan.threads;
+  const std::vector<double> seconds = frame_seconds(show, frames, threads);
+  double all = 0;
+  for (const double s : seconds) all += s;
+  const int count =
+      chunk_count(o, plan, static_cast<int>(frames.size()), is_worth_measuring(show) ? all : 0);
+  std::vector<double> costs = seconds;
+  std::vector<std::vector<int>> chunks;
+  if (o.chunk > 0)
+    for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(o.chunk))
+      chunks.emplace_back(
+          frames.begin() + static_cast<long>(k),
+          frames.begin() +
+              static_cast<long>(std::min(frames.size(), k + static_cast<std::size_t>(o.chunk))));
+  else
+    chunks = equal_chunks(frames, seconds, count);
+  std::size_t next = 0;
+  for (const std::vector<int>& chunk : chunks) {
+    double estimate = 0;
+    for (std::size_t k = 0; k < chunk.size(); ++k) estimate += seconds[next++];
+    plan.chunks.push_back({0, static_cast<int>(plan.chunks.size()), as_ranges(chunk),
+                           is_worth_measuring(show) ? estimate : 0});
+  }
+}
+
+void add_movie_and_delivery(FarmPlan& plan, const SubmitOptions& o, const Show& show, bool all) {
+  if (!o.movie.empty()) {
+    plan.movie = o.movie;
+    const MoviePreset& preset = movie_preset(o.movie);
+    plan.movie_file =
+        (plan.out / fmt::format("{}_{}.{}", show.file.stem().string(), o.movie, preset.extension))
+            .string();
+    if (plan.frames.find(',') != std::string::npos)
+      throw InputError("--frames " + o.frames + ": a movie takes one range, such as 0-299");
+    if (!show.output.graded)
+      throw InputError(o.show + ": --movie needs graded frames, and the show makes none");
+  }
+  if (o.deliver.empty()) return;
+  if (!all) throw InputError("--deliver " + o.deliver + ": takes all frames of the show");
+  if (!show.output.graded)
+    throw InputError(o.show + ": --deliver needs graded frames, and the show makes none");
+  plan.deliver = absolute_path(o.deliver).string();
+}
+
+}  // namespace
+
+FarmPlan make_plan(const SubmitOptions& o) {
+  Show show = read_show(o.show);
+  show.projection = resized(show.projection, o.size);
+  const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
+  FarmPlan plan;
+  plan.version = "domefall " DOMEFALL_VERSION;
+  plan.program = program_path(o);
+  plan.show = absolute_path(o.show);
+  plan.out = absolute_path(frames_folder(show, o.out));
+  plan.frames = as_ranges(frames);
+  if (!o.size.empty()) plan.options = {"--size", o.size};
+  if (o.replace) plan.options.emplace_back("--replace");
+  plan.engine = o.engine;
+  plan.engine_options = o.engine_options;
+  const bool local = o.engine == "local";
+  const int processors = all_threads(0);
+  plan.threads = o.threads > 0 ? o.threads : local ? processors : kTaskThreads;
+  plan.at_once = local ? (o.workers > 0 ? o.workers : std::max(1, processors / 4)) : o.at_once;
+  plan.retries = o.retries;
+  plan.most_rounds = o.rounds;
+  add_movie_and_delivery(plan, o, show, static_cast<int>(frames.size()) == frame_count(show));
+  const FrameRun run{show, frames, plan.out, 0, false, true, o.replace, true};
+  add_chunks(plan, o, show, frames_to_make(run));
+  return plan;
+}
+
+}  // namespace domefall

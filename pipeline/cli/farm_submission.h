@@ -1,0 +1,22 @@
+// The plan of `domefall farm submit`: which frames are to be made, and which chunks take equal time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/farm/plan.h"
+
+namespace domefall {
+
+struct SubmitOptions {
+  std::string show, engine, frames, size, out, program, movie, deliver;
+  std::vector<std::string> engine_options;
+  int workers = 0, threads = 0, chunk = 0, at_once = 0, retries = 3, rounds = 2;
+  bool replace = false, wait = false, dry = false;
+};
+
+// Reads the show, renders a few small frames of it, and looks at what is in the folder.  Throws
+// InputError for whatever a task would refuse, before anything is made.
+FarmPlan make_plan(const SubmitOptions& options);
+
+}  // namespace domefall

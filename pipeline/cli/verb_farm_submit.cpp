@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "pipeline/cli/farm_submission.h"
+#include "pipeline/cli/interruption.h"
+#include "pipeline/cli/number_in.h"
+#include "pipeline/cli/verbs.h"
+#include "pipeline/farm/job_lists.h"
+#include "pipeline/farm/rounds.h"
+#include "pipeline/farm/shell_words.h"
+#include "pipeline/farm/slurm.h"
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+// What a submission would hand to the engine.
+std::string text_for_engine(const FarmPlan& plan) {
+  if (plan.engine == "openjd") return openjd_template(plan);
+  if (plan.engine == "flamenco") return flamenco_job(plan);
+  if (plan.engine != "slurm") return list_of_commands(plan);
+  const std::string array =
+      plan.chunks.empty() ? std::string() : shell_line(array_submission(plan, 0)) + "\n";
+  // The array's id is known only when it is submitted.
+  return array + shell_line(conclusion_submission(plan, 0, plan.chunks.empty() ? "" : "JOB")) +
+         "\n";
+}
+
+void submit(const SubmitOptions& o) {
+  if (o.engine != "slurm" && !o.engine_options.empty())
+    throw InputError(o.engine_options.front() + ": only --engine slurm takes options after --");
+  if (!o.engine_options.empty() && !o.engine_options.front().starts_with('-'))
+    throw InputError(o.engine_options.front() + ": options of sbatch follow --");
+  const FarmPlan plan = make_plan(o);
+  if (o.dry) {
+    fmt::print("{}", text_for_engine(plan));
+    return;
+  }
+  stop_if_interrupted();
+  write_plan(plan);
+  if (o.engine == "local" || (o.engine == "slurm" && o.wait)) {
+    if (const int signal = run_rounds(plan); signal != 0) throw Interrupted{signal};
+  } else if (o.engine == "slurm") {
+    fmt::print("{}\n", submit_round(plan, 0));
+  } else {
+    fmt::print("{}", text_for_engine(plan));
+  }
+}
+
+void add_how_options(CLI::App& verb, const std::shared_ptr<SubmitOptions>& o) {
+  constexpr int kMostWorkers = 1024, kMostTries = 1000, kMostChunkFrames = 10'000'000;
+  verb.add_option("--workers", o->workers,
+                  "with local: processes at once; default one for every four processors")
+      ->check(number_in(1, kMostWorkers));
+  verb.add_option("--threads", o->threads,
+                  "of a task, which asks for as many processors; default 4.  With local: of all "
+                  "workers together; default one per processor")
+      ->check(number_in(1, kMostWorkers));
+  verb.add_option("--chunk", o->chunk,
+                  "frames of a task; default as many as take equal time, some minutes each")
+      ->check(number_in(1, kMostChunkFrames));
+  verb.add_option("--at-once", o->at_once, "with slurm: tasks that may run at the same time")
+      ->check(number_in(1, kMostChunkFrames));
+  verb.add_option("--retries", o->retries, "how often a task is tried again")
+      ->check(number_in(0, kMostTries))
+      ->capture_default_str();
+  verb.add_option("--rounds", o->rounds,
+                  "how often what is missing or bad after all tasks is rendered again")
+      ->check(number_in(0, kMostTries))
+      ->capture_default_str();
+  verb.add_option("--program", o->program, "where the nodes find domefall; default this program");
+  verb.add_flag("--wait", o->wait, "with slurm: end when all frames are good");
+  verb.add_flag("--dry-run", o->dry, "only print what would be submitted");
+  verb.add_option("engine_options", o->engine_options,
+                  "after --: options of sbatch, such as --partition=render --time=4:00:00");
+}
+
+}  // namespace
+
+void add_farm_submit(CLI::App& farm) {
+  auto* verb = farm.add_subcommand(
+      "submit", "Render a show by many processes: here, on Slurm, or for another queue manager");
+  auto o = std::make_shared<SubmitOptions>();
+  verb->add_option("show", o->show, "show file (YAML)")->required();
+  verb->add_option("--engine", o->engine,
+                   "slurm: a job array, verified and completed; local: processes on this machine; "
+                   "list: a command line a task; openjd: an Open Job Description template; "
+                   "flamenco: a job of farm/flamenco/domefall.js")
+      ->check(CLI::IsMember({"slurm", "local", "list", "openjd", "flamenco"}))
+      ->required();
+  verb->add_option("--out", o->out, "folder of the frames; default out/NAME");
+  verb->add_option("--frames", o->frames, "as of render; default all");
+  verb->add_option("--size", o->size, "as of render; default the show's");
+  verb->add_flag("--replace", o->replace, "as of render");
+  verb->add_option("--movie", o->movie,
+                   "then make a movie of this preset, DIR/NAME_PRESET.mp4, .mov or .mkv");
+  verb->add_option("--deliver", o->deliver, "then make this folder for delivery");
+  add_how_options(*verb, o);
+  verb->callback([o] { submit(*o); });
+}
+
+}  // namespace domefall

@@ -1,0 +1,122 @@
+#include "pipeline/farm/finish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "pipeline/farm/worker_process.h"
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+// Runs a verb of domefall and returns what it prints and says.  Throws for any code but 0 and `also`.
+std::string run_verb(const std::vector<std::string>& command, int also = 0) {
+  std::string said;
+  const WorkerEnd end = run_program(command, said);
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  if (end.signal == 0 && (end.code == 0 || end.code == also)) return said;
+  const std::string what = said.empty() ? command.front() + ": " + end.text() : said;
+  constexpr int kInputCode = 2, kTemporaryCode = 75, kNotStartedCode = 127;
+  if (end.code == kInputCode) throw InputError(what);
+  if (end.signal != 0 || end.code == kTemporaryCode || end.code >= kNotStartedCode)
+    throw TemporaryError(what);
+  throw std::runtime_error(what);
+}
+
+// Adds words to a command where a value is given.
+void add_option(std::vector<std::string>& command, const std::string& name,
+                const std::string& value) {
+  if (!value.empty()) command.insert(command.end(), {name, value});
+}
+
+std::string size_option(const FarmPlan& plan) {
+  const auto at = std::find(plan.options.begin(), plan.options.end(), "--size");
+  return at == plan.options.end() ? std::string() : *(at + 1);
+}
+
+}  // namespace
+
+FramesVerdict verify_frames(const FarmPlan& plan) {
+  constexpr int kIncomplete = 1;
+  const std::string said =
+      run_verb({plan.program, "farm", "verify", plan.out.string(), "--json"}, kIncomplete);
+  // What is said before the object, or after it, is for people.
+  const std::size_t begin = ("\n" + said).find("\n{"), end = said.rfind('}');
+  FramesVerdict verdict;
+  try {
+    const auto json = nlohmann::json::parse(
+        begin == std::string::npos ? "" : said.substr(begin, end + 1 - begin));
+    verdict.todo = json.at("todo").get<std::string>();
+    verdict.frames = json.at("frames");
+    verdict.todo_count = verdict.frames - json.at("good").get<int>();
+  } catch (const nlohmann::json::exception&) {
+    throw TemporaryError("domefall farm verify: " + said);
+  }
+  verdict.complete = verdict.todo.empty();
+  return verdict;
+}
+
+FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most) {
+  const int round = plan.rounds.empty() ? 1 : plan.rounds.back().round + 1;
+  const auto first = chunks_of_round(plan, 0);
+  std::vector<int> frames;
+  for (std::size_t at = 0; at < verdict.todo.size();) {
+    int from = 0, to = 0;
+    const char* const end = verdict.todo.data() + verdict.todo.size();
+    const char* next = std::from_chars(verdict.todo.data() + at, end, from).ptr;
+    to = from;
+    if (next != end && *next == '-') next = std::from_chars(next + 1, end, to).ptr;
+    for (int frame = from; frame <= to; ++frame) frames.push_back(frame);
+    at = static_cast<std::size_t>(next - verdict.todo.data()) + 1;
+  }
+  const int wanted = std::max<int>(1, static_cast<int>(first.size()));
+  const int per_chunk =
+      std::max({1, verdict.frames / wanted, (static_cast<int>(frames.size()) + most - 1) / most});
+  int task = 0;
+  for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(per_chunk)) {
+    const std::size_t last = std::min(frames.size(), k + static_cast<std::size_t>(per_chunk));
+    std::string text;
+    for (std::size_t i = k; i < last;) {
+      std::size_t j = i;
+      while (j + 1 < last && frames[j + 1] == frames[j] + 1) ++j;
+      text += (text.empty() ? "" : ",") + std::to_string(frames[i]) +
+              (j > i ? "-" + std::to_string(frames[j]) : "");
+      i = j + 1;
+    }
+    plan.chunks.push_back({round, task++, text, 0});
+  }
+  plan.rounds.push_back({round, {}, utc_now()});
+  return plan;
+}
+
+std::vector<std::string> movie_command(const FarmPlan& plan) {
+  std::vector<std::string> command{plan.program, "movie",  plan.show.string(), "--preset",
+                                   plan.movie,   "--from", plan.out.string()};
+  add_option(command, "--out", plan.movie_file);
+  add_option(command, "--frames", plan.frames);
+  add_option(command, "--size", size_option(plan));
+  return command;
+}
+
+std::vector<std::string> deliver_command(const FarmPlan& plan) {
+  std::vector<std::string> command{plan.program,      "deliver", plan.show.string(), "--from",
+                                   plan.out.string(), "--out",   plan.deliver};
+  add_option(command, "--size", size_option(plan));
+  return command;
+}
+
+void make_movie_and_delivery(const FarmPlan& plan) {
+  for (const auto& command :
+       {plan.movie.empty() ? std::vector<std::string>() : movie_command(plan),
+        plan.deliver.empty() ? std::vector<std::string>() : deliver_command(plan)}) {
+    if (command.empty()) continue;
+    std::fprintf(stderr, "%s\n", run_verb(command).c_str());
+  }
+}
+
+}  // namespace domefall

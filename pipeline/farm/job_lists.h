@@ -1,0 +1,23 @@
+// A plan as other queue managers read it.
+#pragma once
+
+#include <string>
+
+#include "pipeline/farm/plan.h"
+
+namespace domefall {
+
+// One command line a chunk, quoted for a shell.
+std::string list_of_commands(const FarmPlan& plan);
+
+// An Open Job Description template, version 2023-09, without extensions: a step with one task a chunk,
+// and one that verifies and repairs after it.  At most kMostOpenJdTasks chunks.
+// https://github.com/OpenJobDescription/openjd-specifications/wiki/2023-09-Template-Schemas
+std::string openjd_template(const FarmPlan& plan);
+inline constexpr int kMostOpenJdTasks = 1024;
+
+// A job for Flamenco's job type farm/flamenco/domefall.js, as its manager takes it at
+// /api/v3/jobs.
+std::string flamenco_job(const FarmPlan& plan);
+
+}  // namespace domefall

@@ -1,0 +1,221 @@
+#include "pipeline/farm/local_engine.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <list>
+#include <memory>
+#include <vector>
+
+#include "pipeline/farm/farm_task.h"
+#include "pipeline/farm/signal_inbox.h"
+#include "pipeline/farm/worker_process.h"
+#include "pipeline/image/descriptor.h"
+#include "pipeline/image/errors.h"
+
+namespace domefall {
+namespace {
+
+using FarmClock = std::chrono::steady_clock;
+
+constexpr int kLongestPauseS = 30, kWorkAgain = 75, kWorkRefused = 2;
+
+int pause_after(int tries) { return std::min(kLongestPauseS, 1 << std::min(tries - 1, 5)); }
+
+void say_line(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+struct LocalChunk {
+  FarmChunk chunk;
+  int tries = 0;
+  FarmClock::time_point not_before = FarmClock::now();
+
+  std::string name() const { return "frames " + chunk.frames; }
+};
+
+struct LocalTask {
+  LocalChunk chunk;
+  int slot;
+  std::unique_ptr<Descriptor> log;
+  std::unique_ptr<WorkerProcess> process;
+};
+
+class LocalRun {
+ public:
+  LocalRun(const FarmPlan& plan, int round, SignalInbox& inbox) : plan_(plan), inbox_(inbox) {
+    for (const FarmChunk& chunk : chunks_of_round(plan, round)) waiting_.push_back({chunk});
+    total_ = waiting_.size();
+  }
+
+  LocalOutcome run() {
+    while (!running_.empty() || (!is_ending() && !waiting_.empty())) {
+      pass_signals_on();
+      conclude_ended();
+      while (is_time_to_start() && start_one()) {
+      }
+      std::vector<int> talks;
+      for (const LocalTask& task : running_) talks.push_back(task.process->talk());
+      constexpr double kLookEveryS = 0.2;  // at chunks whose pause is over, and at what is away
+      if (!running_.empty() || !waiting_.empty()) inbox_.wait(kLookEveryS, talks);
+    }
+    outcome_.given_up += static_cast<int>(waiting_.size());
+    return outcome_;
+  }
+
+ private:
+  bool is_ending() const { return outcome_.signal != 0 || outcome_.away || outcome_.refused; }
+
+  void pass_signals_on() {
+    for (const int signal : inbox_.take()) {
+      if (signal == SIGUSR1) continue;
+      if (outcome_.signal == 0)
+        say_line(signal_name(signal) +
+                 ": the workers finish their frames; once more ends them at once");
+      outcome_.signal = outcome_.signal != 0 ? outcome_.signal : signal;
+      for (const LocalTask& task : running_) task.process->tell(signal);
+    }
+  }
+
+  void conclude_ended() {
+    for (auto task = running_.begin(); task != running_.end();) {
+      const auto end = task->process->look();
+      if (!end) {
+        task->process->mind_stops(task->chunk.name());
+        ++task;
+        continue;
+      }
+      const LocalTask ended = std::move(*task);
+      task = running_.erase(task);
+      conclude(ended, *end);
+    }
+  }
+
+  void conclude(const LocalTask& task, const WorkerEnd& end) {
+    const LocalChunk& chunk = task.chunk;
+    const std::string last = task.process->last_line();
+    if (end.signal == 0 && end.code == 0) {
+      say_line(fmt::format("[{}/{}] {}: {}", ++done_, total_, chunk.name(), last));
+      return;
+    }
+    if (is_ending()) {
+      ++outcome_.given_up;
+      return;
+    }
+    say_line(end.signal != 0 || last.empty() ? chunk.name() + ": " + end.text() : last);
+    if (end.signal != 0 || end.code == kWorkAgain || end.code > 128) return try_again(chunk);
+    if (end.code == kWorkRefused) {
+      if (!is_refused_here()) return try_again(chunk);
+      outcome_.refused = true;
+      for (const LocalTask& other : running_) other.process->tell(SIGTERM);
+      return;
+    }
+    outcome_.failed = true;
+    ++outcome_.given_up;
+  }
+
+  // Only the one who submits may say that the input is wrong.
+  bool is_refused_here() const {
+    std::vector<std::string> command = render_command(plan_, plan_.frames, 1);
+    command.push_back("--dry-run");
+    std::string said;
+    const WorkerEnd end = run_program(command, said);
+    return missing_path(plan_).empty() && end.signal == 0 && end.code == kWorkRefused;
+  }
+
+  void try_again(LocalChunk chunk) {
+    if (chunk.tries > plan_.retries) {
+      say_line(fmt::format("{}: given up after {} tries", chunk.name(), chunk.tries));
+      ++outcome_.given_up;
+      return;
+    }
+    const int pause = pause_after(chunk.tries);
+    say_line(fmt::format("{}: next try in {} s", chunk.name(), pause));
+    chunk.not_before = FarmClock::now() + std::chrono::seconds(pause);
+    waiting_.push_back(std::move(chunk));
+  }
+
+  // False where the run ends early or all workers are busy, and while the show or the folder is away:
+  // a worker would make another folder where that of the others is to come back.
+  bool is_time_to_start() {
+    if (is_ending() || waiting_.empty() || running_.size() >= workers()) return false;
+    const std::string missing = missing_path(plan_);
+    if (missing.empty()) {
+      away_since_.reset();
+      return true;
+    }
+    int patience = 0;
+    for (int tries = 1; tries <= plan_.retries; ++tries) patience += pause_after(tries);
+    if (!away_since_) {
+      away_since_ = FarmClock::now();
+      say_line(missing + ": away for now; no chunk is begun until it is back");
+    } else if (FarmClock::now() - *away_since_ >= std::chrono::seconds(patience)) {
+      say_line(fmt::format("{}: still away after {} s; given up", missing, patience));
+      outcome_.away = true;
+    }
+    return false;
+  }
+
+  bool start_one() {
+    const auto now = FarmClock::now();
+    const auto ready = std::find_if(waiting_.begin(), waiting_.end(),
+                                    [now](const LocalChunk& c) { return c.not_before <= now; });
+    if (ready == waiting_.end()) return false;
+    LocalChunk chunk = std::move(*ready);
+    waiting_.erase(ready);
+    ++chunk.tries;
+    try {
+      const int slot = free_slot();
+      const auto log_file = farm_log_folder(plan_.out) /
+                            fmt::format("local_{}_{}.log", chunk.chunk.round, chunk.chunk.task);
+      auto log = std::make_unique<Descriptor>(
+          open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+      auto process = std::make_unique<WorkerProcess>(work_command(chunk.chunk, slot),
+                                                     WorkerProcess::Way{.log = log->number()});
+      running_.push_back({std::move(chunk), slot, std::move(log), std::move(process)});
+    } catch (const TemporaryError& error) {
+      // Too many processes, say.  Those that run go on.
+      say_line(chunk.name() + ": a worker cannot be started: " + error.what());
+      try_again(chunk);
+    }
+    return true;
+  }
+
+  std::size_t workers() const { return static_cast<std::size_t>(std::max(1, plan_.at_once)); }
+
+  int free_slot() const {
+    int slot = 0;
+    while (std::any_of(running_.begin(), running_.end(),
+                       [slot](const LocalTask& task) { return task.slot == slot; }))
+      ++slot;
+    return slot;
+  }
+
+  std::vector<std::string> work_command(const FarmChunk& chunk, int slot) const {
+    const int count = static_cast<int>(workers());
+    const int share = plan_.threads / count + (slot < plan_.threads % count ? 1 : 0);
+    return {plan_.program, "farm",
+            "work",        plan_.out.string(),
+            "--round",     std::to_string(chunk.round),
+            "--task",      std::to_string(chunk.task),
+            "--threads",   std::to_string(std::max(1, share))};
+  }
+
+  const FarmPlan& plan_;
+  SignalInbox& inbox_;
+  std::list<LocalChunk> waiting_;
+  std::list<LocalTask> running_;
+  std::size_t total_ = 0, done_ = 0;
+  std::optional<FarmClock::time_point> away_since_;  // when the show or the folder was first missed
+  LocalOutcome outcome_;
+};
+
+}  // namespace
+
+LocalOutcome run_locally(const FarmPlan& plan, int round, SignalInbox& inbox) {
+  return LocalRun(plan, round, inbox).run();
+}
+
+}  // namespace domefall

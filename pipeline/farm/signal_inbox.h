@@ -1,0 +1,32 @@
+// Signals to a program that looks after others: they are kept until it asks for them.
+#pragma once
+
+#include <csignal>
+#include <map>
+#include <vector>
+
+namespace domefall {
+
+// One at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing else.  One
+// that the program was started to ignore stays ignored.
+class SignalInbox {
+ public:
+  // Throws TemporaryError where no pipe can be opened.
+  SignalInbox();
+  ~SignalInbox();
+  SignalInbox(const SignalInbox&) = delete;
+  SignalInbox(SignalInbox&&) = delete;
+  SignalInbox& operator=(const SignalInbox&) = delete;
+  SignalInbox& operator=(SignalInbox&&) = delete;
+
+  // The signals since the last call, in their order, without CHLD.
+  std::vector<int> take();
+
+  // Returns when a signal comes, when one of the descriptors can be read, or after that time.
+  void wait(double seconds, const std::vector<int>& descriptors = {}) const;
+
+ private:
+  std::map<int, struct sigaction> before_;
+};
+
+}  // namespace domefall

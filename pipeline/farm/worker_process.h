@@ -1,0 +1,76 @@
+// Another program that does a part of the work, and may be killed, stopped, or slow to end.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace domefall {
+
+class SignalInbox;
+
+// How a process ended.
+struct WorkerEnd {
+  int code = 0;    // its exit code
+  int signal = 0;  // the signal that killed it, or 0
+
+  // "exit code 75", "killed by SIGKILL".
+  std::string text() const;
+};
+
+class WorkerProcess {
+ public:
+  struct Way {
+    int log = -1;              // what it says is copied to this descriptor; -1: to none
+    bool own_session = true;   // what is typed at the terminal does not reach it
+    bool ends_with_us = true;  // it is told to end (TERM) when this process has died
+    bool deaf = false;         // it ignores TERM
+  };
+
+  // Starts a program that the PATH finds, with no standard input.  Throws TemporaryError if it cannot
+  // be started.
+  WorkerProcess(std::vector<std::string> arguments, const Way& way);
+  // Tells it to end, and does not wait for it.
+  ~WorkerProcess();
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess(WorkerProcess&&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(WorkerProcess&&) = delete;
+
+  pid_t process() const { return process_; }
+  // Can be read when it has said something.
+  int talk() const { return talk_; }
+
+  // Sends a signal, which also reaches a process that is stopped.
+  void tell(int signal) const;
+
+  // Copies what it has said since, and how it ended, if it has.
+  std::optional<WorkerEnd> look();
+
+  // Whether it has been stopped, as by SIGSTOP, since the last look: the first time it is continued,
+  // and later killed.  Says so.
+  void mind_stops(const std::string& name);
+
+  // Its last line, and all that it said (64 kB at most, the end of it).
+  std::string last_line() const;
+  const std::string& said() const { return said_; }
+
+ private:
+  void copy();
+
+  pid_t process_ = -1;
+  int talk_ = -1, log_ = -1, stops_ = 0;
+  std::string said_;
+};
+
+// Runs a program to its end and returns how it ended; what it prints and says is in `said`.  A program
+// that cannot be started has exit code 127.  A deaf one ignores TERM and outlives this process.
+WorkerEnd run_program(const std::vector<std::string>& arguments, std::string& said,
+                      bool deaf = false);
+
+// The name of a signal, such as SIGKILL.
+std::string signal_name(int signal);
+
+}  // namespace domefall

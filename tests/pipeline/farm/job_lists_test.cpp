@@ -1,0 +1,93 @@
+#include "pipeline/farm/job_lists.h"
+
+#include <gmock/gmock.h>
+
+#include "pipeline/farm/farm_task.h"
+#include "pipeline/farm/finish.h"
+#include "pipeline/farm/shell_words.h"
+#include "pipeline/farm/slurm.h"
+#include "pipeline/image/scratch_folder.h"
+
+namespace domefall {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+FarmPlan small_plan() {
+  FarmPlan plan;
+  plan.version = "domefall 1";
+  plan.program = "/opt/dome fall/domefall";
+  plan.show = "/shows/a fall's.yaml";
+  plan.out = "/frames/100%";
+  plan.frames = "0-9";
+  plan.options = {"--size", "4k"};
+  plan.engine = "slurm";
+  plan.engine_options = {"--partition=render", "--mem=8G"};
+  plan.threads = 3;
+  plan.chunks = {{0, 0, "0-4", 1.5}, {0, 1, "5-7,9", 0}};
+  return plan;
+}
+
+TEST(ShellWords, TakeEveryWordLiterally) {
+  EXPECT_EQ(shell_line({"a-b", "c d", "", "it's", "$x`"}), "a-b 'c d' '' 'it'\\''s' '$x`'");
+}
+
+TEST(FarmPlan, IsReadAsItWasWritten) {
+  const ScratchFolder folder;
+  FarmPlan plan = small_plan();
+  plan.out = folder / "out";
+  plan.movie = "review";
+  plan.rounds = {{0, "12", "2026-01-01T00:00:00Z"}};
+  write_plan(plan);
+  const FarmPlan read = read_plan(plan.out);
+  EXPECT_EQ(read.show, plan.show);
+  EXPECT_EQ(read.options, plan.options);
+  EXPECT_EQ(read.engine_options, plan.engine_options);
+  EXPECT_EQ(read.movie, "review");
+  ASSERT_EQ(read.chunks.size(), 2U);
+  EXPECT_EQ(read.chunks[1].frames, "5-7,9");
+  EXPECT_EQ(read.chunks[0].estimated_s, 1.5);
+  ASSERT_EQ(read.rounds.size(), 1U);
+  EXPECT_EQ(read.rounds[0].job, "12");
+}
+
+TEST(FarmPlan, AFurtherRoundHasTheFramesThatLackInChunksOfTheUsualLength) {
+  const FramesVerdict verdict{false, "1-7,9", 8, 10};
+  const FarmPlan plan = with_round(small_plan(), verdict, 100);
+  const auto chunks = chunks_of_round(plan, 1);
+  ASSERT_EQ(chunks.size(), 2U);
+  EXPECT_EQ(chunks[0].frames, "1-5");
+  EXPECT_EQ(chunks[1].frames, "6-7,9");
+  EXPECT_EQ(chunks[1].task, 1);
+  EXPECT_EQ(chunks_of_round(with_round(small_plan(), verdict, 1), 1).size(), 1U);
+  EXPECT_EQ(with_round(plan, verdict, 100).rounds.back().round, 2);
+}
+
+TEST(JobLists, AListHasALineForEachChunk) {
+  EXPECT_EQ(list_of_commands(small_plan()),
+            "'/opt/dome fall/domefall' render '/shows/a fall'\\''s.yaml' --frames 0-4 --out "
+            "/frames/100% --threads 3 --size 4k\n"
+            "'/opt/dome fall/domefall' render '/shows/a fall'\\''s.yaml' --frames 5-7,9 --out "
+            "/frames/100% --threads 3 --size 4k\n");
+}
+
+TEST(Slurm, AnArrayIsVerifiedAfterItsTasksHoweverTheyEnd) {
+  const auto array = array_submission(small_plan(), 0);
+  EXPECT_THAT(array, Contains("--array=0-1"));
+  EXPECT_THAT(array, Contains("--cpus-per-task=3"));
+  EXPECT_THAT(array, Contains("--partition=render"));
+  EXPECT_THAT(array, Contains("--output=/frames/100%%/farm/log/slurm_%A_%a.log"));
+  EXPECT_THAT(array, Contains("--wrap=exec '/opt/dome fall/domefall' farm work /frames/100% "
+                              "--round 0 --task \"$SLURM_ARRAY_TASK_ID\""));
+  const auto after = conclusion_submission(small_plan(), 0, "77");
+  EXPECT_THAT(after, Contains("--dependency=afterany:77"));
+  EXPECT_THAT(after, Contains("--mem=8G"));
+  FarmPlan throttled = small_plan();
+  throttled.at_once = 1;
+  EXPECT_THAT(array_submission(throttled, 0), Contains("--array=0-1%1"));
+}
+
+}  // namespace
+}  // namespace domefall
