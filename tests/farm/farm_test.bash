@@ -4,8 +4,6 @@
 
 : "${DOMEFALL:?the program under test}" "${DOMEFALL_SOURCE:?the source tree}"
 export DOMEFALL
-worker_program=$DOMEFALL
-export farm=$DOMEFALL_SOURCE/farm
 # Short, and outside the source: the paths of sockets have at most 107 bytes.
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/farm.XXXXXX")
 # Processes that this test started, and theirs, are known by this mark in their environment.
@@ -43,13 +41,11 @@ marked() {
   done
 }
 
-# The workers of this test that run, one a line; of those on a range, where one is named.
+# The processes `domefall render` of this test, and those in their place, one a line.
 workers() {
   local pid
   for pid in $(marked); do
-    [[ /proc/$pid/exe -ef $worker_program ]] || continue
     grep -qzxF render "/proc/$pid/cmdline" || continue
-    [[ -z ${1-} ]] || grep -qzxF -e "$1" "/proc/$pid/cmdline" || continue
     echo "$pid"
   done 2>/dev/null
 }
@@ -104,7 +100,7 @@ no_temporaries() { [[ -z $(find "$1" -name '.*') ]]; }
 write_full_disk_program() {
   cat >"$1" <<SCRIPT
 #!/bin/bash
-[[ -e $2 ]] || { trap '' XFSZ; ulimit -f 1; }
+[[ \$1 != render || -e $2 ]] || { trap '' XFSZ; ulimit -f 1; }
 exec $DOMEFALL "\$@"
 SCRIPT
   chmod +x "$1"

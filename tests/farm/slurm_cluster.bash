@@ -6,7 +6,7 @@
 # database is needed, nor anything under /etc. If the test is killed, the kernel ends the daemons too.
 
 cluster=${scratch:?set by farm_test.bash}/slurm
-slurm_nodes=2
+slurm_nodes=3
 export SLURM_CONF=$cluster/slurm.conf
 
 skip_without_slurm() {
@@ -113,6 +113,7 @@ munge_answers() { munge -n -S "$cluster/munge.socket" | unmunge -S "$cluster/mun
 controller_answers() { timeout 5 scontrol ping 2>/dev/null | grep -q 'is UP'; }
 nodes_idle() { [[ $(timeout 5 sinfo -h -N -o %t | grep -c '^idle$') == "$slurm_nodes" ]]; }
 
+declare -A slurmd_of=()
 slurm_up() {
   local k
   daemons=()
@@ -127,9 +128,60 @@ slurm_up() {
     --log-file="$cluster/log/munged.log" --seed-file="$cluster/munged.seed"
   until_ok 10 munge_answers || slurm_failed "munged does not answer"
   start_daemon slurmctld slurmctld -D -c
+  controller=${daemons[-1]}
   until_ok 20 controller_answers || slurm_failed "slurmctld does not answer"
-  for ((k = 1; k <= slurm_nodes; ++k)); do start_daemon "slurmd.node$k" slurmd -D -c -N "node$k"; done
+  for ((k = 1; k <= slurm_nodes; ++k)); do start_node "node$k"; done
   until_ok 20 nodes_idle || slurm_failed "the nodes are not idle"
+}
+
+start_node() {
+  start_daemon "slurmd.$1" slurmd -D -c -N "$1"
+  slurmd_of[$1]=${daemons[-1]}
+}
+
+# The processes of the jobs on a node, and their slurmstepds.
+on_node() {
+  local pid
+  for pid in $(marked); do
+    grep -qzxF "SLURMD_NODENAME=$1" "/proc/$pid/environ" || continue
+    echo "$pid"
+  done 2>/dev/null
+}
+stepds_on_node() {
+  local pid parent
+  for pid in $(on_node "$1"); do
+    parent=$(ps -o ppid= -p "$pid" | tr -d ' ')
+    ! grep -qx slurmstepd "/proc/$parent/comm" || echo "$parent"
+  done 2>/dev/null | sort -u
+}
+
+# The controller would notice by itself after SlurmdTimeout; it is told, so that no test waits for that.
+declare_down() { scontrol update NodeName="$1" State=DOWN Reason=test; }
+
+kill_node() {
+  local pids
+  mapfile -t pids < <(stepds_on_node "$1"; on_node "$1")
+  kill -KILL "${slurmd_of[$1]}" "${pids[@]}" 2>/dev/null || true
+  declare_down "$1"
+}
+
+# slurmd and slurmstepd stop, and what they started lives on.
+freeze_node() {
+  mapfile -t frozen < <(stepds_on_node "$1"; echo "${slurmd_of[$1]}")
+  kill -STOP "${frozen[@]}"
+  declare_down "$1"
+}
+thaw_node() { kill -CONT "${frozen[@]}" 2>/dev/null || true; }
+
+# The controller saves its state some seconds after a change; what is newer goes with it.
+restart_controller() {
+  touch "$cluster/now"
+  scontrol update JobId="$1" Comment=kept
+  until_ok 30 test "$cluster/state/job_state" -nt "$cluster/now" || slurm_failed "no state is saved"
+  kill -KILL "$controller"
+  start_daemon slurmctld slurmctld -D
+  controller=${daemons[-1]}
+  until_ok 20 controller_answers || slurm_failed "slurmctld does not answer again"
 }
 
 slurm_failed() {
