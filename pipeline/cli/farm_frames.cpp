@@ -142,6 +142,7 @@ FrameSurvey FarmFrames::invalidated(const FolderFindings& found) const {
 std::vector<std::string> FarmFrames::foreign(const FolderFindings& found,
                                              const std::vector<fs::path>& strangers) {
   std::vector<std::string> names;
+  names.reserve(strangers.size() + found.others_files.size());
   for (const fs::path& file : strangers) names.push_back(file.string());
   for (const fs::path& file : found.others_files) names.push_back(file.string());
   std::sort(names.begin(), names.end());

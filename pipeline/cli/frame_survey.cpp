@@ -118,8 +118,10 @@ std::string describe_strangers(const std::vector<std::string>& files) {
 }
 
 std::string describe_strangers(const FrameFolder& folder) {
+  const auto found = folder.strangers();
   std::vector<std::string> names;
-  for (const auto& file : folder.strangers()) names.push_back(file.string());
+  names.reserve(found.size());
+  for (const auto& file : found) names.push_back(file.string());
   return names.empty() ? std::string() : folder.path().string() + ": " + describe_strangers(names);
 }
 
