@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/cli/frame_grading.h"
+#include "pipeline/render/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/cli/frame_size.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/manifest.h"

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/cli/frame_grading.h"
+#include "pipeline/render/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
-#include "pipeline/cli/frame_size.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/farm/equal_chunks.h"
 #include "pipeline/farm/job_lists.h"
