@@ -1,7 +1,8 @@
-// The job type "domefall" of Flamenco 3, for its manager's folder `scripts`. The job itself comes from
+// The job type "domefall" of Flamenco 3, for its manager's folder `scripts`. The job itself comes
+// from
 //   domefall farm submit SHOW --engine flamenco --out DIR | curl -s --json @- MANAGER/api/v3/jobs
-// with a task a chunk, and then one task after another that verifies the frames, repairs what is bad,
-// and makes what else was asked for.
+// with a task a chunk, and then one task after another that verifies the frames, repairs what is
+// bad, and makes what else was asked for.
 
 const JOB_TYPE = {
   label: "Domefall",

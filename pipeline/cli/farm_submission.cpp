@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "pipeline/cli/frame_folder.h"
 #include "pipeline/render/frame_grading.h"
@@ -27,8 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTaskSeconds = 300;  // of a task where there is much to do
-constexpr int kFewestFrames = 10;     // a task of this length spends little time on being started
-constexpr int kManyMachines = 100;    // a show is cut for, if its tasks are not too short then
+// The start of a process, 0.6 s with a grade, is little of this.
+constexpr double kShortTaskSeconds = 30;
+constexpr int kFewestFrames = 10;   // a task of this length spends little time on being started
+constexpr int kManyMachines = 100;  // a show is cut for, if its tasks are not too short then
 constexpr int kLongestLocalChunk = 100, kMostChunks = 10000, kTaskThreads = 4;
 
 fs::path absolute_path(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
@@ -42,11 +45,15 @@ std::string program_path(const SubmitOptions& o) {
   return self.string();
 }
 
-// Seconds that each of these frames takes with that many threads; 1 each where the show is too small
-// to be measured.
-std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads) {
+// Seconds that each of these frames takes with that many threads.  Renders a few small frames in
+// any case: so what the show reads is there and can be read.
+std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads,
+                                  bool measured) {
+  if (!measured) {
+    relative_costs(show, {frames.front(), frames.back()});
+    return std::vector<double>(frames.size(), 1);
+  }
   std::vector<double> costs = relative_costs(show, frames);
-  if (!is_worth_measuring(show)) return costs;
   Renderer renderer(show);
   std::optional<Grader> grader;
   if (show.output.graded) grader.emplace(show.grade);
@@ -76,10 +83,15 @@ int chunk_count(const SubmitOptions& o, const FarmPlan& plan, int frames, double
           divided_up(frames, most)));
     return count;
   }
+  const bool local = o.engine == "local";
   const int by_time = static_cast<int>(std::min(1e6, std::ceil(seconds / kTaskSeconds)));
-  int count = std::max(by_time, std::min(kManyMachines, divided_up(frames, kFewestFrames)));
-  if (o.engine == "local")
-    count = std::max(4 * plan.at_once, divided_up(frames, kLongestLocalChunk));
+  const int by_frames = divided_up(frames, local ? kLongestLocalChunk : kFewestFrames);
+  // So many that the last tasks do not keep the others waiting, where they are long enough for
+  // that.
+  int many = local ? 4 * plan.at_once : std::min(kManyMachines, by_frames);
+  if (seconds > 0) many = std::min(many, static_cast<int>(seconds / kShortTaskSeconds));
+  if (local) many = std::max({many, plan.at_once, seconds > 0 ? 1 : by_frames});
+  const int count = std::max(many, by_time);
   return std::clamp(count, 1, std::min(most, frames));
 }
 
@@ -87,12 +99,10 @@ void add_chunks(FarmPlan& plan, const SubmitOptions& o, const Show& show,
                 const std::vector<int>& frames) {
   if (frames.empty()) return;
   const int threads = o.engine == "local" ? std::max(1, plan.threads / plan.at_once) : plan.threads;
-  const std::vector<double> seconds = frame_seconds(show, frames, threads);
-  double all = 0;
-  for (const double s : seconds) all += s;
-  const int count =
-      chunk_count(o, plan, static_cast<int>(frames.size()), is_worth_measuring(show) ? all : 0);
-  std::vector<double> costs = seconds;
+  const bool measured = o.chunk == 0 && is_worth_measuring(show);
+  const std::vector<double> seconds = frame_seconds(show, frames, threads, measured);
+  const double all = measured ? std::accumulate(seconds.begin(), seconds.end(), 0.0) : 0;
+  const int count = chunk_count(o, plan, static_cast<int>(frames.size()), all);
   std::vector<std::vector<int>> chunks;
   if (o.chunk > 0)
     for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(o.chunk))
@@ -106,8 +116,8 @@ void add_chunks(FarmPlan& plan, const SubmitOptions& o, const Show& show,
   for (const std::vector<int>& chunk : chunks) {
     double estimate = 0;
     for (std::size_t k = 0; k < chunk.size(); ++k) estimate += seconds[next++];
-    plan.chunks.push_back({0, static_cast<int>(plan.chunks.size()), as_ranges(chunk),
-                           is_worth_measuring(show) ? estimate : 0});
+    plan.chunks.push_back(
+        {0, static_cast<int>(plan.chunks.size()), as_ranges(chunk), measured ? estimate : 0});
   }
 }
 

@@ -1,4 +1,5 @@
-// The plan of `domefall farm submit`: which frames are to be made, and which chunks take equal time.
+// The plan of `domefall farm submit`: which frames are to be made, and which chunks take equal
+// time.
 #pragma once
 
 #include <string>

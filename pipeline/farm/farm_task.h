@@ -1,5 +1,5 @@
-// The task runner: one chunk of a plan, rendered by a `domefall render` of its own.  All engines that
-// run tasks themselves, here or on a cluster, run this.
+// The task runner: one chunk of a plan, rendered by a `domefall render` of its own.  All engines
+// that run tasks themselves, here or on a cluster, run this.
 #pragma once
 
 #include <string>
@@ -33,9 +33,9 @@ struct TaskPlace {
 };
 
 // Renders the chunk and says on standard error what the worker says.  USR1 asks it to end its frame
-// and to be tried again; INT, TERM and HUP end it.  A worker that something else stops is continued,
-// and killed when it is stopped again.
-TaskEnd run_task(const FarmPlan& plan, const FarmChunk& chunk, const TaskPlace& place,
+// and to be tried again; INT, TERM and HUP end it.  A worker that something else stops is
+// continued, and killed when it is stopped again.
+TaskEnd run_task(const FarmPlan& plan, const PlannedChunk& chunk, const TaskPlace& place,
                  SignalInbox& inbox);
 
 // The command line by which any machine renders a chunk.

@@ -14,7 +14,8 @@
 namespace domefall {
 namespace {
 
-// Runs a verb of domefall and returns what it prints and says.  Throws for any code but 0 and `also`.
+// Runs a verb of domefall and returns what it prints and says.  Throws for any code but 0 and
+// `also`.
 std::string run_verb(const std::vector<std::string>& command, int also = 0) {
   std::string said;
   const WorkerEnd end = run_program(command, said);

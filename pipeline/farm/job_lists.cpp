@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A text in which no {{ }} is taken for an expression.  A format string has no way to quote them, so
-// a string parameter holds what is literal.
+// A text in which no {{ }} is taken for an expression.  A format string has no way to quote them,
+// so a string parameter holds what is literal.
 Json openjd_action(std::vector<std::string> command) {
   const std::string program = command.front();
   command.erase(command.begin());

@@ -137,8 +137,8 @@ class LocalRun {
     waiting_.push_back(std::move(chunk));
   }
 
-  // False where the run ends early or all workers are busy, and while the show or the folder is away:
-  // a worker would make another folder where that of the others is to come back.
+  // False where the run ends early or all workers are busy, and while the show or the folder is
+  // away: a worker would make another folder where that of the others is to come back.
   bool is_time_to_start() {
     if (is_ending() || waiting_.empty() || running_.size() >= workers()) return false;
     const std::string missing = missing_path(plan_);

@@ -1,5 +1,5 @@
-// What a submission to a farm is to make, as DIR/farm/plan.json keeps it for the tasks, for those who
-// verify the frames, and for the rounds that follow.
+// What a submission to a farm is to make, as DIR/farm/plan.json keeps it for the tasks, for those
+// who verify the frames, and for the rounds that follow.
 #pragma once
 
 #include <filesystem>
@@ -46,8 +46,8 @@ std::filesystem::path farm_folder(const std::filesystem::path& out);
 std::filesystem::path plan_file(const std::filesystem::path& out);
 std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 
-// Throws TemporaryError where the file is not there or cannot be read, and InputError where it is no
-// plan.
+// Throws TemporaryError where the file is not there or cannot be read, and InputError where it is
+// no plan.
 FarmPlan read_plan(const std::filesystem::path& out);
 
 // Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws as throw_file_error().

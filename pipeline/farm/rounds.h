@@ -5,17 +5,23 @@
 #include <string>
 
 #include "pipeline/farm/plan.h"
+#include "pipeline/image/errors.h"
 
 namespace domefall {
 
-// Goes through all rounds on this machine, or on Slurm while this process waits, and then makes what
-// else the plan asks for.  Returns the signal that ended it early, or 0.  Throws InputError where the
-// show is refused here, TemporaryError where frames are still missing or bad, std::runtime_error where
-// they are because of a defect.
+// Frames are still missing or bad after the last round.
+struct FramesLacking : TemporaryError {
+  using TemporaryError::TemporaryError;
+};
+
+// Goes through all rounds on this machine, or on Slurm while this process waits, and then makes
+// what else the plan asks for.  Returns the signal that ended it early, or 0.  Throws InputError
+// where the show is refused here, FramesLacking where frames are still missing or bad,
+// std::runtime_error where they are because of a defect.
 int run_rounds(FarmPlan plan);
 
-// Submits a round to Slurm with the job that concludes it, and notes it in plan.json.  Returns the id
-// of the array, or of that job where there is nothing to render.
+// Submits a round to Slurm with the job that concludes it, and notes it in plan.json.  Returns the
+// id of the array, or of that job where there is nothing to render.
 std::string submit_round(FarmPlan plan, int round);
 
 // What that job does: verifies, then submits the next round, or makes what else the plan asks for.

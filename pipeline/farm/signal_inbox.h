@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// One at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing else.  One
-// that the program was started to ignore stays ignored.
+// One at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing else.
+// One that the program was started to ignore stays ignored.
 class SignalInbox {
  public:
   // Throws TemporaryError where no pipe can be opened.

@@ -173,9 +173,9 @@ SlurmTask this_slurm_task() {
 }
 
 bool requeue_slurm_task(const SlurmTask& task, bool elsewhere, SignalInbox& inbox) {
-  // A job that exits with 75 and is requeued for that would cancel those that wait for the array with
-  // afterok, even if the next try succeeds; one that is requeued while it runs does not.  Slurm then
-  // ends it with TERM, but only a job that waits can be kept off a node.
+  // A job that exits with 75 and is requeued for that would cancel those that wait for the array
+  // with afterok, even if the next try succeeds; one that is requeued while it runs does not.
+  // Slurm then ends it with TERM, but only a job that waits can be kept off a node.
   std::string said;
   const WorkerEnd end = run_program({"scontrol", "requeue", task.id}, said, true);
   if (end.code != 0 || end.signal != 0) {

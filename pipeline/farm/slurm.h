@@ -14,9 +14,9 @@ namespace domefall {
 int most_array_tasks();
 
 // The command line that submits the chunks of a round as an array, and the one that submits the job
-// which verifies their frames when all tasks have ended, however they ended, and goes on from there.
-// An array job may be requeued, and afterok would then cancel whoever waits for it.  `after` is the
-// array's id; empty: the job waits for nothing.
+// which verifies their frames when all tasks have ended, however they ended, and goes on from
+// there. An array job may be requeued, and afterok would then cancel whoever waits for it.  `after`
+// is the array's id; empty: the job waits for nothing.
 std::vector<std::string> array_submission(const FarmPlan& plan, int round);
 std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
                                                const std::string& after);

@@ -29,8 +29,8 @@ class WorkerProcess {
     bool deaf = false;         // it ignores TERM
   };
 
-  // Starts a program that the PATH finds, with no standard input.  Throws TemporaryError if it cannot
-  // be started.
+  // Starts a program that the PATH finds, with no standard input.  Throws TemporaryError if it
+  // cannot be started.
   WorkerProcess(std::vector<std::string> arguments, const Way& way);
   // Tells it to end, and does not wait for it.
   ~WorkerProcess();
@@ -49,8 +49,8 @@ class WorkerProcess {
   // Copies what it has said since, and how it ended, if it has.
   std::optional<WorkerEnd> look();
 
-  // Whether it has been stopped, as by SIGSTOP, since the last look: the first time it is continued,
-  // and later killed.  Says so.
+  // Whether it has been stopped, as by SIGSTOP, since the last look: the first time it is
+  // continued, and later killed.  Says so.
   void mind_stops(const std::string& name);
 
   // Its last line, and all that it said (64 kB at most, the end of it).
@@ -65,8 +65,9 @@ class WorkerProcess {
   std::string said_;
 };
 
-// Runs a program to its end and returns how it ended; what it prints and says is in `said`.  A program
-// that cannot be started has exit code 127.  A deaf one ignores TERM and outlives this process.
+// Runs a program to its end and returns how it ended; what it prints and says is in `said`.  A
+// program that cannot be started has exit code 127.  A deaf one ignores TERM and outlives this
+// process.
 WorkerEnd run_program(const std::vector<std::string>& arguments, std::string& said,
                       bool deaf = false);
 

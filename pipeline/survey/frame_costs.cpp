@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCostWidth = 256;
 constexpr std::size_t kMostCostSamples = 17;
-// No frame is taken to cost less than this part of the mean: its files are written whatever it shows.
+// No frame is taken to cost less than this part of the mean: its files are written in any case.
 constexpr double kLeastCost = 0.2;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

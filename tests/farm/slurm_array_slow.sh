@@ -12,7 +12,7 @@ trap 'rm -rf "$scratch"' EXIT
 skip_without_slurm
 cd "$scratch"
 write_show fall.yaml
-trap 'slurm_down; rm -rf "$scratch"' EXIT
+trap 'slurm_down; umount "$scratch/small" 2>/dev/null; rm -rf "$scratch"' EXIT
 slurm_up
 pass "Slurm is up"
 "$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log
@@ -130,6 +130,32 @@ a_full_disk_is_tried_again_but_not_for_ever() {
   until_ok 60 conclusion_says full.d "frames 0-3 (4 of 4); the logs are in" || fail "not told what lacks"
 }
 
+# A small disk of its own, where that may be mounted. When it is full its logs cannot be written either.
+begin_small() {
+  small=''
+  mkdir small
+  mount -t tmpfs -o size=1m none small 2>/dev/null || return 0
+  head -c 900000 /dev/zero >small/ballast
+  small=$("${array[@]}" --out small/frames --frames 0-19 --chunk 20 --retries 100)
+}
+a_disk_that_fills_up_is_gone_on_with() {
+  if [[ -z $small ]]; then
+    echo "no tmpfs may be mounted here: not tried"
+    return
+  fi
+  until_ok 60 restarted "$small" 0 || fail "the disk was not full: $(tasks "$small")"
+  [[ $(frames_in small/frames) -gt 0 && $(frames_in small/frames) -lt 20 ]] ||
+    fail "not full in the middle: $(frames_in small/frames) frames"
+  made small/frames >small.made
+  rm small/ballast
+  mount -o remount,size=64m small
+  wait_for "$small" small/frames
+  [[ $(tasks "$small") == "0 COMPLETED "[1-9]* ]] || fail "$(tasks "$small")"
+  same_frames single small/frames 20 || fail "the frames differ"
+  still_made small.made small/frames || fail "frames were made twice"
+}
+restarted() { tasks "$1" | grep -qE "^$2 [A-Z]+ [1-9]"; }
+
 # The plan says another version than that of the nodes: held jobs read it when they are let go.
 a_node_with_another_version_makes_nothing() {
   local job
@@ -246,7 +272,6 @@ SCRIPT
   thaw_node "${node_of[1]}"
   same_frames single lossy 40 || fail "the frames differ"
 }
-restarted() { tasks "$1" | grep -qE "^$2 [A-Z]+ [1-9]"; }
 
 for claim in a_wrong_show_is_not_submitted more_tasks_than_slurm_allows_are_refused \
   what_is_anothers_is_refused_before_it_is_submitted; do
@@ -255,12 +280,14 @@ for claim in a_wrong_show_is_not_submitted more_tasks_than_slurm_allows_are_refu
 done
 begin_torn
 begin_full
+begin_small
 begin_lost
 begin_last
 begin_dead
 for claim in a_dry_run_prints_what_is_submitted a_node_with_another_version_makes_nothing \
   a_killed_worker_and_a_short_time_limit_lose_nothing a_full_disk_is_tried_again_but_not_for_ever \
-  a_show_that_vanishes_under_a_task_is_tried_again the_last_task_is_requeued_without_the_others \
+  a_disk_that_fills_up_is_gone_on_with a_show_that_vanishes_under_a_task_is_tried_again \
+  the_last_task_is_requeued_without_the_others \
   a_dead_task_and_a_cancelled_one_are_made_up_for a_bad_node_is_left_out_and_the_others_go_on \
   nodes_and_the_controller_may_go; do
   $claim
