@@ -5,15 +5,21 @@
 #include "pipeline/farm/farm_task.h"
 #include "pipeline/farm/finish.h"
 #include "pipeline/farm/shell_words.h"
+#include "pipeline/image/errors.h"
 
 namespace domefall {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A text in which no {{ }} is taken for an expression.  A format string has no way to quote them,
-// so a string parameter holds what is literal.
+constexpr const char* kFramesOfTask = "{{Task.Param.Frames}}";
+
+// A template's texts are format strings, which have no way to write {{ itself.
 Json openjd_action(std::vector<std::string> command) {
+  for (const std::string& word : command)
+    if (word != kFramesOfTask && word.find("{{") != std::string::npos)
+      throw InputError(word + ": Open Job Description takes {{ for the beginning of a variable; " +
+                       "a path without it will do");
   const std::string program = command.front();
   command.erase(command.begin());
   return {{"actions", {{"onRun", {{"command", program}, {"args", command}}}}}};
@@ -36,7 +42,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> later_steps(const 
 
 std::string list_of_commands(const FarmPlan& plan) {
   std::string text;
-  for (const FarmChunk& chunk : plan.chunks)
+  for (const PlannedChunk& chunk : plan.chunks)
     text += shell_line(render_command(plan, chunk.frames, plan.threads)) + "\n";
   return text;
 }
@@ -46,8 +52,8 @@ std::string openjd_template(const FarmPlan& plan) {
   std::string before;
   if (!plan.chunks.empty()) {
     Json ranges = Json::array();
-    for (const FarmChunk& chunk : plan.chunks) ranges.push_back(chunk.frames);
-    std::vector<std::string> command = render_command(plan, "{{Task.Param.Frames}}", plan.threads);
+    for (const PlannedChunk& chunk : plan.chunks) ranges.push_back(chunk.frames);
+    std::vector<std::string> command = render_command(plan, kFramesOfTask, plan.threads);
     command.insert(command.end(), {"--progress", "openjd"});
     Json parameters = Json::array({{{"name", "Frames"}, {"type", "STRING"}, {"range", ranges}}});
     before = "render";
@@ -66,12 +72,12 @@ std::string openjd_template(const FarmPlan& plan) {
   const Json json{{"specificationVersion", "jobtemplate-2023-09"},
                   {"name", ("domefall " + plan.show.stem().string()).substr(0, kLongestName)},
                   {"steps", steps}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string flamenco_job(const FarmPlan& plan) {
   Json chunks = Json::array();
-  for (const FarmChunk& chunk : plan.chunks) chunks.push_back(chunk.frames);
+  for (const PlannedChunk& chunk : plan.chunks) chunks.push_back(chunk.frames);
   std::vector<std::string> command = render_command(plan, "", plan.threads);
   // Settings are texts and numbers, so that lists go as JSON in a text.
   const auto text = [](const std::vector<std::string>& words) { return Json(words).dump(); };
@@ -86,7 +92,7 @@ std::string flamenco_job(const FarmPlan& plan) {
       {"settings",
        {{"render_command", text(command)}, {"chunks", chunks.dump()}, {"later", later.dump()}}},
       {"metadata", {{"show", plan.show.string()}, {"out", plan.out.string()}}}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace domefall

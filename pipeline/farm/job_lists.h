@@ -11,7 +11,8 @@ namespace domefall {
 std::string list_of_commands(const FarmPlan& plan);
 
 // An Open Job Description template, version 2023-09, without extensions: a step with one task a
-// chunk, and one that verifies and repairs after it.  At most kMostOpenJdTasks chunks.
+// chunk, and one that verifies and repairs after it.  Throws InputError for a path with {{.
+// At most kMostOpenJdTasks chunks.
 // https://github.com/OpenJobDescription/openjd-specifications/wiki/2023-09-Template-Schemas
 std::string openjd_template(const FarmPlan& plan);
 inline constexpr int kMostOpenJdTasks = 1024;

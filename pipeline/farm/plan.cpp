@@ -89,7 +89,14 @@ FarmPlan read_plan(const fs::path& out) {
 
 void write_plan(const FarmPlan& plan) {
   make_farm_folder(farm_log_folder(plan.out));
-  write_atomically(plan_file(plan.out), plan_json(plan).dump(1) + "\n");
+  std::string text;
+  try {
+    text = plan_json(plan).dump(1) + "\n";
+  } catch (const Json::type_error&) {
+    throw InputError(plan_file(plan.out).string() +
+                     ": the paths of the show and its frames must be UTF-8");
+  }
+  write_atomically(plan_file(plan.out), text);
 }
 
 std::vector<FarmChunk> chunks_of_round(const FarmPlan& plan, int round) {

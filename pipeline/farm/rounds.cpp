@@ -129,8 +129,10 @@ std::string submit_round(FarmPlan plan, int round) {
 
 void conclude_round(const FarmPlan& plan, int round) {
   if (!plan.rounds.empty() && plan.rounds.back().round > round) {
-    announce(fmt::format("round {} has been submitted already", round + 1));
-    return;
+    if (!plan.rounds.back().job.empty())
+      return announce(fmt::format("round {} has been submitted already", round + 1));
+    // This job was ended between its plan and its submission.
+    return announce("job " + submit_round(plan, round + 1));
   }
   const FramesVerdict verdict = verify_frames(plan);
   if (verdict.complete) return finish_plan(plan, verdict);

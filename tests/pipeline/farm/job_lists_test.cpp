@@ -6,14 +6,13 @@
 #include "pipeline/farm/finish.h"
 #include "pipeline/farm/shell_words.h"
 #include "pipeline/farm/slurm.h"
+#include "pipeline/image/errors.h"
 #include "pipeline/image/scratch_folder.h"
 
 namespace domefall {
 namespace {
 
 using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 FarmPlan small_plan() {
   FarmPlan plan;
@@ -71,6 +70,21 @@ TEST(JobLists, AListHasALineForEachChunk) {
             "/frames/100% --threads 3 --size 4k\n"
             "'/opt/dome fall/domefall' render '/shows/a fall'\\''s.yaml' --frames 5-7,9 --out "
             "/frames/100% --threads 3 --size 4k\n");
+}
+
+TEST(JobLists, ATemplateRefusesWhatItWouldTakeForAVariable) {
+  FarmPlan plan = small_plan();
+  EXPECT_NO_THROW(openjd_template(plan));
+  plan.out = "/frames/{{x}}";
+  EXPECT_THROW(openjd_template(plan), InputError);
+}
+
+TEST(FarmPlan, RefusesPathsThatAreNoText) {
+  const ScratchFolder folder;
+  FarmPlan plan = small_plan();
+  plan.out = folder / "out";
+  plan.show = "/shows/\xff.yaml";
+  EXPECT_THROW(write_plan(plan), InputError);
 }
 
 TEST(Slurm, AnArrayIsVerifiedAfterItsTasksHoweverTheyEnd) {
