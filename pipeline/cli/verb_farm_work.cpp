@@ -32,8 +32,8 @@ std::string host_name(const SlurmTask& task) {
   return name.data();
 }
 
-FarmChunk chunk_of(const FarmPlan& plan, const WorkOptions& o) {
-  for (const FarmChunk& chunk : chunks_of_round(plan, o.round))
+PlannedChunk chunk_of(const FarmPlan& plan, const WorkOptions& o) {
+  for (const PlannedChunk& chunk : chunks_of_round(plan, o.round))
     if (chunk.task == o.task) return chunk;
   throw InputError(
       fmt::format("{}: no task {} in round {}; a later submission has replaced the plan",
@@ -96,7 +96,7 @@ void work(const WorkOptions& o) {
   std::string where = fmt::format("{}: task {} of round {}", host, o.task, o.round);
   int retries = FarmPlan{}.retries;
   if (plan) {
-    const FarmChunk chunk = chunk_of(*plan, o);
+    const PlannedChunk chunk = chunk_of(*plan, o);
     where = host + ": frames " + chunk.frames;
     retries = plan->retries;
     const int threads = o.threads > 0 ? o.threads : slurm ? task.processors : plan->threads;
@@ -105,6 +105,21 @@ void work(const WorkOptions& o) {
   if (end.kind == TaskEnd::Kind::kDone) return;
   if (slurm) end_slurm_work(end, task, retries, where, inbox);
   end_work(end, where);
+}
+
+// A folder that is away for a moment does not end the rounds.
+void conclude(const std::string& out, int round) {
+  try {
+    conclude_round(read_plan(out), round);
+  } catch (const FramesLacking&) {
+    throw;
+  } catch (const TemporaryError& error) {
+    if (!is_in_slurm()) throw;
+    SignalInbox inbox;
+    const SlurmTask task = this_slurm_task();
+    end_slurm_work({TaskEnd::Kind::kAgainElsewhere, error.what()}, task, FarmPlan{}.retries,
+                   fmt::format("{}: round {}", host_name(task), round), inbox);
+  }
 }
 
 }  // namespace
@@ -134,7 +149,7 @@ void add_farm_conclude(CLI::App& farm) {
   verb->add_option("--round", *round, "the round that has ended")
       ->check(number_in(0, kMostRound))
       ->capture_default_str();
-  verb->callback([out, round] { conclude_round(read_plan(*out), *round); });
+  verb->callback([out, round] { conclude(*out, *round); });
 }
 
 }  // namespace domefall

@@ -18,7 +18,8 @@ constexpr int kRefusedCode = 2, kAgainCode = 75;
 
 class TaskRun {
  public:
-  TaskRun(const FarmPlan& plan, const FarmChunk& chunk, const TaskPlace& place, SignalInbox& inbox)
+  TaskRun(const FarmPlan& plan, const PlannedChunk& chunk, const TaskPlace& place,
+          SignalInbox& inbox)
       : plan_(plan), chunk_(chunk), place_(place), inbox_(inbox) {}
 
   TaskEnd run() {
@@ -106,7 +107,7 @@ class TaskRun {
   }
 
   const FarmPlan& plan_;
-  const FarmChunk& chunk_;
+  const PlannedChunk& chunk_;
   const TaskPlace& place_;
   SignalInbox& inbox_;
   int stopped_ = 0;
@@ -116,7 +117,7 @@ class TaskRun {
 
 }  // namespace
 
-TaskEnd run_task(const FarmPlan& plan, const FarmChunk& chunk, const TaskPlace& place,
+TaskEnd run_task(const FarmPlan& plan, const PlannedChunk& chunk, const TaskPlace& place,
                  SignalInbox& inbox) {
   return TaskRun(plan, chunk, place, inbox).run();
 }

@@ -46,12 +46,12 @@ FramesVerdict verify_frames(const FarmPlan& plan) {
   constexpr int kIncomplete = 1;
   const std::string said =
       run_verb({plan.program, "farm", "verify", plan.out.string(), "--json"}, kIncomplete);
-  // What is said before the object, or after it, is for people.
-  const std::size_t begin = ("\n" + said).find("\n{"), end = said.rfind('}');
+  // What is said besides is for people.
+  const std::size_t begin = ("\n" + said).find("\n{"), end = said.find("\n}", begin);
   FramesVerdict verdict;
   try {
     const auto json = nlohmann::json::parse(
-        begin == std::string::npos ? "" : said.substr(begin, end + 1 - begin));
+        begin == std::string::npos ? "" : said.substr(begin, end + 2 - begin));
     verdict.todo = json.at("todo").get<std::string>();
     verdict.frames = json.at("frames");
     verdict.todo_count = verdict.frames - json.at("good").get<int>();

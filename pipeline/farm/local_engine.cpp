@@ -29,7 +29,7 @@ int pause_after(int tries) { return std::min(kLongestPauseS, 1 << std::min(tries
 void say_line(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
 struct LocalChunk {
-  FarmChunk chunk;
+  PlannedChunk chunk;
   int tries = 0;
   FarmClock::time_point not_before = FarmClock::now();
 
@@ -46,7 +46,7 @@ struct LocalTask {
 class LocalRun {
  public:
   LocalRun(const FarmPlan& plan, int round, SignalInbox& inbox) : plan_(plan), inbox_(inbox) {
-    for (const FarmChunk& chunk : chunks_of_round(plan, round)) waiting_.push_back({chunk});
+    for (const PlannedChunk& chunk : chunks_of_round(plan, round)) waiting_.push_back({chunk});
     total_ = waiting_.size();
   }
 
@@ -193,7 +193,7 @@ class LocalRun {
     return slot;
   }
 
-  std::vector<std::string> work_command(const FarmChunk& chunk, int slot) const {
+  std::vector<std::string> work_command(const PlannedChunk& chunk, int slot) const {
     const int count = static_cast<int>(workers());
     const int share = plan_.threads / count + (slot < plan_.threads % count ? 1 : 0);
     return {plan_.program, "farm",

@@ -3,6 +3,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/farm/manifest.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -13,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json chunk_json(const FarmChunk& chunk) {
+Json chunk_json(const PlannedChunk& chunk) {
   Json json{{"round", chunk.round}, {"task", chunk.task}, {"frames", chunk.frames}};
   if (chunk.estimated_s > 0) json["estimated_s"] = chunk.estimated_s;
   return json;
@@ -33,7 +34,7 @@ Json plan_json(const FarmPlan& plan) {
             {"movie", plan.movie},        {"movie_file", plan.movie_file},
             {"deliver", plan.deliver},    {"chunks", Json::array()},
             {"rounds", Json::array()}};
-  for (const FarmChunk& chunk : plan.chunks) json["chunks"].push_back(chunk_json(chunk));
+  for (const PlannedChunk& chunk : plan.chunks) json["chunks"].push_back(chunk_json(chunk));
   for (const FarmRound& round : plan.rounds) json["rounds"].push_back(round_json(round));
   return json;
 }
@@ -66,12 +67,13 @@ FarmPlan plan_of(const Json& json) {
 void make_farm_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
+  if (error == std::errc::not_a_directory || error == std::errc::file_exists)
+    throw InputError(folder.string() + ": the folder cannot be made: " + error.message());
   if (error) throw_file_error(folder, error.value());
 }
 
 }  // namespace
 
-fs::path farm_folder(const fs::path& out) { return out / "farm"; }
 fs::path plan_file(const fs::path& out) { return farm_folder(out) / "plan.json"; }
 fs::path farm_log_folder(const fs::path& out) { return farm_folder(out) / "log"; }
 
@@ -99,9 +101,9 @@ void write_plan(const FarmPlan& plan) {
   write_atomically(plan_file(plan.out), text);
 }
 
-std::vector<FarmChunk> chunks_of_round(const FarmPlan& plan, int round) {
-  std::vector<FarmChunk> chunks;
-  for (const FarmChunk& chunk : plan.chunks)
+std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round) {
+  std::vector<PlannedChunk> chunks;
+  for (const PlannedChunk& chunk : plan.chunks)
     if (chunk.round == round) chunks.push_back(chunk);
   return chunks;
 }

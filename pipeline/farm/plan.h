@@ -9,7 +9,7 @@
 namespace domefall {
 
 // What one task renders.
-struct FarmChunk {
+struct PlannedChunk {
   int round = 0, task = 0;
   std::string frames;      // as --frames takes them: 0-9,12
   double estimated_s = 0;  // by the clock, on a machine like the one that submits; 0: not estimated
@@ -37,12 +37,11 @@ struct FarmPlan {
   std::string movie;    // a preset, once all frames are good; empty: no movie
   std::string movie_file;
   std::string deliver;  // a folder for `domefall deliver`, likewise
-  std::vector<FarmChunk> chunks;
+  std::vector<PlannedChunk> chunks;
   std::vector<FarmRound> rounds;
 };
 
-// DIR/farm, DIR/farm/plan.json and DIR/farm/log.
-std::filesystem::path farm_folder(const std::filesystem::path& out);
+// DIR/farm/plan.json and DIR/farm/log.
 std::filesystem::path plan_file(const std::filesystem::path& out);
 std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 
@@ -50,11 +49,12 @@ std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 // no plan.
 FarmPlan read_plan(const std::filesystem::path& out);
 
-// Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws as throw_file_error().
+// Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws InputError where the path
+// leads through a file, and else as throw_file_error().
 void write_plan(const FarmPlan& plan);
 
 // The chunks of a round.
-std::vector<FarmChunk> chunks_of_round(const FarmPlan& plan, int round);
+std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round);
 
 // The time now as FarmRound::submitted.
 std::string utc_now();

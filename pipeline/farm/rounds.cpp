@@ -86,7 +86,7 @@ LocalOutcome run_round(FarmPlan& plan, int round, SignalInbox& inbox) {
                            const FramesVerdict& verdict) {
   const std::string text = missing_text(plan, verdict);
   if (outcome.failed) throw std::runtime_error(text);
-  throw TemporaryError(text);
+  throw FramesLacking(text);
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ void conclude_round(const FarmPlan& plan, int round) {
   }
   const FramesVerdict verdict = verify_frames(plan);
   if (verdict.complete) return finish_plan(plan, verdict);
-  if (round >= plan.most_rounds) throw TemporaryError(missing_text(plan, verdict));
+  if (round >= plan.most_rounds) throw FramesLacking(missing_text(plan, verdict));
   const FarmPlan next = next_round(plan, verdict);
   write_plan(next);
   announce("job " + submit_round(next, round + 1));

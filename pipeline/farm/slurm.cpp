@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "pipeline/farm/manifest.h"
 #include "pipeline/farm/shell_words.h"
 #include "pipeline/farm/signal_inbox.h"
 #include "pipeline/farm/worker_process.h"
@@ -51,10 +52,9 @@ std::set<std::string> words_of(const std::string& text) {
 }
 
 // sbatch replaces %-patterns in the names of logs.
-std::string log_pattern(const FarmPlan& plan, const std::string& name) {
+std::string log_pattern(const std::filesystem::path& path, const std::string& name) {
   std::string folder;
-  for (const char c : farm_log_folder(plan.out).string())
-    folder += c == '%' ? "%%" : std::string(1, c);
+  for (const char c : path.string()) folder += c == '%' ? "%%" : std::string(1, c);
   return "--output=" + folder + "/" + name;
 }
 
@@ -109,7 +109,7 @@ std::vector<std::string> array_submission(const FarmPlan& plan, int round) {
        "--open-mode=append",
        // A minute before the time limit the task ends its frame and asks for more time.
        "--signal=B:USR1@60", fmt::format("--cpus-per-task={}", plan.threads),
-       log_pattern(plan, "slurm_%A_%a.log")},
+       log_pattern(farm_log_folder(plan.out), "slurm_%A_%a.log")},
       plan);
   command.push_back(fmt::format("--array=0-{}{}", tasks - 1, throttle));
   command.push_back("--wrap=exec " +
@@ -124,7 +124,8 @@ std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
   std::vector<std::string> command = with_engine_options(
       {"sbatch", "--parsable", "--job-name=domefall-verify-" + plan.show.stem().string(),
        "--nodes=1", "--ntasks=1", "--requeue", "--open-mode=append",
-       fmt::format("--cpus-per-task={}", plan.threads), log_pattern(plan, "verify_%j.log")},
+       fmt::format("--cpus-per-task={}", plan.threads),
+       log_pattern(farm_folder(plan.out), "conclude_%j.log")},
       plan);
   if (!after.empty()) command.push_back("--dependency=afterany:" + after);
   command.push_back("--wrap=exec " +
