@@ -75,7 +75,8 @@ class Run {
   }
 
   void all() {
-    Progress progress(run_.frames.size());
+    Progress progress(run_.frames.size(), run_.progress);
+    int being_written = 0;
     // While one frame is graded and written, the next is rendered, into the memory of the one
     // before.  A large frame is written first, since two of 8k and a graded one would take more
     // than 1.5 GiB.
@@ -86,7 +87,7 @@ class Run {
       if (!writing.valid()) return;
       writing.get();
       if (progress.made_count() == 0) folder_.write_record();
-      progress.made();
+      progress.made(being_written);
     };
     auto frame = std::make_shared<RenderedFrame>(), written = std::make_shared<RenderedFrame>();
     for (const int number : run_.frames) {
@@ -97,7 +98,7 @@ class Run {
       const bool graded_good =
           !grader_ || is_good(folder_.graded(number), keys().graded(key, state), true);
       if (graded_good && (linear_good || !folder_.has_linear() || !run_.render)) {
-        progress.skipped();
+        progress.skipped(number);
         continue;
       }
       const Stopwatch watch;
@@ -112,6 +113,7 @@ class Run {
       }
       const double render_s = watch.seconds();
       finish();
+      being_written = number;
       writing = std::async(std::launch::async, [=, this] {
         write(state, key, *frame, !linear_good && folder_.has_linear(), !graded_good, render_s);
       });

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "pipeline/cli/progress.h"
 #include "pipeline/show/show.h"
 
 namespace domefall {
@@ -22,6 +24,7 @@ struct FrameRun {
   bool render = true;            // false for a run that only grades frames that are there
   bool replace = false;          // good frames of another size, show or kind too
   bool dry = false;              // only prints the frames that it would make, judged by their heads
+  std::optional<ProgressForm> progress = std::nullopt;  // nothing: a bar on the terminal
 };
 
 // The frames of a run that it would make, judged by their heads; says on standard error what an edit of

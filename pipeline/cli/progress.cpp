@@ -1,16 +1,28 @@
 #include "pipeline/cli/progress.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <string>
 
+#include "pipeline/image/errors.h"
+
 namespace domefall {
 
-Progress::Progress(std::size_t total)
+ProgressForm progress_form(const std::string& name) {
+  if (name == "plain") return ProgressForm::kPlain;
+  if (name == "json") return ProgressForm::kJson;
+  if (name == "openjd") return ProgressForm::kOpenJd;
+  if (name == "afanasy") return ProgressForm::kAfanasy;
+  throw InputError("--progress " + name + ": there are plain, json, openjd and afanasy");
+}
+
+Progress::Progress(std::size_t total, std::optional<ProgressForm> form)
     : total_(total),
-      terminal_(isatty(STDERR_FILENO) != 0),
+      form_(form),
+      terminal_(!form && isatty(STDERR_FILENO) != 0),
       start_(std::chrono::steady_clock::now()) {
   draw();
 }
@@ -19,14 +31,41 @@ Progress::~Progress() {
   if (terminal_) std::fputs("\n", stderr);
 }
 
-void Progress::made() {
+void Progress::made(int frame) {
   ++made_;
   draw();
+  print(frame, true);
 }
 
-void Progress::skipped() {
+void Progress::skipped(int frame) {
   ++skipped_;
   draw();
+  print(frame, false);
+}
+
+void Progress::print(int frame, bool made) const {
+  if (!form_) return;
+  const std::size_t done = made_ + skipped_;
+  const double percent = 100.0 * static_cast<double>(done) / static_cast<double>(total_);
+  const std::string plain = fmt::format("frame {}: {} of {}", frame, done, total_);
+  switch (*form_) {
+    case ProgressForm::kPlain:
+      fmt::print("{}\n", plain);
+      break;
+    case ProgressForm::kJson:
+      fmt::print(R"({{"frame":{},"done":{},"total":{},"made":{},"seconds":{:.3f}}})"
+                 "\n",
+                 frame, done, total_, made, seconds());
+      break;
+    case ProgressForm::kOpenJd:
+      fmt::print("openjd_progress: {:.1f}\nopenjd_status: {}\n", percent, plain);
+      break;
+    case ProgressForm::kAfanasy:
+      fmt::print("FRAME: {}\nPROGRESS: {:.0f}%\n", frame, std::floor(percent));
+      break;
+  }
+  // A manager reads a pipe, and wants each line at once.
+  std::fflush(stdout);
 }
 
 double Progress::seconds() const {

@@ -1,23 +1,38 @@
-// A line on the terminal that says how far a run is.  It is silent where there is no terminal.
+// Says how far a run is: on the terminal, or in a form that a queue manager reads.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
+#include <string>
 
 namespace domefall {
 
+// A line on standard output for each frame, made or found good.
+enum class ProgressForm {
+  kPlain,    // frame 12: 3 of 40
+  kJson,     // {"frame":12,"done":3,"total":40,"made":true,"seconds":4.2}
+  kOpenJd,   // openjd_progress: 7.5, and openjd_status: with the plain text
+  kAfanasy,  // FRAME: 12 and PROGRESS: 7%, as its generic parser takes them
+};
+
+// Throws InputError for other names than plain, json, openjd and afanasy.
+ProgressForm progress_form(const std::string& name);
+
 class Progress {
  public:
-  explicit Progress(std::size_t total);
+  // Without a form it draws a bar on the terminal, and is silent where there is none.
+  explicit Progress(std::size_t total, std::optional<ProgressForm> form = std::nullopt);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress(Progress&&) = delete;
   Progress& operator=(const Progress&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  // Each counts one more frame: one that was made, or one that was there and good.
-  void made();
-  void skipped();
+  // Each counts one more frame: one that was made, or one that was there and good.  Which one matters
+  // only where a form prints it.
+  void made(int frame = 0);
+  void skipped(int frame = 0);
 
   std::size_t made_count() const { return made_; }
   std::size_t skipped_count() const { return skipped_; }
@@ -25,8 +40,10 @@ class Progress {
 
  private:
   void draw() const;
+  void print(int frame, bool made) const;
 
   std::size_t total_, made_ = 0, skipped_ = 0;
+  std::optional<ProgressForm> form_;
   bool terminal_;
   std::chrono::steady_clock::time_point start_;
 };

@@ -78,6 +78,45 @@ std::vector<VerbNotes> notes_of_deliveries() {
   };
 }
 
+// The verbs by which many processes make one show.
+std::vector<VerbNotes> notes_of_farms() {
+  return {
+      {"farm",
+       "A show is divided into tasks, which render what is missing; what was made is\n"
+       "verified, and what is bad is made again. All of it can be run again at any time.",
+       {},
+       "farm.md"},
+      {"farm submit",
+       "Checks the show, plans tasks of equal time, and hands them to the engine. With\n"
+       "slurm and local, the frames are verified when all tasks have ended, and what\n"
+       "is missing is rendered again, for as many rounds as --rounds allows.",
+       {{"domefall farm submit fall.yaml --engine local --out out/fall", "processes on this machine"},
+        {"domefall farm submit fall.yaml --engine slurm --out /farm/fall --size 4k --dry-run",
+         "what would be given to Slurm"}},
+       "farm.md"},
+      {"farm status",
+       "Goes by the names of files, their beginnings and what their writers noted, and\n"
+       "reads no pixels. Says what a changed show invalidates, who makes what, and how\n"
+       "long the rest will take.",
+       {{"domefall farm status /farm/fall --watch", "until all frames are done"}},
+       "farm_status.md"},
+      {"farm verify",
+       "Reads every byte. Ends with 0 where all frames are there and good, and no other\n"
+       "file is among them.",
+       {{"domefall farm verify /farm/fall --repair", "and make again what is not good"},
+        {"domefall farm verify out/fall --show fall.yaml --json", "of a folder without a plan"}},
+       "farm_status.md"},
+      {"farm work",
+       "Jobs call it; it needs a plan that farm submit has made.",
+       {{"domefall farm work /farm/fall --task 3", "the fourth task of the first round"}},
+       "farm.md"},
+      {"farm conclude",
+       "Jobs call it when the tasks of a round have ended.",
+       {{"domefall farm conclude /farm/fall", "after the first round"}},
+       "farm.md"},
+  };
+}
+
 // The verbs that answer with numbers.
 std::vector<VerbNotes> notes_of_numbers() {
   return {
@@ -151,7 +190,8 @@ const std::vector<VerbNotes>& all_verb_notes() {
   static const std::vector<VerbNotes> kAll = [] {
     std::vector<VerbNotes> all{kProgram};
     for (const auto& part :
-         {notes_of_shows(), notes_of_deliveries(), notes_of_numbers(), notes_of_skies()})
+         {notes_of_shows(), notes_of_deliveries(), notes_of_farms(), notes_of_numbers(),
+          notes_of_skies()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -15,7 +15,7 @@ namespace domefall {
 namespace {
 
 struct Options {
-  std::string show, frames, size, out, overlays;
+  std::string show, frames, size, out, overlays, progress;
   int threads = 0;
   bool explain = false, replace = false, dry = false, lens_map = false;
 };
@@ -31,8 +31,16 @@ void run(const Options& o, bool render) {
                    o.threads, o.replace, o.dry});
     return;
   }
-  run_frames({show, parse_frames(o.frames, frame_count(show)), frames_folder(show, o.out),
-              o.threads, o.explain, render, o.replace, o.dry});
+  FrameRun frames{show,
+                  parse_frames(o.frames, frame_count(show)),
+                  frames_folder(show, o.out),
+                  o.threads,
+                  o.explain,
+                  render,
+                  o.replace,
+                  o.dry};
+  if (!o.progress.empty()) frames.progress = progress_form(o.progress);
+  run_frames(frames);
 }
 
 void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
@@ -64,6 +72,11 @@ void add_render(CLI::App& app) {
                  "which other programs lens pictures")
       ->excludes(explain)
       ->excludes(verb->get_option("--overlay"));
+  verb->add_option("--progress", o->progress,
+                   "print a line for each frame as people or queue managers read it: plain, json, "
+                   "openjd (Open Job Description) or afanasy (CGRU)")
+      ->check(CLI::IsMember({"plain", "json", "openjd", "afanasy"}))
+      ->excludes("--lens-map");
   verb->add_flag("--dry-run", o->dry, "only print which frames would be made");
   verb->callback([o] { run(*o, true); });
 }

@@ -47,12 +47,9 @@ file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/installed)
 file(CREATE_LINK ../assets ${PROJECT_BINARY_DIR}/installed/assets SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/installed/assets DESTINATION ${data}/shows)
 
-# ---- The farm's launchers, which find the program from their own place ---------------------------
+# ---- What other queue managers read --------------------------------------------------------------
 
-# Python finds what they share in the folder where they are.
-install(PROGRAMS farm/render-local farm/render-slurm farm/slurm-array.sbatch
-  DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/domefall)
-install(FILES farm/show_frames.py DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/domefall)
+install(DIRECTORY farm/flamenco DESTINATION ${data}/farm)
 
 # ---- Documents and licences ----------------------------------------------------------------------
 

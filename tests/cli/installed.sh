@@ -34,8 +34,10 @@ echo 'titles: [{text: Vega, at_s: 1}]' >>show.yaml
 exits 0 "$DOMEFALL" render show.yaml --frames 3,14 --out built
 exits 0 alone "$program" render show.yaml --frames 3,14 --out installed
 same_frames built installed
-# A launcher takes the program that it was installed with, found by no PATH.
-exits 0 alone moved/libexec/domefall/render-local show.yaml --frames 3,14 --out farmed --workers 2
+# The farm's workers are the program that was installed, found by no PATH.
+exits 0 alone "$program" farm submit show.yaml --engine local --frames 3-3 --out farmed --workers 1
+exits 0 alone "$program" render show.yaml --frames 14 --out farmed
+rm -r farmed/farm
 same_frames built farmed
 
 figure=moved/share/domefall/shows/paper/mult.yaml

@@ -140,8 +140,7 @@ std::string program_page(const CLI::App& program, const std::string& date) {
       meanings_text(
           {{"/usr/share/domefall/shows", "shows to begin with"},
            {"/usr/share/domefall/assets", "sky maps, star catalogues and the colour configuration"},
-           {"/usr/libexec/domefall",
-            "render-local and render-slurm, which divide a show among processes or nodes"}});
+           {"/usr/share/domefall/farm", "what other queue managers read: Flamenco's job type"}});
   text += ".PP\nAnother prefix than /usr has them in the same places below it.\n";
   text += roff_section("EXAMPLES") + examples_text(notes);
   return text + roff_section("SEE ALSO") + references + roff_bold("ffmpeg") + "(1)\n" +
