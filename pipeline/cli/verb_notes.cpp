@@ -90,7 +90,8 @@ std::vector<VerbNotes> notes_of_farms() {
        "Checks the show, plans tasks of equal time, and hands them to the engine. With\n"
        "slurm and local, the frames are verified when all tasks have ended, and what\n"
        "is missing is rendered again, for as many rounds as --rounds allows.",
-       {{"domefall farm submit fall.yaml --engine local --out out/fall", "processes on this machine"},
+       {{"domefall farm submit fall.yaml --engine local --out out/fall",
+         "processes on this machine"},
         {"domefall farm submit fall.yaml --engine slurm --out /farm/fall --size 4k --dry-run",
          "what would be given to Slurm"}},
        "farm.md"},
@@ -189,9 +190,8 @@ std::string indented(std::string_view name, std::string_view meaning) {
 const std::vector<VerbNotes>& all_verb_notes() {
   static const std::vector<VerbNotes> kAll = [] {
     std::vector<VerbNotes> all{kProgram};
-    for (const auto& part :
-         {notes_of_shows(), notes_of_deliveries(), notes_of_farms(), notes_of_numbers(),
-          notes_of_skies()})
+    for (const auto& part : {notes_of_shows(), notes_of_deliveries(), notes_of_farms(),
+                             notes_of_numbers(), notes_of_skies()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

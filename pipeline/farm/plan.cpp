@@ -3,7 +3,6 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/farm/manifest.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -74,6 +73,7 @@ void make_farm_folder(const fs::path& folder) {
 
 }  // namespace
 
+fs::path farm_folder(const fs::path& out) { return out / "farm"; }
 fs::path plan_file(const fs::path& out) { return farm_folder(out) / "plan.json"; }
 fs::path farm_log_folder(const fs::path& out) { return farm_folder(out) / "log"; }
 

@@ -41,7 +41,8 @@ struct FarmPlan {
   std::vector<FarmRound> rounds;
 };
 
-// DIR/farm/plan.json and DIR/farm/log.
+// DIR/farm, DIR/farm/plan.json and DIR/farm/log.
+std::filesystem::path farm_folder(const std::filesystem::path& out);
 std::filesystem::path plan_file(const std::filesystem::path& out);
 std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 

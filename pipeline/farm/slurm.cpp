@@ -10,7 +10,6 @@
 #include <set>
 #include <sstream>
 
-#include "pipeline/farm/manifest.h"
 #include "pipeline/farm/shell_words.h"
 #include "pipeline/farm/signal_inbox.h"
 #include "pipeline/farm/worker_process.h"
