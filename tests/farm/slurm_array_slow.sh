@@ -248,8 +248,8 @@ a_dead_task_and_a_cancelled_one_are_made_up_for() {
   same_frames single dead 40 || fail "the frames differ"
 }
 
-# One node dies with all that runs on it, another one freezes: its task is begun again elsewhere while it
-# lives, and goes on when its node does, so that two write the same frames; then the controller dies.
+# The controller dies and comes back. One node dies with all that runs on it, another one freezes: its task
+# is begun again elsewhere while it lives and goes on, so that two write the same frames.
 nodes_and_the_controller_may_go() {
   local job k node_of=()
   write_program surviving <<'SCRIPT'
@@ -259,21 +259,22 @@ nodes_and_the_controller_may_go() {
     wait_for thaw
   fi
 SCRIPT
-  job=$("${launch[@]}" --program ./surviving --out lossy --frames 0-39 --chunk 14)
+  job=$("${launch[@]}" --program ./surviving --out lossy --frames 0-27 --chunk 14)
   until_ok 60 at_least lossy 6 || fail "no frames"
   for k in 0 1; do
     node_of[k]=$(squeue -h -r -t R -j "${job}_$k" -o %N)
   done
+  # Both tasks wait, so that what the controller knows is on its disk when it dies.
+  restart_controller "$job"
   kill_node "${node_of[0]}"
   freeze_node "${node_of[1]}"
-  restart_controller "$job"
   # The second try of the frozen node's chunk is the first that can end.
   until_ok 90 restarted "$job" 1 || fail "the frozen node's task is not begun again: $(tasks "$job")"
   touch thaw
   wait_for "$job" lossy
-  concluded lossy 40
+  concluded lossy 28
   thaw_node "${node_of[1]}"
-  same_frames single lossy 40 || fail "the frames differ"
+  same_frames single lossy 28 || fail "the frames differ"
 }
 
 for claim in a_wrong_show_is_not_submitted more_tasks_than_slurm_allows_are_refused \
