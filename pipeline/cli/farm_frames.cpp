@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "pipeline/render/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
-#include "pipeline/show/frame_size.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/manifest.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
+#include "pipeline/render/frame_grading.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 
 namespace domefall {

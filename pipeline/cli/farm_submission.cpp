@@ -7,10 +7,8 @@
 #include <numeric>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/render/frame_grading.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
-#include "pipeline/show/frame_size.h"
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/farm/equal_chunks.h"
 #include "pipeline/farm/job_lists.h"
@@ -18,6 +16,8 @@
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/movie/preset.h"
+#include "pipeline/render/frame_grading.h"
+#include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/survey/frame_costs.h"
 #include "pipeline/survey/render_time.h"
