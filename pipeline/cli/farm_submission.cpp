@@ -49,12 +49,12 @@ std::string program_path(const SubmitOptions& o) {
 // any case: so what the show reads is there and can be read.
 std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads,
                                   bool measured) {
+  Renderer renderer(show);
   if (!measured) {
-    relative_costs(show, {frames.front(), frames.back()});
+    relative_costs(show, {frames.front(), frames.back()}, renderer);
     return std::vector<double>(frames.size(), 1);
   }
-  std::vector<double> costs = relative_costs(show, frames);
-  Renderer renderer(show);
+  std::vector<double> costs = relative_costs(show, frames, renderer);
   std::optional<Grader> grader;
   if (show.output.graded) grader.emplace(show.grade);
   const RenderTime time = estimate_render_time(show, renderer, grader ? &*grader : nullptr);

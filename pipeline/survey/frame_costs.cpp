@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <numeric>
+#include <optional>
 
 #include "pipeline/render/rendered_frame.h"
 #include "pipeline/render/shutter.h"
@@ -12,7 +13,7 @@ namespace domefall {
 namespace {
 
 constexpr int kCostWidth = 256;
-constexpr std::size_t kMostCostSamples = 17;
+constexpr std::size_t kMostCostSamples = 9;
 // No frame is taken to cost less than this part of the mean: its files are written in any case.
 constexpr double kLeastCost = 0.2;
 
@@ -20,11 +21,14 @@ double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 
 }  // namespace
 
-std::vector<double> relative_costs(const Show& show, const std::vector<int>& frames) {
+std::vector<double> relative_costs(const Show& show, const std::vector<int>& frames,
+                                   Renderer& shows) {
   if (frames.empty()) return {};
   Show instant = show;
   instant.exposure.shutter = 0;
-  Renderer renderer(instant);
+  std::optional<Renderer> own;
+  if (show.exposure.shutter > 0) own.emplace(instant, shows.threads());
+  Renderer& renderer = own ? *own : shows;
   OpticsStore optics;
   const int width = std::min(columns(show.projection), kCostWidth);
   const std::size_t samples = std::min(frames.size(), kMostCostSamples), last = frames.size() - 1;
