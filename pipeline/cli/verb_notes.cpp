@@ -135,7 +135,9 @@ std::vector<VerbNotes> notes_of_numbers() {
       {"trace",
        "Each row of the table is a ray: who sees it, at which r, at which angle delta\n"
        "from the direction of the hole. The answer has as many rows: where the\n"
-       "light comes from, how far it was bent, its shift and amplification.",
+       "light comes from, how far it was bent, its shift and amplification. With a\n"
+       "column psi, r_there is the ray's r after sweeping that angle, followed back\n"
+       "in time; it is empty where the ray has ended.",
        {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
        "accuracy.md"},
       {"report",

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +20,7 @@ namespace {
 
 // The cells of a ray, as written.
 struct RayCells {
-  std::string observer, r, delta, edge, offset;
+  std::string observer, r, delta, edge, offset, psi;
 };
 
 class RayTable {
@@ -27,8 +30,23 @@ class RayTable {
   // Reads the next ray; false at the end.
   bool next(RayCells& cells) {
     if (!rows_.next()) return false;
-    cells = {cell("observer"), cell("r"), cell("delta"), cell("edge"), cell("offset")};
+    cells = {cell("observer"), cell("r"), cell("delta"), cell("edge"), cell("offset"), cell("psi")};
     return true;
+  }
+
+  bool asks_for_positions() const { return rows_.has("psi"); }
+
+  // Where the ray is after having swept psi; none where it has ended or the cell is empty.  Throws
+  // InputError, with the line, for a psi that is no angle.
+  std::optional<double> position(const RayCells& cells, const RayRequest& ray) const {
+    if (cells.psi.empty()) return std::nullopt;
+    try {
+      const auto psi = static_cast<double>(decimal_number(cells.psi, "psi"));
+      if (!(psi >= 0)) throw InputError(fmt::format("psi must be at least 0, got {}", psi));
+      return trace_position(ray, psi);
+    } catch (const InputError& error) {
+      rows_.fail(error.what());
+    }
   }
 
   // Throws InputError, with the line, for cells that are no ray.
@@ -65,15 +83,24 @@ std::vector<std::string> method_names() {
 
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
-  std::puts("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification");
+  const bool positions = table.asks_for_positions();
+  if (positions && is_integrator(method))
+    throw InputError(file + ": psi needs the method table or exact: integrators give no r_there");
+  std::printf("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification%s\n",
+              positions ? ",r_there" : "");
   for (RayCells cells; table.next(cells);) {
-    const TracedRay ray = trace_ray(table.request(cells), method, options);
+    const RayRequest request = table.request(cells);
+    const TracedRay ray = trace_ray(request, method, options);
     for (const std::string* text :
          {&cells.observer, &cells.r, &cells.delta, &cells.edge, &cells.offset})
       std::printf("%s,", text->c_str());
     std::printf("%s", ray.decided ? name_of(ray.origin) : "");
     for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification})
       std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
+    if (positions) {
+      const std::optional<double> r_there = table.position(cells, request);
+      r_there ? std::printf(",%.17g", *r_there) : std::printf(",");
+    }
     std::puts("");
   }
 }
@@ -86,7 +113,8 @@ void add_trace(CLI::App& app) {
   auto table = std::make_shared<std::string>();
   auto method = std::make_shared<std::string>("table");
   auto options = std::make_shared<TraceOptions>();
-  verb->add_option("--table", *table, "CSV with the columns observer, r, delta, edge, offset")
+  verb->add_option("--table", *table,
+                   "CSV with the columns observer, r, delta and perhaps edge, offset, psi")
       ->type_name(kFileType)
       ->required();
   verb->add_option("--method", *method,

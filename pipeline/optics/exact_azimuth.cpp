@@ -6,39 +6,16 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/optics/orbit_cubic.h"
+
 namespace domefall {
 namespace {
 
 using boost::math::ellint_rf;
 
-const double kSqrt3 = std::sqrt(3.0);
-
-// What the integral needs of a ray: 1/b^2 and eps, and the observer's place on the w axis.
-struct Cubic {
-  double inverse_b2, eps;
-  double w, x;        // 1/r and 1/r - 1/3
-  double p_observer;  // P(w) = (k^r/L)^2
-};
-
-Cubic cubic_of(const Radius& at, const RayInvariants& k) {
-  const double l = k.angular_momentum;
-  const double inverse_b = k.energy / l, radial = k.radial / l;
-  return {inverse_b * inverse_b, (k.below_critical / l) * (k.above_critical / l), 1 / at.r,
-          -at.above_light_circle / (3 * at.r), radial * radial};
-}
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // ---- eps > 0: one real root, and a complex pair m +- i n in x ----
-
-struct OneRealRoot {
-  double m, n, root;  // all in x
-};
-
-// With z = 3 (x + 1/6), z^3 - 3z/4 + (1 + 54 eps)/4 = 0 and z = -cosh u, cosh 3u = 1 + 54 eps.
-OneRealRoot one_real_root(double eps) {
-  const double u = 2.0 / 3 * std::asinh(std::sqrt(27 * eps));
-  const double half = std::sinh(u / 2);
-  return {half * half / 3, std::sinh(u) / (2 * kSqrt3), -std::cosh(u) / 3 - 1.0 / 6};
-}
 
 // 4/sqrt(2) R_F(M^2, L_-^2, L_+^2), L_+-^2 = M^2 + 2 (m - root) +- 2 sqrt((m - root)^2 + n^2), the
 // lower one without cancellation.
@@ -71,23 +48,6 @@ double to_singularity_without_turning(const Cubic& c) {
 }
 
 // ---- eps < 0: three real roots, w3 < 0 < w2 < 1/3 < w1 ----
-
-struct RealRoots {
-  double w1, w2, w3;
-  double x1, x2;      // w1 - 1/3, w2 - 1/3
-  double separation;  // w1 - w2
-};
-
-// z = -cos u: cos 3u = 1 + 54 eps.  Near the double root the x are small and come from u; far from
-// the hole (b large) w2 and w3 are small and come from the complement eta.
-RealRoots real_roots(const Cubic& c) {
-  const double u = 2.0 / 3 * std::atan2(std::sqrt(-c.eps), std::sqrt(c.inverse_b2));
-  const double eta = std::atan2(std::sqrt(c.inverse_b2), std::sqrt(-c.eps)) / 3;
-  const double s = std::sin(eta), k = std::cos(eta);
-  const double su = std::sin(u / 2), cu = std::cos(u / 2);
-  return {1.0 / 6 + std::cos(2 * eta) / 3, s * (s / 3 + k / kSqrt3),     s * (s / 3 - k / kSqrt3),
-          su * (cu / kSqrt3 - su / 3),     -su * (cu / kSqrt3 + su / 3), 2 * su * cu / kSqrt3};
-}
 
 // int dw/sqrt(P) between two points whose factors (w - w3), (w2 - w), (w1 - w) are given.
 struct Factors {
@@ -135,9 +95,7 @@ double to_singularity_inside_the_light_circle(const Cubic& c, bool turned) {
   return 2 * std::sqrt(2.0) * ellint_rf(0.0, w.separation, w.w1 - w.w3) - direct;
 }
 
-// ---- a ray as good as radial: L/|E| so small that its square would leave the double's range ----
-
-constexpr double kRadial = 1e-100;
+// ---- a ray as good as radial ----
 
 double nearly_radial(const RayInvariants& k, double r, bool from_sky) {
   const double b = k.angular_momentum / std::abs(k.energy);
@@ -178,15 +136,24 @@ double exact_azimuth(const NullRay& ray) {
   const RayInvariants k = invariants(ray);
   if (k.angular_momentum == 0) return 0;
   const bool from_sky = origin_of(ray) != SkyRegion::kIV;
-  if (k.angular_momentum < kRadial * std::abs(k.energy))
-    return nearly_radial(k, ray.at.r, from_sky);
+  if (is_nearly_radial(k)) return nearly_radial(k, ray.at.r, from_sky);
   const Cubic c = cubic_of(ray.at, k);
   if (from_sky)
     return c.eps >= 0 ? from_infinity_without_turning(c)
                       : from_infinity_outside_the_light_circle(c, k.radial > 0);
-  if (circles_for_ever(ray)) return std::numeric_limits<double>::infinity();
+  if (circles_for_ever(ray)) return kInfinite;
   return c.eps >= 0 ? to_singularity_without_turning(c)
                     : to_singularity_inside_the_light_circle(c, k.radial < 0);
+}
+
+EndAzimuths end_azimuths(const Cubic& c) {
+  if (c.eps > 0) return {from_infinity_without_turning(c), to_singularity_without_turning(c)};
+  const bool far = c.x < 0;
+  if (c.eps == 0)
+    return {far ? from_infinity_without_turning(c) : kInfinite,
+            c.x > 0 ? to_singularity_without_turning(c) : kInfinite};
+  return {far ? from_infinity_outside_the_light_circle(c, false) : kInfinite,
+          far ? kInfinite : to_singularity_inside_the_light_circle(c, false)};
 }
 
 double smooth_over(const NullRay& ray) {

@@ -15,11 +15,21 @@
 
 namespace domefall {
 
+struct Cubic;
+
 // Radians, >= 0, unbounded towards an edge; 0 for a ray that is radial; infinite for one that
 // circles for ever.  Flat space has phi = pi - delta and needs no integral.
 // Measured against 40 digits over 1e-6 <= r <= 1e8 and offsets from an edge down to 1e-15: error
 // below 1e-13 max(1, phi).
 double exact_azimuth(const NullRay& ray);
+
+// The azimuth between the observer's w and each end of the orbit, w = 0 (a sky) and w = infinity
+// (the singularity), without turning on the way; infinite for an end that the orbit does not have
+// on the observer's side.  Radians, with the accuracy of exact_azimuth.  L > 0.
+struct EndAzimuths {
+  double sky, singularity;
+};
+EndAzimuths end_azimuths(const Cubic& orbit);
 
 // The angle over which phi changes its shape: to the nearest place where it diverges or, as light
 // from the singularity does on the axis, has the branch point of a cube root.

@@ -7,6 +7,7 @@
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/optics/integrated_ray.h"
+#include "pipeline/optics/ray_position.h"
 
 namespace domefall {
 namespace {
@@ -219,6 +220,10 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
   traced.slope = sign * sweep.slope * at_observer.doppler;
   set_amplification(traced, at_observer.sine);
   return traced;
+}
+
+std::optional<double> trace_position(const RayRequest& q, double psi) {
+  return exact_position(ray_of(q, view_of(q.observer)), psi);
 }
 
 }  // namespace domefall

@@ -87,4 +87,8 @@ struct TraceOptions {
 // The tables are kept from one call to the next while the radius stays the same (in each thread).
 TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options = {});
 
+// r (units of M) of that ray after having swept psi >= 0, by the closed form of ray_position.h; none
+// where the ray has ended.
+std::optional<double> trace_position(const RayRequest& q, double psi);
+
 }  // namespace domefall
