@@ -29,7 +29,7 @@ double exact_azimuth(const NullRay& ray);
 struct EndAzimuths {
   double sky, singularity;
 };
-EndAzimuths end_azimuths(const Cubic& orbit);
+EndAzimuths end_azimuths(const Cubic& c);
 
 // The angle over which phi changes its shape: to the nearest place where it diverges or, as light
 // from the singularity does on the axis, has the branch point of a cube root.

@@ -81,7 +81,9 @@ const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, SkyRegion
   const bool same = kept.at.r == at.r && kept.at.above_horizon == at.above_horizon &&
                     kept.at.above_light_circle == at.above_light_circle && kept.tetrad == tetrad &&
                     kept.table_bits == bits;
-  if (!same) kept = make_hole_optics(at, tetrad, {false, false, false});
+  WantedSkies none;
+  none.sky = {};
+  if (!same) kept = make_hole_optics(at, tetrad, none);
   kept.table_bits = bits;
   WantedSkies wanted{};
   for (const SkyRegion sky : kEverySky) wanted.sky[sky] = sky == origin;

@@ -22,13 +22,13 @@ double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 }  // namespace
 
 std::vector<double> relative_costs(const Show& show, const std::vector<int>& frames,
-                                   Renderer& shows) {
+                                   Renderer& renderer) {
   if (frames.empty()) return {};
   Show instant = show;
   instant.exposure.shutter = 0;
   std::optional<Renderer> own;
-  if (show.exposure.shutter > 0) own.emplace(instant, shows.threads());
-  Renderer& renderer = own ? *own : shows;
+  if (show.exposure.shutter > 0) own.emplace(instant, renderer.threads());
+  Renderer& used = own ? *own : renderer;
   OpticsStore optics;
   const int width = std::min(columns(show.projection), kCostWidth);
   const std::size_t samples = std::min(frames.size(), kMostCostSamples), last = frames.size() - 1;
@@ -40,7 +40,7 @@ std::vector<double> relative_costs(const Show& show, const std::vector<int>& fra
     // The first frame of all loads the skies and the stars.
     for (int tries = k == 0 ? 0 : 1; tries < 2; ++tries) {
       const double start = processor_time();
-      render_for_files(renderer, instant, reduced(state, width), frame);
+      render_for_files(used, instant, reduced(state, width), frame);
       if (tries == 1) sampled.push_back(processor_time() - start);
     }
     if (show.exposure.shutter > 0)

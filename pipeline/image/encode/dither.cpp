@@ -44,9 +44,9 @@ void dither_portably(const unsigned short* rgb, std::uint32_t count, std::uint32
                                             std::uint32_t seed, std::uint8_t* out) {
   dither_loop(rgb, count, seed, out);
 }
-const auto dither_row = __builtin_cpu_supports("avx2") ? dither_by_avx2 : dither_portably;
+const auto kDitherRow = __builtin_cpu_supports("avx2") ? dither_by_avx2 : dither_portably;
 #else
-const auto dither_row = dither_portably;
+const auto kDitherRow = dither_portably;
 #endif
 
 }  // namespace
@@ -55,7 +55,7 @@ void dither_rows(const unsigned short* rgb, int width, int rows, int y, int fram
                  std::uint8_t* out) {
   const auto count = 3 * static_cast<std::uint32_t>(width);
   for (int row = 0; row < rows; ++row, rgb += count, out += count)
-    dither_row(rgb, count,
+    kDitherRow(rgb, count,
                scrambled(scrambled(static_cast<std::uint32_t>(frame)) +
                          static_cast<std::uint32_t>(y + row)),
                out);

@@ -220,7 +220,8 @@ TEST(SkyPass, MakesTheBordersOfAGridWhereTracingEveryPixelMakesThem) {
       show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
       const PixelErrors errors(show);
       EXPECT_LT(errors.worst, 0.4);
-      EXPECT_LT(static_cast<double>(errors.large), 0.01 * static_cast<double>(errors.all));
+      // Borders take a larger part of a smaller image.
+      EXPECT_LT(static_cast<double>(errors.large), 0.02 * static_cast<double>(errors.all));
       EXPECT_GT(errors.all, 10'000u);
     }
 }
