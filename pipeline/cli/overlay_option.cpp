@@ -11,6 +11,7 @@ namespace domefall {
 
 void add_overlay_option(CLI::App& verb, std::string& names) {
   std::vector<std::string_view> known;
+  known.reserve(std::size(kOverlays));
   for (const auto& [kind, name] : kOverlays) known.push_back(name);
   verb.add_option("--overlay", names,
                   "draw over the frames, for review and teaching: any of these, joined by commas")

@@ -30,7 +30,7 @@ struct Options {
 std::vector<std::string_view> format_list() {
   std::vector<std::string_view> names;
   for (const CatalogueFormat& each : catalogue_formats()) names.push_back(each.name);
-  names.push_back("auto");
+  names.emplace_back("auto");
   return names;
 }
 

@@ -119,7 +119,7 @@ class LocalRun {
   // Only the one who submits may say that the input is wrong.
   bool is_refused_here() const {
     std::vector<std::string> command = render_command(plan_, plan_.frames, 1);
-    command.push_back("--dry-run");
+    command.emplace_back("--dry-run");
     std::string said;
     const WorkerEnd end = run_program(command, said);
     return missing_path(plan_).empty() && end.signal == 0 && end.code == kWorkRefused;
