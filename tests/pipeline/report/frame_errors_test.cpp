@@ -41,14 +41,15 @@ TEST(FrameErrors, FallWithMoreSamples) {
   }
 }
 
-// Most pixels of a map are interpolated, to a hundredth of a pixel.  Measured: this changes the
-// error by 0.0025 of itself.  The grid is no map, so it is traced pixel by pixel either way.
+// Most pixels are interpolated, to a hundredth of a pixel.  Measured: this changes the error by
+// 0.0025 of itself on a map, and by 0.0003 on the grid.
 TEST(FrameErrors, OfInterpolatingAreSmallBesideTheRest) {
-  const FrameErrorRow &usual = row_of("10 M, Milky Way", "default"),
-                      &exact = row_of("10 M, Milky Way", "none interpolated");
-  EXPECT_NE(usual.rms, exact.rms);
-  EXPECT_NEAR(usual.rms, exact.rms, 0.02 * exact.rms);
-  EXPECT_EQ(row_of("30 M, grid", "default").rms, row_of("30 M, grid", "none interpolated").rms);
+  for (const char* scene : {"10 M, Milky Way", "30 M, grid"}) {
+    const FrameErrorRow &usual = row_of(scene, "default"),
+                        &exact = row_of(scene, "none interpolated");
+    EXPECT_NE(usual.rms, exact.rms) << scene;
+    EXPECT_NEAR(usual.rms, exact.rms, 0.02 * exact.rms) << scene;
+  }
 }
 
 // The steps are those of 8 bits, and the error is the rms.  A frame of 256 pixels is the smallest
