@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 namespace domefall {
@@ -42,7 +43,7 @@ class UpperHalvesCleared {
 
 }  // namespace
 
-Deflater::Deflater() : tables_(ISAL_DEF_LVL1_DEFAULT) {}
+Deflater::Deflater() : stream_(sizeof(isal_zstream)), tables_(ISAL_DEF_LVL1_DEFAULT) {}
 
 void Deflater::pack_stream(std::string_view bytes, ByteBlock& out) { pack(bytes, true, out); }
 
@@ -52,7 +53,8 @@ void Deflater::pack(std::string_view bytes, bool whole, ByteBlock& out) {
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
     throw std::length_error("more bytes than ISA-L packs at once");
   out.reserve(most_packed(bytes.size()));
-  isal_zstream stream{};  // ISA-L 2.30 leaves hist_bits, a bound on distances, as it was
+  // ISA-L 2.30 leaves hist_bits, a bound on distances, as it was.
+  isal_zstream& stream = *new (stream_.data()) isal_zstream{};
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = tables_.data();
