@@ -5,16 +5,15 @@
 #include <limits>
 #include <vector>
 
+#include "pipeline/image/greatest_value.h"
 #include "pipeline/image/image_formats.h"
 
 namespace domefall {
 
 double brightest_value(const HalfFrame& frame) {
-  // Without the sign, halves are ordered as their bits are; infinities and NaNs come last.
-  constexpr unsigned short kMagnitude = 0x7fff;
-  unsigned short most = 0;
-  for (const Imath::half value : frame.pixels)
-    most = std::max(most, static_cast<unsigned short>(value.bits() & kMagnitude));
+  static_assert(sizeof(Imath::half) == sizeof(unsigned short));
+  const unsigned short most = greatest_magnitude(
+      reinterpret_cast<const unsigned short*>(frame.pixels.data()), frame.pixels.size());
   const Imath::half brightest(Imath::half::FromBits, most);
   return brightest.isFinite() ? static_cast<double>(brightest)
                               : std::numeric_limits<double>::infinity();
@@ -25,8 +24,7 @@ RowPicture watched(const RowPicture& picture, std::atomic<unsigned short>& brigh
     picture.rows(first, end, rgb);
     const std::size_t count =
         static_cast<std::size_t>(end - first) * static_cast<std::size_t>(picture.width) * 3;
-    unsigned short most = 0;
-    for (std::size_t k = 0; k < count; ++k) most = std::max(most, rgb[k]);
+    const unsigned short most = greatest_value(rgb, count);
     unsigned short known = brightest;
     while (known < most && !brightest.compare_exchange_weak(known, most)) {
     }
