@@ -93,6 +93,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     common.add("star radius").add(show.least_star_radius);
   common.add("saturation").add(show.star_saturation);
   add_effects(common, show.effects);
+  add_disc(common, show.disc);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   if (keeps_floats(show)) common.add("float");
   common_ = common.hex();

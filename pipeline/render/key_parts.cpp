@@ -28,4 +28,13 @@ void add_effects(Digest& digest, const Effects& e) {
   digest.add(static_cast<double>(e.amplification));
 }
 
+void add_disc(Digest& digest, const std::optional<Disc>& disc) {
+  if (!disc) return;
+  digest.add("disc").add(disc->inner).add(disc->outer);
+  const V3d& normal = disc->normal.v;
+  for (const double v : {normal.x, normal.y, normal.z}) digest.add(steady(v));
+  digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
+  digest.add(disc->plunging ? "plunging" : "stable");
+}
+
 }  // namespace domefall

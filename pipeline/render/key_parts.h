@@ -1,6 +1,8 @@
 // What the keys of frames and of lens maps have in common.
 #pragma once
 
+#include <optional>
+
 #include "pipeline/image/digest.h"
 #include "pipeline/show/show.h"
 #include "projections/projection.h"
@@ -13,5 +15,7 @@ void add_observer(Digest& digest, const ObserverState& observer);
 void add_projection(Digest& digest, const Projection& projection);
 // Shows that leave no effect out keep the keys that they had before effects could be left out.
 void add_effects(Digest& digest, const Effects& effects);
+// A show without a disc adds nothing.
+void add_disc(Digest& digest, const std::optional<Disc>& disc);
 
 }  // namespace domefall

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/show/camera_track.h"
+#include "pipeline/show/disc_section.h"
 #include "pipeline/show/effects_section.h"
 #include "pipeline/show/exposure_section.h"
 #include "pipeline/show/grade_section.h"
@@ -44,9 +45,10 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(
-      root, {"title", "frames_per_second", "size", "black_hole", "timeline", "camera", "cameras",
-             "keyframes", "markers", "fade_in_s", "fade_out_s", "effects", "sky", "stars",
-             "exposure", "grade", "dome", "titles", "output"});
+      root,
+      {"title",     "frames_per_second", "size",      "black_hole", "timeline", "camera", "cameras",
+       "keyframes", "markers",           "fade_in_s", "fade_out_s", "effects",  "sky",    "stars",
+       "disc",      "exposure",          "grade",     "dome",       "titles",   "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -59,6 +61,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.projection = camera.projection;
   read_stars(section, show);
   read_sky(root, section, lookup, show);
+  show.disc = read_disc(section, show);
   show.exposure = read_exposure(section);
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);

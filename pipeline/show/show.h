@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/colour/colour_space.h"
+#include "pipeline/disc/disc.h"
 #include "pipeline/grade/grade_settings.h"
 #include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/graded_format.h"
@@ -251,6 +252,7 @@ struct Show {
   // The Julian year for whose places stars are drawn, if their catalogue knows their proper motion.
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
+  std::optional<Disc> disc;  // only where there is a hole
   Effects effects;
   PointSpreadLaw point_spread;
   // How far the colours of stars are from grey: 0 grey, 1 as the CIE's standard observer sees them.

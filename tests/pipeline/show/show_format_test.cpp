@@ -68,7 +68,7 @@ TEST_F(ShowFormat, EveryKeyIsInTheManual) {
   };
   expect_described("qqq: 1\n");
   for (const char* section :
-       {"black_hole", "camera", "effects", "sky", "stars", "exposure", "grade", "output"})
+       {"black_hole", "camera", "effects", "sky", "stars", "disc", "exposure", "grade", "output"})
     expect_described(std::string(section) + ": {qqq: 1}\n");
   expect_described("timeline: [{qqq: 1}]\n");
   expect_described("grade: {cdl: {qqq: 1}}\n");

@@ -1,0 +1,109 @@
+// Tests of what the keys of `disc` mean, and of the messages about discs that cannot be had.
+#include "pipeline/show/frame_state.h"
+#include "tests/pipeline/show/show_keys.h"
+#include "tests/pipeline/show/show_mistakes.h"
+
+namespace domefall {
+namespace {
+
+using DiscKeys = ShowKeys;
+using DiscMistakes = ShowMistakes;
+
+// How far above the disc's plane the observer of a frame stands, in degrees.
+double elevation_deg(const Show& show, int frame) {
+  const V3d place = column(frame_state(show, frame).observer.sky_from_tetrad, 0);
+  return std::asin(std::clamp(place.dot(show.disc.value().normal.v), -1.0, 1.0)) / kDegree;
+}
+
+TEST_F(DiscKeys, AShowHasADiscOnlyIfItSaysSo) {
+  EXPECT_FALSE(with("").disc);
+  const Disc disc = with("disc: {}\n").disc.value();
+  EXPECT_EQ(disc.inner, 6);
+  EXPECT_EQ(disc.outer, 20);
+  EXPECT_EQ(disc.t_max_k, 1e4);
+  EXPECT_EQ(disc.luminance, 1e-3);
+  EXPECT_EQ(disc.opacity, 1);
+  EXPECT_FALSE(disc.plunging);
+}
+
+TEST_F(DiscKeys, EveryKeyIsTaken) {
+  const Disc disc = with(
+                        "disc: {inner_r: 7, outer_r: 30, t_max_k: 5e6, luminance_cd_m2: 0.02, "
+                        "opacity: 0.25}\n")
+                        .disc.value();
+  EXPECT_EQ(disc.inner, 7);
+  EXPECT_EQ(disc.outer, 30);
+  EXPECT_EQ(disc.t_max_k, 5e6);
+  EXPECT_EQ(disc.luminance, 0.02);
+  EXPECT_EQ(disc.opacity, 0.25);
+}
+
+TEST_F(DiscKeys, PlungingGasReachesTheHorizonUnlessItIsCutOff) {
+  EXPECT_EQ(with("disc: {plunging: true}\n").disc->inner, 2);
+  EXPECT_EQ(with("disc: {plunging: true, inner_r: 4}\n").disc->inner, 4);
+  EXPECT_TRUE(with("disc: {plunging: true}\n").disc->plunging);
+}
+
+TEST_F(DiscKeys, TheObserverBeginsAboveThePlaneByTheInclination) {
+  EXPECT_NEAR(elevation_deg(with("disc: {}\n"), 0), 10, 1e-9);
+  EXPECT_NEAR(elevation_deg(with("disc: {inclination_deg: 60}\n"), 0), 60, 1e-9);
+  EXPECT_NEAR(elevation_deg(with("disc: {inclination_deg: 60, node_deg: -90}\n"), 0), -60, 1e-9);
+  EXPECT_NEAR(elevation_deg(with("disc: {inclination_deg: 60, node_deg: 0}\n"), 0), 0, 1e-9);
+}
+
+// An orbit of a whole turn in 300 frames, against which the disc's gas rises at the node.
+TEST_F(DiscKeys, TheNodeLiesAheadOnTheOrbit) {
+  const Show show =
+      with("disc: {inclination_deg: 30, node_deg: 120}\n", "{type: circular, r: 8, orbits: 1}");
+  EXPECT_NEAR(elevation_deg(show, 100), 0, 1e-6);
+  EXPECT_NEAR(elevation_deg(show, 25), 30, 1e-6);
+  EXPECT_NEAR(elevation_deg(show, 175), -30, 1e-6);
+}
+
+TEST_F(DiscKeys, WithoutInclinationItTurnsAsTheOrbitDoesAndWithAHalfTurnAgainstIt) {
+  for (const auto& [inclination, sense] : {std::pair{"0", 1.0}, {"180", -1.0}}) {
+    const Show show =
+        with(std::string("disc: {inclination_deg: ") + inclination + ", node_deg: 77}\n",
+             "{type: circular, r: 8, orbits: 1}");
+    const M33d axes = frame_state(show, 0).observer.sky_from_tetrad;
+    const V3d motion_of_gas = show.disc->normal.v.cross(column(axes, 0));
+    expect_near(motion_of_gas, column(axes, 2) * sense);
+  }
+}
+
+TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
+  expect_complaints({
+      {"UnknownKey", kShow + "disc: {outer: 30}\n",
+       "3:8: disc.outer is an unknown key; did you mean outer_r?"},
+      {"NoMap", kShow + "disc: true\n",
+       "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, t_max_k, "
+       "luminance_cd_m2, opacity or plunging), got 'true'"},
+      {"WithoutAHole", "disc: {}\ntimeline: [{duration_s: 1}]\n",
+       "1:7: disc needs a black hole: give the show black_hole.mass_solar"},
+      {"InsideTheLastStableOrbit", kShow + "disc: {inner_r: 5}\n",
+       "3:17: disc.inner_r must be at least 6 (units of M), got 5: gas inside the last stable "
+       "orbit "
+       "falls in, with plunging: true"},
+      {"InsideTheHorizon", kShow + "disc: {inner_r: 1.5, plunging: true}\n",
+       "3:17: disc.inner_r must be at least 2 (units of M), got 1.5"},
+      {"OuterBelowInner", kShow + "disc: {inner_r: 12, outer_r: 9}\n",
+       "3:30: disc.outer_r must exceed inner_r = 12 (units of M), got 9"},
+      {"InnerBeyondTheDefault", kShow + "disc: {inner_r: 25}\n",
+       "3:17: disc.inner_r must be below outer_r = 20 (units of M), got 25"},
+      {"TooWide", kShow + "disc: {outer_r: 2e6}\n",
+       "3:17: disc.outer_r must be at most 1000000 (units of M), got 2e6"},
+      {"Inclination", kShow + "disc: {inclination_deg: 181}\n",
+       "3:25: disc.inclination_deg must be at most 180 (degrees), got 181"},
+      {"TooCold", kShow + "disc: {t_max_k: 900}\n",
+       "3:17: disc.t_max_k must be at least 1000 (kelvin), got 900"},
+      {"NoLight", kShow + "disc: {luminance_cd_m2: 0}\n",
+       "3:25: disc.luminance_cd_m2 must exceed 0 (cd/m^2), got 0"},
+      {"Opacity", kShow + "disc: {opacity: 1.5}\n",
+       "3:17: disc.opacity must be at most 1, got 1.5"},
+      {"PlungingNoWord", kShow + "disc: {plunging: maybe}\n",
+       "3:18: disc.plunging must be true or false, got 'maybe'"},
+  });
+}
+
+}  // namespace
+}  // namespace domefall
