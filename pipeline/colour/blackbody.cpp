@@ -13,7 +13,7 @@ namespace {
 constexpr double kPlanck = 6.62607015e-34, kLight = 299792458.0, kBoltzmann = 1.380649e-23;
 constexpr double kStefanBoltzmann = 5.670374419e-8;
 
-constexpr double kCoolest = 500, kHottest = 1e8;
+constexpr double kCoolest = 500;
 constexpr int kNodes = 4096;
 
 // Bessell (1990) V response at 470, 480, ... 700 nm.
@@ -22,7 +22,7 @@ constexpr std::array<double, 24> kBessellV{0,     0.03,  0.163, 0.458, 0.78,  0.
                                            0.135, 0.081, 0.045, 0.025, 0.017, 0.013, 0.009, 0};
 constexpr double kVZeroPoint = 3.631e-11;  // W/m^2/nm at V = 0
 
-double node_log() { return std::log(kHottest / kCoolest) / (kNodes - 1); }
+double node_log() { return std::log(kRayleighJeans / kCoolest) / (kNodes - 1); }
 
 }  // namespace
 
@@ -72,9 +72,9 @@ BlackbodyColours::BlackbodyColours() : table_(kNodes) {
 
 WorkingRgb BlackbodyColours::per_flux(double temperature) const {
   if (temperature < kCoolest) return {0, 0, 0};
-  if (temperature >= kHottest) {
-    // Rayleigh-Jeans: visible light grows as T, the total as T^4.
-    const double fall = std::pow(kHottest / temperature, 3);
+  if (temperature >= kRayleighJeans) {
+    // Visible light grows as T, the total as T^4.
+    const double fall = std::pow(kRayleighJeans / temperature, 3);
     const auto& last = table_.back();
     const auto f = static_cast<float>(fall);
     return {last[0] * f, last[1] * f, last[2] * f};

@@ -21,9 +21,12 @@ double blackbody_radiance(double temperature);
 // 3.631e-11 W/m^2/nm in Bessell's V (PASP 102, 1181, 1990).
 double bolometric_flux_at_v_zero(double temperature);
 
+// Beyond this temperature (K) visible light grows with it, by the Rayleigh-Jeans law.
+inline constexpr double kRayleighJeans = 1e8;
+
 // The colour of thermal light by temperature, tabulated in ln T: one look-up for a pixel or a star
 // whose light was shifted, since a Planck spectrum at T seen at frequency ratio g is one at g T.
-// Measured: within 3e-4 of the integral above 700 K.  Above 10^8 K the Rayleigh-Jeans law continues
+// Measured: within 3e-4 of the integral above 700 K.  Above kRayleighJeans that law continues
 // it; below 500 K nothing is visible (under 1e-11 of a 5000 K surface) and it is black.
 class BlackbodyColours {
  public:

@@ -1,0 +1,105 @@
+#include "pipeline/disc/disc_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/lanes.h"
+
+namespace domefall {
+namespace {
+
+// Intervals of the table from r = infinity to the last stable orbit, which is a node; the table goes
+// on to the horizon.
+constexpr int kPerUnit = 4096;
+const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
+constexpr double kBrightest = 1e36;
+constexpr std::size_t kBlock = 128;
+
+double log2_above_singular(const PageThorneProfile& profile, bool plunging, double v) {
+  // Next to its ends the function is even enough to be taken a little off them.
+  constexpr double kOff = 1e-6;
+  const double inside = plunging ? v : std::min(v, 1 - kOff), x = std::max(inside, kOff);
+  const double t = std::log2(profile.temperature(kLastStableOrbit / (x * x))) - 1.5 * std::log2(x);
+  return plunging ? t : t - 0.5 * std::log2(1 - x);
+}
+
+// What a block of places has in common.
+struct ObservedBlock {
+  const float* table;
+  bool plunging;
+  float hottest, log2_scale, log2_t_max;
+};
+
+// log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric radiance that
+// goes with it, times the scale.
+[[gnu::always_inline]] inline void observe_loop(const ObservedBlock& block, const float* r,
+                                                const float* g, int count, float* log2_t,
+                                                float* radiance) {
+  constexpr float kLog2Six = 2.5849625f, kLeast = 1e-30f;
+  const ObservedBlock b = block;
+  const auto end = static_cast<float>(kInnermost * kPerUnit);
+  for (int k = 0; k < count; ++k) {
+    const float six = 6.0f / r[k], v = __builtin_sqrtf(six), scaled = v * kPerUnit;
+    const float at = scaled < end ? scaled : end;
+    const int node = static_cast<int>(at);
+    const float part = at - static_cast<float>(node);
+    const float low = b.table[node], high = b.table[node + 1];
+    const float rest = (r[k] - 6.0f) / (r[k] * (1.0f + v));  // 1 - v
+    const float edge = 0.5f * binary_logarithm(rest > kLeast ? rest : kLeast);
+    const float shift = binary_logarithm(g[k] > kLeast ? g[k] : kLeast);
+    const float own = low + part * (high - low) + 0.75f * (kLog2Six - binary_logarithm(r[k]));
+    const float t = b.log2_t_max + own + (b.plunging ? 0.0f : edge) + shift;
+    const float seen = t < b.hottest ? t : b.hottest;
+    const float power = b.log2_scale + 3.0f * seen + t;
+    log2_t[k] = r[k] >= 2.0f ? seen : 0.0f;
+    radiance[k] = power_of_two(power < 119.0f ? power : 119.0f);
+  }
+}
+const Dispatched<observe_loop> observe;
+
+}  // namespace
+
+DiscLight::DiscLight(const Disc& disc)
+    : disc_(disc), profile_(disc.plunging), scale_(disc.luminance / blackbody_xyz(disc.t_max_k).y) {
+  const int nodes = static_cast<int>(std::ceil(kInnermost * kPerUnit)) + 2;
+  for (int k = 0; k < nodes; ++k) {
+    const double v = std::min(static_cast<double>(k) / kPerUnit, kInnermost);
+    table_.push_back(static_cast<float>(log2_above_singular(profile_, disc.plunging, v)));
+  }
+}
+
+double DiscLight::temperature(double r) const { return disc_.t_max_k * profile_.temperature(r); }
+
+WorkingRgb DiscLight::light(double r, double g) const {
+  const double t = g * temperature(r), seen = std::min(t, kRayleighJeans);
+  const WorkingRgb c = blackbody_colours().per_flux(seen);
+  // Beyond that temperature the light grows with its first power.
+  const double beyond = t > seen ? t / seen : 1;
+  const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kBrightest);
+  const auto f = static_cast<float>(radiance);
+  return {c.r * f, c.g * f, c.b * f};
+}
+
+void DiscLight::light(std::span<const float> r, std::span<const float> g,
+                      std::span<WorkingRgb> out) const {
+  const ObservedBlock block{table_.data(), disc_.plunging,
+                            static_cast<float>(std::log2(kRayleighJeans)),
+                            static_cast<float>(std::log2(blackbody_radiance(1) * scale_)),
+                            static_cast<float>(std::log2(disc_.t_max_k))};
+  const BlackbodyColours& colours = blackbody_colours();
+  std::array<float, kBlock> log2_t, radiance;
+  for (std::size_t at = 0; at < r.size(); at += kBlock) {
+    const std::size_t count = std::min(kBlock, r.size() - at);
+    observe(block, r.data() + at, g.data() + at, static_cast<int>(count), log2_t.data(),
+            radiance.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      const WorkingRgb c = colours.per_flux_log2(log2_t[k]);
+      out[at + k] = {c.r * radiance[k], c.g * radiance[k], c.b * radiance[k]};
+    }
+  }
+}
+
+}  // namespace domefall
