@@ -1,0 +1,205 @@
+#include "pipeline/report/reference/reference_disc.h"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/numeric/odeint/algebra/array_algebra.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+// Light that left gas nearer to the past horizon is redder by its inverse.
+constexpr double kPastHorizon = 1e-6;
+
+double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector3 sum(const Vector3& a, double by, const Vector3& b) {
+  return {a[0] + by * b[0], a[1] + by * b[1], a[2] + by * b[2]};
+}
+
+// ---- The ray ----
+
+// x, its rate against the light's sense, and the v that has passed.
+struct Light : std::array<double, 7> {
+  Light() : std::array<double, 7>{} {}
+  Vector3 place() const { return {(*this)[0], (*this)[1], (*this)[2]}; }
+  Vector3 rate() const { return {(*this)[3], (*this)[4], (*this)[5]}; }
+  double r() const { return std::sqrt(dot(place(), place())); }
+  double outwards() const { return dot(place(), rate()) / r(); }  // -k^r
+};
+
+// The wave vector in the frame of radial free fall, (frequency, direction of travel times it), of
+// light that the observer sees with frequency 1 from `direction`: a Lorentz boost of (1, -m).
+std::array<double, 4> boosted(const Vector3& celerity, const Vector3& m) {
+  const double gamma = std::sqrt(1 + dot(celerity, celerity)), along = dot(celerity, m);
+  std::array<double, 4> k{gamma - along, 0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i)
+    k[i + 1] = -m[i] - celerity[i] * along / (1 + gamma) + celerity[i];
+  return k;
+}
+
+class Geodesic {
+ public:
+  using Fehlberg78 =
+      odeint::runge_kutta_fehlberg78<Light, double, Light, double, odeint::array_algebra>;
+
+  Geodesic(const ReferenceDiscView& view, const Vector3& direction) {
+    const auto k = boosted(view.celerity, direction);
+    const double s = std::sqrt(2 / view.r) * (view.outgoing ? -1 : 1);
+    // d/dt = T + s R, and the frame itself moves by -s against spheres of constant r.
+    energy_ = k[0] - s * k[1];
+    const double radial = k[1] - s * k[0];
+    light_[0] = view.r;
+    light_[3] = -radial, light_[4] = -k[2], light_[5] = -k[3];
+    const Vector3 spin = cross(light_.place(), light_.rate());
+    spin2_ = dot(spin, spin);
+  }
+
+  double energy() const { return energy_; }
+  double momentum_about(const Vector3& axis) const {  // of the light, which goes the other way
+    return -dot(cross(light_.place(), light_.rate()), axis);
+  }
+  const Light& light() const { return light_; }
+
+  void operator()(const Light& y, Light& rate, double /*lambda*/) const {
+    const double r = y.r(), pull = -3 * spin2_ / (r * r * r * r * r);
+    for (std::size_t i = 0; i < 3; ++i) {
+      rate[i] = y[i + 3];
+      rate[i + 3] = pull * y[i];
+    }
+    // dv/dlambda = (E + k^r)/(1 - 2/r), which for light that falls is L^2/(r^2 (E - k^r)).
+    const double radial = -y.outwards();
+    rate[6] =
+        radial < 0 ? -spin2_ / (r * r * (energy_ - radial)) : -(energy_ + radial) / (1 - 2 / r);
+  }
+
+  // Goes back along the ray by one step, and returns where it was before.
+  Light step() {
+    const Light before = light_;
+    // No step passes more than a part of the way to the hole's centre or, of light that comes out
+    // of the past horizon at v = -infinity, to that.
+    const double speed = std::sqrt(dot(light_.rate(), light_.rate()));
+    const double way = light_.outwards() < 0 ? light_.r() - 2 : light_.r();
+    length_ = std::min(length_, 0.3 * way / speed);
+    double lambda = 0;
+    for (int tries = 0; tries < 100; ++tries) {
+      if (stepper_.try_step(std::cref(*this), light_, lambda, length_) == odeint::success) {
+        taken_ = lambda;
+        return before;
+      }
+    }
+    throw std::runtime_error("a ray beside the disc could not be followed");
+  }
+  // How long the last step was.
+  double taken() const { return taken_; }
+  Light after(const Light& start, double length) const {
+    Fehlberg78 one;
+    Light out;
+    one.do_step(std::cref(*this), start, 0.0, out, length);
+    return out;
+  }
+
+ private:
+  using Stepper = odeint::controlled_runge_kutta<Fehlberg78>;
+  static constexpr double kTolerance = 1e-14;
+
+  Light light_;
+  double energy_ = 0, spin2_ = 0, length_ = 1e-2, taken_ = 0;
+  Stepper stepper_ = Stepper(Stepper::error_checker_type(kTolerance, kTolerance));
+};
+
+// The place on the plane between two ends of a step, by bisection.
+Light on_plane(const Geodesic& ray, const Light& from, double length, const Vector3& normal) {
+  double low = 0, high = length;
+  const bool side = dot(ray.after(from, high).place(), normal) > 0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    ((dot(ray.after(from, middle).place(), normal) > 0) == side ? high : low) = middle;
+  }
+  return ray.after(from, (low + high) / 2);
+}
+
+// ---- The gas ----
+
+// What gas loses on its way from r = 6 to r, plus what the plunging gas pulls: PageThorne's integral
+// of (E - Omega L) dL/dr = (r - 6)/(2 sqrt r (r - 3)), by quadrature.
+double flux(double r, bool plunging) {
+  const auto lost = [](double x) { return (x - 6) / (2 * std::sqrt(x) * (x - 3)); };
+  const double brought =
+      r > 6 ? boost::math::quadrature::gauss_kronrod<double, 31>::integrate(lost, 6, r, 12, 1e-13)
+            : 0;
+  return (brought + (plunging ? 0.02 * std::sqrt(6.0) : 0)) / ((r - 3) * std::pow(r, 2.5));
+}
+
+// The maximum lies at 9.55 or, where gas plunges, at 6.
+double greatest_flux(bool plunging) {
+  if (plunging) return flux(6, true);
+  double low = 8, high = 12;
+  for (int k = 0; k < 100; ++k) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (flux(a, false) < flux(b, false) ? low : high) = flux(a, false) < flux(b, false) ? a : b;
+  }
+  return flux((low + high) / 2, false);
+}
+
+double temperature(double r, bool plunging) {
+  static const double greatest[] = {greatest_flux(false), greatest_flux(true)};
+  if (r >= 6) return std::pow(flux(r, plunging) / greatest[plunging ? 1 : 0], 0.25);
+  if (!plunging) return 0;
+  return std::pow(6 / r, 17.0 / 28) * std::pow(1 + std::pow(6 / r - 1, 1.5) / 0.01, -1.0 / 28);
+}
+
+double shift(const Geodesic& ray, const Light& at, const Vector3& axis) {
+  const double r = at.r(), turned = ray.momentum_about(axis);
+  if (r >= 6) return (ray.energy() - turned / std::pow(r, 1.5)) / std::sqrt(1 - 3 / r);
+  const double own = std::sqrt(8.0 / 9), f = 1 - 2 / r;
+  const double fall = -std::sqrt(std::max(0.0, 8.0 / 9 - f * (1 + 12 / (r * r))));
+  return (own * ray.energy() + fall * at.outwards()) / f - std::sqrt(12.0) * turned / (r * r);
+}
+
+double azimuth_of(const Vector3& place, const Vector3& normal) {
+  Vector3 first = sum({1, 0, 0}, -normal[0], normal);
+  if (dot(first, first) < 1e-20) first = sum({0, 1, 0}, -normal[1], normal);
+  return std::atan2(dot(cross(normal, first), place), dot(first, place));
+}
+
+}  // namespace
+
+std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
+                                               const Vector3& direction, int orders) {
+  Geodesic ray(view, direction);
+  std::vector<ReferenceDiscPlace> found;
+  // Light of E < 0 comes from region III, and all that is before the past horizon from region IV.
+  if (!(ray.energy() > 0) || (view.outgoing && view.r <= 2)) return found;
+  double before_side = dot(ray.light().place(), view.normal);
+  if (before_side == 0) before_side = dot(ray.light().rate(), view.normal);
+  for (int order = 0; order < orders;) {
+    const Light before = ray.step();
+    const Light& now = ray.light();
+    const double side = dot(now.place(), view.normal);
+    if (side * before_side < 0) {
+      const Light at = on_plane(ray, before, ray.taken(), view.normal);
+      const double r = at.r();
+      if (r > 2 && r >= view.inner && r <= view.outer) {
+        const double tortoise = r + 2 * std::log(r / 2 - 1);
+        const double own = view.r + 2 * std::log(view.r / 2 - 1);
+        found.push_back({order, r, azimuth_of(at.place(), view.normal), shift(ray, at, view.normal),
+                         temperature(r, view.plunging),
+                         tortoise - at[6] - (view.outgoing ? 2 * own : 0)});
+      }
+      ++order;
+    }
+    before_side = side;
+    if (now.outwards() < 0 && now.r() < 2 + kPastHorizon) break;
+    if (now.outwards() > 0 && now.r() > 3 && now.r() > view.outer) break;
+  }
+  return found;
+}
+
+}  // namespace domefall

@@ -1,0 +1,50 @@
+// The truth that pictures of discs are measured against: where the light of one direction of view
+// left the disc, by following the ray step by step.  It shares no code with what it judges, which
+// knows places along rays in closed form.
+//
+// In Schwarzschild's metric (M = 1) the place x of light, |x| = r, as a vector of Euclidean space,
+// obeys
+//     d^2 x/d lambda^2 = -3 h^2 x/r^5,   h = |x cross dx/dlambda|,
+// with an affine lambda, in every region: its radial part is r'' = L^2/r^3 - 3 L^2/r^4 and its
+// plane is fixed.  Time along it counts by the null coordinate v = t + r*, r* = r + 2 ln|r/2 - 1|.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace domefall {
+
+using Vector3 = std::array<double, 3>;
+
+// The observer moves with the celerity gamma v against radial free fall: the frame that falls in
+// from rest at infinity, or with `outgoing` the one that rises to rest there.  Components are along
+// R (away from the hole outside), Theta and Phi.
+struct ReferenceDiscView {
+  double r = 10;  // M, > 0
+  bool outgoing = false;
+  Vector3 celerity{0, 0, 0};
+  Vector3 normal{0, -1, 0};  // the disc turns counter-clockwise about it
+  double inner = 6, outer = 20;
+  bool plunging = false;  // whether gas falls in below r = 6
+};
+
+struct ReferenceDiscPlace {
+  int order;          // how often the ray met the disc's plane before, at whatever radius
+  double r;           // M
+  double azimuth;     // in the plane, from R's part in it (from Theta's if it has none), radians
+  double one_plus_z;  // frequency sent over the one that the observer measures
+  // The temperature of the gas over that of the hottest ring at r >= 6.  The observer sees a
+  // blackbody of this over one_plus_z, and of the fourth power of that as bolometric radiance.
+  double temperature;
+  double delay;  // the observer's v, or its u = t - r* if outgoing, minus the gas's t, M
+};
+
+// The places of the disc, in region I, that lie on the ray which comes in from this direction (unit
+// vector in the observer's own frame, whose axes are the boosted R, Theta and Phi), the nearest
+// first, of orders below `orders`.  Measured against the closed form of places along rays: r and
+// one_plus_z agree within a relative 1e-9 exp(pi order).  Light that set out outward from r < 2 +
+// 1e-6 is left out.
+std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
+                                               const Vector3& direction, int orders = 4);
+
+}  // namespace domefall
