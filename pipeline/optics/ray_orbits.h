@@ -1,0 +1,57 @@
+// Where the rays of one observer are after having swept an angle, many at a time: for rendering what
+// is near the hole.  ray_position.h says what a place along a ray is; this computes the same, column
+// by column.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pipeline/optics/null_ray.h"
+
+namespace domefall {
+
+// Rays of one observer by half of alpha, the angle of null_ray.h: columns of the same length.  The
+// gaps are those of NullRay; without them (null) they are made of the half angles, to 1e-16.
+struct RayColumns {
+  const double* sin_half = nullptr;
+  const double* cos_half = nullptr;
+  const double* gap_first = nullptr;
+  const double* gap_second = nullptr;
+};
+
+// One place on each of up to kSize rays.
+struct RayPlaces {
+  static constexpr int kSize = 128;
+  using Column = std::array<double, kSize>;
+  // Units of M; infinite where the ray has ended on a sky, 0 where it has ended in the singularity.
+  alignas(64) Column r;
+  alignas(64) Column slope;  // dr/dpsi, signed; 0 where the ray has ended
+};
+
+class RayOrbits {
+ public:
+  static constexpr int kSize = RayPlaces::kSize;
+
+  // Rays of an observer at r > 0 in the rain frame (regions I and II) or, `outgoing`, in that of
+  // free fall to infinity (I and IV); count <= kSize.
+  void set(const Radius& at, bool outgoing, const RayColumns& rays, int count);
+
+  int count() const { return count_; }
+
+  // The places after psi[k] >= 0 radians, as exact_position has them.  A ray after psi = 0 is at
+  // the observer.
+  void find(const double* psi, RayPlaces& places) const;
+
+ private:
+  int count_ = 0;
+  std::vector<NullRay> ray_;
+};
+
+// The region of a place along a ray of signed energy E (RayInvariants): back in time light leaves
+// region II outwards and is in region IV only inwards.  For mirrored observers I and III swap.
+inline Region region_at(double energy, double r, double slope) {
+  if (r > 2) return energy > 0 ? Region::kI : Region::kIII;
+  return slope > 0 ? Region::kII : Region::kIV;
+}
+
+}  // namespace domefall
