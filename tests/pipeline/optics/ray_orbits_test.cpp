@@ -1,0 +1,196 @@
+#include "pipeline/optics/ray_orbits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "pipeline/optics/exact_azimuth.h"
+#include "pipeline/optics/ray_position.h"
+#include "pipeline/simd/dispatch.h"
+#include "tests/sanitized.h"
+#include "tests/source_tree.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+RayPlaces places_of(const std::vector<NullRay>& rays, const std::vector<double>& psi) {
+  std::vector<double> sine, cosine, first, second;
+  for (const NullRay& ray : rays) {
+    sine.push_back(ray.sin_half);
+    cosine.push_back(ray.cos_half);
+    first.push_back(ray.gap_first);
+    second.push_back(ray.gap_second);
+  }
+  RayOrbits orbits;
+  orbits.set(rays[0].at, rays[0].outgoing,
+             {sine.data(), cosine.data(), first.data(), second.data()},
+             static_cast<int>(rays.size()));
+  RayPlaces places;
+  orbits.find(psi.data(), places);
+  return places;
+}
+
+RayPlaces place_of(const NullRay& ray, double psi) { return places_of({ray}, {psi}); }
+
+// Observers and rays of every kind: near and far, next to the horizon and the light circle, and
+// rays down to 1e-15 radians off an edge.
+class Random {
+ public:
+  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  bool one_in(int n) { return unit() * n < 1; }
+  double logarithmic(double low, double high) { return low * std::pow(high / low, unit()); }
+
+  Radius radius() {
+    if (one_in(2)) return logarithmic(1e-6, 1e8);
+    const double off = logarithmic(1e-9, 1);
+    return (one_in(2) ? 2 : 3) + (one_in(2) ? off : -off);
+  }
+
+  NullRay ray(const Radius& at, bool outgoing) {
+    const RadialFrame frame{outgoing, false};
+    const NullRay any = ray_at(at, std::numbers::pi * unit(), frame);
+    if (one_in(3)) return any;
+    const Critical edge = one_in(2) ? Critical::kFirst : Critical::kSecond;
+    const double offset = logarithmic(1e-15, 0.1) * (one_in(2) ? 1 : -1);
+    const double alpha = 2 * std::atan(tan_half_critical(at, edge)) + offset;
+    return alpha > 0 && alpha < std::numbers::pi ? ray_off_edge(at, edge, offset, frame) : any;
+  }
+
+  // An angle on the ray's path: anywhere, near its beginning or near its end.
+  double psi(const NullRay& ray) {
+    const double phi = std::min(exact_azimuth(ray), 100.0);
+    if (one_in(3)) return phi * unit();
+    return phi * (one_in(2) ? logarithmic(1e-6, 1) : 1 - logarithmic(1e-4, 1));
+  }
+
+ private:
+  std::mt19937_64 engine_{18};
+};
+
+TEST(RayOrbits, FindTheReferenceRows) {
+  std::ifstream file(source_file("tests/reference/positions.csv"));
+  int rows = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("rain,")) continue;
+    std::istringstream cells(line);
+    std::string observer, r, delta, psi, origin, there;
+    for (std::string* cell : {&observer, &r, &delta, &psi, &origin, &there})
+      std::getline(cells, *cell, ',');
+    const NullRay ray = ray_at(Radius(std::stold(r)), std::stold(delta));
+    const RayPlaces place = place_of(ray, std::stod(psi));
+    const double exact = std::stod(there), drift = std::abs(place.slope[0]) * 4e-16 / exact;
+    EXPECT_NEAR(place.r[0] / exact, 1, 1e-13 + drift * std::max(1.0, std::stod(psi))) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 224);
+}
+
+TEST(RayOrbits, AgreeWithTheClosedFormForAHundredThousandRandomRays) {
+  Random random;
+  for (int observer = 0; observer < tries(800, 40); ++observer) {
+    const Radius at = random.radius();
+    const bool outgoing = random.one_in(2);
+    std::vector<NullRay> rays;
+    std::vector<double> psi;
+    for (int k = 0; k < RayOrbits::kSize; ++k) {
+      rays.push_back(random.ray(at, outgoing));
+      psi.push_back(random.psi(rays.back()));
+    }
+    const RayPlaces places = places_of(rays, psi);
+    for (int k = 0; k < RayOrbits::kSize; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const double exact = exact_position(rays[i], psi[i]).value_or(kInfinite);
+      const double drift = std::abs(places.slope[i]) / exact * std::max(1.0, psi[i]);
+      ASSERT_NEAR(places.r[i] / exact, 1, 1e-13 + 2e-15 * drift)
+          << at.r << " " << outgoing << " " << alpha_of(rays[i]) << " " << rays[i].gap_first << " "
+          << rays[i].gap_second << " " << psi[i];
+    }
+  }
+}
+
+TEST(RayOrbits, HaveTheSlopeOfTheOrbitsEquation) {
+  Random random;
+  for (int n = 0; n < tries(3000, 300); ++n) {
+    const NullRay ray = random.ray(random.radius(), random.one_in(2));
+    const double psi = random.psi(ray), r = place_of(ray, psi).r[0];
+    const double slope = place_of(ray, psi).slope[0];
+    const RayInvariants k = invariants(ray);
+    const double e = k.energy / k.angular_momentum, w = 1 / r;
+    const double square = e * e - w * w * (1 - 2 * w);
+    const double size = e * e + w * w + 2 * w * w * w;
+    EXPECT_NEAR(slope * slope * w * w * w * w / size, square / size, 1e-10)
+        << ray.at.r << " " << psi;
+    // It grows or falls as the place does a little later, unless that is beyond a turning point.
+    const double step = 1e-6 * psi, later = place_of(ray, psi + step).r[0];
+    if (square > 1e-3 * size && std::isfinite(later) && later > 0) {
+      EXPECT_EQ(later > r, slope > 0) << ray.at.r << " " << psi;
+    }
+  }
+}
+
+TEST(RayOrbits, BeginAtTheObserverAndEndOnASkyOrInTheSingularity) {
+  for (const double r : {1e-3, 1.0, 2.0, 2.5, 3.0, 4.0, 1e6})
+    for (const bool outgoing : {false, true})
+      for (const double alpha : {1e-3, 0.5, 1.5, 3.0}) {
+        const NullRay ray = ray_at(r, alpha, {outgoing, false});
+        EXPECT_NEAR(place_of(ray, 0).r[0], r, 1e-13 * r) << alpha;
+        const bool sky = origin_of(ray) != SkyRegion::kIV;
+        const RayPlaces end = place_of(ray, exact_azimuth(ray) * (1 + 1e-12));
+        EXPECT_EQ(end.r[0], sky ? kInfinite : 0) << r << " " << alpha;
+        EXPECT_EQ(end.slope[0], 0);
+      }
+}
+
+TEST(RayOrbits, OfARadialRayEndsAtOnceAndOfACriticalOneNever) {
+  EXPECT_EQ(place_of(ray_at(10, 0), 1e-300).r[0], 0);
+  EXPECT_EQ(place_of(ray_at(10, polar_angle(0).reversed()), 1e-300).r[0], kInfinite);
+  for (const double r : {0.5, 2.0, 2.5, 3.0, 10.0})
+    EXPECT_NEAR(place_of(ray_off_edge(r, Critical::kFirst, 0), 200).r[0], 3, 1e-14) << r;
+}
+
+TEST(RayOrbits, MakeTheGapsThatAreNotGiven) {
+  const NullRay ray = ray_at(10, 1.0);
+  RayOrbits orbits;
+  orbits.set(10, false, {&ray.sin_half, &ray.cos_half}, 1);
+  RayPlaces places;
+  const double psi = 1;
+  orbits.find(&psi, places);
+  EXPECT_NEAR(places.r[0], place_of(ray, psi).r[0], 1e-13);
+}
+
+TEST(RayOrbits, AreTheSameBitsByEveryInstructionSet) {
+  Random random;
+  const Simd before = simd_in_use();
+  for (int observer = 0; observer < 40; ++observer) {
+    const Radius at = random.radius();
+    std::vector<NullRay> rays;
+    std::vector<double> psi;
+    for (int k = 0; k < 101; ++k) {
+      rays.push_back(random.ray(at, observer % 2 == 1));
+      psi.push_back(random.psi(rays.back()));
+    }
+    use_simd(Simd::kPortable);
+    const RayPlaces plain = places_of(rays, psi);
+    for (const Simd level : kEverySimd) {
+      if (!processor_has(level)) continue;
+      use_simd(level);
+      const RayPlaces wide = places_of(rays, psi);
+      EXPECT_EQ(std::memcmp(wide.r.data(), plain.r.data(), sizeof(double) * rays.size()), 0);
+      EXPECT_EQ(std::memcmp(wide.slope.data(), plain.slope.data(), sizeof(double) * rays.size()),
+                0);
+    }
+  }
+  use_simd(before);
+}
+
+}  // namespace
+}  // namespace domefall
