@@ -16,6 +16,8 @@ class DiscLight {
  public:
   explicit DiscLight(const Disc& disc);
 
+  const Disc& disc() const { return disc_; }
+
   // Kelvin, in the gas's own frame; 0 where there is no gas of the profile, whatever the disc's
   // radii are.
   double temperature(double r) const;

@@ -10,6 +10,7 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/sky/sky_pass.h"
 
@@ -30,12 +31,14 @@ struct BandMemory {
   }
 };
 
-// Draws skies and stars into a frame of the projection's size, by all threads of the arena that
-// calls.  Where there are borders, stars end at them.  In a half frame, a value beyond the largest
+// Draws skies and stars, and the disc before them unless it is null, into a frame of the
+// projection's size, by all threads of the arena that calls.  Where there are borders, stars end at
+// them.  In a half frame, a value beyond the largest
 // half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming the
 // pixel, if a value is not finite, and RenderStopped once `stop` is set.
 template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const std::optional<SkyBorders>& borders, BandMemory& memory, ImageRgb<T>& frame);
+                const DiscPass* disc, const std::optional<SkyBorders>& borders, BandMemory& memory,
+                ImageRgb<T>& frame);
 
 }  // namespace domefall

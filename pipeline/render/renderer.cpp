@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_stars.h"
 #include "pipeline/render/overlay/frame_overlays.h"
@@ -203,7 +204,9 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
   times.table_nodes = node_count(optics);
   SkyMotion motion;
   if (plan.gravity) motion = {sky_turn(show_, state), gap};
-  const FrameScene scene(show_, state, plan, optics, skies, motion, &whole);
+  if (plan.disc && !disc_light_) disc_light_.emplace(*show_.disc);
+  const FrameScene scene(show_, state, plan, optics, skies, motion, &whole,
+                         plan.disc ? &*disc_light_ : nullptr);
   times.tables_s = watch.lap();
   memory_->arena.execute([&] {
     BlobLayer& stars = memory_->stars;
@@ -222,9 +225,11 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
     times.traced_fraction = sky.traced_fraction();
+    std::optional<DiscPass> disc;
+    if (scene.disc) disc.emplace(scene);
     times.grid_s = watch.lap();
     memory_->bands.throw_if_stopped();
-    draw_bands(scene, sky, stars, borders, memory_->bands, frame);
+    draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, memory_->bands, frame);
     memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();
   });

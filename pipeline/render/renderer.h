@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
+#include "pipeline/disc/disc_light.h"
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/scene/optics_store.h"
 #include "pipeline/render/scene/sky_store.h"
@@ -76,6 +78,7 @@ class Renderer {
   const Show& show_;
   AntiAliasing anti_aliasing_;
   SkyStore skies_;
+  std::optional<DiscLight> disc_light_;  // made when a disc is first seen
   OpticsStore optics_;
   std::unique_ptr<Memory> memory_;
 };

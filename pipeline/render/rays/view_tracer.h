@@ -49,6 +49,16 @@ struct ViewRayBatch {
   V3d along(int k) const { return {along_x[k], along_y[k], along_z[k]}; }
 };
 
+// Directions of view in the frame in which light's ways are known: the reference tetrad's, or, where
+// light goes straight near a hole, that of the observer at rest.
+struct FrameRayBatch {
+  template <class T>
+  using Column = ViewRayBatch::Column<T>;
+  alignas(64) Column<double> x, y, z;    // unit vectors along R, Theta, Phi
+  alignas(64) Column<double> scale;      // angles in that frame per angle in the view
+  alignas(64) Column<double> frequency;  // as the observer measures it, over that in the frame
+};
+
 class ViewTracer {
  public:
   // The optics must outlive the tracer.  Without lensing they are not used: light then goes
@@ -64,6 +74,12 @@ class ViewTracer {
   // direction: within 1e-15 radians on the sky and a relative 1e-14, because vector_math.h rounds
   // differently.
   void trace(const CameraDirection* n, int count, ViewRayBatch& batch) const;
+
+  // The same directions only brought into that frame, for what is nearer than the skies.
+  void into_frame(const CameraDirection* n, int count, FrameRayBatch& batch) const;
+
+  // Whether light near the hole goes straight, as a show may have it.
+  bool goes_straight() const { return to_rest_.has_value(); }
 
   // The observers for whom the frame is drawn.
   const Vantage& vantage() const { return vantage_; }

@@ -30,6 +30,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
+  plan.disc = show.disc && !is_flat(o) && (o.region == Region::kI || inside);
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);

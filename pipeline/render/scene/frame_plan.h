@@ -17,7 +17,8 @@ struct FramePlan {
 
     bool lit() const { return background || stars; }
   };
-  PerSky<Sky> sky;  // all false for a sky that the observer's region does not see
+  bool disc = false;  // whether light of the disc, in region I, can reach the observer
+  PerSky<Sky> sky;    // all false for a sky that the observer's region does not see
 
   const Sky& operator[](SkyRegion which) const { return sky[which]; }
   bool has_background() const;

@@ -36,7 +36,8 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-                       SkyMotion sky_motion, const Projection* whole)
+                       SkyMotion sky_motion, const Projection* whole,
+                       const DiscLight* disc_light)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
@@ -48,6 +49,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       least_star_radius(show.least_star_radius),
       motion(std::move(sky_motion)),
       stars(stars_of(plan, skies)),
-      background(backgrounds_of(show, frame, plan, skies, exposure)) {}
+      background(backgrounds_of(show, frame, plan, skies, exposure)),
+      disc(disc_light) {}
 
 }  // namespace domefall

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "pipeline/disc/disc_light.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/point_spread.h"
@@ -24,10 +25,12 @@ struct SkyMotion {
 struct FrameScene {
   // `skies` has null for a sky that the plan leaves out.  Everything that is passed, but for the
   // plan, must outlive the scene.  If the frame is a part of a picture, `whole` is the picture's
-  // projection, by which blobs have their widths.
+  // projection, by which blobs have their widths.  `disc_light` is that of the show's disc, or null
+  // where the plan has none.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-             SkyMotion sky_motion = {}, const Projection* whole = nullptr);
+             SkyMotion sky_motion = {}, const Projection* whole = nullptr,
+             const DiscLight* disc_light = nullptr);
 
   const FrameState& state;
   const Effects& effects;
@@ -42,6 +45,7 @@ struct FrameScene {
   const PerSky<const SceneStars*> stars;  // null where the plan has none
   // Empty for a sky that is black or has stars only.
   const PerSky<std::optional<SkyLight>> background;
+  const DiscLight* disc;  // null where none is seen
 
   const Projection& projection() const { return state.projection; }
   // Whether the lens brightens backgrounds as it does stars, which it does not in nature.

@@ -1,0 +1,209 @@
+#include "pipeline/render/disc/disc_images.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/optics/ray_orbits.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// Rays of one observer by ln tan(alpha/2), and their p.
+class LabelledRays {
+ public:
+  LabelledRays(const Radius& at, bool outgoing)
+      : at_(at),
+        outgoing_(outgoing),
+        s_(std::sqrt(2 / at.r)),
+        one_minus_s_(at.above_horizon / (at.r * (1 + s_))) {}
+
+  // All with E > 0, from there on.
+  double least_log_tangent() const {
+    constexpr double kAxis = -40;
+    return one_minus_s_ >= 0 ? kAxis : std::log(-one_minus_s_ / (1 + s_)) / 2;
+  }
+  static double greatest_log_tangent() { return 40; }
+
+  // k^r/L = (cos alpha - s)/(r sin alpha) in the rain frame, the opposite in the outgoing one.
+  double label(double log_tangent) const {
+    const double t = std::exp(log_tangent), p = (one_minus_s_ / t - (1 + s_) * t) / (2 * at_.r);
+    return outgoing_ ? -p : p;
+  }
+  // The inverse, on the branch where E > 0.
+  double log_tangent(double p) const {
+    const double q = (outgoing_ ? -p : p) * at_.r;
+    // (1 + s) t^2 + 2 q t - (1 - s) = 0
+    const double root = std::sqrt(std::max(0.0, q * q + (1 + s_) * one_minus_s_));
+    return std::log(q > 0 ? one_minus_s_ / (q + root) : (root - q) / (1 + s_));
+  }
+
+  // 1/r of rays after psi; 0 on a sky, infinite in the singularity.
+  void find(const double* log_tangent, const double* psi, int count, double* w) {
+    for (int k = 0; k < count; ++k) {
+      const double t = std::exp(log_tangent[k]), length = std::sqrt(1 + t * t);
+      sine_[static_cast<std::size_t>(k)] = t / length;
+      cosine_[static_cast<std::size_t>(k)] = 1 / length;
+    }
+    orbits_.set(at_, outgoing_, {sine_.data(), cosine_.data(), nullptr, nullptr}, count);
+    orbits_.find(psi, places_);
+    for (int k = 0; k < count; ++k) w[k] = 1 / places_.r[static_cast<std::size_t>(k)];
+  }
+
+  bool outgoing() const { return outgoing_; }
+
+ private:
+  Radius at_;
+  bool outgoing_;
+  double s_, one_minus_s_;
+  RayOrbits orbits_;
+  RayPlaces places_;
+  RayPlaces::Column sine_{}, cosine_{};
+};
+
+// p of the rays that are at `target` = 1/r after psi, by halving the interval of ln tan(alpha/2).
+void solve(LabelledRays& rays, double target, const double* psi, int count, double* p) {
+  RayPlaces::Column low{}, high{}, middle{}, w{};
+  low.fill(rays.least_log_tangent());
+  high.fill(LabelledRays::greatest_log_tangent());
+  constexpr int kHalvings = 58;
+  for (int step = 0; step < kHalvings; ++step) {
+    for (int k = 0; k < count; ++k) middle[k] = (low[k] + high[k]) / 2;
+    rays.find(middle.data(), psi, count, w.data());
+    for (int k = 0; k < count; ++k) {
+      // In the rain frame w falls as alpha grows.
+      const bool below = (w[k] > target) != rays.outgoing();
+      (below ? low : high)[k] = middle[k];
+    }
+  }
+  for (int k = 0; k < count; ++k) p[k] = rays.label((low[k] + high[k]) / 2);
+}
+
+// Cubic through four even nodes at -1, 0, 1, 2: the weights at t, and those of its derivative.
+std::array<double, 4> cubic(double t) {
+  const double a = t + 1, b = t, c = t - 1, d = t - 2;
+  return {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
+}
+std::array<double, 4> cubic_slope(double t) {
+  const double a = t + 1, b = t, c = t - 1, d = t - 2;
+  return {-(c * d + b * d + b * c) / 6, (c * d + a * d + a * c) / 2, -(b * d + a * d + a * b) / 2,
+          (b * c + a * c + a * b) / 6};
+}
+
+struct Place {
+  std::size_t first;  // of four nodes
+  double t;           // from the second one, in steps
+};
+// Of x in steps from the first of `count` nodes; at the ends the outermost four.
+Place place_at(double x, std::size_t count) {
+  const double last = static_cast<double>(count) - 4;
+  const double first = std::clamp(std::floor(x) - 1, 0.0, last);
+  return {static_cast<std::size_t>(first), x - first - 1};
+}
+
+template <class T>
+double interpolate(const T* nodes, const std::array<double, 4>& weights, std::size_t stride = 1) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * static_cast<double>(nodes[k * stride]);
+  return sum;
+}
+
+}  // namespace
+
+DiscImages::DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer)
+    : straight_(straight),
+      orders_(straight ? 1 : kOrders),
+      observer_w_(1 / at.r),
+      inner_w_(1 / inner),
+      outer_w_(1 / outer),
+      least_(static_cast<std::size_t>(orders_), -HUGE_VAL),
+      greatest_(static_cast<std::size_t>(orders_), HUGE_VAL) {
+  if (!straight) tabulate(at, outgoing);
+}
+
+void DiscImages::tabulate(const Radius& at, bool outgoing) {
+  LabelledRays rays(at, outgoing);
+  constexpr int kNodes = kOrders * kPerHalfTurn + 1, kBlock = RayPlaces::kSize;
+  low_.resize(kNodes);
+  high_.resize(kNodes);
+  w_.resize(static_cast<std::size_t>(kNodes) * (kParts + 1));
+  // At psi = 0, p psi is what w has to change by, and w goes straight between the rims.
+  low_[0] = outer_w_ - observer_w_;
+  high_[0] = inner_w_ - observer_w_;
+  for (int part = 0; part <= kParts; ++part)
+    w_[static_cast<std::size_t>(part)] =
+        static_cast<float>(outer_w_ + (inner_w_ - outer_w_) * part / kParts);
+  std::vector<double> psi(kNodes), low(kNodes), high(kNodes);
+  for (int k = 0; k < kNodes; ++k) psi[static_cast<std::size_t>(k)] = k * pi / kPerHalfTurn;
+  for (int first = 1; first < kNodes; first += kBlock) {
+    const int count = std::min(kBlock, kNodes - first);
+    solve(rays, outer_w_, &psi[static_cast<std::size_t>(first)], count,
+          &low[static_cast<std::size_t>(first)]);
+    solve(rays, inner_w_, &psi[static_cast<std::size_t>(first)], count,
+          &high[static_cast<std::size_t>(first)]);
+  }
+  for (std::size_t k = 1; k < kNodes; ++k) {
+    const double share = psi[k] / (1 + psi[k]);
+    low_[k] = low[k] * share;
+    high_[k] = high[k] * share;
+    RayPlaces::Column tangent{}, turn{}, w{};
+    for (std::size_t part = 0; part <= kParts; ++part) {
+      tangent[part] =
+          rays.log_tangent(low[k] + (high[k] - low[k]) * static_cast<double>(part) / kParts);
+      turn[part] = psi[k];
+    }
+    rays.find(tangent.data(), turn.data(), kParts + 1, w.data());
+    // The rims themselves are known, however steep w is there.
+    w[0] = outer_w_;
+    w[kParts] = inner_w_;
+    for (std::size_t part = 0; part <= kParts; ++part)
+      w_[k * (kParts + 1) + part] = static_cast<float>(std::clamp(w[part], outer_w_, inner_w_));
+  }
+  for (int order = 1; order < kOrders; ++order) {
+    const auto first = static_cast<std::ptrdiff_t>(order) * kPerHalfTurn;
+    const auto of = [&](const std::vector<double>& p) {
+      return std::minmax_element(p.begin() + first, p.begin() + first + kPerHalfTurn + 1);
+    };
+    const auto [l, lm] = of(low);
+    const auto [hm, h] = of(high);
+    const double margin = 1e-6 * (1 + std::abs(*h));
+    least_[static_cast<std::size_t>(order)] = *l - margin;
+    greatest_[static_cast<std::size_t>(order)] = *h + margin;
+  }
+}
+
+DiscImages::Interval DiscImages::interval(double psi) const {
+  if (straight_) {
+    // w = w_0 cos psi + p sin psi
+    const double sine = std::sin(psi), cosine = std::cos(psi);
+    const auto p = [&](double w) { return (w - observer_w_ * cosine) / sine; };
+    const auto slope = [&](double w) { return (observer_w_ - w * cosine) / (sine * sine); };
+    return {p(outer_w_), p(inner_w_), slope(outer_w_), slope(inner_w_)};
+  }
+  constexpr double kPerRadian = kPerHalfTurn / pi;
+  const Place at = place_at(psi * kPerRadian, low_.size());
+  const auto weights = cubic(at.t), slopes = cubic_slope(at.t);
+  const double scale = (1 + psi) / psi, scale_slope = -1 / (psi * psi);
+  const double low = interpolate(&low_[at.first], weights),
+               high = interpolate(&high_[at.first], weights);
+  return {low * scale, high * scale,
+          interpolate(&low_[at.first], slopes) * kPerRadian * scale + low * scale_slope,
+          interpolate(&high_[at.first], slopes) * kPerRadian * scale + high * scale_slope};
+}
+
+double DiscImages::inverse_radius(double psi, double u) const {
+  if (straight_) return outer_w_ + (inner_w_ - outer_w_) * u;
+  constexpr std::size_t kStride = kParts + 1;
+  const Place turn = place_at(psi * (kPerHalfTurn / pi), low_.size()),
+              part = place_at(u * kParts, kStride);
+  const auto across = cubic(part.t), along = cubic(turn.t);
+  double w = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    w += along[k] * interpolate(&w_[(turn.first + k) * kStride + part.first], across);
+  return std::clamp(w, outer_w_, inner_w_);
+}
+
+}  // namespace domefall

@@ -1,0 +1,334 @@
+#include "pipeline/render/disc/disc_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/disc/disc_shift.h"
+#include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/render/scene/effect_ratios.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+constexpr int kBlock = ViewRayBatch::kSize;
+
+// psi changes by less than this within one division of a pixel.
+constexpr double kMostTurn = 0.1;
+constexpr int kMostDivisions = 48;
+
+DiscImages images_for(const FrameScene& scene) {
+  const Disc& disc = scene.disc->disc();
+  return {Radius(scene.state.observer.r), is_outgoing(scene.state.observer.tetrad),
+          scene.tracer.goes_straight(), disc.inner, disc.outer};
+}
+
+// The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes from
+// 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look straight.
+double beyond(double distance) {
+  constexpr double kReach = 0.75;
+  const double x = std::clamp(distance / (2 * kReach) + 0.5, 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+// What the loop over pixels needs of the observer and the disc.
+struct Sight {
+  double r, s, one_minus_s, label_sign, energy_sign, straight;
+  double normal_up, normal_across, cos_azimuth, sin_azimuth;
+};
+
+}  // namespace
+
+// Pixels by what decides where they see the disc.
+struct DiscPass::Pixels {
+  template <class T>
+  using Column = std::array<T, kBlock>;
+  FrameRayBatch rays;
+  Column<double> energy;     // E; 0 where light does not come from region I
+  Column<double> label;      // p
+  Column<double> label_per;  // of a pixel
+  Column<double> turn;       // psi_0
+  Column<double> azimuth;    // about R, from where psi_0 is least
+  Column<double> azimuth_per;
+  Column<double> turn_per;
+};
+
+namespace {
+
+template <class Pixels>
+[[gnu::always_inline]] inline void locate_loop(const Sight& sight, const double* angle, int count,
+                                               Pixels& pixels) {
+  const Sight o = sight;
+  for (int k = 0; k < count; ++k) {
+    const double x = pixels.rays.x[k], y = pixels.rays.y[k], z = pixels.rays.z[k];
+    const double across2 = y * y + z * z, across = std::sqrt(across2);
+    const double sine = across > 1e-12 ? across : 1e-12;
+    // cos alpha of the rain frame is -x, of the outgoing one x; either way p changes its sign with
+    // the direction.  1 - s cos alpha, without cancellation next to the horizon:
+    const double cosine = -o.label_sign * x;
+    const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
+    const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
+    const double free = o.energy_sign * energy;
+    const double kept = free > 0 ? free : 0;
+    const double e = o.straight > 0 ? o.straight : kept;
+    const double pixel = angle[k] * pixels.rays.scale[k];
+    const double labelled = (cosine - o.s) / (o.r * sine);
+    // The normal's part along the tangent, and that across it.
+    const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
+                 beside = (z * o.cos_azimuth - y * o.sin_azimuth) / sine;
+    const double side = o.normal_up > 0 ? -1 : 1;
+    const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
+    const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
+    const double azimuth = arc_tangent2(side * beside, side * along);
+    pixels.energy[k] = e;
+    pixels.label[k] = o.label_sign * labelled;
+    // d p/d alpha = -E/(r sin^2 alpha)
+    const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
+    pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
+    const double turn = arc_tangent2(up, toward);
+    pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
+    pixels.azimuth[k] = azimuth;
+    pixels.azimuth_per[k] = pixel / sine;
+    const double steep = up * aside, flat = up * up + toward * toward;
+    pixels.turn_per[k] =
+        (steep > 0 ? steep : -steep) / (flat > 1e-30 ? flat : 1e-30) * pixel / sine;
+  }
+}
+
+}  // namespace
+
+DiscPass::DiscPass(const FrameScene& scene)
+    : scene_(scene),
+      images_(images_for(scene)),
+      r_(scene.state.observer.r),
+      s_(std::sqrt(2 / r_)),
+      one_minus_s_((r_ - 2) / (r_ * (1 + s_))),
+      label_sign_(is_outgoing(scene.state.observer.tetrad) ? -1 : 1),
+      energy_sign_(is_mirrored(scene.state.observer.tetrad) ? -1 : 1) {
+  const V3d normal =
+      apply_transposed(scene.state.observer.sky_from_tetrad, scene.disc->disc().normal.v);
+  normal_up_ = normal.x;
+  normal_across_ = std::hypot(normal.y, normal.z);
+  normal_azimuth_ = std::atan2(normal.z, normal.y);
+  // Light that goes straight: cos alpha/(r sin alpha), and the energy of the frame at rest.
+  if (scene.tracer.goes_straight()) label_sign_ = 1;
+}
+
+void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
+                      Pixels& pixels) const {
+  static const Dispatched<locate_loop<Pixels>> loop;
+  scene_.tracer.into_frame(n, count, pixels.rays);
+  const bool straight = scene_.tracer.goes_straight();
+  const Sight sight{r_,
+                    straight ? 0 : s_,
+                    straight ? 1 : one_minus_s_,
+                    label_sign_,
+                    energy_sign_,
+                    straight ? std::sqrt((r_ - 2) / r_) : 0.0,
+                    normal_up_,
+                    normal_across_,
+                    std::cos(normal_azimuth_),
+                    std::sin(normal_azimuth_)};
+  loop(sight, angle, count, pixels);
+}
+
+// A row's pixels on their way to light: samples of the disc wait until there are enough of them.
+class DiscPass::Strip {
+ public:
+  explicit Strip(const DiscPass& pass)
+      : pass_(pass), effects_(pass.scene_.effects), disc_(pass.scene_.disc->disc()) {}
+
+  // Draws on the pixels whose first one is rgb[3].
+  void draw(const Pixels& pixels, int count, float* rgb) {
+    rgb_ = rgb;
+    light_.fill(WorkingRgb(0, 0, 0));
+    for (int k = 0; k < count; ++k) {
+      left_[static_cast<std::size_t>(k)] = 1;
+      if (pixels.energy[k] > 0) look(pixels, k);
+    }
+    flush();
+    const auto exposure = static_cast<float>(pass_.scene_.exposure);
+    for (int k = 0; k < count; ++k) {
+      const auto left = static_cast<float>(left_[static_cast<std::size_t>(k)]);
+      const WorkingRgb& light = light_[static_cast<std::size_t>(k)];
+      float* pixel = rgb + 3 * static_cast<std::ptrdiff_t>(k);
+      pixel[0] = left * pixel[0] + exposure * light.r;
+      pixel[1] = left * pixel[1] + exposure * light.g;
+      pixel[2] = left * pixel[2] + exposure * light.b;
+    }
+  }
+
+ private:
+  // A division of a pixel: all of it, as a rule.
+  struct Division {
+    double turn, turn_per;  // psi_0, and by how much it changes here
+    double azimuth;
+    double part;  // of the pixel
+  };
+
+  void look(const Pixels& pixels, int k) {
+    const double azimuth = pixels.azimuth[k], turn_per = pixels.turn_per[k];
+    if (turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5) {
+      left_[static_cast<std::size_t>(k)] =
+          look_at(pixels, k, {pixels.turn[k], turn_per, azimuth, 1});
+      return;
+    }
+    // psi_0 = atan2(up, across cos(azimuth)) grows with |azimuth| from 0 to pi.
+    const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
+    const double half = std::min(pixels.azimuth_per[k], pi) / 2;
+    const auto turn_at = [&](double at) {
+      const double turn = std::atan2(up, across * std::cos(at));
+      return turn > 0 ? turn : pi;
+    };
+    double left = 0;
+    const auto divide = [&](double first, double last) {  // where psi_0 is monotone
+      if (!(last > first)) return;
+      const double begin = turn_at(first), end = turn_at(last);
+      const int count = std::clamp(static_cast<int>(std::ceil(std::abs(end - begin) / kMostTurn)),
+                                   1, kMostDivisions);
+      double before = first;
+      for (int n = 1; n <= count; ++n) {
+        const double until = begin + (end - begin) * n / count;
+        const double turned = std::acos(std::clamp(
+            up / across * std::cos(until) / std::max(std::sin(until), 1e-300), -1.0, 1.0));
+        const double sign = first + last < 0 ? -1 : 1;
+        const double after = n == count ? last : sign * turned;
+        const double part = std::abs(after - before) / (2 * half);
+        left += part * look_at(pixels, k,
+                               {begin + (end - begin) * (n - 0.5) / count,
+                                std::abs(end - begin) / count, (before + after) / 2, part});
+        before = after;
+      }
+    };
+    double first = azimuth - half;
+    const double last = azimuth + half;
+    for (const double fold : {-pi, 0.0, pi})
+      if (fold > first && fold < last) {
+        divide(first, fold);
+        first = fold;
+      }
+    divide(first, last);
+    left_[static_cast<std::size_t>(k)] = left;
+  }
+
+  // Adds the samples of a division, and returns what is left there of the light from behind.
+  double look_at(const Pixels& pixels, int k, const Division& division) {
+    const DiscImages& images = pass_.images_;
+    const double p = pixels.label[k], per = pixels.label_per[k];
+    double left = 1;
+    for (int order = 0; order < images.orders() && left > 1e-4; ++order) {
+      if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
+      const double turn = division.turn + order * pi;
+      const DiscImages::Interval rims = images.interval(turn);
+      const double low_width = std::hypot(per, rims.low_slope * division.turn_per),
+                   high_width = std::hypot(per, rims.high_slope * division.turn_per);
+      const double covered =
+          beyond((p - rims.low) / low_width) - beyond((p - rims.high) / high_width);
+      if (!(covered > 1e-5)) continue;
+      const double weight = left * disc_.opacity * covered;
+      left *= 1 - disc_.opacity * covered;
+      shade(pixels, k, division, turn, rims, weight * division.part);
+    }
+    return left;
+  }
+
+  // The light of what a pixel sees of an image: the mean over its part of the interval.
+  void shade(const Pixels& pixels, int k, const Division& division, double turn,
+             const DiscImages::Interval& rims, double weight) {
+    const double p = pixels.label[k], half = pixels.label_per[k] / 2;
+    const double from = std::clamp(p - half, rims.low, rims.high),
+                 to = std::clamp(p + half, rims.low, rims.high);
+    const double width = rims.high - rims.low;
+    constexpr double kPart = 0.06;
+    constexpr int kMost = 16;
+    const int count =
+        std::clamp(static_cast<int>(std::ceil((to - from) / (kPart * width))), 1, kMost);
+    for (int n = 0; n < count; ++n) {
+      const double label = from + (to - from) * (n + 0.5) / count;
+      const double u = (label - rims.low) / width;
+      put(pixels, k, division.azimuth, turn, label, u, weight / count);
+    }
+  }
+
+  void put(const Pixels& pixels, int k, double azimuth, double turn, double label, double u,
+           double weight) {
+    const double r = 1 / pass_.images_.inverse_radius(turn, u);
+    const double w0 = 1 / pass_.r_;
+    const bool straight = pass_.scene_.tracer.goes_straight();
+    // 1/b^2 = p^2 + w_0^2 - 2 w_0^3
+    const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
+    const double energy = pixels.energy[k];
+    const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
+    const double about = (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * std::sin(azimuth);
+    const double shift = disc_shift({energy, momentum, momentum * about}, r,
+                                    r < kLastStableOrbit && outward(turn, label, u));
+    const double g = pixels.rays.frequency[k] / shift;
+    samples_.r[count_] = static_cast<float>(r);
+    samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
+    samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
+    samples_.pixel[count_] = k;
+    if (++count_ == kBlock) flush();
+  }
+
+  // Whether light sets out there to larger radii: back in time along the ray w then grows.
+  bool outward(double turn, double label, double u) const {
+    constexpr double kStep = 1e-3;
+    const DiscImages::Interval later = pass_.images_.interval(turn + kStep);
+    const double then = std::clamp((label - later.low) / (later.high - later.low), 0.0, 1.0);
+    return pass_.images_.inverse_radius(turn + kStep, then) > pass_.images_.inverse_radius(turn, u);
+  }
+
+  void flush() {
+    const auto count = static_cast<std::size_t>(count_);
+    pass_.scene_.disc->light({samples_.r.data(), count}, {samples_.g.data(), count},
+                             {colour_.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      WorkingRgb& light = light_[static_cast<std::size_t>(samples_.pixel[k])];
+      const float weight = samples_.weight[k];
+      light.r += weight * colour_[k].r;
+      light.g += weight * colour_[k].g;
+      light.b += weight * colour_[k].b;
+    }
+    count_ = 0;
+  }
+
+  const DiscPass& pass_;
+  const Effects& effects_;
+  const Disc& disc_;
+  float* rgb_ = nullptr;
+  std::array<double, kBlock> left_{};
+  std::array<WorkingRgb, kBlock> light_{}, colour_{};
+  struct {
+    std::array<float, kBlock> r, g, weight;
+    std::array<int, kBlock> pixel;
+  } samples_{};
+  int count_ = 0;
+};
+
+void DiscPass::draw_rows(int first, int end, float* rgb) const {
+  const Projection& projection = scene_.projection();
+  Strip strip(*this);
+  Pixels pixels;
+  std::array<double, kBlock> i{}, j{}, angle{};
+  std::array<CameraDirection, kBlock> n{};
+  for (int row = first; row < end; ++row) {
+    const ColumnRange inside = inside_columns(projection, row);
+    float* line = rgb + 3 * static_cast<std::ptrdiff_t>(row - first) * columns(projection);
+    for (int column = inside.first; column <= inside.last; column += kBlock) {
+      const int count = std::min(kBlock, inside.last - column + 1);
+      for (int k = 0; k < count; ++k) {
+        i[static_cast<std::size_t>(k)] = column + k + 1;
+        j[static_cast<std::size_t>(k)] = row + 1;
+      }
+      find_directions(projection, i.data(), j.data(), count, n.data(), angle.data());
+      locate(n.data(), angle.data(), count, pixels);
+      strip.draw(pixels, count, line + 3 * static_cast<std::ptrdiff_t>(column));
+    }
+  }
+}
+
+}  // namespace domefall
