@@ -35,6 +35,8 @@ double beyond(double distance) {
   return x * x * (3 - 2 * x);
 }
 
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 // What the loop over pixels needs of the observer and the disc.
 struct Sight {
   double r, s, one_minus_s, label_sign, energy_sign, straight;
@@ -52,7 +54,8 @@ struct DiscPass::Pixels {
   Column<double> label;      // p
   Column<double> label_per;  // of a pixel
   Column<double> turn;       // psi_0
-  Column<double> azimuth;    // about R, from where psi_0 is least
+  // Of the azimuth about R, counted from where psi_0 is least.
+  Column<double> azimuth_cosine, azimuth_sine;
   Column<double> azimuth_per;
   Column<double> turn_per;
 };
@@ -83,7 +86,6 @@ template <class Pixels>
     const double side = o.normal_up > 0 ? -1 : 1;
     const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
     const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
-    const double azimuth = arc_tangent2(side * beside, side * along);
     pixels.energy[k] = e;
     pixels.label[k] = o.label_sign * labelled;
     // d p/d alpha = -E/(r sin^2 alpha)
@@ -91,11 +93,14 @@ template <class Pixels>
     pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
     const double turn = arc_tangent2(up, toward);
     pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
-    pixels.azimuth[k] = azimuth;
+    pixels.azimuth_cosine[k] = side * along;
+    pixels.azimuth_sine[k] = side * beside;
     pixels.azimuth_per[k] = pixel / sine;
-    const double steep = up * aside, flat = up * up + toward * toward;
-    pixels.turn_per[k] =
-        (steep > 0 ? steep : -steep) / (flat > 1e-30 ? flat : 1e-30) * pixel / sine;
+    // At most: where the pixel is nearest to the plane.
+    const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
+    const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
+    const double square = up * up + off * off;
+    pixels.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
   }
 }
 
@@ -166,19 +171,22 @@ class DiscPass::Strip {
   // A division of a pixel: all of it, as a rule.
   struct Division {
     double turn, turn_per;  // psi_0, and by how much it changes here
-    double azimuth;
+    double azimuth_sine;
     double part;  // of the pixel
   };
 
   void look(const Pixels& pixels, int k) {
-    const double azimuth = pixels.azimuth[k], turn_per = pixels.turn_per[k];
-    if (turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5) {
-      left_[static_cast<std::size_t>(k)] =
-          look_at(pixels, k, {pixels.turn[k], turn_per, azimuth, 1});
-      return;
-    }
+    const double turn_per = pixels.turn_per[k];
+    left_[static_cast<std::size_t>(k)] =
+        turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5
+            ? look_at(pixels, k, {pixels.turn[k], turn_per, pixels.azimuth_sine[k], 1})
+            : look_at_divisions(pixels, k);
+  }
+
+  double look_at_divisions(const Pixels& pixels, int k) {
     // psi_0 = atan2(up, across cos(azimuth)) grows with |azimuth| from 0 to pi.
     const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
+    const double azimuth = std::atan2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
     const double half = std::min(pixels.azimuth_per[k], pi) / 2;
     const auto turn_at = [&](double at) {
       const double turn = std::atan2(up, across * std::cos(at));
@@ -199,8 +207,8 @@ class DiscPass::Strip {
         const double after = n == count ? last : sign * turned;
         const double part = std::abs(after - before) / (2 * half);
         left += part * look_at(pixels, k,
-                               {begin + (end - begin) * (n - 0.5) / count,
-                                std::abs(end - begin) / count, (before + after) / 2, part});
+                               {turn_at((before + after) / 2), std::abs(end - begin) / count,
+                                std::sin((before + after) / 2), part});
         before = after;
       }
     };
@@ -212,7 +220,7 @@ class DiscPass::Strip {
         first = fold;
       }
     divide(first, last);
-    left_[static_cast<std::size_t>(k)] = left;
+    return left;
   }
 
   // Adds the samples of a division, and returns what is left there of the light from behind.
@@ -224,10 +232,9 @@ class DiscPass::Strip {
       if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
       const double turn = division.turn + order * pi;
       const DiscImages::Interval rims = images.interval(turn);
-      const double low_width = std::hypot(per, rims.low_slope * division.turn_per),
-                   high_width = std::hypot(per, rims.high_slope * division.turn_per);
       const double covered =
-          beyond((p - rims.low) / low_width) - beyond((p - rims.high) / high_width);
+          beyond((p - rims.low) / length(per, rims.low_slope * division.turn_per)) -
+          beyond((p - rims.high) / length(per, rims.high_slope * division.turn_per));
       if (!(covered > 1e-5)) continue;
       const double weight = left * disc_.opacity * covered;
       left *= 1 - disc_.opacity * covered;
@@ -250,11 +257,11 @@ class DiscPass::Strip {
     for (int n = 0; n < count; ++n) {
       const double label = from + (to - from) * (n + 0.5) / count;
       const double u = (label - rims.low) / width;
-      put(pixels, k, division.azimuth, turn, label, u, weight / count);
+      put(pixels, k, division.azimuth_sine, turn, label, u, weight / count);
     }
   }
 
-  void put(const Pixels& pixels, int k, double azimuth, double turn, double label, double u,
+  void put(const Pixels& pixels, int k, double azimuth_sine, double turn, double label, double u,
            double weight) {
     const double r = 1 / pass_.images_.inverse_radius(turn, u);
     const double w0 = 1 / pass_.r_;
@@ -263,7 +270,7 @@ class DiscPass::Strip {
     const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
     const double energy = pixels.energy[k];
     const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
-    const double about = (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * std::sin(azimuth);
+    const double about = (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * azimuth_sine;
     const double shift = disc_shift({energy, momentum, momentum * about}, r,
                                     r < kLastStableOrbit && outward(turn, label, u));
     const double g = pixels.rays.frequency[k] / shift;
