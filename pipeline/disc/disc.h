@@ -2,12 +2,47 @@
 // on circular orbits that glows as a blackbody.  docs/disc.md says what is drawn of it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <variant>
+
 #include "trajectories/directions.h"
 
 namespace domefall {
 
 // The last stable circular orbit, and the horizon (units of M).
 inline constexpr double kLastStableOrbit = 6, kHorizonRadius = 2;
+
+// ---- patterns: what the light of each place is multiplied by; disc_pattern.h says how ----
+
+// Filaments that the orbits draw out, live for some of them and are replaced.
+struct TurbulencePattern {
+  double contrast = 1;  // 0 to 1; 1 lets the gaps go dark
+  double orbits = 2;    // the life of a filament, in orbits of its place
+  std::uint32_t seed = 1;
+
+  bool operator==(const TurbulencePattern&) const = default;
+};
+// Bright rings at equal distances, which drift inwards.
+struct RingPattern {
+  double spacing = 2;  // M
+  double contrast = 0.8;
+  double inward_speed = 0.02;  // M of radius per M of the hole's time
+
+  bool operator==(const RingPattern&) const = default;
+};
+// A spot on a circular orbit.
+struct SpotPattern {
+  double r = 8;
+  double azimuth = 0;     // radians from Disc::node at t = 0, in the sense of the orbit
+  double size = 0.7;      // M, the standard deviation of its Gaussian
+  double brightness = 5;  // of its middle over the gas beside it, >= 1
+
+  bool operator==(const SpotPattern&) const = default;
+};
+using PatternKind = std::variant<TurbulencePattern, RingPattern, SpotPattern>;
+
+// ---- the disc ----
 
 struct Disc {
   // The radii between which there is matter, units of M.  kLastStableOrbit <= inner < outer, or
@@ -16,15 +51,22 @@ struct Disc {
   // The axis about which it turns counter-clockwise, as a direction of the celestial sphere, on
   // which the observer stands at column 0 of ObserverState::sky_from_tetrad.
   SkyDirection normal{V3d(0, 0, 1)};
+  // Where azimuths in its plane are counted from, across the normal.
+  SkyDirection node{V3d(1, 0, 0)};
   double t_max_k = 1e4;  // of the hottest ring outside the last stable orbit, in its own frame
   // Of that ring as who moves with it sees it, cd/m^2.  All other light of the disc follows.
   double luminance = 1e-3;
   double opacity = 1;  // the part of the light from behind that it takes away, 0 to 1
   // Whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
+  std::optional<PatternKind> pattern;
+  // Whether the pattern is seen as it was when the light left it.  Else it is seen as it is when
+  // light that falls straight in passes the observer (t = v), all of it at once.
+  bool slow_light = true;
 
   bool operator==(const Disc& other) const {
     return inner == other.inner && outer == other.outer && normal.v == other.normal.v &&
+           node.v == other.node.v && pattern == other.pattern && slow_light == other.slow_light &&
            t_max_k == other.t_max_k && luminance == other.luminance && opacity == other.opacity &&
            plunging == other.plunging;
   }

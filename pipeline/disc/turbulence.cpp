@@ -1,0 +1,198 @@
+#include "pipeline/disc/turbulence.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/disc/disc_pattern.h"
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr int kSizes = Turbulence::kSizes;
+// The widest rows, in ln r.  Grains of each size are half as large as those before.
+constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
+// Rows of different sizes do not end at the same places.
+constexpr float kRowsApart = 0.37f;
+// Rows that a spline reaches, and generations whose lives overlap.
+constexpr int kReach = 3;
+// Of each size: its part of all light, the number of grains in a row, and the standard deviation of
+// one along the row, in turns.
+constexpr std::array<float, kSizes> kParts{0.45f, 0.33f, 0.22f};
+constexpr std::array<int, kSizes> kGrains{3, 4, 6};
+constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
+// Gas that plunges is drawn out until it is even.
+constexpr double kEvenBelow = 4;
+constexpr std::size_t kBlock = 128;
+
+// The finaliser of MurmurHash3 (A. Appleby, public domain): each bit depends on each of x.
+[[gnu::always_inline]] inline std::uint32_t mixed(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x85ebca6bu;
+  x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+  return x ^ (x >> 16);
+}
+
+[[gnu::always_inline]] inline std::uint32_t key_of(std::uint32_t a, std::uint32_t b) {
+  return mixed(a ^ (b * 0x9e3779b9u + 0x7f4a7c15u));
+}
+
+// ---- loops over places ----
+
+// A block of places, a field at a time.
+struct PlaceBlock {
+  std::array<float, kBlock> rows;              // ln r in rows of the first size
+  std::array<float, kBlock> turns, turning;    // azimuth and angular velocity, in turns
+  std::array<float, kBlock> width, log_width;  // the footprint, in turns and in ln r
+  std::array<double, kBlock> time;
+  std::array<float, kBlock> kept, sum;
+};
+
+// What a row is at each place: its spline's weight, its key, its youngest generation with the part
+// of its first age that has passed, and the time between generations.
+struct RowBlock {
+  std::array<float, kBlock> weight, passed, span;
+  std::array<std::uint32_t, kBlock> key, youngest;
+};
+
+struct SizeOfGrains {
+  const double *spans, *rates;
+  std::uint32_t seed;
+};
+
+[[gnu::always_inline]] inline void read_places_loop(const PatternPlace* places, int count,
+                                                    PlaceBlock& b) {
+  for (int k = 0; k < count; ++k) {
+    const PatternPlace& p = places[k];
+    const double low_r = p.r > kHorizonRadius ? p.r : kHorizonRadius;
+    const double r = low_r < kOutermost ? low_r : kOutermost;
+    const double plunge = (r - kEvenBelow) / (kLastStableOrbit - kEvenBelow);
+    const double low = plunge < 0 ? 0 : plunge, part = low > 1 ? 1 : low;
+    // The two laws of angular_velocity().
+    const double orbit = 1 / (r * __builtin_sqrt(r));
+    const double fall = (1 - kHorizonRadius / r) * kPlungeTurning / (r * r);
+    b.rows[k] = static_cast<float>(logarithm(r) / kRowWidth);
+    const double turns = p.azimuth / kTwoPi;
+    b.turns[k] = static_cast<float>(turns - ((turns + kRounding) - kRounding));
+    b.turning[k] = static_cast<float>((r < kLastStableOrbit ? fall : orbit) / kTwoPi);
+    b.width[k] = static_cast<float>(p.azimuth_width / kTwoPi);
+    b.log_width[k] = static_cast<float>(p.r_width / r);
+    b.time[k] = p.time;
+    b.kept[k] = static_cast<float>(part * part * (3 - 2 * part));
+    b.sum[k] = 0;
+  }
+}
+
+// The weights of a quadratic B-spline at `off` (-1/2 to 1/2) from the middle of three.
+[[gnu::always_inline]] inline float spline_weight(int which, float off) {
+  const float before = 0.5f - off, after = 0.5f + off;
+  return which == 0   ? 0.5f * before * before
+         : which == 1 ? 0.75f - off * off
+                      : 0.5f * after * after;
+}
+
+template <int kSize>
+[[gnu::always_inline]] inline void read_rows(const PlaceBlock& b, const SizeOfGrains& size,
+                                             int which, int count, RowBlock& rows) {
+  for (int k = 0; k < count; ++k) {
+    const float at = b.rows[k] * static_cast<float>(1 << kSize) + kRowsApart * kSize;
+    const int middle = static_cast<int>(at), row = middle + which - 1;
+    rows.weight[k] = spline_weight(which, at - static_cast<float>(middle) - 0.5f);
+    const std::uint32_t key = key_of(size.seed, static_cast<std::uint32_t>(row));
+    const double clock =
+        b.time[k] * size.rates[row] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
+    const double shifted = (clock - 0.5) + kRounding;
+    rows.key[k] = key;
+    rows.youngest[k] = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(shifted));
+    rows.passed[k] = static_cast<float>(clock - (shifted - kRounding));
+    rows.span[k] = static_cast<float>(size.spans[row]);
+  }
+}
+
+// Adds the light of the generation that is `older` times older than the youngest.  A grain is
+// (1 - x^2)^3 for |x| < 1 along its row, which at three standard deviations looks like a Gaussian
+// and costs less.
+template <int kSize>
+[[gnu::always_inline]] inline void add_generation(const RowBlock& rows, int older, int count,
+                                                  PlaceBlock& b) {
+  constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
+  constexpr auto kRowsPerLog = static_cast<float>((1 << kSize) / kRowWidth);
+  constexpr float kVariance = kSpread[kSize] * kSpread[kSize], kOfBox = 1.0f / 12;
+  for (int k = 0; k < count; ++k) {
+    const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
+    // Across a row, what is drawn out passes by sideways: a footprint that is high is wide as well.
+    const float drawn = 1.5f * b.turning[k] * age * b.log_width[k];
+    const float variance = kVariance + kOfBox * (b.width[k] * b.width[k] + drawn * drawn);
+    const float reach = 3.0f * __builtin_sqrtf(variance), most = reach < 0.5f ? reach : 0.5f;
+    // What would reach all around the ring is even.
+    const float even = most / reach, inverse = 1.0f / most;
+    const float turns = b.turns[k] - b.turning[k] * age;
+    std::uint32_t key = key_of(rows.key[k], rows.youngest[k] - static_cast<std::uint32_t>(older));
+    float light = 0;
+    for (int grain = 0; grain < kGrains[kSize]; ++grain) {
+      const float place = static_cast<float>(static_cast<int>(key & 0xffff)) * 0x1p-16f;
+      const float off = turns - place, x = (off - ((off + kRound) - kRound)) * inverse;
+      const float left = 1.0f - x * x, bump = left > 0 ? left : 0;
+      light += bump * bump * bump;
+      key =
+          grain % 2 == 0 ? key >> 16 : mixed(key + static_cast<std::uint32_t>(grain) * 0x9e3779b9u);
+    }
+    constexpr float kNorm = 35.0f / 32 / static_cast<float>(kGrains[kSize]);
+    const float high = b.log_width[k] * kRowsPerLog, fading = even * even / (1.0f + high * high);
+    const float alive = spline_weight(kReach - 1 - older, rows.passed[k] - 0.5f);
+    b.sum[k] += kParts[kSize] * rows.weight[k] * alive * fading * (light * inverse * kNorm - 1.0f);
+  }
+}
+
+template <int kSize>
+[[gnu::always_inline]] inline void add_grains_loop(const SizeOfGrains& size, int count,
+                                                   PlaceBlock& b) {
+  RowBlock rows;
+  for (int row = 0; row < kReach; ++row) {
+    read_rows<kSize>(b, size, row, count, rows);
+    for (int older = 0; older < kReach; ++older) add_generation<kSize>(rows, older, count, b);
+  }
+}
+
+const Dispatched<read_places_loop> read_places;
+const Dispatched<add_grains_loop<0>> add_large_grains;
+const Dispatched<add_grains_loop<1>> add_middle_grains;
+const Dispatched<add_grains_loop<2>> add_small_grains;
+
+}  // namespace
+
+Turbulence::Turbulence(const TurbulencePattern& pattern) : pattern_(pattern) {
+  for (int size = 0; size < kSizes; ++size) {
+    const double width = std::ldexp(kRowWidth, -size);
+    for (int row = 0; row * width < kOutermostLog + 2 * kRowWidth; ++row) {
+      const double middle = (row + 0.5 - static_cast<double>(kRowsApart) * size) * width;
+      const double orbit = kTwoPi * exponential(1.5 * middle);
+      const double span = pattern.orbits * orbit / kReach;
+      spans_[static_cast<std::size_t>(size)].push_back(span);
+      rates_[static_cast<std::size_t>(size)].push_back(1 / span);
+    }
+  }
+}
+
+void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> out) const {
+  const auto size = [this](std::size_t k) {
+    return SizeOfGrains{spans_[k].data(), rates_[k].data(),
+                        key_of(pattern_.seed, static_cast<std::uint32_t>(k))};
+  };
+  const auto contrast = static_cast<float>(pattern_.contrast);
+  PlaceBlock block;
+  for (std::size_t at = 0; at < places.size(); at += kBlock) {
+    const int count = static_cast<int>(std::min(kBlock, places.size() - at));
+    read_places(places.data() + at, count, block);
+    add_large_grains(size(0), count, block);
+    add_middle_grains(size(1), count, block);
+    add_small_grains(size(2), count, block);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      out[at + k] = 1 + contrast * block.kept[k] * block.sum[k];
+  }
+}
+
+}  // namespace domefall
