@@ -163,6 +163,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
   }
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
   if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity)) digest.add(steady(o.null_time));
+  if (show_.disc && show_.disc->pattern) digest.add("pattern").add(steady(o.null_time));
   if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())
     digest.add("own skies").add(own->second);
   if (state.fade != 1) digest.add("fade").add(steady(state.fade));

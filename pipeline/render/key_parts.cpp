@@ -31,10 +31,18 @@ void add_effects(Digest& digest, const Effects& e) {
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
   digest.add("disc").add(disc->inner).add(disc->outer);
-  const V3d& normal = disc->normal.v;
-  for (const double v : {normal.x, normal.y, normal.z}) digest.add(steady(v));
+  for (const V3d& axis : {disc->normal.v, disc->node.v})
+    for (const double v : {axis.x, axis.y, axis.z}) digest.add(steady(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
   digest.add(disc->plunging ? "plunging" : "stable");
+  if (!disc->pattern) return;
+  digest.add(disc->slow_light ? "slow" : "fast").add(static_cast<double>(disc->pattern->index()));
+  if (const auto* p = std::get_if<TurbulencePattern>(&*disc->pattern))
+    digest.add(p->contrast).add(p->orbits).add(static_cast<double>(p->seed));
+  if (const auto* p = std::get_if<RingPattern>(&*disc->pattern))
+    digest.add(p->spacing).add(p->contrast).add(p->inward_speed);
+  if (const auto* p = std::get_if<SpotPattern>(&*disc->pattern))
+    digest.add(p->r).add(p->azimuth).add(p->size).add(p->brightness);
 }
 
 }  // namespace domefall

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "pipeline/show/lookup.h"
 #include "pipeline/show/placement.h"
@@ -14,6 +16,11 @@ namespace {
 constexpr double kInclinationDeg = 10, kNodeDeg = 90;
 constexpr double kWidestDisc = 1e6;
 constexpr double kCoolestDiscK = 1000, kHottestDiscK = 1e9, kBrightestDisc = 1e12;
+constexpr int kLargestSeed = 1'000'000'000;
+
+bool read_switch_of(const Section& s, std::string_view key, bool fallback) {
+  return s.word<bool>(key, {{"true", true}, {"false", false}}).value_or(fallback);
+}
 
 void read_radii(const Section& s, Disc& disc) {
   const Range radius = kUnitsOfM.at_most(kWidestDisc);
@@ -33,10 +40,71 @@ void read_radii(const Section& s, Disc& disc) {
 
 // The elements of celestial mechanics: the angle between the two planes, and the place where matter
 // rises to the north of the orbit's.
-SkyDirection axis_of(const Show& to, double inclination, double node) {
+void read_plane(const Section& s, const Show& to, Disc& disc) {
+  const double inclination =
+      radians(s.number("inclination_deg", kDegrees.within(0, 180), kInclinationDeg));
+  const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), kNodeDeg));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
   const V3d north = -column(at_node, 1), onward = column(at_node, 2);
-  return {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()};
+  disc.normal = {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()};
+  disc.node = {column(at_node, 0)};
+}
+
+// ---- patterns ----
+
+constexpr Range kContrast = kPureNumber.within(0, 1);
+
+// A pattern is a map with its type and these keys, or its type alone.
+Section keys_of(const Item& pattern, std::initializer_list<std::string_view> known) {
+  return pattern.node.IsMap() ? Section(pattern, known) : Section();
+}
+
+PatternKind read_turbulence(const Item& item) {
+  const Section s = keys_of(item, {"type", "contrast", "orbits", "seed"});
+  TurbulencePattern pattern;
+  pattern.contrast = s.number("contrast", kContrast, pattern.contrast);
+  pattern.orbits = s.number("orbits", Range{"orbits"}.within(0.5, 20), pattern.orbits);
+  if (const Item* seed = s.find("seed"))
+    pattern.seed = static_cast<std::uint32_t>(
+        read_whole_number(*seed, kPureNumber.within(0, kLargestSeed)).value_or(1));
+  return pattern;
+}
+
+PatternKind read_rings(const Item& item) {
+  const Section s = keys_of(item, {"type", "spacing_r", "contrast", "inward_speed"});
+  RingPattern pattern;
+  pattern.spacing = s.number("spacing_r", kUnitsOfM.within(0.01, 1000), pattern.spacing);
+  pattern.contrast = s.number("contrast", kContrast, pattern.contrast);
+  pattern.inward_speed = s.number(
+      "inward_speed", Range{"parts of the speed of light"}.within(0, 0.5), pattern.inward_speed);
+  return pattern;
+}
+
+PatternKind read_spot(const Item& item) {
+  const Section s = keys_of(item, {"type", "r", "azimuth_deg", "size_r", "brightness"});
+  SpotPattern pattern;
+  pattern.r = s.number("r", kUnitsOfM.within(kLastStableOrbit, kWidestDisc), pattern.r);
+  pattern.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-360, 360), 0));
+  pattern.size = s.number("size_r", kUnitsOfM.within(0.01, 10), pattern.size);
+  pattern.brightness =
+      s.number("brightness", Range{"times the gas beside it"}.within(1, 1e4), pattern.brightness);
+  return pattern;
+}
+
+std::optional<PatternKind> read_pattern(const Item& item) {
+  using Reader = PatternKind (*)(const Item&);
+  constexpr Words<Reader, 4> kPatterns{{{"turbulence", read_turbulence},
+                                        {"rings", read_rings},
+                                        {"spot", read_spot},
+                                        {"none", nullptr}}};
+  const auto type = item.node.IsMap() ? peek(item, "type") : std::optional(item);
+  if (!type) {
+    item.fail("needs a type: turbulence, rings or spot");
+    return std::nullopt;
+  }
+  const auto chosen = read_choice(*type, names_of(kPatterns));
+  const Reader read = chosen ? kPatterns[*chosen].second : nullptr;
+  return read ? std::optional(read(item)) : std::nullopt;
 }
 
 }  // namespace
@@ -45,20 +113,19 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   const Item* item = show.find("disc");
   if (item == nullptr) return std::nullopt;
   const Section s(*item, {"inner_r", "outer_r", "inclination_deg", "node_deg", "t_max_k",
-                          "luminance_cd_m2", "opacity", "plunging"});
+                          "luminance_cd_m2", "opacity", "plunging", "pattern", "slow_light"});
   if (!to.mass_solar) item->fail("needs a black hole: give the show black_hole.mass_solar");
   Disc disc;
-  disc.plunging =
-      s.word<bool>("plunging", {{"true", true}, {"false", false}}).value_or(disc.plunging);
+  disc.plunging = read_switch_of(s, "plunging", disc.plunging);
   read_radii(s, disc);
-  disc.normal =
-      axis_of(to, radians(s.number("inclination_deg", kDegrees.within(0, 180), kInclinationDeg)),
-              radians(s.number("node_deg", kDegrees.within(-360, 360), kNodeDeg)));
+  read_plane(s, to, disc);
   disc.t_max_k =
       s.number("t_max_k", Range{"kelvin"}.within(kCoolestDiscK, kHottestDiscK), disc.t_max_k);
   disc.luminance =
       s.number("luminance_cd_m2", Range{"cd/m^2"}.above(0).at_most(kBrightestDisc), disc.luminance);
   disc.opacity = s.number("opacity", kPureNumber.within(0, 1), disc.opacity);
+  if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern);
+  disc.slow_light = read_switch_of(s, "slow_light", disc.slow_light);
   return disc;
 }
 

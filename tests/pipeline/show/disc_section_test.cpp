@@ -71,13 +71,48 @@ TEST_F(DiscKeys, WithoutInclinationItTurnsAsTheOrbitDoesAndWithAHalfTurnAgainstI
   }
 }
 
+TEST_F(DiscKeys, PatternsAreNamedOrDescribed) {
+  const auto pattern = [&](const std::string& text) {
+    return with("disc: {pattern: " + text + "}\n").disc->pattern;
+  };
+  EXPECT_FALSE(with("disc: {}\n").disc->pattern);
+  EXPECT_FALSE(pattern("none"));
+  EXPECT_FALSE(pattern("{type: none}"));
+  EXPECT_EQ(pattern("turbulence"), PatternKind(TurbulencePattern{1, 2, 1}));
+  EXPECT_EQ(pattern("{type: turbulence, contrast: 0.5, orbits: 4, seed: 17}"),
+            PatternKind(TurbulencePattern{0.5, 4, 17}));
+  EXPECT_EQ(pattern("rings"), PatternKind(RingPattern{2, 0.8, 0.02}));
+  EXPECT_EQ(pattern("{type: rings, spacing_r: 1, contrast: 1, inward_speed: 0}"),
+            PatternKind(RingPattern{1, 1, 0}));
+  EXPECT_EQ(pattern("spot"), PatternKind(SpotPattern{8, 0, 0.7, 5}));
+  EXPECT_EQ(pattern("{type: spot, r: 10, azimuth_deg: 90, size_r: 0.3, brightness: 20}"),
+            PatternKind(SpotPattern{10, 90 * kDegree, 0.3, 20}));
+}
+
+TEST_F(DiscKeys, LightIsSlowUnlessTheShowSaysOtherwise) {
+  EXPECT_TRUE(with("disc: {}\n").disc->slow_light);
+  EXPECT_FALSE(with("disc: {slow_light: false}\n").disc->slow_light);
+}
+
+// Azimuths of patterns count from where the gas rises through the plane of the orbits.
+TEST_F(DiscKeys, TheNodeLiesInBothPlanes) {
+  const Show show =
+      with("disc: {inclination_deg: 30, node_deg: 120}\n", "{type: circular, r: 8, orbits: 1}");
+  const M33d axes = frame_state(show, 100).observer.sky_from_tetrad;
+  expect_near(show.disc->node.v, column(axes, 0), 1e-12);
+  EXPECT_NEAR(show.disc->node.v.dot(show.disc->normal.v), 0, 1e-14);
+  // The gas there moves on and to the north, against Theta.
+  const V3d motion = show.disc->normal.v.cross(show.disc->node.v);
+  EXPECT_NEAR(motion.dot(column(axes, 1)), -0.5, 1e-12);
+}
+
 TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
   expect_complaints({
       {"UnknownKey", kShow + "disc: {outer: 30}\n",
        "3:8: disc.outer is an unknown key; did you mean outer_r?"},
       {"NoMap", kShow + "disc: true\n",
        "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, t_max_k, "
-       "luminance_cd_m2, opacity or plunging), got 'true'"},
+       "luminance_cd_m2, opacity, plunging, pattern or slow_light), got 'true'"},
       {"WithoutAHole", "disc: {}\ntimeline: [{duration_s: 1}]\n",
        "1:7: disc needs a black hole: give the show black_hole.mass_solar"},
       {"InsideTheLastStableOrbit", kShow + "disc: {inner_r: 5}\n",
@@ -100,6 +135,22 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
        "3:25: disc.luminance_cd_m2 must exceed 0 (cd/m^2), got 0"},
       {"Opacity", kShow + "disc: {opacity: 1.5}\n",
        "3:17: disc.opacity must be at most 1, got 1.5"},
+      {"PatternWithoutType", kShow + "disc: {pattern: {seed: 1}}\n",
+       "3:17: disc.pattern needs a type: turbulence, rings or spot"},
+      {"PatternUnknown", kShow + "disc: {pattern: stripes}\n",
+       "3:17: disc.pattern must be turbulence, rings, spot or none, got 'stripes'"},
+      {"PatternTypeUnknown", kShow + "disc: {pattern: {type: spots}}\n",
+       "3:24: disc.pattern.type must be turbulence, rings, spot or none, got 'spots'; did you mean "
+       "spot?"},
+      {"KeyOfAnotherPattern", kShow + "disc: {pattern: {type: rings, seed: 2}}\n",
+       "3:31: disc.pattern.seed is an unknown key; known here: type, spacing_r, contrast or "
+       "inward_speed"},
+      {"SeedNotWhole", kShow + "disc: {pattern: {type: turbulence, seed: 1.5}}\n",
+       "3:42: disc.pattern.seed must be a whole number, got 1.5"},
+      {"SpotInside", kShow + "disc: {pattern: {type: spot, r: 5}}\n",
+       "3:33: disc.pattern.r must be at least 6 (units of M), got 5"},
+      {"SlowLightNoWord", kShow + "disc: {slow_light: 3}\n",
+       "3:20: disc.slow_light must be true or false, got '3'"},
       {"PlungingNoWord", kShow + "disc: {plunging: maybe}\n",
        "3:18: disc.plunging must be true or false, got 'maybe'"},
   });

@@ -80,6 +80,8 @@ TEST_F(ShowFormat, EveryKeyIsInTheManual) {
         "black_hole: {mass_solar: 1}\n"
         "timeline: [{duration_s: 1, trajectory: {qqq: 1, type: " +
         std::string(type) + "}}]\n");
+  for (const char* type : {"turbulence", "rings", "spot"})
+    expect_described("disc: {pattern: {qqq: 1, type: " + std::string(type) + "}}\n");
   expect_described("timeline: [{duration_s: 1}]\nkeyframes: [{qqq: 1}]\n");
   EXPECT_GE(keys, 60);
 }

@@ -51,7 +51,8 @@ const char* const kGoodShows[] = {
     "    duration_s: 1\n"
     "    trajectory: {type: static, r: 2.001}\n"
     "  - *stay\n"
-    "disc: {inner_r: 7, outer_r: 25, inclination_deg: 40, node_deg: -20, t_max_k: 6000}\n",
+    "disc: {inner_r: 7, outer_r: 25, inclination_deg: 40, node_deg: -20, t_max_k: 6000, pattern: "
+    "{type: spot, r: 9}}\n",
 
     "sky:\n"
     "  region_I: {background: grid, gain: 2, stars: {max_magnitude: 5, gain: 0.5}}\n"
