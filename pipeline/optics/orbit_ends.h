@@ -88,6 +88,7 @@ inline CarlsonArguments to_singularity_over_pair(const ComplexPair& q, const Orb
 // eps < 0: three real roots, w3 < 0 < w2 < 1/3 < w1.
 struct RealTriple {
   double w1, w2, w3, x1, x2, separation;  // as RealRoots
+  double below_half;                      // 1/2 - w1
 };
 
 inline RealTriple real_triple(double e, double eps) {
@@ -103,6 +104,7 @@ inline RealTriple real_triple(double e, double eps) {
   q.w1 = q.x1 + 1.0 / 3;
   q.w2 = upper ? q.x2 + 1.0 / 3 : (root + d) / 2;
   q.w3 = upper ? d - 1.0 / 6 : (d - root) / 2;
+  q.below_half = upper ? 1.0 / 6 - q.x1 : d;
   q.separation = upper ? root : q.w1 - q.w2;
   return q;
 }

@@ -22,18 +22,19 @@ inline double x_at_twice(double x, double eps) {
   return (x2 * x2 - (4 * x + 1) * eps) / (2 * (x2 * (2 * x + 1) + eps));
 }
 
-// At the angle sigma > 0 from the singularity, up to half of the way to the other end: where the
-// orbit comes near to the light circle for ever, it is there from 40 radians on.  inverse_b = |E|/L
-// below 1e40, eps = inverse_b^2 - 1/27 with its own digits.  Measured against orbits integrated with
-// 40 digits: relative error of w below 1e-15 beside what an error of sigma makes of it.
-inline OrbitPoint point_from_singularity(double inverse_b, double eps, double sigma) {
-  constexpr int kDoublings = 7;
-  constexpr double kShare = 1.0 / (1 << kDoublings), kFarthest = 40, kShort = 0.25;
+// What the doubling begins with: x and |x'| by the series at z, which is sigma itself where that is
+// short by the orbit's own measure, min(1, b^(1/3)), and sigma/128 elsewhere.
+struct DoublingStart {
+  double z, is_short;  // is_short: 1 or 0
+  double x, speed;
+};
+
+inline DoublingStart doubling_start(double inverse_b, double eps, double sigma) {
+  constexpr double kShare = 1.0 / 128, kFarthest = 40, kShort = 0.25;
   const double far = sigma < kFarthest ? sigma : kFarthest;
-  // The series serves where sigma is short by the orbit's own measure, min(1, b^(1/3)).
   const double by_size = far / kShort, by_b = inverse_b * (by_size * by_size * by_size);
-  const bool is_short = (by_size > by_b ? by_size : by_b) < 1;
-  const double z = is_short ? far : far * kShare, z2 = z * z;
+  const double is_short = (by_size > by_b ? by_size : by_b) < 1 ? 1 : 0;
+  const double z = is_short > 0 ? far : far * kShare, z2 = z * z;
   // P(z) = 1/z^2 + c2 z^2 + c3 z^4 + ..., of g2 = 1/12 and g3.
   const double g3 = -1.0 / 216 - eps / 4;
   constexpr double kC2 = 1.0 / 240, kC4 = kC2 * kC2 / 3;
@@ -41,16 +42,28 @@ inline OrbitPoint point_from_singularity(double inverse_b, double eps, double si
   const double rest = kC2 + z2 * (c3 + z2 * (kC4 + z2 * (c5 + z2 * c6)));
   const double slope = 2 * kC2 + z2 * (4 * c3 + z2 * (6 * kC4 + z2 * (8 * c5 + z2 * 10 * c6)));
   const double over = 1 / z2;
-  const double first = 2 * over + (2 * z2 * rest - 1.0 / 6);
-  double x = x_at_twice(x_at_twice(first, eps), eps);
-  x = x_at_twice(x_at_twice(x, eps), eps);
-  x = x_at_twice(x_at_twice(x, eps), eps);
-  const double x2 = x * x, twice = 2 * x + 1, p = x2 * twice + eps;
-  const double half = 0.5 / p;
-  const double last = (x2 * x2 - (4 * x + 1) * eps) * half;
+  return {z, is_short, 2 * over + (2 * z2 * rest - 1.0 / 6), (4 * over - 2 * z2 * slope) / z};
+}
+
+// The point at twice the angle of x.
+inline OrbitPoint point_at_twice(double x, double eps) {
+  const double x2 = x * x, twice = 2 * x + 1, p = x2 * twice + eps, half = 0.5 / p;
   const double rise = x2 * x2 * x * (x + 1) + eps * (5 * x2 * twice + x - 2 * eps);
-  const double short_speed = (4 * over - 2 * z2 * slope) / z;
-  return {(is_short ? first : last) + 1.0 / 3, is_short ? short_speed : rise * half / std::sqrt(p)};
+  return {(x2 * x2 - (4 * x + 1) * eps) * half + 1.0 / 3, rise * half / std::sqrt(p)};
+}
+
+// At the angle sigma > 0 from the singularity, up to half of the way to the other end: where the
+// orbit comes near to the light circle for ever, it is there from 40 radians on.  inverse_b = |E|/L
+// below 1e40, eps = inverse_b^2 - 1/27 with its own digits.  Measured against orbits integrated with
+// 40 digits: relative error of w below 1e-15 beside what an error of sigma makes of it.
+inline OrbitPoint point_from_singularity(double inverse_b, double eps, double sigma) {
+  const DoublingStart start = doubling_start(inverse_b, eps, sigma);
+  double x = x_at_twice(x_at_twice(start.x, eps), eps);
+  x = x_at_twice(x_at_twice(x, eps), eps);
+  x = x_at_twice(x_at_twice(x, eps), eps);
+  const OrbitPoint last = point_at_twice(x, eps);
+  const bool is_short = start.is_short > 0;
+  return {is_short ? start.x + 1.0 / 3 : last.w, is_short ? start.speed : last.speed};
 }
 
 // At the angle rho > 0 from a sky, likewise, by the addition theorem; e = inverse_b > 0:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "pipeline/optics/orbit_ends.h"
 #include "pipeline/optics/orbit_point.h"
@@ -11,7 +10,6 @@
 namespace domefall {
 namespace {
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
 const double kRoot27 = std::sqrt(27.0);
 
 // ---- the invariants, as null_ray.cpp has them ----
@@ -74,7 +72,7 @@ inline InvariantsAt invariants_at(const ObserverPlace& o, double sh, double ch, 
 struct Beginning {
   using Column = RayPlaces::Column;
   alignas(64) Column sin_half, cos_half, gap_first, gap_second;
-  alignas(64) Column inverse_b, eps, inwards, radial;  // the last two 1 or 0
+  alignas(64) Column inverse_b, eps, sense, inwards, radial;  // the last two 1 or 0
   struct Integrals {
     alignas(64) Column a, b, c, factor, value;
   };
@@ -126,6 +124,7 @@ template <bool kFar>
     q.second.b[k] = second.b;
     q.second.c[k] = second.c;
     q.second.factor[k] = second.factor;
+    q.sense[k] = i.energy < 0 ? -1 : 1;
     q.inwards[k] = i.radial > 0 ? 1 : 0;
     q.radial[k] = i.angular_momentum > least ? 0 : 1;
     q.inverse_b[k] = orbit.e;
@@ -139,7 +138,7 @@ Dispatched<begin_loop<false>> begin_near_orbits;
   for (int k = 0; k < count; ++k)
     q.value[k] = q.factor[k] * orbit_ends::carlson_rf(q.a[k], q.b[k], q.c[k]);
 }
-Dispatched<integral_loop> integrate;
+Dispatched<integral_loop> find_integrals;
 
 [[gnu::always_inline]] inline void end_loop(const Beginning& __restrict q, double x, int count,
                                             OrbitColumns& __restrict to) {
@@ -149,15 +148,15 @@ Dispatched<integral_loop> integrate;
     const double inwards = q.inwards[k], far = x < 0 ? 1 : 0;
     const double turns = inwards * far + (1 - inwards) * (1 - far);
     // On the critical orbit the far side of the light circle is out of reach.
-    const double beyond = eps == 0 ? kEndless : 0;
-    const double sky = x >= 0 ? first + beyond : first;
-    const double singularity = x <= 0 ? second + beyond : second;
+    const double beyond = eps == 0 ? OrbitColumns::kEndless : 0;
+    const double sky = (x >= 0 ? beyond : 0) + first, singularity = (x <= 0 ? beyond : 0) + second;
     const double over = inwards > 0 ? singularity : sky, back = inwards > 0 ? sky : singularity;
     const double around = turns > 0 ? 2 * second - first : first;
-    const double before = turns > 0 ? first : kEndless;
+    const double before = turns > 0 ? first : OrbitColumns::kEndless;
     const double left = eps >= 0 ? over : around;
     to.inverse_b[k] = q.inverse_b[k];
     to.eps[k] = eps;
+    to.sense[k] = q.sense[k];
     to.left[k] = q.radial[k] > 0 ? 0 : left;
     to.behind[k] = eps >= 0 ? back : before;
     to.to_sky[k] = eps >= 0 ? 1 - inwards : far;
@@ -183,7 +182,7 @@ Dispatched<end_loop> end_orbits;
     const double near = 1 / s.w, r = sky ? far.r : near;
     const double steep = r * r * (sky ? far.speed : s.speed);
     const bool ended = !(left > 0);
-    const double end = to_sky > 0 ? kEndless : 0;
+    const double end = to_sky > 0 ? HUGE_VAL : 0;
     places.r[k] = ended ? end : r;
     places.slope[k] = ended ? 0 : steep * ((2 * is_ahead - 1) * (2 * sky_flag - 1));
   }
@@ -193,6 +192,8 @@ Dispatched<find_loop> find_places;
 }  // namespace
 
 void RayOrbits::set(const Radius& at, bool outgoing, const RayColumns& rays, int count) {
+  at_ = at;
+  outgoing_ = outgoing;
   count_ = count;
   const ObserverPlace observer = place_of(at, outgoing);
   Beginning orbits;
@@ -210,8 +211,8 @@ void RayOrbits::set(const Radius& at, bool outgoing, const RayColumns& rays, int
     begin_far_orbits(observer, count, orbits);
   else
     begin_near_orbits(observer, count, orbits);
-  integrate(count, orbits.first);
-  integrate(count, orbits.second);
+  find_integrals(count, orbits.first);
+  find_integrals(count, orbits.second);
   end_orbits(orbits, observer.x, count, orbits_);
 }
 

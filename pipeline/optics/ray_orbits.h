@@ -30,10 +30,13 @@ struct RayPlaces {
 // What stays the same along each ray.
 struct OrbitColumns {
   using Column = RayPlaces::Column;
+  // What stands for an angle without end.
+  static constexpr double kEndless = 1e9;
   alignas(64) Column inverse_b, eps;  // |E|/L, and its square less 1/27
   // Of the path through the observer from one end of the orbit to the other: the angle to where it
   // leads, and from where it would have come; whether either is a sky (1) or the singularity (0).
   alignas(64) Column left, behind, to_sky, from_sky;
+  alignas(64) Column sense;  // of E: 1, or -1 where it is negative
 };
 
 class RayOrbits {
@@ -45,6 +48,9 @@ class RayOrbits {
   void set(const Radius& at, bool outgoing, const RayColumns& rays, int count);
 
   int count() const { return count_; }
+  const Radius& at() const { return at_; }
+  bool is_outgoing() const { return outgoing_; }
+  const OrbitColumns& columns() const { return orbits_; }
 
   // The places after psi[k] >= 0 radians.  A radial ray has ended for every psi > 0; one with L/|E|
   // < 1e-40 r counts as radial.
@@ -54,6 +60,8 @@ class RayOrbits {
   void find(const double* psi, RayPlaces& places) const;
 
  private:
+  Radius at_ = 0.0;
+  bool outgoing_ = false;
   int count_ = 0;
   OrbitColumns orbits_;
 };

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <numbers>
-#include <random>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/ray_position.h"
 #include "pipeline/simd/dispatch.h"
+#include "tests/pipeline/optics/random_rays.h"
 #include "tests/sanitized.h"
 #include "tests/source_tree.h"
 
@@ -21,60 +21,6 @@ namespace domefall {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-RayPlaces places_of(const std::vector<NullRay>& rays, const std::vector<double>& psi) {
-  std::vector<double> sine, cosine, first, second;
-  for (const NullRay& ray : rays) {
-    sine.push_back(ray.sin_half);
-    cosine.push_back(ray.cos_half);
-    first.push_back(ray.gap_first);
-    second.push_back(ray.gap_second);
-  }
-  RayOrbits orbits;
-  orbits.set(rays[0].at, rays[0].outgoing,
-             {sine.data(), cosine.data(), first.data(), second.data()},
-             static_cast<int>(rays.size()));
-  RayPlaces places;
-  orbits.find(psi.data(), places);
-  return places;
-}
-
-RayPlaces place_of(const NullRay& ray, double psi) { return places_of({ray}, {psi}); }
-
-// Observers and rays of every kind: near and far, next to the horizon and the light circle, and
-// rays down to 1e-15 radians off an edge.
-class Random {
- public:
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  bool one_in(int n) { return unit() * n < 1; }
-  double logarithmic(double low, double high) { return low * std::pow(high / low, unit()); }
-
-  Radius radius() {
-    if (one_in(2)) return logarithmic(1e-6, 1e8);
-    const double off = logarithmic(1e-9, 1);
-    return (one_in(2) ? 2 : 3) + (one_in(2) ? off : -off);
-  }
-
-  NullRay ray(const Radius& at, bool outgoing) {
-    const RadialFrame frame{outgoing, false};
-    const NullRay any = ray_at(at, std::numbers::pi * unit(), frame);
-    if (one_in(3)) return any;
-    const Critical edge = one_in(2) ? Critical::kFirst : Critical::kSecond;
-    const double offset = logarithmic(1e-15, 0.1) * (one_in(2) ? 1 : -1);
-    const double alpha = 2 * std::atan(tan_half_critical(at, edge)) + offset;
-    return alpha > 0 && alpha < std::numbers::pi ? ray_off_edge(at, edge, offset, frame) : any;
-  }
-
-  // An angle on the ray's path: anywhere, near its beginning or near its end.
-  double psi(const NullRay& ray) {
-    const double phi = std::min(exact_azimuth(ray), 100.0);
-    if (one_in(3)) return phi * unit();
-    return phi * (one_in(2) ? logarithmic(1e-6, 1) : 1 - logarithmic(1e-4, 1));
-  }
-
- private:
-  std::mt19937_64 engine_{18};
-};
 
 TEST(RayOrbits, FindTheReferenceRows) {
   std::ifstream file(source_file("tests/reference/positions.csv"));
@@ -95,7 +41,7 @@ TEST(RayOrbits, FindTheReferenceRows) {
 }
 
 TEST(RayOrbits, AgreeWithTheClosedFormForAHundredThousandRandomRays) {
-  Random random;
+  RandomRays random;
   for (int observer = 0; observer < tries(800, 40); ++observer) {
     const Radius at = random.radius();
     const bool outgoing = random.one_in(2);
@@ -118,7 +64,7 @@ TEST(RayOrbits, AgreeWithTheClosedFormForAHundredThousandRandomRays) {
 }
 
 TEST(RayOrbits, HaveTheSlopeOfTheOrbitsEquation) {
-  Random random;
+  RandomRays random;
   for (int n = 0; n < tries(3000, 300); ++n) {
     const NullRay ray = random.ray(random.radius(), random.one_in(2));
     const double psi = random.psi(ray), r = place_of(ray, psi).r[0];
@@ -168,7 +114,7 @@ TEST(RayOrbits, MakeTheGapsThatAreNotGiven) {
 }
 
 TEST(RayOrbits, AreTheSameBitsByEveryInstructionSet) {
-  Random random;
+  RandomRays random;
   const Simd before = simd_in_use();
   for (int observer = 0; observer < 40; ++observer) {
     const Radius at = random.radius();

@@ -1,0 +1,143 @@
+#include "pipeline/optics/ray_times.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "pipeline/optics/emission_time.h"
+#include "pipeline/simd/dispatch.h"
+#include "tests/pipeline/optics/random_rays.h"
+#include "tests/sanitized.h"
+
+namespace domefall {
+namespace {
+
+double time_of(const NullRay& ray, double psi) {
+  const RayOrbits orbits = orbits_of({ray});
+  RayPlaces places;
+  orbits.find(&psi, places);
+  double time = 0;
+  RayTimes(orbits).find(&psi, places, &time);
+  return time;
+}
+
+// By Gauss's rule over pieces of psi.
+template <class F>
+double integral(double to, F f) {
+  constexpr int kPieces = 24;
+  double sum = 0;
+  for (int k = 0; k < kPieces; ++k)
+    sum += boost::math::quadrature::gauss<double, 20>::integrate(f, to * k / kPieces,
+                                                                 to * (k + 1) / kPieces);
+  return sum;
+}
+
+// Outside, light passes the time dt = r^2 dpsi/(b (1 - 2/r)).
+TEST(RayTimes, AreThoseOfTheMetricOutside) {
+  RandomRays random;
+  int compared = 0, turned = 0;
+  for (int n = 0; n < tries(500, 50); ++n) {
+    const Radius at = 2 + random.logarithmic(0.05, 15);
+    const NullRay ray = random.ray(at, random.one_in(2));
+    const double psi = 0.95 * std::min(random.psi(ray), 8.0);
+    const RayInvariants k = invariants(ray);
+    const double e = k.energy / k.angular_momentum, least = 2.05;
+    bool outside = true;
+    const auto rate = [&](double angle) {
+      const double r = place_of(ray, angle).r[0];
+      outside = outside && r > least;
+      return r * r * e / (1 - 2 / r);
+    };
+    const double passed = integral(psi, rate);
+    const RayPlaces there = place_of(ray, psi);
+    if (!outside || there.r[0] > 30 * at.r) continue;
+    const double star = tortoise(there.r[0]) - tortoise(at);
+    EXPECT_NEAR(time_of(ray, psi), -passed + (ray.outgoing ? -star : star),
+                1e-11 * (1 + std::abs(passed) + std::abs(star)))
+        << at.r << " " << ray.outgoing << " " << alpha_of(ray) << " " << psi;
+    ++compared;
+    turned += (there.slope[0] > 0) == (k.radial > 0) ? 1 : 0;
+  }
+  EXPECT_GT(compared, tries(200, 15));
+  EXPECT_GT(turned, tries(20, 1));
+}
+
+TEST(RayTimes, AreTheEmissionTimesOfTheSingularityAtItsEnd) {
+  RandomRays random;
+  int compared = 0;
+  for (int n = 0; n < tries(1500, 150); ++n) {
+    const Radius at =
+        random.one_in(2) ? random.logarithmic(0.3, 8) : 2 + random.logarithmic(1e-6, 1);
+    const NullRay ray = random.ray(at, random.one_in(2));
+    const RayInvariants k = invariants(ray);
+    const double b = k.angular_momentum / std::abs(k.energy);
+    if (origin_of(ray) != SkyRegion::kIV || !(b > 0.1 && b < 1000)) continue;
+    const double end = exact_azimuth(ray), time = exact_emission_time(ray);
+    EXPECT_NEAR(time_of(ray, end * (1 - 1e-12)), time, 1e-9 * std::max(1.0, std::abs(time)))
+        << at.r << " " << ray.outgoing << " " << alpha_of(ray);
+    ++compared;
+  }
+  EXPECT_GT(compared, tries(500, 50));
+}
+
+// Light that neither turns nor comes from beyond the other horizon: the regular form of the integral.
+TEST(RayTimes, AreRegularWhereTheirHorizonIsCrossed) {
+  RandomRays random;
+  for (int n = 0; n < tries(300, 30); ++n) {
+    const Radius at = random.logarithmic(0.05, 2);
+    const NullRay ray = random.ray(at, false);
+    const RayInvariants k = invariants(ray);
+    if (origin_of(ray) != SkyRegion::kI || ray.gap_first < 1e-6) continue;
+    const double psi = 0.95 * exact_azimuth(ray), e = k.energy / k.angular_momentum;
+    const auto rate = [&](double angle) {
+      const RayPlaces place = place_of(ray, angle);
+      return 1 / (e + place.slope[0] / (place.r[0] * place.r[0]));
+    };
+    const double time = time_of(ray, psi);
+    EXPECT_NEAR(time, -integral(psi, rate), 1e-11 * std::max(1.0, std::abs(time))) << at.r;
+  }
+}
+
+TEST(RayTimes, VanishAtTheObserverAndCountTheTurnsOfACircle) {
+  for (const double r : {0.5, 1.9, 2.0, 2.5, 3.0, 10.0, 1e5})
+    for (const double alpha : {0.1, 1.0, 2.0, 3.0})
+      EXPECT_NEAR(time_of(ray_at(r, alpha), 0), 0, 1e-12 * r) << r << " " << alpha;
+  const NullRay circle = ray_off_edge(3.0, Critical::kFirst, 0);
+  EXPECT_NEAR(time_of(circle, 6), -6 * std::sqrt(27.0), 1e-5);
+}
+
+TEST(RayTimes, AreTheSameBitsByEveryInstructionSet) {
+  RandomRays random;
+  const Simd before = simd_in_use();
+  for (int observer = 0; observer < 40; ++observer) {
+    const Radius at = random.radius();
+    std::vector<NullRay> rays;
+    std::vector<double> psi;
+    for (int k = 0; k < 101; ++k) {
+      rays.push_back(random.ray(at, observer % 2 == 1));
+      psi.push_back(random.psi(rays.back()));
+    }
+    std::vector<double> plain(rays.size()), wide(rays.size());
+    const auto find = [&](Simd level, std::vector<double>& times) {
+      use_simd(level);
+      const RayOrbits orbits = orbits_of(rays);
+      RayPlaces places;
+      orbits.find(psi.data(), places);
+      RayTimes(orbits).find(psi.data(), places, times.data());
+    };
+    find(Simd::kPortable, plain);
+    for (const double time : plain) EXPECT_FALSE(std::isnan(time));
+    for (const Simd level : kEverySimd) {
+      if (!processor_has(level)) continue;
+      find(level, wide);
+      EXPECT_EQ(std::memcmp(wide.data(), plain.data(), sizeof(double) * rays.size()), 0);
+    }
+  }
+  use_simd(before);
+}
+
+}  // namespace
+}  // namespace domefall
