@@ -15,7 +15,7 @@
 
 #include <cmath>
 
-#include "pipeline/optics/orbit_point.h"
+#include "pipeline/optics/ray_point.h"
 #include "pipeline/simd/vector_math.h"
 
 namespace domefall {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pipeline/optics/orbit_ends.h"
-#include "pipeline/optics/orbit_point.h"
+#include "pipeline/optics/ray_point.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
@@ -177,7 +177,7 @@ Dispatched<end_loop> end_orbits;
     const double is_ahead = ahead ? 1 : 0, sky_flag = is_ahead * to_sky + (1 - is_ahead) * from_sky;
     const bool sky = sky_flag > 0;
     const double e = in.inverse_b[k];
-    const OrbitPoint s = point_from_singularity(e, in.eps[k], ahead ? left : passed);
+    const RayPoint s = point_from_singularity(e, in.eps[k], ahead ? left : passed);
     const SkyPoint far = point_from_sky(e, s);
     const double near = 1 / s.w, r = sky ? far.r : near;
     const double steep = r * r * (sky ? far.speed : s.speed);

@@ -5,7 +5,7 @@
 
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/orbit_cubic.h"
-#include "pipeline/optics/orbit_point.h"
+#include "pipeline/optics/ray_point.h"
 
 namespace domefall {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kRadialShare = 1e-40;
 // r at an angle from an end of the orbit.
 double radius_from(const Cubic& c, bool sky, double angle) {
   const double e = std::sqrt(c.inverse_b2);
-  const OrbitPoint s = point_from_singularity(e, c.eps, angle);
+  const RayPoint s = point_from_singularity(e, c.eps, angle);
   return sky ? point_from_sky(e, s).r : 1 / s.w;
 }
 

@@ -2,7 +2,7 @@
 // form:  w'' = 3 w^2 - w, w = 1/r, w(0) = 1/r_observer, w'(0) = k^r/L.
 //
 // The orbit is measured from its ends, of which exact_azimuth.h knows how far the observer is, and
-// on the half of the path next to each: orbit_point.h has the formulas.
+// on the half of the path next to each: ray_point.h has the formulas.
 #pragma once
 
 #include <optional>

@@ -24,7 +24,7 @@ struct EndTimes {
   for (int k = 0; k < count; ++k) {
     const double e = q.inverse_b[k], eps = q.eps[k], angle = q.angle[k], sky = q.sky[k];
     const double n = time_from_singularity(e, eps, angle);
-    const OrbitPoint s = point_from_singularity(e, eps, angle);
+    const RayPoint s = point_from_singularity(e, eps, angle);
     const double far = n + s.w / (e * (e + s.speed));
     q.n[k] = sky > 0 ? far : n;
   }

@@ -12,7 +12,7 @@
 
 namespace domefall {
 
-struct OrbitPoint {
+struct RayPoint {
   double w, speed;  // 1/r, and |dw/dpsi|
 };
 
@@ -46,7 +46,7 @@ inline DoublingStart doubling_start(double inverse_b, double eps, double sigma) 
 }
 
 // The point at twice the angle of x.
-inline OrbitPoint point_at_twice(double x, double eps) {
+inline RayPoint point_at_twice(double x, double eps) {
   const double x2 = x * x, twice = 2 * x + 1, p = x2 * twice + eps, half = 0.5 / p;
   const double rise = x2 * x2 * x * (x + 1) + eps * (5 * x2 * twice + x - 2 * eps);
   return {(x2 * x2 - (4 * x + 1) * eps) * half + 1.0 / 3, rise * half / std::sqrt(p)};
@@ -56,12 +56,12 @@ inline OrbitPoint point_at_twice(double x, double eps) {
 // orbit comes near to the light circle for ever, it is there from 40 radians on.  inverse_b = |E|/L
 // below 1e40, eps = inverse_b^2 - 1/27 with its own digits.  Measured against orbits integrated with
 // 40 digits: relative error of w below 1e-15 beside what an error of sigma makes of it.
-inline OrbitPoint point_from_singularity(double inverse_b, double eps, double sigma) {
+inline RayPoint point_from_singularity(double inverse_b, double eps, double sigma) {
   const DoublingStart start = doubling_start(inverse_b, eps, sigma);
   double x = x_at_twice(x_at_twice(start.x, eps), eps);
   x = x_at_twice(x_at_twice(x, eps), eps);
   x = x_at_twice(x_at_twice(x, eps), eps);
-  const OrbitPoint last = point_at_twice(x, eps);
+  const RayPoint last = point_at_twice(x, eps);
   const bool is_short = start.is_short > 0;
   return {is_short ? start.x + 1.0 / 3 : last.w, is_short ? start.speed : last.speed};
 }
@@ -73,7 +73,7 @@ struct SkyPoint {
   double r;
   double speed;  // |dw/dpsi|
 };
-inline SkyPoint point_from_sky(double inverse_b, const OrbitPoint& s) {
+inline SkyPoint point_from_sky(double inverse_b, const RayPoint& s) {
   const double e = inverse_b, r = s.w / e * (s.w / (e + s.speed));
   return {r, e * (1 - (1 - 2 / r) / s.w)};
 }
