@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,12 +39,13 @@ class RayTable {
 
   // Where the ray is after having swept psi; none where it has ended or the cell is empty.  Throws
   // InputError, with the line, for a psi that is no angle.
-  std::optional<double> position(const RayCells& cells, const RayRequest& ray) const {
+  std::optional<TracedPlace> place(const RayCells& cells, const RayRequest& ray, TraceMethod method,
+                                   const TraceOptions& options) const {
     if (cells.psi.empty()) return std::nullopt;
     try {
       const auto psi = static_cast<double>(decimal_number(cells.psi, "psi"));
       if (!(psi >= 0)) throw InputError(fmt::format("psi must be at least 0, got {}", psi));
-      return trace_position(ray, psi);
+      return trace_place(ray, psi, method, options);
     } catch (const InputError& error) {
       rows_.fail(error.what());
     }
@@ -81,13 +83,18 @@ std::vector<std::string> method_names() {
   return names;
 }
 
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+// A further cell, empty if there is no number.
+void print_cell(double value) {
+  std::isnan(value) ? std::printf(",") : std::printf(",%.17g", value);
+}
+
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
   const bool positions = table.asks_for_positions();
-  if (positions && is_integrator(method))
-    throw InputError(file + ": psi needs the method table or exact: integrators give no r_there");
   std::printf("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification%s\n",
-              positions ? ",r_there" : "");
+              positions ? ",r_there,null_time" : "");
   for (RayCells cells; table.next(cells);) {
     const RayRequest request = table.request(cells);
     const TracedRay ray = trace_ray(request, method, options);
@@ -95,11 +102,11 @@ void trace(const std::string& file, TraceMethod method, const TraceOptions& opti
          {&cells.observer, &cells.r, &cells.delta, &cells.edge, &cells.offset})
       std::printf("%s,", text->c_str());
     std::printf("%s", ray.decided ? name_of(ray.origin) : "");
-    for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification})
-      std::isnan(v) ? std::printf(",") : std::printf(",%.17g", v);
+    for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification}) print_cell(v);
     if (positions) {
-      const std::optional<double> r_there = table.position(cells, request);
-      r_there ? std::printf(",%.17g", *r_there) : std::printf(",");
+      const std::optional<TracedPlace> place = table.place(cells, request, method, options);
+      print_cell(place ? place->r : kNothing);
+      print_cell(place ? place->null_time : kNothing);
     }
     std::puts("");
   }

@@ -109,7 +109,7 @@ SkyRegion origin_of(Form form, double energy) {
 
 // A radial ray has no azimuth to follow and no turning point: its direction says all.
 IntegratedRay radial_ray(const PhotonAtObserver& photon) {
-  return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0};
+  return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0, 0};
 }
 
 // c / 2 w^3: above 1 the ray is nearly radial.
@@ -130,7 +130,7 @@ bool other_form_is_due(const Equation& equation, const State& y) {
 }
 
 template <class ErrorStepper>
-IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance) {
+IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double until) {
   if (photon.angular_momentum == 0) return radial_ray(photon);
   using Stepper = ScaledStepper<ErrorStepper, Equation>;
   constexpr double kFirstStep = 0.01, kLargestStep = 1;  // of psi; of phi, radians
@@ -144,6 +144,17 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance) {
   for (; ray.steps < kRayStepBudget; ++ray.steps) {
     const State before = arc.y;
     const double psi_before = psi;
+    // The last step again, as far as it is wanted.
+    const auto stopped = [&] {
+      ErrorStepper error_stepper;
+      State at{};
+      const double part = (until - phi) / arc.equation.kappa - psi_before;
+      error_stepper.do_step(arc.equation, before, 0.0, at, part);
+      ray.phi = until;
+      ray.r = arc.equation.radius(at);
+      ++ray.steps;
+      return ray;
+    };
     h = std::min(h, kLargestStep / arc.equation.kappa);
     if (!stepper)
       stepper.emplace(ScaledErrorChecker(arc.equation, tolerance),
@@ -151,11 +162,13 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance) {
     if (stepper->try_step(arc.equation, arc.y, psi, h) != odeint::success) continue;
     if (arc.y[0] <= 0) {
       psi = psi_before + part_to_zero<ErrorStepper>(arc.equation, before, psi - psi_before);
+      if (phi + arc.equation.kappa * psi > until) return stopped();
       ray.origin = origin_of(arc.equation.form, photon.energy);
       ray.phi = phi + arc.equation.kappa * psi;
       ++ray.steps;
       return ray;
     }
+    if (phi + arc.equation.kappa * psi >= until) return stopped();
     if (!other_form_is_due(arc.equation, arc.y)) continue;
     phi += arc.equation.kappa * psi;
     psi = 0;
@@ -169,12 +182,12 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance) {
 
 }  // namespace
 
-IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance) {
-  return binet_ray<odeint::runge_kutta_dopri5<State>>(photon, tolerance);
+IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance, double until) {
+  return binet_ray<odeint::runge_kutta_dopri5<State>>(photon, tolerance, until);
 }
 
-IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance) {
-  return binet_ray<odeint::runge_kutta_fehlberg78<State>>(photon, tolerance);
+IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until) {
+  return binet_ray<odeint::runge_kutta_fehlberg78<State>>(photon, tolerance, until);
 }
 
 }  // namespace domefall

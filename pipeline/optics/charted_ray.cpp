@@ -90,6 +90,10 @@ double azimuth_to_singularity(double inverse_b, double r) {
 
 }  // namespace
 
+double radius_of(const ChartedRay& ray) {
+  return ray.chart == Chart::kSchwarzschild ? ray.y[1] : 2 + radius_less_two(ray.y[0] * ray.y[1]);
+}
+
 ChartedRay charted_ray(const PhotonAtObserver& photon) {
   return in_kruskal_zone(photon.r) ? in_kruskal(photon, 0, 0) : in_schwarzschild(photon);
 }
@@ -113,7 +117,7 @@ bool change_chart(ChartedRay& ray) {
     ray = in_kruskal(photon_of(ray), ray.y[0], ray.y[kAzimuth]);
     return true;
   }
-  const double r = 2 + radius_less_two(ray.y[0] * ray.y[1]);
+  const double r = radius_of(ray);
   if (!leaves_kruskal(ray.y, r)) return false;
   to_schwarzschild(ray, r);
   return true;

@@ -25,6 +25,8 @@ struct RayGoals {
   double far = 0, near = 0;
 };
 
+double radius_of(const ChartedRay& ray);  // units of M
+
 // t = 0 at the observer: all else is a shift.
 ChartedRay charted_ray(const PhotonAtObserver& photon);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/optics/charted_ray.h"
 #include "pipeline/optics/ray_methods.h"
@@ -13,13 +14,16 @@ namespace domefall {
 //   bool try_step(const GeodesicEquations&, RayState& y, double& h)   one attempt; sets the next h
 //   double largest_step(const GeodesicEquations&, const RayState& y)
 template <class Stepper>
-IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance) {
+IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, double until) {
   constexpr double kFirstStep = 0.01;  // of r, for a photon whose largest component is 1
   constexpr double kRetreat = 0.25;
+  // Towards the wanted angle, so that it is reached from below.
+  constexpr double kApproach = 0.9, kReached = 1e-14;
 
   IntegratedRay result = undecided_ray();
   ChartedRay ray = charted_ray(photon);
-  const RayGoals goals = goals_of(photon);
+  RayGoals goals = goals_of(photon);
+  if (std::isfinite(until)) goals = {1e15, 1e-10};
   const auto equations_of = [&result](const ChartedRay& at) {
     return GeodesicEquations{at.chart, at.y[1] > 2, &result.evaluations};
   };
@@ -32,20 +36,27 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance) {
       equations = equations_of(ray);
       stepper.restart(equations);
     }
+    const double left = until - ray.y[kAzimuth];
+    if (left <= kReached * until) {
+      result.phi = until;
+      result.r = radius_of(ray);
+      return result;
+    }
     if (const auto origin = origin_of(ray, goals)) {
       result.origin = origin;
       result.phi = ray.y[kAzimuth] + azimuth_beyond(ray, *origin);
       return result;
     }
     h = std::min(h, stepper.largest_step(equations, ray.y));
+    if (std::isfinite(until)) h = std::min(h, kApproach * left / ray.y[kAzimuthRate]);
     const RayState before = ray.y;
     const double tried = h;
     if (!stepper.try_step(equations, ray.y, h)) continue;
-    if (equations.holds(ray.y)) {
+    if (equations.holds(ray.y) && ray.y[kAzimuth] <= until * (1 + kReached)) {
       restore_null_condition(ray);
       continue;
     }
-    // The last stage was in the chart and the sum of them is not.
+    // The last stage was in the chart and the sum of them is not, or the angle was passed.
     ray.y = before;
     h = kRetreat * tried;
     stepper.restart(equations);

@@ -41,12 +41,13 @@ class OdeintStepper {
 
 }  // namespace
 
-IntegratedRay full_ray_dopri5(const PhotonAtObserver& photon, double tolerance) {
-  return follow_ray<OdeintStepper<odeint::runge_kutta_dopri5<RayState>>>(photon, tolerance);
+IntegratedRay full_ray_dopri5(const PhotonAtObserver& photon, double tolerance, double until) {
+  return follow_ray<OdeintStepper<odeint::runge_kutta_dopri5<RayState>>>(photon, tolerance, until);
 }
 
-IntegratedRay full_ray_rkf78(const PhotonAtObserver& photon, double tolerance) {
-  return follow_ray<OdeintStepper<odeint::runge_kutta_fehlberg78<RayState>>>(photon, tolerance);
+IntegratedRay full_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until) {
+  return follow_ray<OdeintStepper<odeint::runge_kutta_fehlberg78<RayState>>>(photon, tolerance,
+                                                                             until);
 }
 
 }  // namespace domefall

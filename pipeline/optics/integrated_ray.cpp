@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/optics/ray_methods.h"
 
@@ -43,20 +44,25 @@ bool stays_on_the_horizon(const PhotonAtObserver& photon) {
 
 IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
                             double tolerance) {
+  return integrate_ray_to(std::numeric_limits<double>::infinity(), photon, integrator, tolerance);
+}
+
+IntegratedRay integrate_ray_to(double psi, const PhotonAtObserver& photon, Integrator integrator,
+                               double tolerance) {
   assert(is_light_of_its_region(photon));
   if (stays_on_the_horizon(photon)) return undecided_ray();
   const PhotonAtObserver start = normalised(photon);
   switch (integrator) {
     case Integrator::kPaperRk4:
-      return paper_ray(start, tolerance);
+      return paper_ray(start, tolerance, psi);
     case Integrator::kFullDopri5:
-      return full_ray_dopri5(start, tolerance);
+      return full_ray_dopri5(start, tolerance, psi);
     case Integrator::kFullRkf78:
-      return full_ray_rkf78(start, tolerance);
+      return full_ray_rkf78(start, tolerance, psi);
     case Integrator::kBinetDopri5:
-      return binet_ray_dopri5(start, tolerance);
+      return binet_ray_dopri5(start, tolerance, psi);
     case Integrator::kBinetRkf78:
-      return binet_ray_rkf78(start, tolerance);
+      return binet_ray_rkf78(start, tolerance, psi);
   }
   return undecided_ray();
 }

@@ -57,6 +57,7 @@ struct IntegratedRay {
   double phi = 0;        // swept azimuth, radians; NaN if undecided
   long steps = 0;        // attempted, rejected ones included
   long evaluations = 0;  // of the right-hand side; none for a radial ray of Binet's equation
+  double r = 0;          // where it was stopped on its way (units of M); 0 if it was not
 };
 
 // No ray takes more attempted steps; one that would is undecided.
@@ -65,5 +66,10 @@ inline constexpr long kRayStepBudget = 100000;
 // tolerance: the relative error allowed to each step, 1e-3 to 1e-13.  Throws nothing.
 IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
                             double tolerance);
+
+// Where the ray is after having swept psi > 0 radians, as IntegratedRay::r, unless it has ended (then
+// origin tells where) or whirls for ever.  Between 1e-10 and 1e15.
+IntegratedRay integrate_ray_to(double psi, const PhotonAtObserver& photon, Integrator integrator,
+                               double tolerance);
 
 }  // namespace domefall

@@ -79,8 +79,8 @@ class DoublingRk4 {
 
 }  // namespace
 
-IntegratedRay paper_ray(const PhotonAtObserver& photon, double tolerance) {
-  return follow_ray<DoublingRk4>(photon, tolerance);
+IntegratedRay paper_ray(const PhotonAtObserver& photon, double tolerance, double until) {
+  return follow_ray<DoublingRk4>(photon, tolerance, until);
 }
 
 }  // namespace domefall

@@ -8,6 +8,7 @@
 #include "pipeline/optics/hole_optics.h"
 #include "pipeline/optics/integrated_ray.h"
 #include "pipeline/optics/ray_position.h"
+#include "pipeline/optics/ray_times.h"
 
 namespace domefall {
 namespace {
@@ -224,8 +225,31 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
   return traced;
 }
 
-std::optional<double> trace_position(const RayRequest& q, double psi) {
-  return exact_position(ray_of(q, view_of(q.observer)), psi);
+std::optional<TracedPlace> trace_place(const RayRequest& q, double psi, TraceMethod method,
+                                       const TraceOptions& options) {
+  const View view = view_of(q.observer);
+  const NullRay ray = ray_of(q, view);
+  if (is_integrator(method)) {
+    if (psi == 0) return TracedPlace{q.at.r, kNone};
+    const double delta = q.edge ? seen(ray, view).delta : static_cast<double>(q.delta);
+    const IntegratedRay there = integrate_ray_to(psi, photon_at(q.observer, q.at, delta),
+                                                 integrator_of(method), options.tolerance);
+    return there.r > 0 ? std::optional(TracedPlace{there.r, kNone}) : std::nullopt;
+  }
+  RayOrbits orbits;
+  orbits.set(q.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},
+             1);
+  RayPlaces places;
+  orbits.find(&psi, places);
+  TracedPlace place{places.r[0], 0};
+  RayTimes(orbits).find(&psi, places, &place.null_time);
+  if (method == TraceMethod::kExact || psi == 0) {
+    const std::optional<double> exact = exact_position(ray, psi);
+    if (!exact) return std::nullopt;
+    place.r = *exact;
+  }
+  if (!(place.r > 0 && std::isfinite(place.r))) return std::nullopt;
+  return place;
 }
 
 }  // namespace domefall

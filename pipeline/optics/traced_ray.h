@@ -87,8 +87,17 @@ struct TraceOptions {
 // The tables are kept from one call to the next while the radius stays the same (in each thread).
 TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options = {});
 
-// r (units of M) of that ray after having swept psi >= 0, by the closed form of ray_position.h; none
-// where the ray has ended.
-std::optional<double> trace_position(const RayRequest& q, double psi);
+// Where that ray is after having swept psi >= 0, and when its light was there.
+struct TracedPlace {
+  double r;  // units of M
+  // The place's v less the observer's, u in the outgoing frame and T_IV (ray_times.h), units of M;
+  // NaN from integrators.
+  double null_time;
+};
+
+// None where the ray has ended, or an integrator's steps ran out.  The table's method is RayOrbits,
+// which needs none.
+std::optional<TracedPlace> trace_place(const RayRequest& q, double psi, TraceMethod method,
+                                       const TraceOptions& options = {});
 
 }  // namespace domefall

@@ -64,3 +64,29 @@ says "bad.csv:2: offset is given without an edge"
 row 'rain,0x10,1,,'
 exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
 says "bad.csv:2: r must be a number, got '0x10'"
+
+# Places along rays: the 224 of the reference by what renders and by the closed form, one by every integrator, and empty
+# cells where a ray has ended or psi is not given.
+for method in table exact; do
+  exits 0 "$DOMEFALL" trace --table "$DOMEFALL_SOURCE/tests/reference/positions.csv" --method "$method"
+  python3 - "$DOMEFALL_SOURCE/tests/reference/positions.csv" "$folder/stdout" <<'END'
+import csv, sys
+def rows(path):
+    return list(csv.DictReader(l for l in open(path) if not l.startswith('#')))
+exact, seen = rows(sys.argv[1]), rows(sys.argv[2])
+assert len(exact) == len(seen) == 224
+for e, s in zip(exact, seen):
+    assert abs(float(s['r_there']) / float(e['r_there']) - 1) < 1e-10, (e, s)
+    assert s['null_time'], s
+END
+done
+printf 'observer,r,delta,psi\nrain,10,1,1\nrain,10,1,9\nrain,10,1,\nrain,10,0,1\nT_IV,1,1,0.1\n' >"$folder/psi.csv"
+for method in rk4 dopri5 rkf78 binet-dopri5 binet-rkf78 exact table; do
+  exits 0 "$DOMEFALL" trace --table "$folder/psi.csv" --method "$method"
+  sed -n 2p "$folder/stdout" | cut -d, -f11 | grep -q '^13\.06725101[0-9]*$' || fail "$method: r_there"
+  for row in 3 4 5; do sed -n ${row}p "$folder/stdout" | grep -q ',,$' || fail "$method: row $row has a place"; done
+  sed -n 6p "$folder/stdout" | cut -d, -f11 | grep -q '^0\.[0-9]*$' || fail "$method: r_there in region IV"
+done
+printf 'observer,r,delta,psi\nrain,10,1,-1\n' >"$folder/psi.csv"
+exits 2 "$DOMEFALL" trace --table "$folder/psi.csv"
+says "psi.csv:2: psi must be at least 0, got -1"
