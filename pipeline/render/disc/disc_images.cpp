@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "pipeline/optics/ray_orbits.h"
+#include "pipeline/optics/ray_times.h"
 
 namespace domefall {
 namespace {
@@ -53,6 +54,9 @@ class LabelledRays {
     for (int k = 0; k < count; ++k) w[k] = 1 / places_.r[static_cast<std::size_t>(k)];
   }
 
+  // Of the rays that were found last: their times there.
+  void times(const double* psi, double* out) const { RayTimes(orbits_).find(psi, places_, out); }
+
   bool outgoing() const { return outgoing_; }
 
  private:
@@ -82,6 +86,14 @@ void solve(LabelledRays& rays, double target, const double* psi, int count, doub
   for (int k = 0; k < count; ++k) p[k] = rays.label((low[k] + high[k]) / 2);
 }
 
+// What RayTimes says of light that comes straight from r: where it moves against the frame's fall, its
+// null coordinate is the other one.
+double radial_time(const Radius& at, bool outgoing, double r) {
+  if ((r > at.r) != outgoing) return 0;
+  const double to_place = r - at.r + 2 * std::log((r - 2) / at.above_horizon);
+  return -2 * std::abs(to_place);
+}
+
 // Cubic through four even nodes at -1, 0, 1, 2: the weights at t, and those of its derivative.
 std::array<double, 4> cubic(double t) {
   const double a = t + 1, b = t, c = t - 1, d = t - 2;
@@ -105,15 +117,16 @@ Place place_at(double x, std::size_t count) {
 }
 
 template <class T>
-double interpolate(const T* nodes, const std::array<double, 4>& weights, std::size_t stride = 1) {
+double interpolate(const T* nodes, const std::array<double, 4>& weights) {
   double sum = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * static_cast<double>(nodes[k * stride]);
+  for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * static_cast<double>(nodes[k]);
   return sum;
 }
 
 }  // namespace
 
-DiscImages::DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer)
+DiscImages::DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
+                       bool with_times)
     : straight_(straight),
       orders_(straight ? 1 : kOrders),
       observer_w_(1 / at.r),
@@ -121,10 +134,10 @@ DiscImages::DiscImages(const Radius& at, bool outgoing, bool straight, double in
       outer_w_(1 / outer),
       least_(static_cast<std::size_t>(orders_), -HUGE_VAL),
       greatest_(static_cast<std::size_t>(orders_), HUGE_VAL) {
-  if (!straight) tabulate(at, outgoing);
+  if (!straight) tabulate(at, outgoing, with_times);
 }
 
-void DiscImages::tabulate(const Radius& at, bool outgoing) {
+void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
   LabelledRays rays(at, outgoing);
   constexpr int kNodes = kOrders * kPerHalfTurn + 1, kBlock = RayPlaces::kSize;
   low_.resize(kNodes);
@@ -136,6 +149,12 @@ void DiscImages::tabulate(const Radius& at, bool outgoing) {
   for (int part = 0; part <= kParts; ++part)
     w_[static_cast<std::size_t>(part)] =
         static_cast<float>(outer_w_ + (inner_w_ - outer_w_) * part / kParts);
+  if (with_times) {
+    times_.resize(w_.size());
+    for (int part = 0; part <= kParts; ++part)
+      times_[static_cast<std::size_t>(part)] =
+          radial_time(at, outgoing, 1 / static_cast<double>(w_[static_cast<std::size_t>(part)]));
+  }
   std::vector<double> psi(kNodes), low(kNodes), high(kNodes);
   for (int k = 0; k < kNodes; ++k) psi[static_cast<std::size_t>(k)] = k * pi / kPerHalfTurn;
   for (int first = 1; first < kNodes; first += kBlock) {
@@ -156,6 +175,7 @@ void DiscImages::tabulate(const Radius& at, bool outgoing) {
       turn[part] = psi[k];
     }
     rays.find(tangent.data(), turn.data(), kParts + 1, w.data());
+    if (with_times) rays.times(turn.data(), &times_[k * (kParts + 1)]);
     // The rims themselves are known, however steep w is there.
     w[0] = outer_w_;
     w[kParts] = inner_w_;
@@ -204,6 +224,24 @@ double DiscImages::inverse_radius(double psi, double u) const {
   for (std::size_t k = 0; k < 4; ++k)
     w += along[k] * interpolate(&w_[(turn.first + k) * kStride + part.first], across);
   return std::clamp(w, outer_w_, inner_w_);
+}
+
+DiscImages::Moment DiscImages::moment(double psi, double u) const {
+  if (straight_) return {inverse_radius(psi, u), inner_w_ - outer_w_, 0, 0};
+  constexpr std::size_t kStride = kParts + 1;
+  const Place turn = place_at(psi * (kPerHalfTurn / pi), low_.size()),
+              part = place_at(u * kParts, kStride);
+  const auto across = cubic(part.t), slopes = cubic_slope(part.t), along = cubic(turn.t);
+  Moment sum{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t first = (turn.first + k) * kStride + part.first;
+    sum.w += along[k] * interpolate(&w_[first], across);
+    sum.w_slope += along[k] * interpolate(&w_[first], slopes) * kParts;
+    sum.time += along[k] * interpolate(&times_[first], across);
+    sum.time_slope += along[k] * interpolate(&times_[first], slopes) * kParts;
+  }
+  sum.w = std::clamp(sum.w, outer_w_, inner_w_);
+  return sum;
 }
 
 }  // namespace domefall

@@ -22,8 +22,10 @@ class DiscImages {
 
   // Of the rings inner <= r <= outer (M), 2 <= inner, for an observer at 0 < r < infinity in the rain
   // frame or, `outgoing`, in that of free fall to infinity; or, where light goes straight, in that
-  // of rest, r > 2.
-  DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer);
+  // of rest, r > 2.  `with_times`: moment() will be
+  // asked for, which where light goes straight has no time.
+  DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
+             bool with_times = false);
 
   // How many half turns there are: one where light goes straight.
   int orders() const { return orders_; }
@@ -41,17 +43,25 @@ class DiscImages {
   // 1/r at that psi on the ray that lies by the part u (0 to 1) of the interval above its low end.
   double inverse_radius(double psi, double u) const;
 
+  // A place there: 1/r, and when its light set out, as RayTimes has it (M), with what both change by
+  // for each unit of u.
+  struct Moment {
+    double w, w_slope, time, time_slope;
+  };
+  Moment moment(double psi, double u) const;
+
  private:
   static constexpr int kPerHalfTurn = 64;  // nodes of psi
   static constexpr int kParts = 24;        // intervals of u
 
-  void tabulate(const Radius& at, bool outgoing);
+  void tabulate(const Radius& at, bool outgoing, bool with_times);
 
   bool straight_;
   int orders_;
   double observer_w_, inner_w_, outer_w_;
   std::vector<double> low_, high_;  // p psi/(1 + psi) at the nodes of psi
   std::vector<float> w_;            // at each node of psi, kParts + 1 values
+  std::vector<double> times_;       // likewise; empty if not asked for
   std::vector<double> least_, greatest_;
 };
 

@@ -106,6 +106,19 @@ template <class Pixels>
 
 }  // namespace
 
+DiscPass::Clock::Clock(const ObserverState& observer) : outgoing(is_outgoing(observer.tetrad)) {
+  const double r = observer.r, tortoise = r + 2 * std::log(std::abs(r / 2 - 1));
+  // A mirrored observer's t counts the other way.
+  null_time = is_mirrored(observer.tetrad) ? (outgoing ? -2 : 2) * tortoise - observer.null_time
+                                           : observer.null_time;
+  observer_v = outgoing ? null_time + 2 * tortoise : null_time;
+}
+
+double DiscPass::Clock::time_at(double r, double delay) const {
+  const double tortoise = r + 2 * std::log(r / 2 - 1);
+  return null_time + delay + (outgoing ? tortoise : -tortoise);
+}
+
 DiscPass::DiscPass(const FrameScene& scene)
     : scene_(scene),
       images_(images_for(scene)),
@@ -113,12 +126,17 @@ DiscPass::DiscPass(const FrameScene& scene)
       s_(std::sqrt(2 / r_)),
       one_minus_s_((r_ - 2) / (r_ * (1 + s_))),
       label_sign_(is_outgoing(scene.state.observer.tetrad) ? -1 : 1),
-      energy_sign_(is_mirrored(scene.state.observer.tetrad) ? -1 : 1) {
+      energy_sign_(is_mirrored(scene.state.observer.tetrad) ? -1 : 1),
+      clock_(scene.state.observer) {
+  const Disc& disc = scene.disc->disc();
+  if (disc.pattern) pattern_.emplace(*disc.pattern);
   const V3d normal =
       apply_transposed(scene.state.observer.sky_from_tetrad, scene.disc->disc().normal.v);
   normal_up_ = normal.x;
   normal_across_ = std::hypot(normal.y, normal.z);
   normal_azimuth_ = std::atan2(normal.z, normal.y);
+  node_ = apply_transposed(scene.state.observer.sky_from_tetrad, disc.node.v);
+  quarter_ = normal.cross(node_);
   // Light that goes straight: cos alpha/(r sin alpha), and the energy of the frame at rest.
   if (scene.tracer.goes_straight()) label_sign_ = 1;
 }
@@ -171,7 +189,7 @@ class DiscPass::Strip {
   // A division of a pixel: all of it, as a rule.
   struct Division {
     double turn, turn_per;  // psi_0, and by how much it changes here
-    double azimuth_sine;
+    double azimuth_cosine, azimuth_sine;
     double part;  // of the pixel
   };
 
@@ -179,7 +197,9 @@ class DiscPass::Strip {
     const double turn_per = pixels.turn_per[k];
     left_[static_cast<std::size_t>(k)] =
         turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5
-            ? look_at(pixels, k, {pixels.turn[k], turn_per, pixels.azimuth_sine[k], 1})
+            ? look_at(
+                  pixels, k,
+                  {pixels.turn[k], turn_per, pixels.azimuth_cosine[k], pixels.azimuth_sine[k], 1})
             : look_at_divisions(pixels, k);
   }
 
@@ -206,9 +226,10 @@ class DiscPass::Strip {
         const double sign = first + last < 0 ? -1 : 1;
         const double after = n == count ? last : sign * turned;
         const double part = std::abs(after - before) / (2 * half);
-        left += part * look_at(pixels, k,
-                               {turn_at((before + after) / 2), std::abs(end - begin) / count,
-                                std::sin((before + after) / 2), part});
+        left +=
+            part * look_at(pixels, k,
+                           {turn_at((before + after) / 2), std::abs(end - begin) / count,
+                            std::cos((before + after) / 2), std::sin((before + after) / 2), part});
         before = after;
       }
     };
@@ -257,12 +278,14 @@ class DiscPass::Strip {
     for (int n = 0; n < count; ++n) {
       const double label = from + (to - from) * (n + 0.5) / count;
       const double u = (label - rims.low) / width;
-      put(pixels, k, division.azimuth_sine, turn, label, u, weight / count);
+      put(pixels, k, division, turn, label, u, weight / count);
+      if (pass_.pattern_) note_place(pixels, k, division, turn, u, (to - from) / (count * width));
+      if (count_ == kBlock) flush();
     }
   }
 
-  void put(const Pixels& pixels, int k, double azimuth_sine, double turn, double label, double u,
-           double weight) {
+  void put(const Pixels& pixels, int k, const Division& division, double turn, double label,
+           double u, double weight) {
     const double r = 1 / pass_.images_.inverse_radius(turn, u);
     const double w0 = 1 / pass_.r_;
     const bool straight = pass_.scene_.tracer.goes_straight();
@@ -270,7 +293,8 @@ class DiscPass::Strip {
     const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
     const double energy = pixels.energy[k];
     const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
-    const double about = (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * azimuth_sine;
+    const double about =
+        (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * division.azimuth_sine;
     const double shift = disc_shift({energy, momentum, momentum * about}, r,
                                     r < kLastStableOrbit && outward(turn, label, u));
     const double g = pixels.rays.frequency[k] / shift;
@@ -278,7 +302,27 @@ class DiscPass::Strip {
     samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
     samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
     samples_.pixel[count_] = k;
-    if (++count_ == kBlock) flush();
+    ++count_;
+  }
+
+  // The place and the moment of the last sample, for the pattern.  `part` is what it covers of u.
+  void note_place(const Pixels& pixels, int k, const Division& division, double turn, double u,
+                  double part) {
+    const DiscImages::Moment at = pass_.images_.moment(turn, u);
+    const double r = 1 / at.w, sine = std::sin(turn), cosine = std::cos(turn);
+    // Around R from the normal's part across it, as locate_loop has it.
+    const double side = pass_.normal_up_ > 0 ? -1 : 1;
+    const double along = side * division.azimuth_cosine, beside = side * division.azimuth_sine;
+    const double up = std::cos(pass_.normal_azimuth_), aside = std::sin(pass_.normal_azimuth_);
+    const V3d place(cosine, sine * (along * up - beside * aside),
+                    sine * (along * aside + beside * up));
+    const double time =
+        disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
+    // Around R the place moves by psi and about the axis of psi, at right angles.
+    const double turned = length(division.turn_per, sine * pixels.azimuth_per[k] * division.part),
+                 aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
+    samples_.place[count_ - 1] = {r, std::atan2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
+                                  time, std::abs(at.w_slope) * part * r * r, length(turned, aged)};
   }
 
   // Whether light sets out there to larger radii: back in time along the ray w then grows.
@@ -293,6 +337,10 @@ class DiscPass::Strip {
     const auto count = static_cast<std::size_t>(count_);
     pass_.scene_.disc->light({samples_.r.data(), count}, {samples_.g.data(), count},
                              {colour_.data(), count});
+    if (pass_.pattern_) {
+      pass_.pattern_->factors({samples_.place.data(), count}, {factor_.data(), count});
+      for (std::size_t k = 0; k < count; ++k) samples_.weight[k] *= factor_[k];
+    }
     for (std::size_t k = 0; k < count; ++k) {
       WorkingRgb& light = light_[static_cast<std::size_t>(samples_.pixel[k])];
       const float weight = samples_.weight[k];
@@ -312,7 +360,9 @@ class DiscPass::Strip {
   struct {
     std::array<float, kBlock> r, g, weight;
     std::array<int, kBlock> pixel;
+    std::array<PatternPlace, kBlock> place;
   } samples_{};
+  std::array<float, kBlock> factor_{};
   int count_ = 0;
 };
 

@@ -7,9 +7,10 @@
 // within a pixel, next to the plane itself for who is close to it, the pixel is divided in psi.
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "pipeline/disc/disc_light.h"
+#include "pipeline/disc/disc_pattern.h"
 #include "pipeline/render/disc/disc_images.h"
 #include "pipeline/render/scene/frame_scene.h"
 
@@ -36,6 +37,17 @@ class DiscPass {
   double r_, s_, one_minus_s_;
   double label_sign_;   // of p = k^r/L against its form in the rain frame
   double energy_sign_;  // of E, as the frame counts it, where light comes from region I
+  // From the observer's null time, v or u, to t where light set out.
+  struct Clock {
+    explicit Clock(const ObserverState& observer);
+    double time_at(double r, double delay) const;
+
+    bool outgoing;
+    double null_time, observer_v;
+  };
+  Clock clock_;
+  std::optional<DiscPattern> pattern_;
+  V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
   // The disc's normal: its part along R, that across it, and the angle of that from Theta.
   double normal_up_, normal_across_, normal_azimuth_;
 };
