@@ -26,39 +26,47 @@ double log2_above_singular(const PageThorneProfile& profile, bool plunging, doub
   return plunging ? t : t - 0.5 * std::log2(1 - x);
 }
 
-// What a block of places has in common.
+// What the places of a block have in common.
 struct ObservedBlock {
   const float* table;
-  bool plunging;
+  float edge;  // the power of 1 - v in the temperature: 1/2, or 0 of gas that plunges
   float hottest, log2_scale, log2_t_max;
 };
 
 // log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric radiance that
-// goes with it, times the scale.
+// goes with it, times the scale.  Looking numbers up is left to a loop of its own, since it keeps the
+// others from being vectors.
 [[gnu::always_inline]] inline void observe_loop(const ObservedBlock& block, const float* r,
                                                 const float* g, int count, float* log2_t,
                                                 float* radiance) {
   constexpr float kLog2Six = 2.5849625f, kLeast = 1e-30f;
   const ObservedBlock b = block;
   const auto end = static_cast<float>(kInnermost * kPerUnit);
+  std::array<int, kBlock> nodes;
+  std::array<float, kBlock> parts, sums;
   for (int k = 0; k < count; ++k) {
-    const float six = 6.0f / r[k], v = __builtin_sqrtf(six), scaled = v * kPerUnit;
+    const float v = __builtin_sqrtf(6.0f / r[k]), scaled = v * kPerUnit;
     const float at = scaled < end ? scaled : end;
-    const int node = static_cast<int>(at);
-    const float part = at - static_cast<float>(node);
-    const float low = b.table[node], high = b.table[node + 1];
+    nodes[k] = static_cast<int>(at);
+    parts[k] = at - static_cast<float>(nodes[k]);
     const float rest = (r[k] - 6.0f) / (r[k] * (1.0f + v));  // 1 - v
-    const float edge = 0.5f * binary_logarithm(rest > kLeast ? rest : kLeast);
+    const float edge = b.edge * binary_logarithm(rest > kLeast ? rest : kLeast);
     const float shift = binary_logarithm(g[k] > kLeast ? g[k] : kLeast);
-    const float own = low + part * (high - low) + 0.75f * (kLog2Six - binary_logarithm(r[k]));
-    const float t = b.log2_t_max + own + (b.plunging ? 0.0f : edge) + shift;
-    const float seen = t < b.hottest ? t : b.hottest;
+    const float far = 0.75f * (kLog2Six - binary_logarithm(r[k]));
+    sums[k] = b.log2_t_max + far + edge + shift;
+  }
+  for (int k = 0; k < count; ++k) {
+    const float low = b.table[nodes[k]], high = b.table[nodes[k] + 1];
+    sums[k] += low + parts[k] * (high - low);
+  }
+  for (int k = 0; k < count; ++k) {
+    const float t = sums[k], seen = t < b.hottest ? t : b.hottest;
     const float power = b.log2_scale + 3.0f * seen + t;
     log2_t[k] = r[k] >= 2.0f ? seen : 0.0f;
     radiance[k] = power_of_two(power < 119.0f ? power : 119.0f);
   }
 }
-const Dispatched<observe_loop> observe;
+Dispatched<observe_loop> observe;
 
 }  // namespace
 
@@ -85,7 +93,7 @@ WorkingRgb DiscLight::light(double r, double g) const {
 
 void DiscLight::light(std::span<const float> r, std::span<const float> g,
                       std::span<WorkingRgb> out) const {
-  const ObservedBlock block{table_.data(), disc_.plunging,
+  const ObservedBlock block{table_.data(), disc_.plunging ? 0.0f : 0.5f,
                             static_cast<float>(std::log2(kRayleighJeans)),
                             static_cast<float>(std::log2(blackbody_radiance(1) * scale_)),
                             static_cast<float>(std::log2(disc_.t_max_k))};

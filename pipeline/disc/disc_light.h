@@ -26,7 +26,7 @@ class DiscLight {
   WorkingRgb light(double r, double g) const;
 
   // The same of many places with as many ratios, for pixels.  r > 0 and g >= 0 are finite.
-  // Measured against light(): a relative error below 5e-5, and below 2.5e-4 next to the last stable
+  // Measured against light(): a relative error below 6e-5, and below 2.5e-4 next to the last stable
   // orbit where gas plunges, half of what a half float rounds.
   void light(std::span<const float> r, std::span<const float> g, std::span<WorkingRgb> out) const;
 

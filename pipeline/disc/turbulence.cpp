@@ -157,10 +157,10 @@ template <int kSize>
   }
 }
 
-const Dispatched<read_places_loop> read_places;
-const Dispatched<add_grains_loop<0>> add_large_grains;
-const Dispatched<add_grains_loop<1>> add_middle_grains;
-const Dispatched<add_grains_loop<2>> add_small_grains;
+Dispatched<read_places_loop> read_places;
+Dispatched<add_grains_loop<0>> add_large_grains;
+Dispatched<add_grains_loop<1>> add_middle_grains;
+Dispatched<add_grains_loop<2>> add_small_grains;
 
 }  // namespace
 
