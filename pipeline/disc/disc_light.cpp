@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// Intervals of the table from r = infinity to the last stable orbit, which is a node; the table goes
-// on to the horizon.
+// Intervals of the table from r = infinity to the last stable orbit, which is a node; the table
+// goes on to the horizon.
 constexpr int kPerUnit = 4096;
 const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
 constexpr double kBrightest = 1e36;
@@ -33,9 +33,9 @@ struct ObservedBlock {
   float hottest, log2_scale, log2_t_max;
 };
 
-// log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric radiance that
-// goes with it, times the scale.  Looking numbers up is left to a loop of its own, since it keeps the
-// others from being vectors.
+// log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric radiance
+// that goes with it, times the scale.  Looking numbers up is left to a loop of its own, since it
+// keeps the others from being vectors.
 [[gnu::always_inline]] inline void observe_loop(const ObservedBlock& block, const float* r,
                                                 const float* g, int count, float* log2_t,
                                                 float* radiance) {

@@ -1,6 +1,6 @@
-// The light of a disc's surface: a blackbody of the profile's temperature T(r), of which an observer
-// sees one of g T, g the frequency observed over the one sent, in colour and radiance.  It is scaled
-// so that the hottest ring has the show's luminance for who moves with it.
+// The light of a disc's surface: a blackbody of the profile's temperature T(r), of which an
+// observer sees one of g T, g the frequency observed over the one sent, in colour and radiance.  It
+// is scaled so that the hottest ring has the show's luminance for who moves with it.
 #pragma once
 
 #include <span>

@@ -32,10 +32,10 @@ struct DiscRay {
 // Phi) or the celestial sphere's.
 DiscRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent, const V3d& normal);
 
-// The frequency that gas at r sends over the one that radial free fall at the observer's place sees.
-// r > 2 (units of M), in region I; the gas plunges where r < 6.  `outward` says whether the light
-// sets out to larger radii, which matters to plunging gas alone.  Infinite where light sets out
-// outward from the horizon.
+// The frequency that gas at r sends over the one that radial free fall at the observer's place
+// sees.  r > 2 (units of M), in region I; the gas plunges where r < 6.  `outward` says whether the
+// light sets out to larger radii, which matters to plunging gas alone.  Infinite where light sets
+// out outward from the horizon.
 double disc_shift(const DiscRay& ray, double r, bool outward);
 
 }  // namespace domefall

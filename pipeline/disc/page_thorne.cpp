@@ -20,8 +20,8 @@ double beyond_linear_artanh(double t) {
   return t * t2 * sum;
 }
 
-// With d = sqrt r - sqrt 6 and t = sqrt 3 d/(sqrt(6 r) - 3), B = d - sqrt 3 artanh t, whose terms of
-// first order in d cancel; they are combined by hand.
+// With d = sqrt r - sqrt 6 and t = sqrt 3 d/(sqrt(6 r) - 3), B = d - sqrt 3 artanh t, whose terms
+// of first order in d cancel; they are combined by hand.
 double page_thorne_b(double r) {
   const double root = std::sqrt(r), d = (r - kLastStableOrbit) / (root + kRoot6);
   const double below = root * kRoot6 - 3;

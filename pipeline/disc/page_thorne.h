@@ -1,5 +1,5 @@
-// How hot a thin disc is at each radius.  Page & Thorne, ApJ 191, 499 (1974), for a hole without spin
-// (M = 1); Luminet, A&A 75, 228 (1979), prints 1/sqrt 3 for sqrt 3/2 there.
+// How hot a thin disc is at each radius.  Page & Thorne, ApJ 191, 499 (1974), for a hole without
+// spin (M = 1); Luminet, A&A 75, 228 (1979), prints 1/sqrt 3 for sqrt 3/2 there.
 //
 //     F(r) ~ (B(r) + C) / ((r - 3) r^(5/2))                      r >= 6
 //     B(r) = sqrt r - sqrt 6 + (sqrt 3/2) ln [(sqrt r + sqrt 3)(sqrt 6 - sqrt 3) /

@@ -3,8 +3,8 @@
 //
 // Grains of three sizes lie in rows of equal width in ln r, in places that a hash of row and
 // generation chooses.  Rows, and the generations of a row, are joined by quadratic B-splines, which
-// add up to 1.  The light of a row's grains has a fixed mean around the ring, whatever the shear and
-// the footprint do: a footprint makes a grain wider and keeps its light.
+// add up to 1.  The light of a row's grains has a fixed mean around the ring, whatever the shear
+// and the footprint do: a footprint makes a grain wider and keeps its light.
 #pragma once
 
 #include <array>

@@ -127,8 +127,8 @@ Light on_plane(const Geodesic& ray, const Light& from, double length, const Vect
 
 // ---- The gas ----
 
-// What gas loses on its way from r = 6 to r, plus what the plunging gas pulls: PageThorne's integral
-// of (E - Omega L) dL/dr = (r - 6)/(2 sqrt r (r - 3)), by quadrature.
+// What gas loses on its way from r = 6 to r, plus what the plunging gas pulls: the integral
+// of [Page & Thorne 1974], of (E - Omega L) dL/dr = (r - 6)/(2 sqrt r (r - 3)), by quadrature.
 double flux(double r, bool plunging) {
   const auto lost = [](double x) { return (x - 6) / (2 * std::sqrt(x) * (x - 3)); };
   const double brought =

@@ -100,8 +100,8 @@ TEST(DiscImages, EachOrderIsThinnerByEToThePi) {
     double before = offset_of(at, 1, 20) - offset_of(at, 1, 6);
     for (int order = 2; order <= 6; ++order) {
       const double width = offset_of(at, order, 20) - offset_of(at, order, 6);
-      // The sweep at an offset x is -ln x + c + x (a + b ln x), of which the law takes the first two
-      // terms.
+      // The sweep at an offset x is -ln x + c + x (a + b ln x), of which the law takes the first
+      // two terms.
       EXPECT_NEAR(before / width / std::exp(kPi), 1, 3 * order * std::exp(-kPi * (order - 1)))
           << at << " " << order;
       before = width;

@@ -30,7 +30,7 @@ TEST(DiscShift, FaceOnIsOneOverTheRootOfOneMinusThreeOverR) {
 }
 
 // Seen from the plane, light of impact parameter b comes with L_n = b from the side that
-// approaches, at chi = -90 degrees of an axis that points to chi = 180, and -b from the other one.
+// approaches, and with -b from the other one.
 TEST(DiscShift, EdgeOnLimbsApproachAndRecede) {
   const double at = 1e6, blue = std::sqrt(1 - 2 / at);
   for (const double r : {6.0, 10.0, 30.0}) {
@@ -55,9 +55,9 @@ double product(const Four& a, const Four& b, double r) {
   return f * a[0] * b[0] - a[1] * b[1] / f - a[2] * b[2] - a[3] * b[3];
 }
 
-// The shift of a ray that leaves gas at r, at an angle `psi` along its way from the observer, by the
-// inner product of the two four-vectors.  They are written in (t, r) and in Cartesian components of
-// the sphere's tangents along the ray and across it.
+// The shift of a ray that leaves gas at r, at an angle `psi` along its way from the observer, by
+// the inner product of the two four-vectors.  They are written in (t, r) and in Cartesian
+// components of the sphere's tangents along the ray and across it.
 double shift_of_vectors(const DiscRay& ray, double r, double psi, const V3d& tangent,
                         const V3d& normal, const Four& gas, bool outward) {
   const double f = 1 - 2 / r, l = ray.angular_momentum / r;

@@ -11,7 +11,8 @@
 
 namespace domefall {
 
-// The angle psi_0 in (0, pi] at which a ray first meets the plane through the hole with this normal.
+// The angle psi_0 in (0, pi] at which a ray first meets the plane through the hole with this
+// normal.
 inline double first_crossing(const V3d& place, const V3d& tangent, const V3d& normal) {
   const double psi = std::atan2(-normal.dot(place), normal.dot(tangent));
   return psi > 0 ? psi : psi + std::numbers::pi;  // for observers who are not in the plane

@@ -63,7 +63,8 @@ TEST(PageThorne, HasItsMaximumWhereTheSlopeVanishes) {
   EXPECT_NEAR(down / up, 1, 2e-3);
 }
 
-// B = (r - 6)^2/(12 sqrt 6) and F = B/(3 * 36 sqrt 6) to first order; the next order is 1.5 (r - 6).
+// B = (r - 6)^2/(12 sqrt 6) and F = B/(3 * 36 sqrt 6) to first order; the next order is 1.5 (r -
+// 6).
 TEST(PageThorne, KeepsItsDigitsNextToTheLastStableOrbit) {
   const PageThorneProfile profile(false);
   const double unit = profile.flux(6 + 1e-3) / 1e-6;
