@@ -23,8 +23,12 @@ constexpr int kMostDivisions = 48;
 
 DiscImages images_for(const FrameScene& scene) {
   const Disc& disc = scene.disc->disc();
-  return {Radius(scene.state.observer.r), is_outgoing(scene.state.observer.tetrad),
-          scene.tracer.goes_straight(), disc.inner, disc.outer};
+  return {Radius(scene.state.observer.r),
+          is_outgoing(scene.state.observer.tetrad),
+          scene.tracer.goes_straight(),
+          disc.inner,
+          disc.outer,
+          disc.pattern.has_value()};
 }
 
 // The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes from
