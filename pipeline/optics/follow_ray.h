@@ -22,8 +22,9 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
 
   IntegratedRay result = undecided_ray();
   ChartedRay ray = charted_ray(photon);
+  const bool stops = std::isfinite(until);
   RayGoals goals = goals_of(photon);
-  if (std::isfinite(until)) goals = {1e15, 1e-10};
+  if (stops) goals = {1e15, 1e-10};
   const auto equations_of = [&result](const ChartedRay& at) {
     return GeodesicEquations{at.chart, at.y[1] > 2, &result.evaluations};
   };
@@ -37,7 +38,7 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
       stepper.restart(equations);
     }
     const double left = until - ray.y[kAzimuth];
-    if (left <= kReached * until) {
+    if (stops && left <= kReached * until) {
       result.phi = until;
       result.r = radius_of(ray);
       return result;
@@ -48,7 +49,7 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
       return result;
     }
     h = std::min(h, stepper.largest_step(equations, ray.y));
-    if (std::isfinite(until)) h = std::min(h, kApproach * left / ray.y[kAzimuthRate]);
+    if (stops) h = std::min(h, kApproach * left / ray.y[kAzimuthRate]);
     const RayState before = ray.y;
     const double tried = h;
     if (!stepper.try_step(equations, ray.y, h)) continue;
