@@ -41,6 +41,7 @@ void report(const fs::path& out, bool quick, bool with_figures) {
   const Report measured = measure_report(
       quick, [](const std::string& what) { std::fprintf(stderr, "measuring %s\n", what.c_str()); });
   write_output(out / "rays.csv", csv_of(measured.rays));
+  write_output(out / "positions.csv", csv_of(measured.positions));
   write_output(out / "frames.csv", csv_of(measured.frames));
   write_output(out / "orbits.csv", csv_of(measured.orbits));
   write_output(out / "costs.csv", csv_of(measured.costs));

@@ -26,6 +26,9 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
   progress("rays");
   report.rays = measure_rays(quick);
   report.view_rays = measure_view_ray_speed();
+  progress("places along rays");
+  report.positions = measure_positions(quick);
+  report.position_speed = measure_position_speed();
   progress("frames");
   report.frames = measure_frames(quick);
   progress("costs of frames");
@@ -45,6 +48,15 @@ std::string csv_of(const std::vector<RayErrorRow>& rows) {
     csv += joined({r.region, r.difficulty, r.method, n(r.setting), r.is_default ? "1" : "0",
                    fmt::to_string(r.rays), fmt::to_string(r.undecided), n(r.phi_worst), n(r.phi_99),
                    n(r.sky_worst), n(r.sky_99), n(r.ns_per_ray), n(r.build_us)});
+  return csv;
+}
+
+std::string csv_of(const std::vector<PositionErrorRow>& rows) {
+  std::string csv = "rays,method,tolerance,places,missing,worst,r_99,ns_per_place\n";
+  for (const PositionErrorRow& r : rows)
+    csv +=
+        joined({r.at_edge ? "edge" : "others", r.method, n(r.tolerance), fmt::to_string(r.places),
+                fmt::to_string(r.missing), n(r.worst), n(r.r_99), n(r.ns_per_place)});
   return csv;
 }
 

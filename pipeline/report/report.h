@@ -9,6 +9,7 @@
 #include "pipeline/report/frame_errors.h"
 #include "pipeline/report/orbit_errors.h"
 #include "pipeline/report/plot.h"
+#include "pipeline/report/position_errors.h"
 #include "pipeline/report/ray_errors.h"
 #include "pipeline/report/view_ray_speed.h"
 
@@ -18,6 +19,8 @@ struct Report {
   bool quick = false;
   std::vector<RayErrorRow> rays;
   std::vector<ViewRaySpeedRow> view_rays;
+  std::vector<PositionErrorRow> positions;
+  PositionSpeed position_speed{};
   std::vector<FrameErrorRow> frames;
   FrameCosts costs;
   std::vector<OrbitErrorRow> orbits;
@@ -31,6 +34,7 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
 
 // One line of names and one line for each row.  The columns are the members of the row's structure.
 std::string csv_of(const std::vector<RayErrorRow>& rows);
+std::string csv_of(const std::vector<PositionErrorRow>& rows);
 std::string csv_of(const std::vector<FrameErrorRow>& rows);
 std::string csv_of(const std::vector<OrbitErrorRow>& rows);
 // The rows of both series, which the column `against` names.  The benchmark's rows are written as

@@ -12,9 +12,7 @@ using boost::math::ellint_rf;
 Wide pi() { return boost::math::constants::pi<Wide>(); }
 Wide square(const Wide& x) { return x * x; }
 
-struct Invariants {
-  Wide energy, angular_momentum, radial;
-};
+using Invariants = ReferenceInvariants;
 
 Invariants invariants(ReferenceObserver observer, const Wide& r, const Wide& delta) {
   const Wide c = cos(delta), l = r * sin(delta), s = sqrt(2 / r);
@@ -152,6 +150,10 @@ void check(ReferenceObserver observer, const Wide& r) {
     throw std::domain_error("reference_ray: no such observer at this r");
 }
 
+Wide delta_of(const ReferenceRequest& q) {
+  return q.edge ? reference_edge(q.observer, q.r, *q.edge) + q.offset : q.delta;
+}
+
 }  // namespace
 
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge) {
@@ -178,9 +180,13 @@ Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edg
   throw std::domain_error("reference_ray: no such edge for this observer");
 }
 
+ReferenceInvariants reference_invariants(const ReferenceRequest& q) {
+  return invariants(q.observer, q.r, delta_of(q));
+}
+
 ReferenceRay reference_ray(const ReferenceRequest& q) {
   check(q.observer, q.r);
-  const Wide delta = q.edge ? reference_edge(q.observer, q.r, *q.edge) + q.offset : q.delta;
+  const Wide delta = delta_of(q);
   const Invariants k = invariants(q.observer, q.r, delta);
   const Course course = course_of(q.observer, q.r, k);
   const auto phi = [&](const Wide& at) { return signed_azimuth(q.observer, q.r, at, course.path); };

@@ -51,6 +51,12 @@ struct ReferenceRay {
 // r = 3.  A ray takes 1.5 ms.
 ReferenceRay reference_ray(const ReferenceRequest& q);
 
+// E, L and k^r as above.  The request's delta, or edge and offset, say at which angle.
+struct ReferenceInvariants {
+  Wide energy, angular_momentum, radial;
+};
+ReferenceInvariants reference_invariants(const ReferenceRequest& q);
+
 // The edge as an angle delta.  For rain it is [Riazuelo] eq. tan_delta_final, for outgoing that
 // formula with the other root.  For static and at rest in t, it is where L/|E| = sqrt(27).
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge);

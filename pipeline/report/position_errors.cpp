@@ -1,0 +1,123 @@
+#include "pipeline/report/position_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "pipeline/optics/ray_times.h"
+#include "pipeline/report/ray_samples.h"
+#include "pipeline/report/reference/reference_position.h"
+#include "pipeline/report/reference_request.h"
+
+namespace domefall {
+namespace {
+
+// A place to be found, and the truth.
+struct SamplePlace {
+  RayRequest request;
+  double psi, r;
+};
+
+std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
+  const int radii = quick ? 3 : 12, per_radius = quick ? 4 : 16;
+  constexpr double kFirst = 0.02, kRange = 0.96, kGolden = 0.6180339887498949;
+  std::vector<SamplePlace> places;
+  double part = 0;
+  for (const RayClass& of : ray_classes()) {
+    if ((of.difficulty == Difficulty::kEdge) != at_edge) continue;
+    for (const RayGroup& group : sample_rays(of, radii, per_radius))
+      for (const SampleRay& ray : group) {
+        part = std::fmod(part + kGolden, 1.0);
+        const double psi = ray.phi * (kFirst + kRange * part);
+        places.push_back(
+            {ray.request, psi, reference_position(reference_request(ray.request), psi)});
+      }
+  }
+  return places;
+}
+
+PositionErrorRow measured(bool at_edge, const std::vector<SamplePlace>& places,
+                          const NamedTraceMethod& by, double tolerance) {
+  TraceOptions options;
+  if (tolerance > 0) options.tolerance = tolerance;
+  std::vector<std::optional<TracedPlace>> found;
+  found.reserve(places.size());
+  const auto start = std::chrono::steady_clock::now();
+  for (const SamplePlace& place : places)
+    found.push_back(trace_place(place.request, place.psi, by.method, options));
+  const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (found[k]) errors.push_back(std::abs(found[k]->r / places[k].r - 1));
+  std::sort(errors.begin(), errors.end());
+  const auto count = static_cast<double>(errors.size());
+  const bool none = errors.empty();
+  return {at_edge,
+          by.name,
+          tolerance,
+          static_cast<int>(places.size()),
+          static_cast<int>(places.size() - errors.size()),
+          none ? 0 : errors.back(),
+          none ? 0 : errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1],
+          passed.count() / static_cast<double>(places.size())};
+}
+
+template <class Work>
+double best_ns_of_a_ray(Work work) {
+  constexpr int kRounds = 200, kPasses = 7;
+  double best = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int round = 0; round < kRounds; ++round) work();
+    const std::chrono::duration<double, std::nano> passed =
+        std::chrono::steady_clock::now() - start;
+    best = std::min(best, passed.count());
+  }
+  return best / (kRounds * RayOrbits::kSize);
+}
+
+}  // namespace
+
+std::vector<PositionErrorRow> measure_positions(bool quick) {
+  std::vector<PositionErrorRow> rows;
+  for (const bool at_edge : {false, true}) {
+    const std::vector<SamplePlace> places = sample_places(quick, at_edge);
+    for (const NamedTraceMethod& by : kTraceMethods) {
+      if (!is_integrator(by.method)) {
+        rows.push_back(measured(at_edge, places, by, 0));
+        continue;
+      }
+      for (const double tolerance : {1e-6, 1e-9, 1e-12})
+        rows.push_back(measured(at_edge, places, by, tolerance));
+    }
+  }
+  return rows;
+}
+
+PositionSpeed measure_position_speed() {
+  constexpr double kRadius = 10, kPsi = 1;
+  RayPlaces::Column sine, cosine, psi, times;
+  for (int k = 0; k < RayOrbits::kSize; ++k) {
+    const double half = std::numbers::pi / 2 * (k + 0.5) / RayOrbits::kSize;
+    sine[k] = std::sin(half);
+    cosine[k] = std::cos(half);
+    psi[k] = kPsi;
+  }
+  RayOrbits orbits;
+  RayPlaces places;
+  PositionSpeed speed{};
+  speed.ray = best_ns_of_a_ray([&] {
+    orbits.set(kRadius, false, {sine.data(), cosine.data()}, RayOrbits::kSize);
+  });
+  speed.place = best_ns_of_a_ray([&] { orbits.find(psi.data(), places); });
+  speed.ray_time = best_ns_of_a_ray([&] { RayTimes of(orbits); });
+  const RayTimes of(orbits);
+  speed.place_time = best_ns_of_a_ray([&] { of.find(psi.data(), places, times.data()); });
+  return speed;
+}
+
+}  // namespace domefall
