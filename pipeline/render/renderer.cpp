@@ -225,9 +225,10 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
     times.traced_fraction = sky.traced_fraction();
+    times.grid_s = watch.lap();
     std::optional<DiscPass> disc;
     if (scene.disc) disc.emplace(scene);
-    times.grid_s = watch.lap();
+    times.disc_s = watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, memory_->bands, frame);
     memory_->bands.throw_if_stopped();

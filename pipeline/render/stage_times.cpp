@@ -13,6 +13,7 @@ void StageTimes::add(const StageTimes& other) {
   tables_s += other.tables_s;
   stars_s += other.stars_s;
   grid_s += other.grid_s;
+  disc_s += other.disc_s;
   pixels_s += other.pixels_s;
   traced_fraction = std::max(traced_fraction, other.traced_fraction);
   table_nodes = std::max(table_nodes, other.table_nodes);
@@ -42,6 +43,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   text += fmt::format("stars   {:8.4f} s  {} images\n", t.stars_s, t.images);
   if (t.instants > 1) text += fmt::format("shutter open: the mean of {} instants\n", t.instants);
   text += fmt::format("grid    {:8.4f} s\n", t.grid_s);
+  if (plan.disc) text += fmt::format("disc    {:8.4f} s  drawn with the pixels\n", t.disc_s);
   text += fmt::format("pixels  {:8.4f} s  {:.1f} % traced one by one; loops: {}\n", t.pixels_s,
                       100 * t.traced_fraction, name_of(simd_in_use()));
   return text;

@@ -9,7 +9,8 @@
 namespace domefall {
 
 struct StageTimes {
-  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, pixels_s = 0;  // by the wall clock
+  // By the wall clock; the disc's is what its tables take.
+  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, disc_s = 0, pixels_s = 0;
   double traced_fraction = 0;  // the part of the sky's pixels that have view rays of their own
   std::size_t table_nodes = 0, images = 0;
   int tables_made = 0;  // those that were not kept from the frame before
