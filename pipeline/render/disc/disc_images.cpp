@@ -86,8 +86,8 @@ void solve(LabelledRays& rays, double target, const double* psi, int count, doub
   for (int k = 0; k < count; ++k) p[k] = rays.label((low[k] + high[k]) / 2);
 }
 
-// What RayTimes says of light that comes straight from r: where it moves against the frame's fall, its
-// null coordinate is the other one.
+// What RayTimes says of light that comes straight from r: where it moves against the frame's fall,
+// its null coordinate is the other one.
 double radial_time(const Radius& at, bool outgoing, double r) {
   if ((r > at.r) != outgoing) return 0;
   const double to_place = r - at.r + 2 * std::log((r - 2) / at.above_horizon);

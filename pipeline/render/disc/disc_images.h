@@ -2,9 +2,9 @@
 //
 // A ray is known by p = k^r/L (M = 1), the slope dw/dpsi of w = 1/r at the observer, counted along
 // the angle psi that the ray sweeps back in time: it is at w(psi; p), whatever the sign of its
-// energy.  For a fixed psi, w grows with p.  So the image of the rings between two radii is, at each
-// psi, one interval of p: from that of the outer rim to that of the inner one.  Along psi these
-// curves are smooth, through the silhouette's edge too: an image of higher order is the same
+// energy.  For a fixed psi, w grows with p.  So the image of the rings between two radii is, at
+// each psi, one interval of p: from that of the outer rim to that of the inner one.  Along psi
+// these curves are smooth, through the silhouette's edge too: an image of higher order is the same
 // interval half a turn farther on, only narrower, by e^-pi for each half turn.  At psi = 0 p is
 // infinite; p psi/(1 + psi) is tabulated, which is not.
 #pragma once
@@ -20,9 +20,9 @@ class DiscImages {
   // Images of that many half turns.  More are seen by no pixel: the fifth is 4e-6 radians wide.
   static constexpr int kOrders = 5;
 
-  // Of the rings inner <= r <= outer (M), 2 <= inner, for an observer at 0 < r < infinity in the rain
-  // frame or, `outgoing`, in that of free fall to infinity; or, where light goes straight, in that
-  // of rest, r > 2.  `with_times`: moment() will be
+  // Of the rings inner <= r <= outer (M), 2 <= inner, for an observer at 0 < r < infinity in the
+  // rain frame or, `outgoing`, in that of free fall to infinity; or, where light goes straight, in
+  // that of rest, r > 2.  `with_times`: moment() will be
   // asked for, which where light goes straight has no time.
   DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
              bool with_times = false);
@@ -43,8 +43,8 @@ class DiscImages {
   // 1/r at that psi on the ray that lies by the part u (0 to 1) of the interval above its low end.
   double inverse_radius(double psi, double u) const;
 
-  // A place there: 1/r, and when its light set out, as RayTimes has it (M), with what both change by
-  // for each unit of u.
+  // A place there: 1/r, and when its light set out, as RayTimes has it (M), with what both change
+  // by for each unit of u.
   struct Moment {
     double w, w_slope, time, time_slope;
   };

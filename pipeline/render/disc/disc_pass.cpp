@@ -6,10 +6,9 @@
 #include <numbers>
 
 #include "pipeline/disc/disc_shift.h"
+#include "pipeline/render/disc/disc_pixels.h"
 #include "pipeline/render/rays/pixel_directions.h"
 #include "pipeline/render/scene/effect_ratios.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -31,8 +30,8 @@ DiscImages images_for(const FrameScene& scene) {
           disc.pattern.has_value()};
 }
 
-// The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes from
-// 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look straight.
+// The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes
+// from 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look straight.
 double beyond(double distance) {
   constexpr double kReach = 0.75;
   const double x = std::clamp(distance / (2 * kReach) + 0.5, 0.0, 1.0);
@@ -40,73 +39,6 @@ double beyond(double distance) {
 }
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
-
-// What the loop over pixels needs of the observer and the disc.
-struct Sight {
-  double r, s, one_minus_s, label_sign, energy_sign, straight;
-  double normal_up, normal_across, cos_azimuth, sin_azimuth;
-};
-
-}  // namespace
-
-// Pixels by what decides where they see the disc.
-struct DiscPass::Pixels {
-  template <class T>
-  using Column = std::array<T, kBlock>;
-  FrameRayBatch rays;
-  Column<double> energy;     // E; 0 where light does not come from region I
-  Column<double> label;      // p
-  Column<double> label_per;  // of a pixel
-  Column<double> turn;       // psi_0
-  // Of the azimuth about R, counted from where psi_0 is least.
-  Column<double> azimuth_cosine, azimuth_sine;
-  Column<double> azimuth_per;
-  Column<double> turn_per;
-};
-
-namespace {
-
-template <class Pixels>
-[[gnu::always_inline]] inline void locate_loop(const Sight& sight, const double* angle, int count,
-                                               Pixels& pixels) {
-  const Sight o = sight;
-  for (int k = 0; k < count; ++k) {
-    const double x = pixels.rays.x[k], y = pixels.rays.y[k], z = pixels.rays.z[k];
-    const double across2 = y * y + z * z, across = std::sqrt(across2);
-    const double sine = across > 1e-12 ? across : 1e-12;
-    // cos alpha of the rain frame is -x, of the outgoing one x; either way p changes its sign with
-    // the direction.  1 - s cos alpha, without cancellation next to the horizon:
-    const double cosine = -o.label_sign * x;
-    const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
-    const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
-    const double free = o.energy_sign * energy;
-    const double kept = free > 0 ? free : 0;
-    const double e = o.straight > 0 ? o.straight : kept;
-    const double pixel = angle[k] * pixels.rays.scale[k];
-    const double labelled = (cosine - o.s) / (o.r * sine);
-    // The normal's part along the tangent, and that across it.
-    const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
-                 beside = (z * o.cos_azimuth - y * o.sin_azimuth) / sine;
-    const double side = o.normal_up > 0 ? -1 : 1;
-    const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
-    const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
-    pixels.energy[k] = e;
-    pixels.label[k] = o.label_sign * labelled;
-    // d p/d alpha = -E/(r sin^2 alpha)
-    const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
-    pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
-    const double turn = arc_tangent2(up, toward);
-    pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
-    pixels.azimuth_cosine[k] = side * along;
-    pixels.azimuth_sine[k] = side * beside;
-    pixels.azimuth_per[k] = pixel / sine;
-    // At most: where the pixel is nearest to the plane.
-    const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
-    const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
-    const double square = up * up + off * off;
-    pixels.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
-  }
-}
 
 }  // namespace
 
@@ -145,24 +77,6 @@ DiscPass::DiscPass(const FrameScene& scene)
   if (scene.tracer.goes_straight()) label_sign_ = 1;
 }
 
-void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
-                      Pixels& pixels) const {
-  static const Dispatched<locate_loop<Pixels>> loop;
-  scene_.tracer.into_frame(n, count, pixels.rays);
-  const bool straight = scene_.tracer.goes_straight();
-  const Sight sight{r_,
-                    straight ? 0 : s_,
-                    straight ? 1 : one_minus_s_,
-                    label_sign_,
-                    energy_sign_,
-                    straight ? std::sqrt((r_ - 2) / r_) : 0.0,
-                    normal_up_,
-                    normal_across_,
-                    std::cos(normal_azimuth_),
-                    std::sin(normal_azimuth_)};
-  loop(sight, angle, count, pixels);
-}
-
 // A row's pixels on their way to light: samples of the disc wait until there are enough of them.
 class DiscPass::Strip {
  public:
@@ -171,7 +85,6 @@ class DiscPass::Strip {
 
   // Draws on the pixels whose first one is rgb[3].
   void draw(const Pixels& pixels, int count, float* rgb) {
-    rgb_ = rgb;
     light_.fill(WorkingRgb(0, 0, 0));
     for (int k = 0; k < count; ++k) {
       left_[static_cast<std::size_t>(k)] = 1;
@@ -358,7 +271,6 @@ class DiscPass::Strip {
   const DiscPass& pass_;
   const Effects& effects_;
   const Disc& disc_;
-  float* rgb_ = nullptr;
   std::array<double, kBlock> left_{};
   std::array<WorkingRgb, kBlock> light_{}, colour_{};
   struct {

@@ -27,8 +27,9 @@ class DiscPass {
   // Lays the disc over the rows [first, end) of the image, the first of which is rgb[3 columns].
   void draw_rows(int first, int end, float* rgb) const;
 
- private:
   struct Pixels;
+
+ private:
   class Strip;
   void locate(const CameraDirection* n, const double* angle, int count, Pixels& pixels) const;
 

@@ -36,8 +36,7 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-                       SkyMotion sky_motion, const Projection* whole,
-                       const DiscLight* disc_light)
+                       SkyMotion sky_motion, const Projection* whole, const DiscLight* disc_light)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),

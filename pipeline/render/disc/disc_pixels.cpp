@@ -1,0 +1,78 @@
+#include "pipeline/render/disc/disc_pixels.h"
+
+#include <cmath>
+
+#include "pipeline/simd/dispatch.h"
+#include "pipeline/simd/vector_math.h"
+
+namespace domefall {
+namespace {
+
+// What the loop over pixels needs of the observer and the disc.
+struct DiscSight {
+  double r, s, one_minus_s, label_sign, energy_sign, straight;
+  double normal_up, normal_across, cos_azimuth, sin_azimuth;
+};
+
+[[gnu::always_inline]] inline void locate_on_disc_loop(const DiscSight& sight, const double* angle,
+                                                       int count, DiscPass::Pixels& pixels) {
+  const DiscSight o = sight;
+  for (int k = 0; k < count; ++k) {
+    const double x = pixels.rays.x[k], y = pixels.rays.y[k], z = pixels.rays.z[k];
+    const double across2 = y * y + z * z, across = std::sqrt(across2);
+    const double sine = across > 1e-12 ? across : 1e-12;
+    // cos alpha of the rain frame is -x, of the outgoing one x; either way p changes its sign with
+    // the direction.  1 - s cos alpha, without cancellation next to the horizon:
+    const double cosine = -o.label_sign * x;
+    const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
+    const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
+    const double free = o.energy_sign * energy;
+    const double kept = free > 0 ? free : 0;
+    const double e = o.straight > 0 ? o.straight : kept;
+    const double pixel = angle[k] * pixels.rays.scale[k];
+    const double labelled = (cosine - o.s) / (o.r * sine);
+    // The normal's part along the tangent, and that across it.
+    const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
+                 beside = (z * o.cos_azimuth - y * o.sin_azimuth) / sine;
+    const double side = o.normal_up > 0 ? -1 : 1;
+    const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
+    const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
+    pixels.energy[k] = e;
+    pixels.label[k] = o.label_sign * labelled;
+    // d p/d alpha = -E/(r sin^2 alpha)
+    const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
+    pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
+    const double turn = arc_tangent2(up, toward);
+    pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
+    pixels.azimuth_cosine[k] = side * along;
+    pixels.azimuth_sine[k] = side * beside;
+    pixels.azimuth_per[k] = pixel / sine;
+    // At most: where the pixel is nearest to the plane.
+    const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
+    const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
+    const double square = up * up + off * off;
+    pixels.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
+  }
+}
+
+}  // namespace
+
+void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
+                      Pixels& pixels) const {
+  static const Dispatched<locate_on_disc_loop> loop;
+  scene_.tracer.into_frame(n, count, pixels.rays);
+  const bool straight = scene_.tracer.goes_straight();
+  const DiscSight sight{r_,
+                        straight ? 0 : s_,
+                        straight ? 1 : one_minus_s_,
+                        label_sign_,
+                        energy_sign_,
+                        straight ? std::sqrt((r_ - 2) / r_) : 0.0,
+                        normal_up_,
+                        normal_across_,
+                        std::cos(normal_azimuth_),
+                        std::sin(normal_azimuth_)};
+  loop(sight, angle, count, pixels);
+}
+
+}  // namespace domefall
