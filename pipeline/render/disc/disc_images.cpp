@@ -86,12 +86,15 @@ void solve(LabelledRays& rays, double target, const double* psi, int count, doub
   for (int k = 0; k < count; ++k) p[k] = rays.label((low[k] + high[k]) / 2);
 }
 
+// Light from the horizon set out an infinite time ago, by gas that no pattern touches.
+constexpr double kLongAgo = -1e9;
+
 // What RayTimes says of light that comes straight from r: where it moves against the frame's fall,
 // its null coordinate is the other one.
 double radial_time(const Radius& at, bool outgoing, double r) {
   if ((r > at.r) != outgoing) return 0;
   const double to_place = r - at.r + 2 * std::log((r - 2) / at.above_horizon);
-  return -2 * std::abs(to_place);
+  return std::max(-2 * std::abs(to_place), kLongAgo);
 }
 
 // Cubic through four even nodes at -1, 0, 1, 2: the weights at t, and those of its derivative.
@@ -168,14 +171,18 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
     const double share = psi[k] / (1 + psi[k]);
     low_[k] = low[k] * share;
     high_[k] = high[k] * share;
-    RayPlaces::Column tangent{}, turn{}, w{};
+    RayPlaces::Column tangent{}, turn{}, w{}, times{};
     for (std::size_t part = 0; part <= kParts; ++part) {
       tangent[part] =
           rays.log_tangent(low[k] + (high[k] - low[k]) * static_cast<double>(part) / kParts);
       turn[part] = psi[k];
     }
     rays.find(tangent.data(), turn.data(), kParts + 1, w.data());
-    if (with_times) rays.times(turn.data(), &times_[k * (kParts + 1)]);
+    if (with_times) {
+      rays.times(turn.data(), times.data());
+      for (std::size_t part = 0; part <= kParts; ++part)
+        times_[k * (kParts + 1) + part] = std::max(times[part], kLongAgo);
+    }
     // The rims themselves are known, however steep w is there.
     w[0] = outer_w_;
     w[kParts] = inner_w_;

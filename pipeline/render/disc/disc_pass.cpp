@@ -31,7 +31,8 @@ DiscImages images_for(const FrameScene& scene) {
 }
 
 // The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes
-// from 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look straight.
+// from 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look
+// straight.
 double beyond(double distance) {
   constexpr double kReach = 0.75;
   const double x = std::clamp(distance / (2 * kReach) + 0.5, 0.0, 1.0);
@@ -51,7 +52,9 @@ DiscPass::Clock::Clock(const ObserverState& observer) : outgoing(is_outgoing(obs
 }
 
 double DiscPass::Clock::time_at(double r, double delay) const {
-  const double tortoise = r + 2 * std::log(r / 2 - 1);
+  // On the horizon light sets out an infinite time ago; no pattern is there.
+  constexpr double kLeast = 1e-9;
+  const double tortoise = r + 2 * std::log(std::max(r / 2 - 1, kLeast));
   return null_time + delay + (outgoing ? tortoise : -tortoise);
 }
 
