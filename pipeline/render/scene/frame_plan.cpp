@@ -30,7 +30,9 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
-  plan.disc = show.disc && !is_flat(o) && (o.region == Region::kI || inside);
+  // Who falls from region I has its light on the horizon itself, too.
+  const bool sees_one = inside || (o.region == Region::kII && !is_mirrored(o.tetrad));
+  plan.disc = show.disc && !is_flat(o) && (o.region == Region::kI || sees_one);
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);
