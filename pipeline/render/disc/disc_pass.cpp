@@ -7,6 +7,7 @@
 
 #include "pipeline/disc/disc_shift.h"
 #include "pipeline/render/disc/disc_pixels.h"
+#include "pipeline/render/disc/veil.h"
 #include "pipeline/render/rays/pixel_directions.h"
 #include "pipeline/render/scene/effect_ratios.h"
 
@@ -30,13 +31,21 @@ DiscImages images_for(const FrameScene& scene) {
           disc.pattern.has_value()};
 }
 
+// How far a rim is felt, in pixels.
+constexpr double kReach = 0.75;
+
 // The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes
 // from 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look
 // straight.
 double beyond(double distance) {
-  constexpr double kReach = 0.75;
   const double x = std::clamp(distance / (2 * kReach) + 0.5, 0.0, 1.0);
   return x * x * (3 - 2 * x);
+}
+// The inverse, for parts from 0 to 1.
+double distance_of(double part) {
+  if (part <= 0 || part >= 1) return part <= 0 ? -kReach : kReach;
+  if (part == 0.5) return 0;  // the middle of nearly all pixels
+  return -2 * kReach * std::sin(std::asin(1 - 2 * part) / 3);
 }
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -164,42 +173,58 @@ class DiscPass::Strip {
     return left;
   }
 
+  // What a pixel sees of an image: how far it is beyond the image's rims, in pixels, and the part of
+  // the pixel that is beyond each.
+  struct Share {
+    double low_distance, high_distance;
+    double from = 0, to = 0;
+  };
+
   // Adds the samples of a division, and returns what is left there of the light from behind.
   double look_at(const Pixels& pixels, int k, const Division& division) {
     const DiscImages& images = pass_.images_;
     const double p = pixels.label[k], per = pixels.label_per[k];
+    Veil<DiscImages::kOrders> veil;
     double left = 1;
     for (int order = 0; order < images.orders() && left > 1e-4; ++order) {
       if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
       const double turn = division.turn + order * pi;
       const DiscImages::Interval rims = images.interval(turn);
-      const double covered =
-          beyond((p - rims.low) / length(per, rims.low_slope * division.turn_per)) -
-          beyond((p - rims.high) / length(per, rims.high_slope * division.turn_per));
-      if (!(covered > 1e-5)) continue;
-      const double weight = left * disc_.opacity * covered;
-      left *= 1 - disc_.opacity * covered;
-      shade(pixels, k, division, turn, rims, weight * division.part);
+      Share share{(p - rims.low) / length(per, rims.low_slope * division.turn_per),
+                  (p - rims.high) / length(per, rims.high_slope * division.turn_per)};
+      share.to = beyond(share.low_distance);
+      share.from = beyond(share.high_distance);
+      if (!(share.to - share.from > 1e-5)) continue;
+      const double seen = veil.lay(share.from, share.to, disc_.opacity);
+      shade(pixels, k, division, turn, rims, share, seen * division.part);
+      left = veil.left();
     }
     return left;
   }
 
-  // The light of what a pixel sees of an image: the mean over its part of the interval.
+  // The light of what a pixel sees of an image: the mean over its part of the interval, with the
+  // weights by which the pixel sees it, so that all pixels together see each place once.
   void shade(const Pixels& pixels, int k, const Division& division, double turn,
-             const DiscImages::Interval& rims, double weight) {
-    const double p = pixels.label[k], half = pixels.label_per[k] / 2;
-    const double from = std::clamp(p - half, rims.low, rims.high),
-                 to = std::clamp(p + half, rims.low, rims.high);
+             const DiscImages::Interval& rims, const Share& share, double weight) {
     const double width = rims.high - rims.low;
+    // Rims may be slanted by different angles, but the middle of a pixel is where it is.
+    const double middle = (pixels.label[k] - rims.low) / width;
+    const auto part_at = [&](double covered) {
+      const double d = distance_of(covered), low = share.low_distance, high = share.high_distance;
+      const double u = !(middle > 0 && middle < 1) ? (low - d) / (low - high)
+                       : d > 0                     ? middle * (1 - d / low)
+                                                   : middle + (1 - middle) * d / high;
+      return std::clamp(u, 0.0, 1.0);
+    };
+    const double from = part_at(share.to), to = part_at(share.from);
     constexpr double kPart = 0.06;
     constexpr int kMost = 16;
-    const int count =
-        std::clamp(static_cast<int>(std::ceil((to - from) / (kPart * width))), 1, kMost);
+    const int count = std::clamp(static_cast<int>(std::ceil((to - from) / kPart)), 1, kMost);
     for (int n = 0; n < count; ++n) {
-      const double label = from + (to - from) * (n + 0.5) / count;
-      const double u = (label - rims.low) / width;
+      const double u = part_at(share.to + (share.from - share.to) * (n + 0.5) / count);
+      const double label = rims.low + u * width;
       put(pixels, k, division, turn, label, u, weight / count);
-      if (pass_.pattern_) note_place(pixels, k, division, turn, u, (to - from) / (count * width));
+      if (pass_.pattern_) note_place(pixels, k, division, turn, u, (to - from) / count);
       if (count_ == kBlock) flush();
     }
   }
