@@ -1,0 +1,206 @@
+// Single pixels of discs against the rays that end in them, followed step by step.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "pipeline/colour/blackbody.h"
+#include "pipeline/report/reference/reference_disc.h"
+#include "tests/pipeline/render/disc/disc_views.h"
+#include "tests/sanitized.h"
+
+namespace domefall {
+namespace {
+
+Vector3 array_of(const V3d& v) { return {v.x, v.y, v.z}; }
+
+// The disc as one direction of view shows it, without the tables that pictures are made from.
+class FollowedDisc {
+ public:
+  FollowedDisc(const Show& show, const FrameState& state)
+      : state_(state), disc_(*show.disc), scale_(disc_.luminance / luminance_of(disc_.t_max_k)) {
+    const ObserverState& o = state.observer;
+    view_ = {o.r,
+             is_outgoing(o.tetrad),
+             array_of(o.celerity),
+             array_of(apply_transposed(o.sky_from_tetrad, disc_.normal.v)),
+             disc_.inner,
+             disc_.outer,
+             disc_.plunging};
+  }
+
+  struct Sight {
+    int orders = 0;  // a bit for each image
+    double nits = 0;
+  };
+  Sight at(const PixelPosition& pixel) const {
+    const V3d n =
+        apply(state_.observer.tetrad_from_camera, direction_at(state_.projection, pixel).v);
+    Sight sight;
+    double left = 1;
+    for (const ReferenceDiscPlace& place : reference_disc(view_, array_of(n))) {
+      sight.orders |= 1 << place.order;
+      const double t = disc_.t_max_k * place.temperature / place.one_plus_z;
+      sight.nits += left * disc_.opacity * scale_ * luminance_of(t);
+      left *= 1 - disc_.opacity;
+    }
+    return sight;
+  }
+
+ private:
+  static double luminance_of(double temperature) {
+    return temperature > 500 ? blackbody_xyz(temperature).y : 0;
+  }
+
+  const FrameState& state_;
+  Disc disc_;
+  double scale_;
+  ReferenceDiscView view_;
+};
+
+Disc disc_from(double inner, double outer, double opacity, bool plunging = false) {
+  Disc disc;
+  disc.inner = inner;
+  disc.outer = outer;
+  disc.opacity = opacity;
+  disc.plunging = plunging;
+  return disc;
+}
+
+// Outside, between the images, next to the light circle, inside both horizons, at rest, in free
+// fall and fast, above the plane, close to it and within.
+std::vector<DiscView> twenty_views() {
+  constexpr Region kI = Region::kI, kII = Region::kII;
+  constexpr Tetrad kRain = Tetrad::kRain, kOut = Tetrad::kOutgoing;
+  std::mt19937 random(11);
+  std::vector<DiscView> views;
+  const Disc usual = disc_from(6, 20, 1), thin = disc_from(6, 20, 0.5);
+  for (const double degrees : {80.0, 30.0, 10.0, 1.0})
+    views.push_back({{kI, kRain, 60, celerity_of_rest(60)}, normal_seen_from(degrees), usual});
+  for (const double r : {15.0, 9.0, 6.5})
+    views.push_back({{kI, kRain, r, celerity_of_rest(r)}, normal_seen_from(20), thin});
+  // Who is amid the gas, in the plane to rounding, may be on either side of it.
+  views.push_back({{kI, kRain, 15, celerity_of_rest(15)}, normal_seen_from(0.05), usual});
+  views.push_back({{kI, kRain, 4, celerity_of_rest(4)}, normal_seen_from(0), usual});
+  for (const double r : {4.0, 3.0, 2.5, 2.05})
+    views.push_back({{kI, kRain, r, V3d(0, 0, 0)}, random_direction(random), thin});
+  const Disc falling = disc_from(2.5, 12, 0.7, true);
+  for (const double r : {1.9, 1.0, 0.4})
+    views.push_back({{kII, kRain, r, V3d(0, 0, 0)}, random_direction(random), falling});
+  views.push_back({{kI, kRain, 12, V3d(0.4, -0.2, 0.5)}, V3d(0.3, -1, 0), usual});
+  views.push_back({{kI, kRain, 10, V3d(3, 1, -2)}, V3d(0.2, -1, 0), disc_from(6, 30, 0.6)});
+  views.push_back({{kI, kOut, 10, V3d(-0.5, 0.3, 0.1)}, V3d(0.7, 0.7, 0.1), usual});
+  views.push_back({{kI, kOut, 2.5, V3d(0.1, 0, 0.2)}, V3d(-0.5, 0.7, 0.1), falling});
+  return views;
+}
+
+// How near to each other these are, whatever is 0.
+double ratio(double a, double b) { return std::min(a, b) / std::max({a, b, 1e-300}); }
+
+TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
+  std::mt19937 random(3);
+  const std::vector<DiscView> views = twenty_views();
+  ASSERT_EQ(views.size(), 20u);
+  int compared = 0, from_beneath = 0, dark = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const double fov = views[v].at.r > 30 ? 44 : 140;
+    const Show show = disc_show(views[v], Stereographic{120, 80, fov * kDegree});
+    const FrameState state = frame_state(show, 0);
+    const FollowedDisc followed(show, state);
+    const FloatImage frame = render_floats(show);
+    const double scale = exposure_scale(state.settings);
+    for (int k = 0; k < tries(24, 6); ++k) {
+      const int column = static_cast<int>(random() % 120), row = static_cast<int>(random() % 80);
+      const PixelPosition middle{column + 1.0, row + 1.0};
+      const FollowedDisc::Sight centre = followed.at(middle);
+      double corners = 0, evenness = 1;
+      bool same = true;
+      for (const double i : {-0.5, 0.5})
+        for (const double j : {-0.5, 0.5}) {
+          const FollowedDisc::Sight corner = followed.at({middle.i + i, middle.j + j});
+          same = same && corner.orders == centre.orders;
+          evenness = std::min(evenness, ratio(corner.nits, centre.nits));
+          corners += corner.nits / 4;
+        }
+      const double seen = luminance(pixel_at(frame, column, row)) / scale;
+      SCOPED_TRACE(testing::Message() << "view " << v << ", pixel " << column << ", " << row);
+      EXPECT_GE(seen, 0);
+      // Rims and thin rings are judged by the light of whole pictures (disc_light_test.cpp).
+      if (!same || (centre.orders != 0 && evenness < 0.7)) continue;
+      if (centre.orders == 0) {
+        // What is left may be a ring that no corner meets.
+        EXPECT_LT(seen, 0.3 * show.disc->luminance);
+        dark += seen == 0;
+        continue;
+      }
+      // Simpson's rule in two dimensions.  A pixel also sees a little of its neighbours, and these
+      // pixels are more than a degree wide.
+      const double mean = (2 * centre.nits + corners) / 3;
+      EXPECT_NEAR(seen / mean, 1, 0.02 + 0.1 * (1 - evenness)) << centre.nits;
+      ++compared;
+      from_beneath += centre.orders > 1;
+    }
+  }
+  EXPECT_GT(compared, tries(100, 20));
+  EXPECT_GT(from_beneath, tries(3, 0));
+  EXPECT_GT(dark, tries(40, 8));
+}
+
+// Who is the same observer sees the same, whichever frame the motion is given against.
+TEST(DiscPixels, AreTheSameInBothFramesOfReference) {
+  const Disc disc = disc_from(6, 20, 0.8);
+  for (const double r : {12.0, 3.5}) {
+    const V3d rest = celerity_of_rest(r);
+    const Projection projection = Equirectangular{128};
+    const DiscView falling{{Region::kI, Tetrad::kRain, r, rest}, normal_seen_from(25), disc};
+    const DiscView rising{{Region::kI, Tetrad::kOutgoing, r, -rest}, normal_seen_from(25), disc};
+    const FloatImage a = render_floats(disc_show(falling, projection)),
+                     b = render_floats(disc_show(rising, projection));
+    float brightest = 0;
+    for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+      EXPECT_NEAR(a.pixels[k], b.pixels[k], 2e-3f * a.pixels[k] + 1e-4f) << r << " " << k;
+      brightest = std::max(brightest, a.pixels[k]);
+    }
+    EXPECT_GT(brightest, 0.5f);
+  }
+}
+
+// A disc of region I sends no light to region III, and none to region IV.
+TEST(DiscPixels, AreDarkWhereTheDiscIsNotSeen) {
+  const Disc disc = disc_from(6, 20, 1);
+  const std::vector<GivenVelocity> observers{
+      {Region::kIII, Tetrad::kRainOfThree, 9, V3d(0.1, 0, 0.3)},
+      {Region::kIV, Tetrad::kOutgoing, 1.2, V3d(0, 0.2, 0)}};
+  for (const GivenVelocity& at : observers) {
+    const FloatImage frame = render_floats(
+        disc_show({at, normal_seen_from(30), disc}, Stereographic{48, 32, 150 * kDegree}));
+    for (const float value : frame.pixels) ASSERT_EQ(value, 0) << region_name(at.region);
+  }
+}
+
+// Who rests in t between the horizons is as far from region I as from III, and may be said to have
+// fallen from either.
+TEST(DiscPixels, AreTheSameToWhoIsSaidToFallFromTheOtherSide) {
+  constexpr double kR = 0.8;
+  const V3d rest(1 / std::sqrt(2 / kR - 1), 0, 0);
+  const auto light = [&](Tetrad tetrad) {
+    const Show show =
+        disc_show({{Region::kII, tetrad, kR, rest}, V3d(0.4, -1, 0), disc_from(6, 20, 1)},
+                  Equirectangular{256});
+    return illuminance(show, render_floats(show));
+  };
+  const double rain = light(Tetrad::kRain);
+  EXPECT_GT(rain, 0);
+  EXPECT_NEAR(light(Tetrad::kRainOfThree) / rain, 1, 1e-2);  // of pixels of 1.4 degrees
+}
+
+TEST(DiscPixels, AreTheSameBytesForAnyNumberOfThreads) {
+  const Show show = disc_show({{Region::kI, Tetrad::kRain, 9, V3d(0.2, 0.1, 0.4)},
+                               normal_seen_from(3),
+                               disc_from(6, 20, 0.9)},
+                              Domemaster{tries(160, 64)});
+  const FloatImage alone = render_floats(show, 1);
+  for (const int threads : {2, 5}) EXPECT_EQ(alone.pixels, render_floats(show, threads).pixels);
+}
+
+}  // namespace
+}  // namespace domefall
