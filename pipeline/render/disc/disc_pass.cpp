@@ -97,7 +97,7 @@ class DiscPass::Strip {
 
   // Draws on the pixels whose first one is rgb[3].
   void draw(const Pixels& pixels, int count, float* rgb) {
-    light_.fill(WorkingRgb(0, 0, 0));
+    light_.fill(WorkingRgb{0, 0, 0});
     for (int k = 0; k < count; ++k) {
       left_[static_cast<std::size_t>(k)] = 1;
       if (pixels.energy[k] > 0) look(pixels, k);
