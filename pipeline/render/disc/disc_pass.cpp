@@ -173,11 +173,9 @@ class DiscPass::Strip {
     return left;
   }
 
-  // What a pixel sees of an image: how far it is beyond the image's rims, in pixels, and the part of
-  // the pixel that is beyond each.
+  // The parts of a pixel that are beyond an image's inner rim, and beyond its outer one.
   struct Share {
-    double low_distance, high_distance;
-    double from = 0, to = 0;
+    double from, to;
   };
 
   // Adds the samples of a division, and returns what is left there of the light from behind.
@@ -190,10 +188,8 @@ class DiscPass::Strip {
       if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
       const double turn = division.turn + order * pi;
       const DiscImages::Interval rims = images.interval(turn);
-      Share share{(p - rims.low) / length(per, rims.low_slope * division.turn_per),
-                  (p - rims.high) / length(per, rims.high_slope * division.turn_per)};
-      share.to = beyond(share.low_distance);
-      share.from = beyond(share.high_distance);
+      const Share share{beyond((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
+                        beyond((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
       if (!(share.to - share.from > 1e-5)) continue;
       const double seen = veil.lay(share.from, share.to, disc_.opacity);
       shade(pixels, k, division, turn, rims, share, seen * division.part);
@@ -207,14 +203,13 @@ class DiscPass::Strip {
   void shade(const Pixels& pixels, int k, const Division& division, double turn,
              const DiscImages::Interval& rims, const Share& share, double weight) {
     const double width = rims.high - rims.low;
-    // Rims may be slanted by different angles, but the middle of a pixel is where it is.
-    const double middle = (pixels.label[k] - rims.low) / width;
+    // How much of the interval a pixel's reach is.  It is slanted as the rims are, the more the nearer
+    // it is to either.
+    const double middle = (pixels.label[k] - rims.low) / width, near = std::clamp(middle, 0.0, 1.0);
+    const double slope = rims.low_slope + (rims.high_slope - rims.low_slope) * near;
+    const double per = length(pixels.label_per[k], slope * division.turn_per) / width;
     const auto part_at = [&](double covered) {
-      const double d = distance_of(covered), low = share.low_distance, high = share.high_distance;
-      const double u = !(middle > 0 && middle < 1) ? (low - d) / (low - high)
-                       : d > 0                     ? middle * (1 - d / low)
-                                                   : middle + (1 - middle) * d / high;
-      return std::clamp(u, 0.0, 1.0);
+      return std::clamp(middle - distance_of(covered) * per, 0.0, 1.0);
     };
     const double from = part_at(share.to), to = part_at(share.from);
     constexpr double kPart = 0.06;
