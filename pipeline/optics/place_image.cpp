@@ -1,0 +1,121 @@
+#include "pipeline/optics/place_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/optics/emission_time.h"
+#include "pipeline/optics/exact_azimuth.h"
+#include "pipeline/optics/ray_times.h"
+
+namespace domefall {
+namespace {
+
+// Rays of the view by z: tan(alpha/2) = T exp(+-exp(z)), T that of the edge, on its outer side, where
+// the sky is, or on its inner side.
+class RayFan {
+ public:
+  explicit RayFan(const PlaceView& view)
+      : view_(view),
+        edge_(view.outgoing || view.far ? Critical::kSecond : Critical::kFirst),
+        outer_(edge_ == Critical::kFirst ? 1 : -1),
+        tangent_(tan_half_critical(view.at, edge_)) {}
+
+  NullRay critical() const { return ray_of_ratio(view_.at, edge_, 0, view_.outgoing); }
+  NullRay ray(double z, bool outside) const {
+    constexpr double kNear = 0.5;
+    const double y = (outside ? outer_ : -outer_) * std::exp(z);
+    if (std::abs(y) < kNear) return ray_of_ratio(view_.at, edge_, std::expm1(y), view_.outgoing);
+    return ray_of_tangent(view_.at, tangent_ * std::exp(y), view_.outgoing);
+  }
+  // Where z ends: next to the axis or, from region II, on the inner side, where E = 0.
+  double range(bool outside) const {
+    constexpr double kAxis = 6.4;
+    if (outside || view_.at.above_horizon > 0) return kAxis;
+    const double s = std::sqrt(2 / view_.at.r);
+    const double without_energy = -view_.at.above_horizon / (view_.at.r * (1 + s) * (1 + s));
+    return std::log(std::abs(std::log(std::sqrt(without_energy) / tangent_)));
+  }
+  // The sense of alpha in which r grows.
+  double outer() const { return outer_; }
+
+ private:
+  PlaceView view_;
+  Critical edge_;
+  double outer_, tangent_;
+};
+
+double r_after(const NullRay& ray, double psi, double* slope = nullptr) {
+  RayOrbits orbits;
+  orbits.set(ray.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},
+             1);
+  RayPlaces places;
+  orbits.find(&psi, places);
+  if (slope) *slope = places.slope[0];
+  return places.r[0];
+}
+
+double null_time_after(const NullRay& ray, double psi) {
+  RayOrbits orbits;
+  orbits.set(ray.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},
+             1);
+  RayPlaces places;
+  orbits.find(&psi, places);
+  double time = 0;
+  RayTimes(orbits).find(&psi, places, &time);
+  return time;
+}
+
+// |dr/dalpha| at a fixed psi: by a four-point difference of 1/r, over a step in which r changes by a
+// hundredth, so that no ray ends before it has swept psi.
+double growth(const NullRay& ray, double psi, double r, double outer) {
+  constexpr double kTrial = 1e-6, kSmall = 1e-3, kShare = 1e-2;
+  const double smooth = smooth_over(ray);
+  const auto w = [&](double angle) { return 1 / r_after(turned(ray, outer * angle), psi); };
+  const double trial = std::abs(w(-kTrial * smooth) * r - 1) / (kTrial * smooth);
+  const double h = std::min(kSmall * smooth, kShare / trial);
+  return r * r * std::abs(8 * (w(h) - w(-h)) - (w(2 * h) - w(-2 * h))) / (12 * h);
+}
+
+// Along the axis itself light diverges as in flat space, by its affine parameter: r/|E|.
+PlaceImage radial_image(const PlaceView& view, double r) {
+  const bool outwards = r > view.at.r, to_home = outwards && !view.far;
+  const double tangent = to_home != view.outgoing ? std::numeric_limits<double>::infinity() : 0;
+  const NullRay ray = ray_of_tangent(view.at, tangent, view.outgoing);
+  const double apart = (r - view.at.r) / one_plus_z(ray);
+  // Light that falls from region I keeps v, all other u.
+  const double twice = to_home != view.outgoing ? 0 : 2 * (tortoise(r) - tortoise(view.at));
+  return {ray, 0, view.outgoing ? -twice : twice, 1 / (apart * apart)};
+}
+
+}  // namespace
+
+std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double psi, double blur) {
+  constexpr double kRadial = 1e-9;
+  if (view.outgoing && view.at.above_horizon <= 0) return std::nullopt;
+  if (psi < kRadial) return radial_image(view, r);
+  const RayFan fan(view);
+  const bool outside = r_after(fan.critical(), psi) < r;
+  // Towards the edge r tends to that of the critical ray, away from it to its limit on that side.
+  double low = -45, high = fan.range(outside);
+  const auto is_beyond = [&](double z) {
+    const double there = r_after(fan.ray(z, outside), psi);
+    return outside ? there > r : there < r;
+  };
+  if (!is_beyond(high) || is_beyond(low)) return std::nullopt;
+  for (int step = 0; step < 100; ++step) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (is_beyond(middle) ? high : low) = middle;
+  }
+  PlaceImage image{fan.ray((low + high) / 2, outside), 0, 0, 0};
+  const double there = r_after(image.ray, psi, &image.slope);
+  if (!(std::abs(there / r - 1) < 1e-6)) return std::nullopt;  // no ray is there: it jumps
+  image.null_time = null_time_after(image.ray, psi);
+  const double sine = std::hypot(std::sin(psi), blur);
+  image.solid_angle_per_area =
+      one_plus_z(image.ray) / (view.at.r * sine * growth(image.ray, psi, r, fan.outer()));
+  return image;
+}
+
+}  // namespace domefall

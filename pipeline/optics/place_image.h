@@ -1,0 +1,38 @@
+// The image of a place near the hole: the ray that passes r after having swept psi, which is one for
+// each psi, since at a fixed psi r grows with the ray's angle from the hole throughout, across the
+// silhouette's edge too.
+#pragma once
+
+#include <optional>
+
+#include "pipeline/optics/null_ray.h"
+
+namespace domefall {
+
+// From where places are seen, by an observer in free fall; `far`: from region II into region III
+// (rain, r < 2), else into region I.
+struct PlaceView {
+  Radius at;
+  bool outgoing = false;
+  bool far = false;
+};
+
+struct PlaceImage {
+  NullRay ray;
+  double slope;      // dr/dpsi, signed
+  double null_time;  // ray_times.h
+  // Solid angle at the observer per area at right angles to the light at the place, which is the
+  // same for whoever moves there, units of M^-2: |E|/(r_o |sin psi dr/dalpha|), where r_o is the
+  // observer's r.  On the axis, where a point would be a ring, |sin psi| counts as `blur` at least.
+  double solid_angle_per_area;
+};
+
+// The place is at 2 < r < infinity and psi >= 0 radians from the observer's radial direction, in the
+// sense of the ray; psi of the n-th image is psi, 2 pi - psi, 2 pi + psi and so on.  None where no
+// ray gets there: in region IV, and from region II to places below r = 3 beyond some turns.  blur:
+// radians, >= 0.
+// Measured: the ray comes back to the place within 1e-12 of r beside what 1e-15 in psi makes of it,
+// and the solid angle is within 1e-7 of that between rays to places nearby.
+std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double psi, double blur);
+
+}  // namespace domefall
