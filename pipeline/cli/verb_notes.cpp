@@ -129,7 +129,7 @@ std::vector<VerbNotes> notes_of_numbers() {
        "show-format.md"},
       {"probe",
        "Traces the ray of one pixel and tells where its light comes from, how it was\n"
-       "shifted and amplified, and which stars have an image there.",
+       "shifted and amplified, and which stars and bodies have an image there.",
        {{"domefall probe fall.yaml --at 0:10 --pixel 512,300", "at 10 s, 300 rows from the top"}},
        "show-format.md"},
       {"trace",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/cli/bodies_at_pixel.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/json_number.h"
 #include "pipeline/cli/option_types.h"
@@ -48,6 +49,7 @@ struct Probed {
   PixelPosition pixel;
   ViewRay ray;
   std::vector<StarAtPixel> stars;
+  std::vector<BodyAtPixel> bodies;
 
   bool inside() const { return is_inside(state.projection, pixel); }
   double width() const { return pixel_angle(state.projection, pixel); }
@@ -84,6 +86,10 @@ void print_text(const Probed& p) {
     std::printf("star         %s, V %.2f seen as %.2f, image %d at %.2f,%.2f\n", name.c_str(),
                 star.v, star.seen_v, star.order, star.at.i, star.at.j);
   }
+  for (const BodyAtPixel& body : p.bodies)
+    std::printf("body         %s, at %.6g M, 1 + z %.6g, seen as V %.2f, image %d at %.2f,%.2f\n",
+                body.name.c_str(), body.r, 1 / body.frequency_ratio, body.seen_v, body.order,
+                body.at.i, body.at.j);
 }
 
 ProbeJson json_of_star(const StarAtPixel& star) {
@@ -95,6 +101,15 @@ ProbeJson json_of_star(const StarAtPixel& star) {
           {"seen_v", json_number(star.seen_v)},
           {"order", star.order},
           {"pixel", {json_number(star.at.i), json_number(star.at.j)}}};
+}
+
+ProbeJson json_of_body(const BodyAtPixel& body) {
+  return {{"name", body.name},
+          {"r", json_number(body.r)},
+          {"one_plus_z", json_number(1 / body.frequency_ratio)},
+          {"seen_v", json_number(body.seen_v)},
+          {"order", body.order},
+          {"pixel", {json_number(body.at.i), json_number(body.at.j)}}};
 }
 
 // Light from the singularity has no redshift, no order and no amplification.
@@ -134,6 +149,9 @@ void print_json(const Probed& p) {
   add_shift(p, json);
   json["stars"] = ProbeJson::array();
   for (const StarAtPixel& star : p.stars) json["stars"].push_back(json_of_star(star));
+  // A show without bodies has no such key.
+  if (!p.show.bodies.empty()) json["bodies"] = ProbeJson::array();
+  for (const BodyAtPixel& body : p.bodies) json["bodies"].push_back(json_of_body(body));
   // A catalogue's names need not be UTF-8.
   std::puts(json.dump(2, ' ', false, ProbeJson::error_handler_t::replace).c_str());
 }
@@ -147,7 +165,12 @@ void probe(const Options& o) {
       make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}});
   const ViewRay ray =
       ViewTracer(state, optics, show.effects).trace(direction_at(state.projection, pixel));
-  const Probed probed{show, state, pixel, ray, stars_at_pixel(show, state, pixel)};
+  const Probed probed{show,
+                      state,
+                      pixel,
+                      ray,
+                      stars_at_pixel(show, state, pixel),
+                      bodies_at_pixel(show, state, pixel)};
   o.json ? print_json(probed) : print_text(probed);
 }
 

@@ -140,8 +140,8 @@ class StarsEnd {
 
 template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const DiscPass* disc, const std::optional<SkyBorders>& borders, BandMemory& memory,
-                ImageRgb<T>& frame) {
+                const DiscPass* disc, const std::optional<SkyBorders>& borders,
+                const BlobLayer* bodies, BandMemory& memory, ImageRgb<T>& frame) {
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
   const bool lit = scene.plan.has_background();
   const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
@@ -161,6 +161,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
     stars.draw_band(band, splats, rgb.data());
     if (stars_end) stars_end->end_stars(rgb.data());
     if (disc) disc->draw_rows(first, end, rgb.data());
+    if (bodies) bodies->draw_band(band, splats, rgb.data());
     for (int row = first; row < end; ++row)
       store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
                 inside_columns(scene.projection(), row), frame);
@@ -178,8 +179,10 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
 }
 
 template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&, const DiscPass*,
-                         const std::optional<SkyBorders>&, BandMemory&, HalfFrame&);
+                         const std::optional<SkyBorders>&, const BlobLayer*, BandMemory&,
+                         HalfFrame&);
 template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&, const DiscPass*,
-                         const std::optional<SkyBorders>&, BandMemory&, FloatImage&);
+                         const std::optional<SkyBorders>&, const BlobLayer*, BandMemory&,
+                         FloatImage&);
 
 }  // namespace domefall

@@ -31,14 +31,14 @@ struct BandMemory {
   }
 };
 
-// Draws skies and stars, and the disc before them unless it is null, into a frame of the
-// projection's size, by all threads of the arena that calls.  Where there are borders, stars end at
-// them.  In a half frame, a value beyond the largest
+// Draws skies and stars, the disc before them and bodies over all, unless these are null, into a
+// frame of the projection's size, by all threads of the arena that calls.  Where there are borders,
+// stars end at them, and bodies do not.  In a half frame, a value beyond the largest
 // half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming the
 // pixel, if a value is not finite, and RenderStopped once `stop` is set.
 template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const DiscPass* disc, const std::optional<SkyBorders>& borders, BandMemory& memory,
-                ImageRgb<T>& frame);
+                const DiscPass* disc, const std::optional<SkyBorders>& borders,
+                const BlobLayer* bodies, BandMemory& memory, ImageRgb<T>& frame);
 
 }  // namespace domefall

@@ -95,6 +95,12 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_effects(common, show.effects);
   add_disc(common, show.disc);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
+  for (const Body& body : show.bodies) {
+    common.add("body");
+    for (const V3d& v : {body.normal.v, body.node.v})
+      for (const double x : {v.x, v.y, v.z}) common.add(steady(x));
+    for (const double x : {body.r, body.azimuth, body.temperature, body.magnitude}) common.add(x);
+  }
   if (keeps_floats(show)) common.add("float");
   common_ = common.hex();
   Digest three;
@@ -162,6 +168,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
     for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
+  if (!show_.bodies.empty()) digest.add("bodies").add(steady(o.null_time));
   if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity)) digest.add(steady(o.null_time));
   if (show_.disc && show_.disc->pattern) digest.add("pattern").add(steady(o.null_time));
   if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())

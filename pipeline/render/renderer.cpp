@@ -12,6 +12,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/frame_bands.h"
+#include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/frame_stars.h"
 #include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
@@ -220,7 +221,12 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
       borders.emplace(state, optics, scene.tracer.vantage());
       if (!borders->usable()) borders.reset();
     }
-    times.images = stars.size() - unresolved.blobs.size();
+    std::optional<BlobLayer> bodies;
+    if (!show_.bodies.empty()) {
+      bodies.emplace(state.projection);
+      lay_bodies(show_, scene, *bodies);
+    }
+    times.images = stars.size() - unresolved.blobs.size() + (bodies ? bodies->size() : 0);
     times.stars_s = watch.lap();
     memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
@@ -230,7 +236,8 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     if (scene.disc) disc.emplace(scene);
     times.disc_s = watch.lap();
     memory_->bands.throw_if_stopped();
-    draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, memory_->bands, frame);
+    draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, bodies ? &*bodies : nullptr,
+               memory_->bands, frame);
     memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();
   });

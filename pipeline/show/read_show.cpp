@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/show/bodies_section.h"
 #include "pipeline/show/camera_track.h"
 #include "pipeline/show/disc_section.h"
 #include "pipeline/show/effects_section.h"
@@ -44,11 +45,12 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 }
 
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
-  const Section section(
-      root,
-      {"title",     "frames_per_second", "size",      "black_hole", "timeline", "camera", "cameras",
-       "keyframes", "markers",           "fade_in_s", "fade_out_s", "effects",  "sky",    "stars",
-       "disc",      "exposure",          "grade",     "dome",       "titles",   "output"});
+  const Section section(root,
+                        {"title",      "frames_per_second", "size",      "black_hole", "timeline",
+                         "camera",     "cameras",           "keyframes", "markers",    "fade_in_s",
+                         "fade_out_s", "effects",           "sky",       "stars",      "disc",
+                         "bodies",     "exposure",          "grade",     "dome",       "titles",
+                         "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
@@ -57,6 +59,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.markers = read_markers(section);
   show.fades = read_fades(section);
   read_black_hole(section, lookup, show);
+  show.bodies = read_bodies(section, show);
   const ShowCamera camera = read_show_camera(section, lookup);
   show.projection = camera.projection;
   read_stars(section, show);

@@ -15,6 +15,7 @@
 #include "pipeline/image/encode/exr_compression.h"
 #include "pipeline/image/graded_format.h"
 #include "pipeline/lettering/lettering.h"
+#include "pipeline/show/body.h"
 #include "pipeline/show/camera.h"
 #include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
@@ -249,6 +250,7 @@ struct Show {
   // its start.  Whoever moves or alters a segment clears them.
   std::vector<Joint> joints;
   PerSky<RegionSky> sky;  // that of region IV, the past singularity, has no stars and no redshift
+  std::vector<Body> bodies;
   // The Julian year for whose places stars are drawn, if their catalogue knows their proper motion.
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;

@@ -223,7 +223,12 @@ bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
     };
     return append_arc(star, arc_of(*table_, source, order, radius_of(star), spacing), images);
   }
-  const Received received = receive(star, image(star, source, order));
+  return append_image(star, image(star, source, order), images);
+}
+
+bool StarImageFinder::append_image(const SceneStar& star, const SkyImage& image,
+                                   std::vector<StarImage>& images) const {
+  const Received received = receive(star, image);
   if (!(received.peak > kFaintestPeak)) return false;
   if (received.placed) images.push_back(received.image);
   return true;

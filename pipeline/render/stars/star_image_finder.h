@@ -37,6 +37,11 @@ class StarImageFinder {
   // inverts the table, which is exact and slow.
   void append(const SceneStar& catalogued, std::vector<StarImage>& images) const;
 
+  // Appends one image, found elsewhere, of a star as it is.  Returns whether it is bright enough,
+  // even if it is beside the frame.
+  bool append_image(const SceneStar& star, const SkyImage& image,
+                    std::vector<StarImage>& images) const;
+
   // The number of the stars, counted from the first, that may be bright enough by their magnitudes
   // and fluxes.
   std::size_t count(const SceneStars& stars) const;

@@ -15,11 +15,11 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, disc, "
-       "exposure, grade, dome, titles or output), got a list"},
+       "bodies, exposure, grade, dome, titles or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, disc, "
-       "exposure, grade, dome, titles or output), got 'hello'"},
+       "bodies, exposure, grade, dome, titles or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
@@ -82,7 +82,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "timeline, camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, "
-       "disc, exposure, grade, dome, titles or output"},
+       "disc, bodies, exposure, grade, dome, titles or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",

@@ -73,6 +73,7 @@ TEST_F(ShowFormat, EveryKeyIsInTheManual) {
   expect_described("timeline: [{qqq: 1}]\n");
   expect_described("grade: {cdl: {qqq: 1}}\n");
   expect_described("sky: {region_I: {qqq: 1}}\n");
+  expect_described("bodies: {beacon: {qqq: 1}}\n");
   expect_described("black_hole: {at: {qqq: 1}}\n");
   for (const char* type : {"infall", "circular", "static", "velocity", "parabolic", "hyperbolic",
                            "bound", "thrown", "kruskal", "path"})

@@ -1,0 +1,38 @@
+#include "pipeline/cli/bodies_at_pixel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/cli/stars_at_pixel.h"
+#include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/scene/point_spread.h"
+
+namespace domefall {
+
+std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& state,
+                                         PixelPosition pixel) {
+  constexpr double kReach = 3.5;  // sigmas, to which the smallest blob reaches
+  const double reach = kReach * PointSpread(show.point_spread, state.projection, 1).least();
+  const V3d towards = direction_at(state.projection, pixel).v;
+  const BodySight sight(show, state);
+  std::vector<BodyAtPixel> found;
+  if (!sight.sees()) return found;
+  for (const Body& body : show.bodies) {
+    int faint = 0;
+    for (int order = 0; order < BodySight::kMostOrders && faint < BodySight::kFaintOrders;
+         ++order) {
+      const auto image = sight.image(body, order);
+      if (!image) break;
+      const BodySight::Seen seen = sight.seen(image->at);
+      const double magnitude = body.magnitude - 2.5 * std::log10(seen.brightening);
+      faint = magnitude > kFaintestSeen ? faint + 1 : 0;
+      const auto at = pixel_of(state.projection, seen.direction);
+      if (faint > 0 || !at || (seen.direction.v - towards).length() > reach) continue;
+      found.push_back({body.name, image->r, magnitude, seen.frequency_ratio, order, *at});
+    }
+  }
+  std::ranges::stable_sort(found, {}, &BodyAtPixel::seen_v);
+  return found;
+}
+
+}  // namespace domefall

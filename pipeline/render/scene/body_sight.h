@@ -1,0 +1,51 @@
+// Where one observer sees the images of a show's bodies: for the renderer, and for questions about
+// single ones.
+#pragma once
+
+#include <optional>
+
+#include "pipeline/optics/body_image.h"
+#include "pipeline/optics/hole_optics.h"
+#include "pipeline/render/scene/scene_stars.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/vantage.h"
+
+namespace domefall {
+
+class BodySight {
+ public:
+  // The show and the state must outlive this.
+  BodySight(const Show& show, const FrameState& state);
+
+  // Whether bodies, which are in region I, are seen at all.
+  bool sees() const;
+
+  // As many orders as are looked for at most, and so many in succession that are too faint end the
+  // search: each second one is fainter by e^(-2 pi), and either side of the hole may be bright.
+  static constexpr int kMostOrders = 24, kFaintOrders = 3;
+
+  // The star that has the body's light at kBodyMagnitudeDistance.
+  static SceneStar star_of(const Body& body);
+
+  // The image of an order in the tetrad; its amplification is over the light of that star.
+  struct Image {
+    SkyImage at;
+    double r;  // of the body when the light left it, M
+  };
+  std::optional<Image> image(const Body& body, int order) const;
+
+  // The same for the camera, with the flux over that star's as the renderer draws it, and the
+  // frequency ratio that is measured.
+  struct Seen {
+    CameraDirection direction;
+    double brightening, frequency_ratio;
+  };
+  Seen seen(const SkyImage& image) const;
+
+ private:
+  const Show& show_;
+  const ObserverState& observer_;
+  Vantage vantage_;
+};
+
+}  // namespace domefall

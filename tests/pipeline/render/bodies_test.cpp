@@ -1,0 +1,124 @@
+// Bodies near the hole as frames show them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/optics/body_image.h"
+#include "pipeline/render/frame_key.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+// A static observer at r, who looks at the hole with 40 degrees of view, and one body in the plane
+// of the first orbit; the picture is small in angle, so that light adds up by pixels.
+Show show_with(double r, const Body& body) {
+  Show show = show_of(StaticObserver{r}, Stereographic{201, 201, 40 * kDegree});
+  show.mass_solar = 4e6;
+  show.timeline[0].camera.attitude = LookAtHole{};
+  show.point_spread.min_sigma = 0.6 * kDegree;
+  show.point_spread.max_sigma = 1 * kDegree;
+  show.exposure.ev = 0;
+  Body placed = body;
+  const FrameState state = frame_state(show, 0);
+  placed.node = {column(state.observer.sky_from_tetrad, 0)};
+  placed.normal = {-column(state.observer.sky_from_tetrad, 1)};
+  show.bodies = {placed};
+  return show;
+}
+
+FloatImage picture(const Show& show) {
+  Renderer renderer(show, 1);
+  FloatImage frame;
+  renderer.render(frame_state(show, 0), frame);
+  return frame;
+}
+
+struct Light {
+  double sum = 0, x = 0, y = 0;  // of green, and its middle in pixels from that of the picture
+};
+Light light_of(const FloatImage& frame) {
+  Light light;
+  for (int row = 0; row < frame.height; ++row)
+    for (int column = 0; column < frame.width; ++column) {
+      const double green = frame.row(row)[3 * column + 1];
+      light.sum += green;
+      light.x += green * (column - (frame.width - 1) / 2.0);
+      light.y += green * (row - (frame.height - 1) / 2.0);
+    }
+  light.x /= light.sum;
+  light.y /= light.sum;
+  return light;
+}
+
+Body body_at(double r, double azimuth, double magnitude) {
+  Body body;
+  body.r = r;
+  body.azimuth = azimuth;
+  body.magnitude = magnitude;
+  return body;
+}
+
+// The azimuth at v = 0 of a body that is seen at the azimuth `seen`: it goes on meanwhile.
+double azimuth_seen_at(double r, double seen, double observer) {
+  const double rate = std::pow(r, -1.5);
+  const auto place = image_of_place({observer, false, false}, r, seen, 0);
+  return seen - rate * place->null_time;
+}
+
+TEST(Bodies, InFrontOfTheHoleAreSeenAgainstIt) {
+  const Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.02, 30), -20));
+  const Light light = light_of(picture(show));
+  EXPECT_GT(light.sum, 0);
+  const double pixels_of_hole = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
+                                central_pixel_angle(show.projection);
+  // The direct image has nearly all of the light, far within the silhouette.
+  EXPECT_LT(std::hypot(light.x, light.y), pixels_of_hole / 3);
+  EXPECT_GT(pixels_of_hole, 30);
+}
+
+TEST(Bodies, AreAsBrightAsTheyAreNear) {
+  const auto light_from = [](double observer) {
+    Show show = show_with(observer, body_at(5000, 0, -28));
+    const FrameState state = frame_state(show, 0);
+    show.bodies[0].normal = {column(state.observer.sky_from_tetrad, 0)};  // seen from above
+    show.bodies[0].node = {column(state.observer.sky_from_tetrad, 1)};
+    // Of a stereographic picture pixels cover cos^4(theta/2) of what the central one does.
+    const double half = std::cos(std::atan(5000 / observer) / 2);
+    return light_of(picture(show)).sum * half * half * half * half;
+  };
+  // What bends light so far out is a part of 2 M in 5000.
+  const double near = light_from(5e4), far = light_from(1e5);
+  EXPECT_NEAR(near / far, (1e10 + 25e6) / (25e8 + 25e6), 0.004);
+}
+
+TEST(Bodies, GrowTenfoldWithTwoMagnitudesAndAHalf) {
+  const double bright = light_of(picture(show_with(30, body_at(10, 1, -17.5)))).sum;
+  const double faint = light_of(picture(show_with(30, body_at(10, 1, -15)))).sum;
+  EXPECT_NEAR(bright / faint, 10, 0.01);
+}
+
+TEST(Bodies, AreSeenFromBeyondTheHorizon) {
+  Show show = show_with(30, body_at(10, 1, -18));
+  show.timeline[0].trajectory = RadialInfall{1.2};
+  show.timeline[0].camera.attitude = LookOutward{};
+  show.projection = Domemaster{128};
+  EXPECT_GT(light_of(picture(show)).sum, 0);
+}
+
+TEST(Bodies, AndTheirTimeAreInTheKeysOfFrames) {
+  Show show = show_with(30, body_at(10, 1, -15));
+  const FrameState now = frame_state(show, 0);
+  FrameState later = now;
+  later.observer.null_time += 1;
+  Show none = show;
+  none.bodies.clear();
+  const FrameKeys with(show, ""), without(none, "");
+  EXPECT_NE(with.scene(now), without.scene(now));
+  EXPECT_NE(with.scene(now), with.scene(later));
+  EXPECT_EQ(without.scene(now), without.scene(later));
+}
+
+}  // namespace
+}  // namespace domefall
