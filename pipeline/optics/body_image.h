@@ -28,6 +28,7 @@ struct BodyImage {
   double r;                // of the body when the light left it, M
   double t;                // then
   double solid_angle_per_area;
+  double psi;  // radians that the light swept
 };
 
 // The image of an order, 0 the direct one: odd ones are seen on the other side of the hole.

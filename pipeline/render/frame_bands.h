@@ -31,7 +31,7 @@ struct BandMemory {
   }
 };
 
-// Draws skies and stars, the disc before them and bodies over all, unless these are null, into a
+// Draws skies and stars, the disc before them and bodies, unless these are null, into a
 // frame of the projection's size, by all threads of the arena that calls.  Where there are borders,
 // stars end at them, and bodies do not.  In a half frame, a value beyond the largest
 // half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming the

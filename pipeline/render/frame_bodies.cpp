@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-void lay_bodies(const Show& show, const FrameScene& scene, BlobLayer& layer) {
+void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc, BlobLayer& layer) {
   const BodySight sight(show, scene.state);
   std::vector<StarImage> images;
   if (sight.sees()) {
@@ -17,8 +17,10 @@ void lay_bodies(const Show& show, const FrameScene& scene, BlobLayer& layer) {
       int faint = 0;
       for (int order = 0; order < BodySight::kMostOrders && faint < BodySight::kFaintOrders;
            ++order) {
-        const auto image = sight.image(body, order);
+        auto image = sight.image(body, order);
         if (!image) break;
+        if (disc)
+          image->at.amplification *= disc->left_before(sight.seen(image->at).direction, image->psi);
         faint = finder.append_image(star, image->at, images) ? 0 : faint + 1;
       }
     }

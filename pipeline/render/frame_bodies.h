@@ -2,11 +2,13 @@
 #pragma once
 
 #include "pipeline/render/blobs/blob_layer.h"
+#include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/scene/frame_scene.h"
 
 namespace domefall {
 
-// Adds all images of the show's bodies that are bright enough to an empty layer.
-void lay_bodies(const Show& show, const FrameScene& scene, BlobLayer& layer);
+// Adds all images of the show's bodies that are bright enough to an empty layer.  Each is dimmed by
+// what its light has met of the disc, which is null where there is none.
+void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc, BlobLayer& layer);
 
 }  // namespace domefall

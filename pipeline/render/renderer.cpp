@@ -221,12 +221,7 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
       borders.emplace(state, optics, scene.tracer.vantage());
       if (!borders->usable()) borders.reset();
     }
-    std::optional<BlobLayer> bodies;
-    if (!show_.bodies.empty()) {
-      bodies.emplace(state.projection);
-      lay_bodies(show_, scene, *bodies);
-    }
-    times.images = stars.size() - unresolved.blobs.size() + (bodies ? bodies->size() : 0);
+    times.images = stars.size() - unresolved.blobs.size();
     times.stars_s = watch.lap();
     memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
@@ -235,6 +230,13 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     std::optional<DiscPass> disc;
     if (scene.disc) disc.emplace(scene);
     times.disc_s = watch.lap();
+    std::optional<BlobLayer> bodies;
+    if (!show_.bodies.empty()) {
+      bodies.emplace(state.projection);
+      lay_bodies(show_, scene, disc ? &*disc : nullptr, *bodies);
+      times.images += bodies->size();
+    }
+    times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, bodies ? &*bodies : nullptr,
                memory_->bands, frame);

@@ -305,6 +305,25 @@ class DiscPass::Strip {
   int count_ = 0;
 };
 
+double DiscPass::left_before(const CameraDirection& n, double psi) const {
+  // What moves in the plane itself is not behind it.
+  constexpr double kInPlane = 1e-6;
+  Pixels pixel;
+  const double angle = central_pixel_angle(scene_.projection());
+  locate(&n, &angle, 1, pixel);
+  if (!(pixel.energy[0] > 0)) return 1;
+  const double p = pixel.label[0], per = pixel.label_per[0];
+  double left = 1;
+  for (int order = 0; order < images_.orders(); ++order) {
+    const double turn = pixel.turn[0] + order * pi;
+    if (turn > psi - kInPlane) break;
+    const DiscImages::Interval rims = images_.interval(turn);
+    const double covered = beyond((p - rims.low) / per) - beyond((p - rims.high) / per);
+    left *= 1 - scene_.disc->disc().opacity * std::clamp(covered, 0.0, 1.0);
+  }
+  return left;
+}
+
 void DiscPass::draw_rows(int first, int end, float* rgb) const {
   const Projection& projection = scene_.projection();
   Strip strip(*this);

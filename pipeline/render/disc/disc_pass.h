@@ -27,6 +27,10 @@ class DiscPass {
   // Lays the disc over the rows [first, end) of the image, the first of which is rgb[3 columns].
   void draw_rows(int first, int end, float* rgb) const;
 
+  // The part of the light from a place on the ray that the disc before it lets through: psi radians
+  // along the ray that is seen in that direction.  It fades within a pixel of the disc's rims.
+  double left_before(const CameraDirection& n, double psi) const;
+
   struct Pixels;
 
  private:

@@ -52,7 +52,7 @@ std::optional<BodySight::Image> BodySight::image(const Body& body, int order) co
   if (!image) return std::nullopt;
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
-  return Image{{{image->direction}, image->frequency_ratio, light}, image->r};
+  return Image{{{image->direction}, image->frequency_ratio, light}, image->r, image->psi};
 }
 
 BodySight::Seen BodySight::seen(const SkyImage& image) const {

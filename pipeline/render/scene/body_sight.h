@@ -30,7 +30,8 @@ class BodySight {
   // The image of an order in the tetrad; its amplification is over the light of that star.
   struct Image {
     SkyImage at;
-    double r;  // of the body when the light left it, M
+    double r;    // of the body when the light left it, M
+    double psi;  // radians that the light swept since
   };
   std::optional<Image> image(const Body& body, int order) const;
 
