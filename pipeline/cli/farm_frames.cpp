@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/manifest.h"
+#include "pipeline/farm/plan.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/image/regular_file.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
@@ -20,8 +19,6 @@ namespace domefall {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMostOfPlan = std::uint64_t{1} << 30;
 
 // The value behind an option, as "--size 512" or as "--size=512"; empty if it is not there.
 std::string option_in(const std::vector<std::string>& options, const std::string& name) {
@@ -36,17 +33,13 @@ std::string grade_id_of(const std::optional<Grader>& grader, const Show& show) {
   return grader ? grader->transform_id() + format_id(*show.output.graded) : std::string();
 }
 
-// Its log is named after the engine's job and the task, or where there are no jobs after the round.
-TaskFrames task_of(const nlohmann::json& chunk, const nlohmann::json& rounds) {
-  TaskFrames task;
-  task.round = chunk.value("round", 0);
-  task.task = chunk.at("task").get<int>();
-  task.frames = parse_frames(chunk.at("frames").get<std::string>(), kMostFrames);
-  task.logs.push_back(fmt::format("_{}_{}", task.round, task.task));
-  for (const auto& round : rounds)
-    if (const auto job = round.value("job", std::string());
-        round.at("round").get<int>() == task.round && !job.empty())
-      task.logs.push_back(fmt::format("_{}_{}", job, task.task));
+// Its log is named after the engine's job and the task, or where there are no jobs after the plan.
+TaskFrames task_of(const PlannedChunk& chunk, const FarmPlan& plan) {
+  TaskFrames task{chunk.round, chunk.task, parse_frames(chunk.frames, kMostFrames), {}};
+  task.logs.push_back(fmt::format("_{}_{}_{}", plan.id, chunk.round, chunk.task));
+  for (const FarmRound& round : plan.rounds)
+    if (round.round == chunk.round && !round.job.empty())
+      task.logs.push_back(fmt::format("_{}_{}", round.job, chunk.task));
   return task;
 }
 
@@ -62,7 +55,8 @@ void require_folder(const fs::path& folder) {
 
 void add_farm_options(CLI::App& verb, FarmRequest& request) {
   verb.add_option("folder", request.folder, "folder of the frames")->required();
-  verb.add_option("--show", request.show, "show file (YAML); default as in DIR/farm/plan.json");
+  verb.add_option("--show", request.show, "show file (YAML); default as planned");
+  verb.add_option("--plan", request.plan, "ID of DIR/farm/plan_ID.json; default the latest");
   verb.add_option("--frames", request.frames,
                   "such as 7, 0-299 or 3-5,9; default as planned, or all");
   verb.add_option("--size", request.size, "of the frames; default as planned, or the show's");
@@ -77,28 +71,23 @@ int reading_threads(const FarmRequest& request) {
 }
 
 void FarmFrames::read_plan(FarmRequest& request) {
-  const fs::path path = fs::path(request.folder) / "farm" / "plan.json";
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) {
+  const fs::path folder = request.folder;
+  const auto plan = request.plan.empty() ? newest_plan(folder)
+                                         : std::optional(domefall::read_plan(folder, request.plan));
+  if (!plan) {
     if (request.show.empty())
-      throw InputError(path.string() + ": there is no plan; name the show by --show");
+      throw InputError(farm_folder(folder).string() +
+                       ": there is no plan; name the show by --show");
     return;
   }
-  try {
-    const auto plan = nlohmann::json::parse(read_file(path, kMostOfPlan));
-    const auto options = plan.value("options", std::vector<std::string>());
-    // A plan for one show says nothing of another.
-    if (request.show.empty()) {
-      request.show = plan.at("show").get<std::string>();
-      if (request.frames.empty()) request.frames = plan.value("frames", "");
-      if (request.size.empty()) request.size = option_in(options, "--size");
-      if (request.overlays.empty()) request.overlays = option_in(options, "--overlay");
-    }
-    for (const auto& chunk : plan.value("chunks", nlohmann::json::array()))
-      tasks_.push_back(task_of(chunk, plan.value("rounds", nlohmann::json::array())));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: is no plan of a farm: {}", path.string(), error.what()));
+  // A plan for one show says nothing of another.
+  if (request.show.empty()) {
+    request.show = plan->show;
+    if (request.frames.empty()) request.frames = plan->frames;
+    if (request.size.empty()) request.size = option_in(plan->options, "--size");
+    if (request.overlays.empty()) request.overlays = option_in(plan->options, "--overlay");
   }
+  for (const PlannedChunk& chunk : plan->chunks) tasks_.push_back(task_of(chunk, *plan));
 }
 
 FarmFrames::FarmFrames(FarmRequest request) {

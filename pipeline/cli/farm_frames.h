@@ -16,9 +16,9 @@
 namespace domefall {
 
 // Texts are those of the options of `domefall render`; an empty one stands for what
-// DIR/farm/plan.json says, or else for that option's default.
+// the plan in DIR/farm says, or else for that option's default.
 struct FarmRequest {
-  std::string folder, show, frames, size, overlays;
+  std::string folder, plan, show, frames, size, overlays;
   int threads = 0;
 };
 
@@ -30,8 +30,7 @@ int reading_threads(const FarmRequest& request);
 
 class FarmFrames {
  public:
-  // Throws InputError where no show is named, by the request or by a plan, for a plan that cannot
-  // be understood, and as read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no
+  // Throws InputError where no show is named, by the request or by a plan, as read_plan(), and as read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no
   // such folder.
   explicit FarmFrames(FarmRequest request);
   FarmFrames(const FarmFrames&) = delete;

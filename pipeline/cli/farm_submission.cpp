@@ -147,11 +147,13 @@ FarmPlan make_plan(const SubmitOptions& o) {
   show.projection = resized(show.projection, o.size);
   const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   FarmPlan plan;
+  plan.id = o.dry ? "PLAN" : new_plan_id();
   plan.version = "domefall " DOMEFALL_VERSION;
   plan.program = program_path(o);
   plan.show = absolute_path(o.show);
   plan.out = absolute_path(frames_folder(show, o.out));
-  plan.frames = as_ranges(frames);
+  // A plan of all frames stays one when the show becomes longer or shorter.
+  if (!o.frames.empty()) plan.frames = as_ranges(frames);
   if (!o.size.empty()) plan.options = {"--size", o.size};
   if (o.replace) plan.options.emplace_back("--replace");
   plan.engine = o.engine;

@@ -27,25 +27,36 @@ std::string text_for_engine(const FarmPlan& plan) {
          "\n";
 }
 
+// Hands the plan to its engine, whose tasks may begin to read it at once.
+void hand_over(const FarmPlan& plan, bool wait) {
+  write_plan(plan);
+  try {
+    if (plan.engine == "slurm" && !wait)
+      fmt::print("{}\n", submit_round(plan, 0));
+    else if (const int signal = run_rounds(plan); signal != 0)
+      throw Interrupted{signal};
+  } catch (const InputError&) {
+    drop_unaccepted_plan(plan);
+    throw;
+  }
+}
+
 void submit(const SubmitOptions& o) {
   if (o.engine != "slurm" && !o.engine_options.empty())
     throw InputError(o.engine_options.front() + ": only --engine slurm takes options after --");
   if (!o.engine_options.empty() && !o.engine_options.front().starts_with('-'))
     throw InputError(o.engine_options.front() + ": options of sbatch follow --");
-  const FarmPlan plan = make_plan(o);
+  FarmPlan plan = make_plan(o);
   if (o.dry) {
     fmt::print("{}", text_for_engine(plan));
     return;
   }
   stop_if_interrupted();
+  if (o.engine == "local" || o.engine == "slurm") return hand_over(plan, o.wait);
+  const std::string text = text_for_engine(plan);
+  plan.rounds = {{0, {}, utc_now()}};
   write_plan(plan);
-  if (o.engine == "local" || (o.engine == "slurm" && o.wait)) {
-    if (const int signal = run_rounds(plan); signal != 0) throw Interrupted{signal};
-  } else if (o.engine == "slurm") {
-    fmt::print("{}\n", submit_round(plan, 0));
-  } else {
-    fmt::print("{}", text_for_engine(plan));
-  }
+  fmt::print("{}", text);
 }
 
 void add_how_options(CLI::App& verb, const std::shared_ptr<SubmitOptions>& o) {

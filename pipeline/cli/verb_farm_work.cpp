@@ -21,7 +21,7 @@ namespace {
 constexpr int kMostRound = 1'000'000;
 
 struct WorkOptions {
-  std::string out;
+  std::string out, plan;
   int round = 0, task = 0, threads = 0;
 };
 
@@ -35,15 +35,14 @@ std::string host_name(const SlurmTask& task) {
 PlannedChunk chunk_of(const FarmPlan& plan, const WorkOptions& o) {
   for (const PlannedChunk& chunk : chunks_of_round(plan, o.round))
     if (chunk.task == o.task) return chunk;
-  throw InputError(
-      fmt::format("{}: no task {} in round {}; a later submission has replaced the plan",
-                  plan_file(plan.out).string(), o.task, o.round));
+  throw InputError(fmt::format("{}: no task {} in round {}", plan_file(plan.out, plan.id).string(),
+                               o.task, o.round));
 }
 
 // The plan, from a folder that this machine may not see yet.
-std::optional<FarmPlan> plan_if_seen(const std::string& out, std::string& why) {
+std::optional<FarmPlan> plan_if_seen(const WorkOptions& o, std::string& why) {
   try {
-    return read_plan(out);
+    return read_plan(o.out, o.plan);
   } catch (const TemporaryError& error) {
     why = std::string("this node does not see the plan: ") + error.what();
     return std::nullopt;
@@ -91,7 +90,7 @@ void work(const WorkOptions& o) {
   const SlurmTask task = slurm ? this_slurm_task() : SlurmTask{};
   const std::string host = host_name(task);
   std::string why;
-  const auto plan = plan_if_seen(o.out, why);
+  const auto plan = plan_if_seen(o, why);
   TaskEnd end{TaskEnd::Kind::kAgainElsewhere, why};
   std::string where = fmt::format("{}: task {} of round {}", host, o.task, o.round);
   int retries = FarmPlan{}.retries;
@@ -108,9 +107,9 @@ void work(const WorkOptions& o) {
 }
 
 // A folder that is away for a moment does not end the rounds.
-void conclude(const std::string& out, int round) {
+void conclude(const WorkOptions& o) {
   try {
-    conclude_round(read_plan(out), round);
+    conclude_round(read_plan(o.out, o.plan), o.round);
   } catch (const FramesLacking&) {
     throw;
   } catch (const TemporaryError& error) {
@@ -118,8 +117,16 @@ void conclude(const std::string& out, int round) {
     SignalInbox inbox;
     const SlurmTask task = this_slurm_task();
     end_slurm_work({TaskEnd::Kind::kAgainElsewhere, error.what()}, task, FarmPlan{}.retries,
-                   fmt::format("{}: round {}", host_name(task), round), inbox);
+                   fmt::format("{}: round {}", host_name(task), o.round), inbox);
   }
+}
+
+void add_place_options(CLI::App& verb, WorkOptions& o, const char* round) {
+  verb.add_option("DIR", o.out, "folder of the frames, which has farm/plan_ID.json")->required();
+  verb.add_option("--plan", o.plan, "the ID")->required();
+  verb.add_option("--round", o.round, round)
+      ->check(number_in(0, kMostRound))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -128,10 +135,7 @@ void add_farm_work(CLI::App& farm) {
   auto* verb =
       farm.add_subcommand("work", "Render one task of a plan; what the jobs of farm submit run");
   auto o = std::make_shared<WorkOptions>();
-  verb->add_option("DIR", o->out, "folder of the frames, which has farm/plan.json")->required();
-  verb->add_option("--round", o->round, "0: the first submission")
-      ->check(number_in(0, kMostRound))
-      ->capture_default_str();
+  add_place_options(*verb, *o, "0: the first submission");
   verb->add_option("--task", o->task, "number of the chunk in its round")
       ->check(number_in(0, kMostRound))
       ->required();
@@ -143,13 +147,9 @@ void add_farm_work(CLI::App& farm) {
 void add_farm_conclude(CLI::App& farm) {
   auto* verb = farm.add_subcommand(
       "conclude", "Verify a round's frames; submit what is missing, or make the movie");
-  auto out = std::make_shared<std::string>();
-  auto round = std::make_shared<int>(0);
-  verb->add_option("DIR", *out, "folder of the frames, which has farm/plan.json")->required();
-  verb->add_option("--round", *round, "the round that has ended")
-      ->check(number_in(0, kMostRound))
-      ->capture_default_str();
-  verb->callback([out, round] { conclude(*out, *round); });
+  auto o = std::make_shared<WorkOptions>();
+  add_place_options(*verb, *o, "the round that has ended");
+  verb->callback([o] { conclude(*o); });
 }
 
 }  // namespace domefall

@@ -109,11 +109,11 @@ std::vector<VerbNotes> notes_of_farms() {
        "farm_status.md"},
       {"farm work",
        "Jobs call it; it needs a plan that farm submit has made.",
-       {{"domefall farm work /farm/fall --task 3", "the fourth task of the first round"}},
+       {{"domefall farm work /farm/fall --plan ID --task 3", "the fourth task of the first round"}},
        "farm.md"},
       {"farm conclude",
        "Jobs call it when the tasks of a round have ended.",
-       {{"domefall farm conclude /farm/fall", "after the first round"}},
+       {{"domefall farm conclude /farm/fall --plan ID", "after the first round"}},
        "farm.md"},
   };
 }

@@ -45,7 +45,8 @@ std::string size_option(const FarmPlan& plan) {
 FramesVerdict verify_frames(const FarmPlan& plan) {
   constexpr int kIncomplete = 1;
   const std::string said =
-      run_verb({plan.program, "farm", "verify", plan.out.string(), "--json"}, kIncomplete);
+      run_verb({plan.program, "farm", "verify", plan.out.string(), "--plan", plan.id, "--json"},
+               kIncomplete);
   // What is said besides is for people.
   const std::size_t begin = ("\n" + said).find("\n{"), end = said.find("\n}", begin);
   FramesVerdict verdict;

@@ -26,7 +26,7 @@ Json openjd_action(std::vector<std::string> command) {
 }
 
 std::vector<std::string> repair_command(const FarmPlan& plan) {
-  return {plan.program, "farm", "verify", plan.out.string(), "--repair"};
+  return {plan.program, "farm", "verify", plan.out.string(), "--plan", plan.id, "--repair"};
 }
 
 // What comes after the frames: each step waits for the one before.

@@ -168,8 +168,9 @@ class LocalRun {
     ++chunk.tries;
     try {
       const int slot = free_slot();
-      const auto log_file = farm_log_folder(plan_.out) /
-                            fmt::format("local_{}_{}.log", chunk.chunk.round, chunk.chunk.task);
+      const auto log_file =
+          farm_log_folder(plan_.out) /
+          fmt::format("local_{}_{}_{}.log", plan_.id, chunk.chunk.round, chunk.chunk.task);
       auto log = std::make_unique<Descriptor>(
           open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
       auto process = std::make_unique<WorkerProcess>(work_command(chunk.chunk, slot),
@@ -198,6 +199,7 @@ class LocalRun {
     const int share = plan_.threads / count + (slot < plan_.threads % count ? 1 : 0);
     return {plan_.program, "farm",
             "work",        plan_.out.string(),
+            "--plan",      plan_.id,
             "--round",     std::to_string(chunk.round),
             "--task",      std::to_string(chunk.task),
             "--threads",   std::to_string(std::max(1, share))};

@@ -1,7 +1,13 @@
 #include "pipeline/farm/plan.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
 #include <ctime>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
@@ -24,14 +30,23 @@ Json round_json(const FarmRound& round) {
 }
 
 Json plan_json(const FarmPlan& plan) {
-  Json json{{"domefall", plan.version},   {"program", plan.program},
-            {"show", plan.show.string()}, {"out", plan.out.string()},
-            {"frames", plan.frames},      {"options", plan.options},
-            {"engine", plan.engine},      {"engine_options", plan.engine_options},
-            {"threads", plan.threads},    {"at_once", plan.at_once},
-            {"retries", plan.retries},    {"most_rounds", plan.most_rounds},
-            {"movie", plan.movie},        {"movie_file", plan.movie_file},
-            {"deliver", plan.deliver},    {"chunks", Json::array()},
+  Json json{{"id", plan.id},
+            {"domefall", plan.version},
+            {"program", plan.program},
+            {"show", plan.show.string()},
+            {"out", plan.out.string()},
+            {"frames", plan.frames},
+            {"options", plan.options},
+            {"engine", plan.engine},
+            {"engine_options", plan.engine_options},
+            {"threads", plan.threads},
+            {"at_once", plan.at_once},
+            {"retries", plan.retries},
+            {"most_rounds", plan.most_rounds},
+            {"movie", plan.movie},
+            {"movie_file", plan.movie_file},
+            {"deliver", plan.deliver},
+            {"chunks", Json::array()},
             {"rounds", Json::array()}};
   for (const PlannedChunk& chunk : plan.chunks) json["chunks"].push_back(chunk_json(chunk));
   for (const FarmRound& round : plan.rounds) json["rounds"].push_back(round_json(round));
@@ -40,6 +55,7 @@ Json plan_json(const FarmPlan& plan) {
 
 FarmPlan plan_of(const Json& json) {
   FarmPlan plan;
+  json.at("id").get_to(plan.id);
   json.at("domefall").get_to(plan.version);
   json.at("program").get_to(plan.program);
   plan.show = json.at("show").get<std::string>();
@@ -71,14 +87,36 @@ void make_farm_folder(const fs::path& folder) {
   if (error) throw_file_error(folder, error.value());
 }
 
+std::string utc_text(const char* form, std::time_t time) {
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  std::string text(32, '\0');
+  text.resize(std::strftime(text.data(), text.size(), form, &parts));
+  return text;
+}
+
 }  // namespace
 
 fs::path farm_folder(const fs::path& out) { return out / "farm"; }
-fs::path plan_file(const fs::path& out) { return farm_folder(out) / "plan.json"; }
+fs::path plan_file(const fs::path& out, const std::string& id) {
+  return farm_folder(out) / ("plan_" + id + ".json");
+}
 fs::path farm_log_folder(const fs::path& out) { return farm_folder(out) / "log"; }
 
-FarmPlan read_plan(const fs::path& out) {
-  const fs::path file = plan_file(out);
+std::string new_plan_id() {
+  constexpr unsigned kFourDigits = 0xFFFF;
+  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(
+                       std::chrono::system_clock::now().time_since_epoch())
+                       .count();
+  constexpr long kSecond = 1'000'000;
+  return utc_text("%Y%m%dT%H%M%S", now / kSecond) +
+         fmt::format("_{:06}_{:04x}", now % kSecond, std::random_device()() & kFourDigits);
+}
+
+FarmPlan read_plan(const fs::path& out, const std::string& id) {
+  if (id.find('/') != std::string::npos)
+    throw InputError("--plan " + id + ": expected the ID of a file farm/plan_ID.json");
+  const fs::path file = plan_file(out, id);
   constexpr std::uint64_t kMostBytes = 1 << 28;
   const std::string text = read_file(file, kMostBytes);
   try {
@@ -89,16 +127,44 @@ FarmPlan read_plan(const fs::path& out) {
   }
 }
 
+std::optional<FarmPlan> newest_plan(const fs::path& out) {
+  const std::string prefix = "plan_", suffix = ".json";
+  std::vector<std::string> ids;
+  std::error_code error;  // a folder that is not there has no plans
+  for (fs::directory_iterator entry(farm_folder(out), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename();
+    if (name.starts_with(prefix) && name.ends_with(suffix))
+      ids.push_back(name.substr(prefix.size(), name.size() - prefix.size() - suffix.size()));
+  }
+  std::ranges::sort(ids, std::greater());
+  for (const std::string& id : ids) {
+    try {
+      FarmPlan plan = read_plan(out, id);
+      if (!plan.rounds.empty()) return plan;
+    } catch (const TemporaryError&) {
+      // A submission that was refused has removed it meanwhile.
+      if (fs::exists(plan_file(out, id), error)) throw;
+    }
+  }
+  return std::nullopt;
+}
+
+void drop_unaccepted_plan(const FarmPlan& plan) {
+  std::error_code error;
+  if (read_plan(plan.out, plan.id).rounds.empty()) fs::remove(plan_file(plan.out, plan.id), error);
+}
+
 void write_plan(const FarmPlan& plan) {
   make_farm_folder(farm_log_folder(plan.out));
   std::string text;
   try {
     text = plan_json(plan).dump(1) + "\n";
   } catch (const Json::type_error&) {
-    throw InputError(plan_file(plan.out).string() +
+    throw InputError(plan_file(plan.out, plan.id).string() +
                      ": the paths of the show and its frames must be UTF-8");
   }
-  write_atomically(plan_file(plan.out), text);
+  write_atomically(plan_file(plan.out, plan.id), text);
 }
 
 std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round) {
@@ -108,13 +174,6 @@ std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round) {
   return chunks;
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  std::string text(32, '\0');
-  text.resize(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts));
-  return text;
-}
+std::string utc_now() { return utc_text("%Y-%m-%dT%H:%M:%SZ", std::time(nullptr)); }
 
 }  // namespace domefall

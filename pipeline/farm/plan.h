@@ -1,8 +1,9 @@
-// What a submission to a farm is to make, as DIR/farm/plan.json keeps it for the tasks, for those
-// who verify the frames, and for the rounds that follow.
+// What a submission to a farm is to make, as DIR/farm/plan_ID.json keeps it for its tasks, for those
+// who verify its frames, and for the rounds that follow.  Each submission has a plan of its own.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,11 @@ struct FarmRound {
 };
 
 struct FarmPlan {
+  std::string id;       // of new_plan_id(); its jobs and processes name it
   std::string version;  // what `domefall --version` says where the plan was made
   std::string program;  // the path of domefall on the nodes
   std::filesystem::path show, out;
-  std::string frames;                       // all that are asked for, also those that are there
+  std::string frames;  // that are asked for, also those that are there; empty: all of the show
   std::vector<std::string> options;         // of domefall render
   std::string engine;                       // slurm, local, list, openjd or flamenco
   std::vector<std::string> engine_options;  // of sbatch
@@ -38,21 +40,32 @@ struct FarmPlan {
   std::string movie_file;
   std::string deliver;  // a folder for `domefall deliver`, likewise
   std::vector<PlannedChunk> chunks;
-  std::vector<FarmRound> rounds;
+  std::vector<FarmRound> rounds;  // empty until the engine has accepted the first one
 };
 
-// DIR/farm, DIR/farm/plan.json and DIR/farm/log.
+// An id that no other submission has: the time in UTC to the microsecond, so that a later one
+// sorts behind, and four digits by chance.
+std::string new_plan_id();
+
+// DIR/farm, DIR/farm/plan_ID.json and DIR/farm/log.
 std::filesystem::path farm_folder(const std::filesystem::path& out);
-std::filesystem::path plan_file(const std::filesystem::path& out);
+std::filesystem::path plan_file(const std::filesystem::path& out, const std::string& id);
 std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 
 // Throws TemporaryError where the file is not there or cannot be read, and InputError where it is
-// no plan.
-FarmPlan read_plan(const std::filesystem::path& out);
+// no plan or the id is none.
+FarmPlan read_plan(const std::filesystem::path& out, const std::string& id);
+
+// The latest plan of a folder that an engine has accepted; nothing if there is none.  Throws as
+// read_plan().
+std::optional<FarmPlan> newest_plan(const std::filesystem::path& out);
 
 // Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws InputError where the path
 // leads through a file, and else as throw_file_error().
 void write_plan(const FarmPlan& plan);
+
+// Removes the file of a plan that no engine has accepted, and leaves any other alone.
+void drop_unaccepted_plan(const FarmPlan& plan);
 
 // The chunks of a round.
 std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round);

@@ -71,8 +71,10 @@ int wait_for_slurm(const std::string& job, SignalInbox& inbox) {
 
 // Renders the chunks of a round and waits for them.
 LocalOutcome run_round(FarmPlan& plan, int round, SignalInbox& inbox) {
-  if (chunks_of_round(plan, round).empty()) return {};
-  if (plan.engine == "local") return run_locally(plan, round, inbox);
+  const bool idle = chunks_of_round(plan, round).empty(), local = plan.engine == "local";
+  if (idle || local) note_round(plan, round, {});
+  if (idle) return {};
+  if (local) return run_locally(plan, round, inbox);
   const std::string job = submit_to_slurm(array_submission(plan, round));
   note_round(plan, round, job);
   fmt::print("{}\n", job);
@@ -122,7 +124,13 @@ std::string submit_round(FarmPlan plan, int round) {
   std::string job;
   if (!chunks_of_round(plan, round).empty()) job = submit_to_slurm(array_submission(plan, round));
   // The array runs already: its plan is complete on the disk, but for the job's id.
-  const std::string conclusion = submit_to_slurm(conclusion_submission(plan, round, job));
+  std::string conclusion;
+  try {
+    conclusion = submit_to_slurm(conclusion_submission(plan, round, job));
+  } catch (...) {
+    if (!job.empty()) cancel_slurm_job(job);
+    throw;
+  }
   note_round(plan, round, job.empty() ? conclusion : job);
   return plan.rounds.back().job;
 }

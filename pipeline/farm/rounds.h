@@ -20,8 +20,9 @@ struct FramesLacking : TemporaryError {
 // std::runtime_error where they are because of a defect.
 int run_rounds(FarmPlan plan);
 
-// Submits a round to Slurm with the job that concludes it, and notes it in plan.json.  Returns the
-// id of the array, or of that job where there is nothing to render.
+// Submits a round to Slurm with the job that concludes it, and notes it in the plan.  Returns the
+// id of the array, or of that job where there is nothing to render.  Cancels the array where the
+// other one is refused.
 std::string submit_round(FarmPlan plan, int round);
 
 // What that job does: verifies, then submits the next round, or makes what else the plan asks for.

@@ -112,8 +112,8 @@ std::vector<std::string> array_submission(const FarmPlan& plan, int round) {
       plan);
   command.push_back(fmt::format("--array=0-{}{}", tasks - 1, throttle));
   command.push_back("--wrap=exec " +
-                    shell_line({plan.program, "farm", "work", plan.out.string(), "--round",
-                                std::to_string(round)}) +
+                    shell_line({plan.program, "farm", "work", plan.out.string(), "--plan", plan.id,
+                                "--round", std::to_string(round)}) +
                     " --task \"$SLURM_ARRAY_TASK_ID\"");
   return command;
 }
@@ -128,8 +128,8 @@ std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
       plan);
   if (!after.empty()) command.push_back("--dependency=afterany:" + after);
   command.push_back("--wrap=exec " +
-                    shell_line({plan.program, "farm", "conclude", plan.out.string(), "--round",
-                                std::to_string(round)}));
+                    shell_line({plan.program, "farm", "conclude", plan.out.string(), "--plan",
+                                plan.id, "--round", std::to_string(round)}));
   return command;
 }
 
@@ -148,6 +148,11 @@ std::string submit_to_slurm(const std::vector<std::string>& command) {
   const std::string text = trimmed(said);
   const std::string line = text.substr(text.find_last_of('\n') + 1);
   return line.substr(0, line.find(';'));
+}
+
+void cancel_slurm_job(const std::string& job) {
+  std::string said;
+  run_program({"scancel", job}, said);
 }
 
 bool slurm_job_is_over(const std::string& job) {

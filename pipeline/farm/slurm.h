@@ -25,6 +25,9 @@ std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
 // controller does not answer, and InputError where it refuses the options, with what it said.
 std::string submit_to_slurm(const std::vector<std::string>& command);
 
+// Cancels all tasks of a job, as far as the controller answers.
+void cancel_slurm_job(const std::string& job);
+
 // Whether none of a job's tasks waits or runs.  A controller that does not answer says nothing.
 bool slurm_job_is_over(const std::string& job);
 

@@ -19,6 +19,13 @@ expect() { # expect CODE LOG command...
 says() { grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 does not say: $2"; }; }
 says_not() { ! grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 says: $2"; }; }
 
+# The id of the only plan in a folder.
+plan_in() {
+  local id
+  id=$(basename "$1"/farm/plan_*.json .json)
+  echo "${id#plan_}"
+}
+
 # write_program NAME: ./NAME is like domefall, but each `render` that makes frames first does what
 # standard input says, in bash. There `on RANGE` asks whether its frames are RANGE; `once WORD` is true
 # once; `first RANGE PART` renders PART of its frames, RANGE; `wait_for FILE` waits until it is there,

@@ -75,9 +75,9 @@ a_dry_run_prints_what_is_submitted() {
   local job
   expect 0 dry.log "${array[@]}" --out "dry run" --chunk 20 --frames 0-3 --dry-run -- --nice=7 --comment='a b'
   [[ ! -e "dry run" ]] || fail "a dry run left a folder"
-  # What it prints is for a shell; the plan, which the task reads, is there as after a submission.
+  # What it prints is for a shell; a plan, which the task reads, is there as after a submission.
   "$DOMEFALL" farm submit --engine list fall.yaml --out "dry run" --chunk 20 --frames 0-3 >dry.list
-  job=$(head -1 dry.log | bash) || fail "$(cat dry.log)"
+  job=$(head -1 dry.log | sed "s/PLAN/$(plan_in "dry run")/" | bash) || fail "$(cat dry.log)"
   scontrol show job -o "$job" >dry.job
   for word in "Nice=7" "Comment=a b"; do says dry.job "$word"; done
   wait_for "$job" "dry run"
@@ -160,7 +160,7 @@ restarted() { tasks "$1" | grep -qE "^$2 [A-Z]+ [1-9]"; }
 a_node_with_another_version_makes_nothing() {
   local job
   job=$("${array[@]}" --out other --frames 0-3 --retries 0 -- --hold)
-  sed -i 's/"domefall": "domefall .*"/"domefall": "domefall 0.0.0"/' other/farm/plan.json
+  sed -i 's/"domefall": "domefall .*"/"domefall": "domefall 0.0.0"/' other/farm/plan_*.json
   scontrol release "$job"
   wait_for "$job" other
   says "$(log_of other "$job" 0)" "this node has $("$DOMEFALL" --version), not domefall 0.0.0"
@@ -243,7 +243,7 @@ a_dead_task_and_a_cancelled_one_are_made_up_for() {
   conclusion_says dead "round 1 of at most 2: frames 1,3-19,23-39 (35 of 40) are rendered again" ||
     fail "another second round: $(cat dead/farm/conclude_*.log)"
   # Slurm may run a job again that has ended.
-  expect 0 again.log "$DOMEFALL" farm conclude dead --round 0
+  expect 0 again.log "$DOMEFALL" farm conclude dead --plan "$(plan_in dead)" --round 0
   says again.log "round 1 has been submitted already"
   same_frames single dead 40 || fail "the frames differ"
 }

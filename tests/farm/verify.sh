@@ -33,15 +33,15 @@ graded() { printf 'out/graded/fall_%05d.png' "$1"; }
 # ---- a whole folder, with a plan and without one ----
 mkdir -p out/farm/log
 exits 2 domefall farm verify out
-says 'plan.json: there is no plan; name the show by --show'
+says 'farm: there is no plan; name the show by --show'
 exits 75 domefall farm verify nowhere --show fall.yaml
 exits 2 domefall farm verify fall.yaml --show fall.yaml
 exits 0 domefall render fall.yaml --out out
 exits 0 domefall farm verify out --show fall.yaml
-cat >out/farm/plan.json <<END
-{"show": "$folder/fall.yaml", "out": "$folder/out", "frames": "0-19", "options": ["--size", "64"],
- "chunks": [{"task": 0, "frames": "0-9"}, {"task": 1, "frames": "10-19"}], "rounds": [{"round": 0, "job": "4"}]}
-END
+# A plan of all frames, as for an engine whose job is 4.
+exits 0 domefall farm submit fall.yaml --engine list --out planned --size 64 --chunk 10
+sed -i 's/"job": ""/"job": "4"/' planned/farm/plan_*.json
+mv planned/farm/plan_*.json out/farm
 exits 0 domefall farm verify out --json
 grep -q '"good": 20,' stdout || fail "$(cat stdout)"
 has todo ''

@@ -16,6 +16,7 @@ using ::testing::Contains;
 
 FarmPlan small_plan() {
   FarmPlan plan;
+  plan.id = "20260101T000000Z_00000a";
   plan.version = "domefall 1";
   plan.program = "/opt/dome fall/domefall";
   plan.show = "/shows/a fall's.yaml";
@@ -40,7 +41,7 @@ TEST(FarmPlan, IsReadAsItWasWritten) {
   plan.movie = "review";
   plan.rounds = {{0, "12", "2026-01-01T00:00:00Z"}};
   write_plan(plan);
-  const FarmPlan read = read_plan(plan.out);
+  const FarmPlan read = read_plan(plan.out, plan.id);
   EXPECT_EQ(read.show, plan.show);
   EXPECT_EQ(read.options, plan.options);
   EXPECT_EQ(read.engine_options, plan.engine_options);
@@ -93,7 +94,8 @@ TEST(Slurm, AnArrayIsVerifiedAfterItsTasksHoweverTheyEnd) {
   EXPECT_THAT(array, Contains("--cpus-per-task=3"));
   EXPECT_THAT(array, Contains("--partition=render"));
   EXPECT_THAT(array, Contains("--output=/frames/100%%/farm/log/slurm_%A_%a.log"));
-  EXPECT_THAT(array, Contains("--wrap=exec '/opt/dome fall/domefall' farm work /frames/100% "
+  EXPECT_THAT(array, Contains("--wrap=exec '/opt/dome fall/domefall' farm work /frames/100% --plan "
+                              "20260101T000000Z_00000a "
                               "--round 0 --task \"$SLURM_ARRAY_TASK_ID\""));
   const auto after = conclusion_submission(small_plan(), 0, "77");
   EXPECT_THAT(after, Contains("--dependency=afterany:77"));

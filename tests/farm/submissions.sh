@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# What several submissions into one folder do to each other, and how long a plan is true.
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=farm_test.bash
+source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
+# shellcheck source-path=SCRIPTDIR source=farm_submit.bash
+source "$(dirname "${BASH_SOURCE[0]}")/farm_submit.bash"
+trap 'end_marked; rm -rf "$scratch"' EXIT
+cd "$scratch"
+write_show fall.yaml
+"$DOMEFALL" render fall.yaml --out single --frames 0-9 --threads 1 2>single.log
+submit=("$DOMEFALL" farm submit fall.yaml)
+local_run=("${submit[@]}" --engine local --workers 1 --threads 1 --out both)
+status() { "$DOMEFALL" farm status "$@" >status.out 2>&1 || fail "$(cat status.out)"; }
+
+# The first one begins its second chunk when the other one has ended.
+two_runs_into_a_folder_make_their_own_frames() {
+  write_program waiting <<'SCRIPT'
+  if on 0-2; then first 0-2 0; wait_for other.done; fi
+SCRIPT
+  "${local_run[@]}" --program ./waiting --frames 0-5 --chunk 3 >first.log 2>&1 &
+  until_ok 40 at_least both 1 || fail "no frames: $(cat first.log)"
+  # One that only prints leaves the run alone, too.
+  "${submit[@]}" --engine list --out both --frames 20-29 --chunk 1 >commands.txt
+  expect 0 second.log "${local_run[@]}" --frames 6-9 --chunk 1
+  says second.log "all 4 frames are there"
+  touch other.done
+  wait $! || fail "the first run: exit code $?: $(cat first.log)"
+  says first.log "all 6 frames are there"
+  same_frames single both 10 || fail "the frames differ"
+}
+
+status_tells_of_the_latest_plan_or_of_the_one_that_is_named() {
+  local plan
+  status both
+  says status.out "4 of 4 frames are done"
+  plan=$(grep -l '"frames": "0-5"' both/farm/plan_*.json)
+  plan=$(basename "$plan" .json)
+  status both --plan "${plan#plan_}"
+  says status.out "6 of 6 frames are done"
+  expect 2 slash.log "$DOMEFALL" farm status both --plan ../x
+  says slash.log "expected the ID of a file farm/plan_ID.json"
+}
+
+# An engine that refuses it: Slurm's programs, of which sbatch fails.
+what_an_engine_refuses_is_no_plan() {
+  local name
+  mkdir -p bin
+  for name in scontrol sbatch; do
+    printf '#!/bin/sh\n[ %s = scontrol ] && echo "MaxArraySize = 1001" && exit\n%s\n' "$name" \
+      'echo "sbatch: error: invalid partition specified: nosuch" >&2; exit 1' >"bin/$name"
+    chmod +x "bin/$name"
+  done
+  PATH=$scratch/bin:$PATH expect 2 refused.log "${submit[@]}" --engine slurm --out both --frames 10-15 \
+    -- --partition=nosuch
+  says refused.log "invalid partition specified: nosuch"
+  [[ $(find both/farm -name 'plan_*' | wc -l) == 3 ]] || fail "the refused plan is kept"
+  status both
+  says status.out "4 of 4 frames are done"
+}
+
+a_plan_of_all_frames_follows_the_show() {
+  cp fall.yaml long.yaml
+  expect 0 all.log "${submit[@]/fall.yaml/long.yaml}" --engine list --out follows
+  sed -i 's/duration_s: 2, trajectory: {type: infall, from_r: 4/duration_s: 3, trajectory: {type: infall, from_r: 4/' long.yaml
+  status follows
+  says status.out "0 of 50 frames are done"
+  sed -i '/from_r: 30/d' long.yaml
+  status follows
+  says status.out "0 of 30 frames are done"
+  expect 1 verify.log "$DOMEFALL" farm verify follows
+  says verify.log "0 of 30 frames are good"
+}
+
+for claim in two_runs_into_a_folder_make_their_own_frames \
+  status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
+  a_plan_of_all_frames_follows_the_show; do
+  $claim
+  pass "$claim"
+done
