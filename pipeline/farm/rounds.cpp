@@ -11,6 +11,7 @@
 #include "pipeline/farm/local_engine.h"
 #include "pipeline/farm/signal_inbox.h"
 #include "pipeline/farm/slurm.h"
+#include "pipeline/farm/slurm_cancellation.h"
 #include "pipeline/farm/worker_process.h"
 #include "pipeline/image/errors.h"
 
@@ -52,6 +53,15 @@ FarmPlan next_round(const FarmPlan& plan, const FramesVerdict& verdict) {
                        next.rounds.back().round, plan.most_rounds, verdict.todo, verdict.todo_count,
                        verdict.frames));
   return next;
+}
+
+// Throws where somebody has cancelled the tasks of a round: then they are not rendered again.
+void stop_if_cancelled(const FarmPlan& plan, int round) {
+  if (plan.engine != "slurm") return;
+  for (const FarmRound& one : plan.rounds)
+    if (one.round == round && !one.job.empty() && slurm_job_was_cancelled(one.job))
+      throw FramesLacking("job " + one.job + " was cancelled, so that nothing more is made in " +
+                          plan.out.string() + "; the same submission goes on with what is left");
 }
 
 // Waits for a job array, however long the controller may be away.
@@ -107,6 +117,7 @@ int run_rounds(FarmPlan plan) {
     if (outcome.away)
       throw TemporaryError(plan.out.string() +
                            ": not all frames are made; run the same command again");
+    stop_if_cancelled(plan, round);
     const FramesVerdict verdict = verify_frames(plan);
     if (verdict.complete) {
       finish_plan(plan, verdict);
@@ -132,6 +143,10 @@ std::string submit_round(FarmPlan plan, int round) {
     throw;
   }
   note_round(plan, round, job.empty() ? conclusion : job);
+  if (!job.empty())
+    announce(fmt::format(
+        "job {} renders, and job {} verifies when it has ended; scancel {} {} ends both", job,
+        conclusion, job, conclusion));
   return plan.rounds.back().job;
 }
 
@@ -142,6 +157,7 @@ void conclude_round(const FarmPlan& plan, int round) {
     // This job was ended between its plan and its submission.
     return announce("job " + submit_round(plan, round + 1));
   }
+  stop_if_cancelled(plan, round);
   const FramesVerdict verdict = verify_frames(plan);
   if (verdict.complete) return finish_plan(plan, verdict);
   if (round >= plan.most_rounds) throw FramesLacking(missing_text(plan, verdict));

@@ -9,7 +9,7 @@
 
 namespace domefall {
 
-// Frames are still missing or bad after the last round.
+// Frames are still missing or bad after the last round, or after one that was cancelled.
 struct FramesLacking : TemporaryError {
   using TemporaryError::TemporaryError;
 };

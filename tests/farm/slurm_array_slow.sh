@@ -20,33 +20,6 @@ pass "Slurm is up"
 slurm_farm=("$DOMEFALL" farm submit --engine slurm)
 launch=("${slurm_farm[@]}" fall.yaml --threads 1)
 array=("${launch[@]}" --rounds 0)
-over() { [[ -z $(squeue -h -t PD,R,CG,CF,RQ -j "$1") ]]; }
-# Of each task of an array, a line: index, state, restarts.
-tasks() { squeue -h -r -t all -j "$1" -O 'ArrayTaskID:8,State:16,RestartCnt:8' | tr -s ' ' | sort -n; }
-logs_of() { tail -n 20 "$1"/farm/log/* "$1"/farm/*.log 2>/dev/null >&2 || true; }
-wait_for() { # wait_for JOB FOLDER
-  until_ok 90 over "$1" || {
-    tasks "$1"
-    logs_of "$2"
-    fail "job $1 does not end"
-  }
-}
-has_tasks() { # has_tasks JOB FOLDER line...
-  [[ $(tasks "$1" | sed 's/ *$//') == "$(printf '%s\n' "${@:3}")" ]] || {
-    tasks "$1" >&2
-    logs_of "$2"
-    fail "job $1 should read: ${*:3}"
-  }
-}
-log_of() { echo "$1/farm/log/slurm_$2_$3.log"; } # log_of FOLDER JOB TASK
-conclusion_says() { grep -qsF -e "$2" "$1"/farm/conclude_*.log; }
-concluded() { # concluded FOLDER COUNT
-  until_ok 90 conclusion_says "$1" "all $2 frames are there" || {
-    logs_of "$1"
-    squeue -t all >&2
-    fail "$1 is not concluded"
-  }
-}
 
 a_wrong_show_is_not_submitted() {
   sed 's/from_r: 4/from_r: -4/' fall.yaml >wrong.yaml
@@ -219,35 +192,6 @@ the_last_task_is_requeued_without_the_others() {
   same_frames single last.d 40 || fail "the frames differ"
 }
 
-# A task is killed with its runner, another one is cancelled, a frame is damaged: the second round makes
-# what lacks and nothing else.
-begin_dead() {
-  write_program dead.p <<'SCRIPT'
-  if on 0-19 && once dead0; then
-    first 0-19 0-2
-    printf x >>"$scratch/dead/linear/fall_00001.exr"
-    kill -KILL "$PPID"
-    sleep 20
-  elif on 20-39 && once dead1; then
-    first 20-39 20-22
-    scancel "${SLURM_ARRAY_JOB_ID}_1"
-    wait_for never
-  fi
-SCRIPT
-  dead=$("${launch[@]}" --program ./dead.p --out dead --chunk 20)
-}
-a_dead_task_and_a_cancelled_one_are_made_up_for() {
-  wait_for "$dead" dead
-  has_tasks "$dead" dead "0 FAILED 0" "1 CANCELLED 0"
-  concluded dead 40
-  conclusion_says dead "round 1 of at most 2: frames 1,3-19,23-39 (35 of 40) are rendered again" ||
-    fail "another second round: $(cat dead/farm/conclude_*.log)"
-  # Slurm may run a job again that has ended.
-  expect 0 again.log "$DOMEFALL" farm conclude dead --plan "$(plan_in dead)" --round 0
-  says again.log "round 1 has been submitted already"
-  same_frames single dead 40 || fail "the frames differ"
-}
-
 # The controller dies and comes back. One node dies with all that runs on it, another one freezes: its task
 # is begun again elsewhere while it lives and goes on, so that two write the same frames.
 nodes_and_the_controller_may_go() {
@@ -287,12 +231,11 @@ begin_full
 begin_small
 begin_lost
 begin_last
-begin_dead
 for claim in a_dry_run_prints_what_is_submitted a_node_with_another_version_makes_nothing \
   a_killed_worker_and_a_short_time_limit_lose_nothing a_full_disk_is_tried_again_but_not_for_ever \
   a_disk_that_fills_up_is_gone_on_with a_show_that_vanishes_under_a_task_is_tried_again \
   the_last_task_is_requeued_without_the_others \
-  a_dead_task_and_a_cancelled_one_are_made_up_for a_bad_node_is_left_out_and_the_others_go_on \
+  a_bad_node_is_left_out_and_the_others_go_on \
   nodes_and_the_controller_may_go; do
   $claim
   pass "$claim"

@@ -203,3 +203,32 @@ slurm_down() {
 }
 no_jobs() { [[ -z $(timeout 5 squeue -h -t PD,R,CG) ]]; }
 daemons_gone() { ! kill -0 "${daemons[@]}"; }
+
+# ---- what is asked of jobs ----
+over() { [[ -z $(squeue -h -t PD,R,CG,CF,RQ -j "$1") ]]; }
+# Of each task of an array, a line: index, state, restarts.
+tasks() { squeue -h -r -t all -j "$1" -O 'ArrayTaskID:8,State:16,RestartCnt:8' | tr -s ' ' | sort -n; }
+logs_of() { tail -n 20 "$1"/farm/log/* "$1"/farm/*.log 2>/dev/null >&2 || true; }
+wait_for() { # wait_for JOB FOLDER
+  until_ok 90 over "$1" || {
+    tasks "$1"
+    logs_of "$2"
+    fail "job $1 does not end"
+  }
+}
+has_tasks() { # has_tasks JOB FOLDER line...
+  [[ $(tasks "$1" | sed 's/ *$//') == "$(printf '%s\n' "${@:3}")" ]] || {
+    tasks "$1" >&2
+    logs_of "$2"
+    fail "job $1 should read: ${*:3}"
+  }
+}
+log_of() { echo "$1/farm/log/slurm_$2_$3.log"; } # log_of FOLDER JOB TASK
+conclusion_says() { grep -qsF -e "$2" "$1"/farm/conclude_*.log; }
+concluded() { # concluded FOLDER COUNT
+  until_ok 90 conclusion_says "$1" "all $2 frames are there" || {
+    logs_of "$1"
+    squeue -t all >&2
+    fail "$1 is not concluded"
+  }
+}
