@@ -155,8 +155,9 @@ void print_page(const FarmFrames& frames, const Verification& verified) {
   for (const std::string& file : verified.foreign()) fmt::print("    {}\n", file);
 }
 
-// Ends with the code that the findings come to.
-void end_by(const FarmFrames& frames, const Verification& verified) {
+// Ends with the code that the findings come to.  A repair is about the frames: a job that follows it
+// does not wait until somebody has removed a foreign file.
+void end_by(const FarmFrames& frames, const Verification& verified, bool repair) {
   const std::string folder = frames.folder().path().string();
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -166,7 +167,7 @@ void end_by(const FarmFrames& frames, const Verification& verified) {
   if (const auto count = verified.todo().size())
     throw std::runtime_error(
         fmt::format("{}: {} to be made; --repair makes them", folder, counted(count, "frame")));
-  if (const auto count = verified.foreign().size())
+  if (const auto count = verified.foreign().size(); count > 0 && !repair)
     throw std::runtime_error(folder + ": all frames are good, and " + counted(count, "file") +
                              " among them not this show's");
 }
@@ -181,7 +182,7 @@ void verify_folder(const VerifyOptions& o) {
                            .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   else
     print_page(frames, verified);
-  end_by(frames, verified);
+  end_by(frames, verified, o.repair);
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ a_list_feeds_xargs_and_parallel() {
 
 an_openjd_template_keeps_to_its_schema_and_runs() {
   expect 0 job.json "${submit[@]}" --engine openjd --out "$odd/o" --movie review
+  mkdir -p "$odd/o/graded"
+  echo notes >"$odd/o/graded/notes.txt"
   python3 - job.json "$here/openjd_schema.json" <<'PY'
 import json, subprocess, sys
 job = json.load(open(sys.argv[1]))
@@ -55,6 +57,7 @@ for name in ("verify", "movie"):
     run = steps[name]["script"]["actions"]["onRun"]
     subprocess.run([run["command"], *run["args"]], check=True, stdout=subprocess.DEVNULL)
 PY
+  rm "$odd/o/graded/notes.txt"
   same_frames single "$odd/o" 12 || fail "the frames differ"
   [[ -s $odd/o/fall_review.mp4 ]] || fail "no movie"
 }
