@@ -44,8 +44,7 @@ class Deliverer {
     delivery_.files = files_.size();
   }
 
-  void check() const {
-    check_folder();
+  void check_frames() const {
     std::vector<int> frames(static_cast<std::size_t>(frame_count(run_.show)));
     std::iota(frames.begin(), frames.end(), 0);
     source_.check(frames, run_.threads);
@@ -63,7 +62,6 @@ class Deliverer {
     finish();
   }
 
- private:
   // Throws InputError if the folder holds what this delivery would not overwrite, or should not.
   void check_folder() const {
     std::error_code none;
@@ -89,6 +87,7 @@ class Deliverer {
           run_.out.string(), others.size(), others.size() > 1 ? "s are" : " is", others.front()));
   }
 
+ private:
   void begin() const {
     make_delivery_folder(run_.out);
     write_atomically(
@@ -218,8 +217,11 @@ class Deliverer {
 
 void run_delivery(const DeliveryRun& run) {
   Deliverer deliverer(run);
-  deliverer.check();
+  deliverer.check_folder();
+  deliverer.check_frames();
   deliverer.make();
 }
+
+void check_delivery_folder(const DeliveryRun& run) { Deliverer(run).check_folder(); }
 
 }  // namespace domefall

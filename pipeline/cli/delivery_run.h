@@ -27,4 +27,8 @@ struct DeliveryRun {
 // as GradedFrames::check() and where the disk fails.
 void run_delivery(const DeliveryRun& run);
 
+// Throws InputError for what run_delivery() would refuse, however good the frames will be: a name,
+// a sound, or the folder.
+void check_delivery_folder(const DeliveryRun& run);
+
 }  // namespace domefall

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/cli/delivery_run.h"
 #include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_survey.h"
+#include "pipeline/cli/movie_frames.h"
 #include "pipeline/farm/equal_chunks.h"
 #include "pipeline/farm/job_lists.h"
 #include "pipeline/farm/slurm.h"
@@ -132,12 +134,16 @@ void add_movie_and_delivery(FarmPlan& plan, const SubmitOptions& o, const Show& 
       throw InputError("--frames " + o.frames + ": a movie takes one range, such as 0-299");
     if (!show.output.graded)
       throw InputError(o.show + ": --movie needs graded frames, and the show makes none");
+    movie_size_of(preset, show.projection);
+    if (std::error_code none; fs::is_directory(plan.movie_file, none))
+      throw InputError(plan.movie_file + ": is a folder, where --movie would write its file");
   }
   if (o.deliver.empty()) return;
   if (!all) throw InputError("--deliver " + o.deliver + ": takes all frames of the show");
   if (!show.output.graded)
     throw InputError(o.show + ": --deliver needs graded frames, and the show makes none");
   plan.deliver = absolute_path(o.deliver).string();
+  check_delivery_folder({show, plan.out, plan.deliver, {}, {}, {}, {}});
 }
 
 }  // namespace

@@ -116,6 +116,15 @@ void say_done(const MovieRun& run, const Progress& progress) {
 
 }  // namespace
 
+MovieSize movie_size_of(const MoviePreset& preset, const Projection& frames) {
+  if (preset.whole_sphere && !std::holds_alternative<Equirectangular>(frames))
+    throw InputError(fmt::format(
+        "--preset {}: takes frames of the projection equirectangular, and those of this show are "
+        "{}",
+        preset.name, projection_name(frames)));
+  return movie_size(preset, {columns(frames), rows(frames)});
+}
+
 void movie_of_finished(const MovieRun& run, const std::filesystem::path& folder) {
   if (!run.show.output.graded)
     throw InputError(run.show.file.string() +

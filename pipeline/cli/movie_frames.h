@@ -6,9 +6,14 @@
 
 #include "pipeline/grade/grader.h"
 #include "pipeline/movie/movie_file.h"
+#include "pipeline/movie/preset.h"
 #include "pipeline/show/show.h"
 
 namespace domefall {
+
+// The size of a preset's movie of frames that are projected so.  Throws InputError where the preset
+// takes no such frames.
+MovieSize movie_size_of(const MoviePreset& preset, const Projection& frames);
 
 struct MovieRun {
   const Show& show;  // as large as its frames are

@@ -109,12 +109,7 @@ void movie(const Options& o) {
   overlay(show, o.overlays);
   show.projection = o.size.empty() && o.from.empty() ? fitted(show.projection, preset)
                                                      : resized(show.projection, o.size);
-  if (preset.whole_sphere && !std::holds_alternative<Equirectangular>(show.projection))
-    throw InputError(fmt::format(
-        "--preset {}: takes frames of the projection equirectangular, and those of this show are "
-        "{}",
-        preset.name, projection_name(show.projection)));
-  const MovieSize size = size_of(show.projection), made = movie_size(preset, size);
+  const MovieSize size = size_of(show.projection), made = movie_size_of(preset, show.projection);
   const std::vector<int> frames = chosen_frames(o, show);
   OutputFile out(chosen_out(o, show, preset));
   const Grader grader(show.grade);

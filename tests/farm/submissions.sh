@@ -72,9 +72,21 @@ a_plan_of_all_frames_follows_the_show() {
   says verify.log "0 of 30 frames are good"
 }
 
+# A dome's frames are no sphere's, an odd size suits no codec, a folder of others is no delivery.
+what_cannot_follow_the_frames_is_refused_at_once() {
+  mkdir taken
+  touch taken/notes.txt
+  for options in "--movie vr360" "--movie review --size 65" "--deliver taken"; do
+    # shellcheck disable=SC2086 # several words
+    expect 2 early.log "${submit[@]}" --engine local --out early $options
+    [[ ! -e early ]] || fail "$options: frames were begun"
+  done
+  says early.log "taken: the folder is not empty and holds no delivery"
+}
+
 for claim in two_runs_into_a_folder_make_their_own_frames \
   status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
-  a_plan_of_all_frames_follows_the_show; do
+  a_plan_of_all_frames_follows_the_show what_cannot_follow_the_frames_is_refused_at_once; do
   $claim
   pass "$claim"
 done
