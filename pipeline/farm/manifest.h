@@ -107,7 +107,8 @@ struct Manifest {
 };
 
 // All manifests of a folder of frames, merged, read by so many threads.  What is torn, or written
-// by others, is left out.  Throws TemporaryError where a manifest cannot be read.
+// by others, is left out, and so is, with a warning on standard error, a manifest that cannot be
+// read: what it notes can be found out without.
 Manifest read_manifest(const std::filesystem::path& frames, int threads);
 
 }  // namespace domefall

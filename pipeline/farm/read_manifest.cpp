@@ -1,11 +1,14 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "pipeline/deliver/in_parallel.h"
 #include "pipeline/farm/manifest.h"
+#include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
 #include "pipeline/image/writer_id.h"
 
@@ -71,6 +74,19 @@ ReadManifest read_one(const fs::path& path) {
   return read;
 }
 
+std::optional<ReadManifest> read_if_possible(const fs::path& path) {
+  std::string why;
+  try {
+    return read_one(path);
+  } catch (const InputError& error) {
+    why = error.what();
+  } catch (const TemporaryError& error) {
+    why = error.what();
+  }
+  std::fprintf(stderr, "warning: %s; this manifest is left out\n", why.c_str());
+  return std::nullopt;
+}
+
 }  // namespace
 
 const MadeFile* Manifest::find(const std::string& file, std::uint64_t size,
@@ -92,14 +108,15 @@ const MadeFile* Manifest::find(const std::string& file, const std::string& diges
 
 Manifest read_manifest(const fs::path& frames, int threads) {
   const std::vector<fs::path> paths = manifests_in(manifest_folder(frames));
-  std::vector<ReadManifest> read(paths.size());
+  std::vector<std::optional<ReadManifest>> read(paths.size());
   in_parallel(static_cast<int>(paths.size()), threads, [&](int k) {
-    read[static_cast<std::size_t>(k)] = read_one(paths[static_cast<std::size_t>(k)]);
+    read[static_cast<std::size_t>(k)] = read_if_possible(paths[static_cast<std::size_t>(k)]);
   });
   Manifest manifest;
-  for (ReadManifest& one : read) {
-    for (MadeFile& made : one.made) manifest.files[made.file].push_back(std::move(made));
-    manifest.writers.push_back(std::move(one.writer));
+  for (std::optional<ReadManifest>& one : read) {
+    if (!one) continue;
+    for (MadeFile& made : one->made) manifest.files[made.file].push_back(std::move(made));
+    manifest.writers.push_back(std::move(one->writer));
   }
   return manifest;
 }

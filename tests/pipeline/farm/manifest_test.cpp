@@ -117,6 +117,19 @@ TEST_F(ManifestFiles, AreNotWrittenWhereNoFarmIs) {
   EXPECT_THAT(read_manifest(folder_, 1).writers, IsEmpty());
 }
 
+TEST_F(ManifestFiles, ThatCannotBeReadAreLeftOut) {
+  const fs::path good = manifest_folder(folder_) / (text_of(this_writer()) + ".jsonl");
+  WriterId other = this_writer();
+  other.start += 1;
+  const fs::path bad = manifest_folder(folder_) / (text_of(other) + ".jsonl");
+  put(good, text_of(BegunFrame{5, 100, "here", 1}));
+  fs::create_symlink("nowhere", bad);
+  EXPECT_THAT(read_manifest(folder_, 2).writers, SizeIs(1));
+  fs::remove(bad);
+  fs::create_directory(bad);
+  EXPECT_THAT(read_manifest(folder_, 2).writers, SizeIs(1));
+}
+
 // What a process began that has ended is not being made any more.
 TEST_F(ManifestFiles, OfTheDeadSayThatNothingIsBeingMade) {
   WriterId id = this_writer();
