@@ -80,6 +80,7 @@ void FarmFrames::read_plan(FarmRequest& request) {
                        ": there is no plan; name the show by --show");
     return;
   }
+  plan_id_ = plan->id;
   // A plan for one show says nothing of another.
   if (request.show.empty()) {
     request.show = plan->show;

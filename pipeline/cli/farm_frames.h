@@ -8,6 +8,7 @@
 
 #include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/frame_survey.h"
+#include "pipeline/farm/conclusion_note.h"
 #include "pipeline/farm/folder_findings.h"
 #include "pipeline/farm/work_summary.h"
 #include "pipeline/grade/grader.h"
@@ -42,6 +43,8 @@ class FarmFrames {
   const Show& show() const { return show_; }
   const FrameFolder& folder() const { return *folder_; }
   const std::vector<int>& frames() const { return frames_; }
+  // Of the work after the frames of the plan (conclusion_of()); empty where there is no plan.
+  std::string conclusion() const { return conclusion_of(folder_->path(), plan_id_); }
   // Of the plan; empty where there is none.
   const std::vector<TaskFrames>& tasks() const { return tasks_; }
   // The grade of the show; nothing where it keeps no graded frames.
@@ -63,6 +66,7 @@ class FarmFrames {
   ExpectedFile expected(int frame, std::filesystem::path path, std::string key) const;
 
   Show show_;
+  std::string plan_id_;
   std::vector<int> frames_;
   std::vector<TaskFrames> tasks_;
   std::optional<FrameFolder> folder_;

@@ -81,6 +81,7 @@ FarmStatus farm_status(const FarmFrames& frames, int threads) {
   status.frames_per_second = frames_per_second(status.manifest, status.now_s);
   status.slowest = slowest_frames(status.manifest, kMostSlow);
   status.failed = failed_chunks(frames.tasks(), status.found.to_make(), status.manifest, folder);
+  status.conclusion = frames.conclusion();
   return status;
 }
 
@@ -110,6 +111,7 @@ std::string farm_page(const FarmFrames& frames, const FarmStatus& status) {
     page += fmt::format("  {:<12} {} took {:.1f} s on {}\n", "slow", slow.frame, slow.seconds,
                         slow.host);
   add_failed(page, status);
+  if (!status.conclusion.empty()) page += "  " + status.conclusion + "\n";
   return page;
 }
 
@@ -134,6 +136,7 @@ std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int in
                      {"seconds_left", number(seconds_left(status))},
                      {"slowest", StatusJson::array()},
                      {"failed_chunks", StatusJson::array()},
+                     {"conclusion", status.conclusion},
                      {"todo", as_ranges(found.to_make())}};
   const auto add_segments = [&](const std::map<int, int>& frames_of, const char* work) {
     for (const auto& [segment, count] : frames_of)

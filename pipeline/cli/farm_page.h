@@ -18,7 +18,8 @@ struct FarmStatus {
   std::optional<double> frames_per_second;
   std::vector<SlowFrame> slowest;
   std::vector<FailedChunk> failed;
-  double now_s = 0;  // since 1970
+  std::string conclusion;  // FarmFrames::conclusion()
+  double now_s = 0;        // since 1970
 };
 
 // Looks at the files at a glance, and reads the manifests.  Throws as read_manifest and

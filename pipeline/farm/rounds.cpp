@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "pipeline/farm/conclusion_note.h"
 #include "pipeline/farm/finish.h"
 #include "pipeline/farm/local_engine.h"
 #include "pipeline/farm/signal_inbox.h"
@@ -101,6 +102,22 @@ LocalOutcome run_round(FarmPlan& plan, int round, SignalInbox& inbox) {
   throw FramesLacking(text);
 }
 
+void conclude_or_submit(const FarmPlan& plan, int round) {
+  if (!plan.rounds.empty() && plan.rounds.back().round > round) {
+    if (!plan.rounds.back().job.empty())
+      return announce(fmt::format("round {} has been submitted already", round + 1));
+    // This job was ended between its plan and its submission.
+    return announce("job " + submit_round(plan, round + 1));
+  }
+  stop_if_cancelled(plan, round);
+  const FramesVerdict verdict = verify_frames(plan);
+  if (verdict.complete) return finish_plan(plan, verdict);
+  if (round >= plan.most_rounds) throw FramesLacking(missing_text(plan, verdict));
+  const FarmPlan next = next_round(plan, verdict);
+  write_plan(next);
+  announce("job " + submit_round(next, round + 1));
+}
+
 }  // namespace
 
 int run_rounds(FarmPlan plan) {
@@ -120,7 +137,7 @@ int run_rounds(FarmPlan plan) {
     stop_if_cancelled(plan, round);
     const FramesVerdict verdict = verify_frames(plan);
     if (verdict.complete) {
-      finish_plan(plan, verdict);
+      do_noted(plan, [&] { finish_plan(plan, verdict); });
       return 0;
     }
     // What was tried as often as it may be here is not tried again in another round.
@@ -151,19 +168,7 @@ std::string submit_round(FarmPlan plan, int round) {
 }
 
 void conclude_round(const FarmPlan& plan, int round) {
-  if (!plan.rounds.empty() && plan.rounds.back().round > round) {
-    if (!plan.rounds.back().job.empty())
-      return announce(fmt::format("round {} has been submitted already", round + 1));
-    // This job was ended between its plan and its submission.
-    return announce("job " + submit_round(plan, round + 1));
-  }
-  stop_if_cancelled(plan, round);
-  const FramesVerdict verdict = verify_frames(plan);
-  if (verdict.complete) return finish_plan(plan, verdict);
-  if (round >= plan.most_rounds) throw FramesLacking(missing_text(plan, verdict));
-  const FarmPlan next = next_round(plan, verdict);
-  write_plan(next);
-  announce("job " + submit_round(next, round + 1));
+  do_noted(plan, [&] { conclude_or_submit(plan, round); });
 }
 
 }  // namespace domefall

@@ -45,7 +45,14 @@ fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_firs
   return {};
 }
 
-// Its last line that is not empty, without what a terminal would do with it.
+// Whether a log ends with what `domefall render` says when it has made its frames.
+bool tells_of_success(const std::string& last_line) {
+  return last_line.find(" frames made, ") != std::string::npos &&
+         last_line.find(" already there, in ") != std::string::npos;
+}
+
+}  // namespace
+
 std::string last_line_of(const fs::path& log) {
   std::string text;
   try {
@@ -66,8 +73,6 @@ std::string last_line_of(const fs::path& log) {
   std::erase_if(line, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
   return line;
 }
-
-}  // namespace
 
 std::optional<double> frames_per_second(const Manifest& manifest, double now_s) {
   constexpr double kNanosecond = 1e-9;
@@ -124,6 +129,7 @@ std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
     chunk.log = log_of(task, logs);
     if (chunk.log.empty()) continue;
     chunk.last_line = last_line_of(chunk.log);
+    if (tells_of_success(chunk.last_line)) continue;
     failed.push_back(std::move(chunk));
   }
   std::ranges::reverse(failed);

@@ -84,9 +84,47 @@ what_cannot_follow_the_frames_is_refused_at_once() {
   says early.log "taken: the folder is not empty and holds no delivery"
 }
 
+# A movie's program that is killed, and one that fails.
+what_fails_after_the_frames_is_told_by_status() {
+  cat >movieless <<SCRIPT
+#!/bin/bash
+[[ \$1 != movie ]] || { echo "no room for a movie" >&2; exit 75; }
+exec $DOMEFALL "\$@"
+SCRIPT
+  chmod +x movieless
+  expect 75 movie.log "${submit[@]}" --engine local --program ./movieless --out reel --frames 0-1 \
+    --movie review
+  status reel
+  says status.out "2 of 2 frames are done"
+  says status.out "verification, movie and delivery: no room for a movie"
+  # Jobs that conclude a round may be killed, and may be run again.
+  # shellcheck disable=SC2016 # it is the script's parent
+  sed -i 's/echo .*exit 75/kill -KILL $PPID; sleep 1/' movieless
+  expect 137 killed.log "$DOMEFALL" farm conclude reel --plan "$(plan_in reel)"
+  status reel
+  says status.out "begun 2"
+  says status.out ", not ended"
+  sed -i '/movie/d' movieless
+  expect 0 concluded.log "$DOMEFALL" farm conclude reel --plan "$(plan_in reel)"
+  status reel
+  says_not status.out "verification, movie and delivery"
+  [[ -s reel/fall_review.mp4 ]] || fail "no movie"
+}
+
+what_ended_well_has_not_failed_when_the_show_is_edited() {
+  cp fall.yaml edited.yaml
+  expect 0 well.log "${submit[@]/fall.yaml/edited.yaml}" --engine local --out edited --frames 0-3
+  sed -i 's/from_r: 30/from_r: 31/' edited.yaml
+  status edited --json
+  says status.out '"failed_chunks": []'
+  says status.out '"stale": "0-3"'
+}
+
 for claim in two_runs_into_a_folder_make_their_own_frames \
   status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
-  a_plan_of_all_frames_follows_the_show what_cannot_follow_the_frames_is_refused_at_once; do
+  a_plan_of_all_frames_follows_the_show what_cannot_follow_the_frames_is_refused_at_once \
+  what_fails_after_the_frames_is_told_by_status \
+  what_ended_well_has_not_failed_when_the_show_is_edited; do
   $claim
   pass "$claim"
 done

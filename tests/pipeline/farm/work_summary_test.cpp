@@ -101,6 +101,12 @@ TEST_F(FailedChunks, AreToldByTheLogThatWasWrittenLast) {
   EXPECT_EQ(failed_chunks(chunks_, {3}, {}, folder_).at(0).last_line, "new");
 }
 
+// The show was edited, or frames were removed, when the task had ended.
+TEST_F(FailedChunks, AreNotThoseThatEndedWell) {
+  put_log("slurm_7_1.log", "begins\n2 frames made, 0 already there, in 0.3 s: /frames\n");
+  EXPECT_THAT(failed_chunks(chunks_, {2, 3}, {}, folder_), IsEmpty());
+}
+
 // Frame 3 failed in the first round and is submitted again.
 TEST_F(FailedChunks, HaveNotFailedAgainBeforeTheirNextTaskBegan) {
   std::vector<TaskFrames> tasks = chunks_;

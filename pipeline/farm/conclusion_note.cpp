@@ -1,0 +1,56 @@
+#include "pipeline/farm/conclusion_note.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "pipeline/farm/work_summary.h"
+#include "pipeline/image/atomic_file.h"
+#include "pipeline/image/errors.h"
+#include "pipeline/image/regular_file.h"
+
+namespace domefall {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path note_file(const fs::path& out, const std::string& plan_id) {
+  return farm_folder(out) / ("conclusion_" + plan_id + ".txt");
+}
+
+}  // namespace
+
+void note_conclusion(const FarmPlan& plan, const std::string& text) {
+  const fs::path file = note_file(plan.out, plan.id);
+  if (text.empty()) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw_file_error(file, error.value());
+    return;
+  }
+  std::string line = text;
+  std::ranges::replace(line, '\n', ' ');
+  const char* const job = std::getenv("SLURM_JOB_ID");
+  const fs::path log =
+      job ? farm_folder(plan.out) / ("conclude_" + std::string(job) + ".log") : fs::path();
+  write_atomically(file, line + "\n" + log.string());
+}
+
+std::string conclusion_of(const fs::path& out, const std::string& plan_id) {
+  const fs::path file = note_file(out, plan_id);
+  constexpr std::uint64_t kMostBytes = 1 << 20;
+  std::error_code error;
+  if (!fs::exists(file, error)) return {};
+  try {
+    const std::string text = read_file(file, kMostBytes);
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const fs::path log = end < text.size() ? text.substr(end + 1) : std::string();
+    if (log.empty()) return text.substr(0, end);
+    return text.substr(0, end) + "; " + log.string() + ": " + last_line_of(log);
+  } catch (const TemporaryError&) {
+    // It has ended meanwhile.
+    if (!fs::exists(file, error)) return {};
+    throw;
+  }
+}
+
+}  // namespace domefall
