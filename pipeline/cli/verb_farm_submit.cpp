@@ -46,6 +46,10 @@ void submit(const SubmitOptions& o) {
     throw InputError(o.engine_options.front() + ": only --engine slurm takes options after --");
   if (!o.engine_options.empty() && !o.engine_options.front().starts_with('-'))
     throw InputError(o.engine_options.front() + ": options of sbatch follow --");
+  if (o.engine == "list" && !(o.movie.empty() && o.deliver.empty()))
+    throw InputError(
+        "--engine list: its lines make frames only, in any order; run domefall movie or domefall "
+        "deliver when they have ended, without --movie and --deliver here");
   FarmPlan plan = make_plan(o);
   if (o.dry) {
     fmt::print("{}", text_for_engine(plan));

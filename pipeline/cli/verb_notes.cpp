@@ -103,7 +103,8 @@ std::vector<VerbNotes> notes_of_farms() {
        "farm_status.md"},
       {"farm verify",
        "Reads every byte. Ends with 0 where all frames are there and good, and no other\n"
-       "file is among them.",
+       "file is among them; with --repair whatever other files are. Ends with 1 where\n"
+       "something is missing or wrong, and with 75 where something cannot be read.",
        {{"domefall farm verify /farm/fall --repair", "and make again what is not good"},
         {"domefall farm verify out/fall --show fall.yaml --json", "of a folder without a plan"}},
        "farm_status.md"},

@@ -84,7 +84,13 @@ what_cannot_follow_the_frames_is_refused_at_once() {
   says early.log "taken: the folder is not empty and holds no delivery"
 }
 
-# A movie's program that is killed, and one that fails.
+a_list_takes_nothing_that_follows_the_frames() {
+  expect 2 follows.log "${submit[@]}" --engine list --out listed --movie review
+  says follows.log "--engine list: its lines make frames only"
+  [[ ! -e listed ]] || fail "a folder was made"
+}
+
+# A movie's program that fails, and one that kills its parent.
 what_fails_after_the_frames_is_told_by_status() {
   cat >movieless <<SCRIPT
 #!/bin/bash
@@ -123,7 +129,7 @@ what_ended_well_has_not_failed_when_the_show_is_edited() {
 for claim in two_runs_into_a_folder_make_their_own_frames \
   status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
   a_plan_of_all_frames_follows_the_show what_cannot_follow_the_frames_is_refused_at_once \
-  what_fails_after_the_frames_is_told_by_status \
+  a_list_takes_nothing_that_follows_the_frames what_fails_after_the_frames_is_told_by_status \
   what_ended_well_has_not_failed_when_the_show_is_edited; do
   $claim
   pass "$claim"
