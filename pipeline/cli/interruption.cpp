@@ -23,13 +23,15 @@ std::atomic<bool> first_is_remembered{false}, nothing_is_unfinished{false};
 std::atomic<int> remembered{0};
 std::array<int, 2> told{-1, -1};  // a pipe, through which a handler may speak to a thread
 
+constexpr int kSignalsCode = 128, kTryAgainCode = 75;
+
 void on_signal(int signal) {
-  if (nothing_is_unfinished) _exit(128 + signal);
+  if (nothing_is_unfinished) _exit(code_after(signal));
   int none = 0;
   if (first_is_remembered && remembered.compare_exchange_strong(none, signal)) return;
   const int error = errno;
   const auto number = static_cast<unsigned char>(signal);
-  if (write(told[1], &number, 1) != 1) _exit(128 + signal);
+  if (write(told[1], &number, 1) != 1) _exit(code_after(signal));
   errno = error;
 }
 
@@ -49,7 +51,7 @@ void end_when_told() {
   remove_unfinished();
   nothing_is_unfinished = true;
   say("stopped; what was not finished has been removed\n");
-  _exit(128 + signal);
+  _exit(code_after(signal));
 }
 
 }  // namespace
@@ -65,12 +67,14 @@ void leave_nothing_when_stopped() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
 }
+
+int code_after(int signal) { return signal == SIGUSR1 ? kTryAgainCode : kSignalsCode + signal; }
 
 void catch_interruptions() { first_is_remembered = true; }
 

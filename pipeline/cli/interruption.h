@@ -1,4 +1,4 @@
-// Lets SIGINT, SIGTERM, SIGHUP and SIGXCPU end the program so that nothing half-made stays behind.
+// Lets SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 end the program so that nothing half-made stays behind.
 // One that the program was started to ignore (nohup, a job in the background) stays ignored.
 #pragma once
 
@@ -11,8 +11,12 @@ struct Interrupted {
   bool expected = false;  // there is nothing to go on with, and nothing to say
 };
 
+// The exit code after a signal: 128 + its number, and 75 after SIGUSR1, by which queue managers tell
+// that a time limit is near.
+int code_after(int signal);
+
 // From now on such a signal removes what is unfinished (unfinished.h) and ends the program at once,
-// with the code 128 + its number.  Throws TemporaryError where no thread can be started to do so.
+// with its code_after().  Throws TemporaryError where no thread can be started to do so.
 void leave_nothing_when_stopped();
 
 // From now on the first signal is only remembered, so that a run can end between frames.  A second

@@ -69,8 +69,9 @@ int main(int argc, char** argv) {
     domefall::leave_nothing_when_stopped();
     return flushed(domefall::run_command_line(argc, argv));
   } catch (const domefall::Interrupted& stop) {
-    if (stop.expected) return 128 + stop.signal;
-    return report("stopped; run the same command again to go on", 128 + stop.signal);
+    if (stop.expected) return domefall::code_after(stop.signal);
+    return report("stopped; run the same command again to go on",
+                  domefall::code_after(stop.signal));
   } catch (const domefall::InputError& error) {
     return report(error.what(), domefall::kBadInput);
   } catch (const domefall::TemporaryError& error) {
