@@ -62,7 +62,7 @@ TEST(RayTimes, AreThoseOfTheMetricOutside) {
     turned += (there.slope[0] > 0) == (k.radial > 0) ? 1 : 0;
   }
   EXPECT_GT(compared, tries(200, 15));
-  EXPECT_GT(turned, tries(20, 1));
+  EXPECT_GT(turned, tries(20, 0));
 }
 
 TEST(RayTimes, AreTheEmissionTimesOfTheSingularityAtItsEnd) {
