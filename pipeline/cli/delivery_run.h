@@ -21,10 +21,10 @@ struct DeliveryRun {
   int threads = 1;
 };
 
-// Holds every frame and file against what it should be before it writes any.  The list of checksums comes last, and until it
-// is there INCOMPLETE.txt is; another run goes on with what is good.  Throws InputError for frames,
-// sounds and subtitles that do not fit, and for a folder that holds anything else; TemporaryError
-// as GradedFrames::check() and where the disk fails.
+// Holds every frame and file against what it should be before it writes any.  The list of checksums
+// comes last, and until it is there INCOMPLETE.txt is; another run goes on with what is good.
+// Throws InputError for frames, sounds and subtitles that do not fit, and for a folder that holds
+// anything else; TemporaryError as GradedFrames::check() and where the disk fails.
 void run_delivery(const DeliveryRun& run);
 
 // Throws InputError for what run_delivery() would refuse, however good the frames will be: a name,

@@ -31,8 +31,8 @@ int reading_threads(const FarmRequest& request);
 
 class FarmFrames {
  public:
-  // Throws InputError where no show is named, by the request or by a plan, as read_plan(), and as read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no
-  // such folder.
+  // Throws InputError where no show is named, by the request or by a plan, as read_plan(), and as
+  // read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no such folder.
   explicit FarmFrames(FarmRequest request);
   FarmFrames(const FarmFrames&) = delete;
   FarmFrames(FarmFrames&&) = delete;

@@ -1,5 +1,6 @@
-// Lets SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 end the program so that nothing half-made stays behind.
-// One that the program was started to ignore (nohup, a job in the background) stays ignored.
+// Lets SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 end the program so that nothing half-made stays
+// behind. One that the program was started to ignore (nohup, a job in the background) stays
+// ignored.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@ struct Interrupted {
   bool expected = false;  // there is nothing to go on with, and nothing to say
 };
 
-// The exit code after a signal: 128 + its number, and 75 after SIGUSR1, by which queue managers tell
-// that a time limit is near.
+// The exit code after a signal: 128 + its number, and 75 after SIGUSR1, by which queue managers
+// tell that a time limit is near.
 int code_after(int signal);
 
 // From now on such a signal removes what is unfinished (unfinished.h) and ends the program at once,

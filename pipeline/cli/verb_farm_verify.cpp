@@ -155,8 +155,8 @@ void print_page(const FarmFrames& frames, const Verification& verified) {
   for (const std::string& file : verified.foreign()) fmt::print("    {}\n", file);
 }
 
-// Ends with the code that the findings come to.  A repair is about the frames: a job that follows it
-// does not wait until somebody has removed a foreign file.
+// Ends with the code that the findings come to.  A repair is about the frames: a job that follows
+// it does not wait until somebody has removed a foreign file.
 void end_by(const FarmFrames& frames, const Verification& verified, bool repair) {
   const std::string folder = frames.folder().path().string();
   const auto counted = [](std::size_t count, const char* what) {

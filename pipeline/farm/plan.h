@@ -1,5 +1,6 @@
-// What a submission to a farm is to make, as DIR/farm/plan_ID.json keeps it for its tasks, for those
-// who verify its frames, and for the rounds that follow.  Each submission has a plan of its own.
+// What a submission to a farm is to make, as DIR/farm/plan_ID.json keeps it for its tasks, for
+// those who verify its frames, and for the rounds that follow.  Each submission has a plan of its
+// own.
 #pragma once
 
 #include <filesystem>

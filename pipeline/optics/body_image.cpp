@@ -68,8 +68,12 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
     const double error = image->t - t;
     if (std::abs(error) <= kEnough * image->body.r) {
       const double ratio = 1 / emitted(*image);
-      return BodyImage{seen_direction(*image), ratio, image->body.r, t,
-                       image->place.solid_angle_per_area, image->psi};
+      return BodyImage{seen_direction(*image),
+                       ratio,
+                       image->body.r,
+                       t,
+                       image->place.solid_angle_per_area,
+                       image->psi};
     }
     const double fall = step > 0 ? (error_before - error) / (t - before) : 1;
     before = t;

@@ -32,9 +32,9 @@ struct BodyImage {
 };
 
 // The image of an order, 0 the direct one: odd ones are seen on the other side of the hole.
-// `null_time` is the observer's v or u, `radius` the body's (M, >= 0), which bounds its light on the
-// axis of the lens.  None where no light of that order gets to the observer.  The time of emission
-// is right to 1e-10 of r.
+// `null_time` is the observer's v or u, `radius` the body's (M, >= 0), which bounds its light on
+// the axis of the lens.  None where no light of that order gets to the observer.  The time of
+// emission is right to 1e-10 of r.
 std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
 

@@ -67,8 +67,8 @@ inline constexpr long kRayStepBudget = 100000;
 IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
                             double tolerance);
 
-// Where the ray is after having swept psi > 0 radians, as IntegratedRay::r, unless it has ended (then
-// origin tells where) or whirls for ever.  Between 1e-10 and 1e15.
+// Where the ray is after having swept psi > 0 radians, as IntegratedRay::r, unless it has ended
+// (then origin tells where) or whirls for ever.  Between 1e-10 and 1e15.
 IntegratedRay integrate_ray_to(double psi, const PhotonAtObserver& photon, Integrator integrator,
                                double tolerance);
 

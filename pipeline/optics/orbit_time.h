@@ -1,5 +1,5 @@
-// How long light takes along an orbit, by the null coordinate that stays regular where it moves: with
-// E > 0, u = t - r* of light that moves out and v = t + r* of light that falls grow by
+// How long light takes along an orbit, by the null coordinate that stays regular where it moves:
+// with E > 0, u = t - r* of light that moves out and v = t + r* of light that falls grow by
 //
 //     N = int dpsi/(e + |dw/dpsi|),   e = E/L,
 //
@@ -9,8 +9,8 @@
 //     N <- 2 N + 4 ln f + 2 c/(w a),   a = w y + (3w - 1) e,   c = (1 - w) y + (3w - 1) e,
 //     f = a (w - 1/2)/(w ((w - 1) y + (3w - 1) e)) = a c/(2 w^2 (4 e^2 - w (1 - w)^2));
 //
-// from a sky it is that of the point as far from the singularity, plus r/w there.  Without branches,
-// for loops that are to become SIMD code.
+// from a sky it is that of the point as far from the singularity, plus r/w there.  Without
+// branches, for loops that are to become SIMD code.
 #pragma once
 
 #include <cmath>
@@ -40,9 +40,9 @@ struct TimedPoint {
   return {(x2 * x2 - (4 * x + 1) * eps) / (2 * p), 2 * at.time + step};
 }
 
-// N from the singularity over the angle sigma; the domain is that of point_from_singularity.  Beyond
-// 40 radians the orbit is on the light circle.  Measured against quadrature, 0.01 <= e <= 1e4: the
-// error is below 2e-13 (M).
+// N from the singularity over the angle sigma; the domain is that of point_from_singularity.
+// Beyond 40 radians the orbit is on the light circle.  Measured against quadrature, 0.01 <= e <=
+// 1e4: the error is below 2e-13 (M).
 [[gnu::always_inline]] inline double time_from_singularity(double inverse_b, double eps,
                                                            double sigma) {
   const DoublingStart start = doubling_start(inverse_b, eps, sigma);

@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// Rays of the view by z: tan(alpha/2) = T exp(+-exp(z)), T that of the edge, on its outer side, where
-// the sky is, or on its inner side.
+// Rays of the view by z: tan(alpha/2) = T exp(+-exp(z)), T that of the edge, on its outer side,
+// where the sky is, or on its inner side.
 class RayFan {
  public:
   explicit RayFan(const PlaceView& view)
@@ -66,8 +66,8 @@ double null_time_after(const NullRay& ray, double psi) {
   return time;
 }
 
-// |dr/dalpha| at a fixed psi: by a four-point difference of 1/r, over a step in which r changes by a
-// hundredth, so that no ray ends before it has swept psi.
+// |dr/dalpha| at a fixed psi: by a four-point difference of 1/r, over a step in which r changes by
+// a hundredth, so that no ray ends before it has swept psi.
 double growth(const NullRay& ray, double psi, double r, double outer) {
   constexpr double kTrial = 1e-6, kSmall = 1e-3, kShare = 1e-2;
   const double smooth = smooth_over(ray);

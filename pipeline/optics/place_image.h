@@ -1,6 +1,6 @@
-// The image of a place near the hole: the ray that passes r after having swept psi, which is one for
-// each psi, since at a fixed psi r grows with the ray's angle from the hole throughout, across the
-// silhouette's edge too.
+// The image of a place near the hole: the ray that passes r after having swept psi, which is one
+// for each psi, since at a fixed psi r grows with the ray's angle from the hole throughout, across
+// the silhouette's edge too.
 #pragma once
 
 #include <optional>
@@ -27,10 +27,10 @@ struct PlaceImage {
   double solid_angle_per_area;
 };
 
-// The place is at 2 < r < infinity and psi >= 0 radians from the observer's radial direction, in the
-// sense of the ray; psi of the n-th image is psi, 2 pi - psi, 2 pi + psi and so on.  None where no
-// ray gets there: in region IV, and from region II to places below r = 3 beyond some turns.  blur:
-// radians, >= 0.
+// The place is at 2 < r < infinity and psi >= 0 radians from the observer's radial direction, in
+// the sense of the ray; psi of the n-th image is psi, 2 pi - psi, 2 pi + psi and so on.  None where
+// no ray gets there: in region IV, and from region II to places below r = 3 beyond some turns.
+// blur: radians, >= 0.
 // Measured: the ray comes back to the place within 1e-12 of r beside what 1e-15 in psi makes of it,
 // and the solid angle is within 1e-7 of that between rays to places nearby.
 std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double psi, double blur);

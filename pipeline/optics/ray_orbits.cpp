@@ -173,7 +173,8 @@ Dispatched<end_loop> end_orbits;
     // From the nearer end, where nothing cancels.
     const bool ahead = left <= passed;
     const double to_sky = in.to_sky[k], from_sky = in.from_sky[k];
-    // Of two flags the one that counts, by arithmetic: of selections of flags GCC makes no SIMD code.
+    // Of two flags the one that counts, by arithmetic: of selections of flags GCC makes no SIMD
+    // code.
     const double is_ahead = ahead ? 1 : 0, sky_flag = is_ahead * to_sky + (1 - is_ahead) * from_sky;
     const bool sky = sky_flag > 0;
     const double e = in.inverse_b[k];

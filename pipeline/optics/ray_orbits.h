@@ -1,6 +1,7 @@
-// Where the rays of one observer are after having swept an angle, many at a time: for rendering what
-// is near the hole.  ray_position.h says what a place along a ray is; this computes the same, column
-// by column and without a table, from the angles between the observer and the ends of each orbit.
+// Where the rays of one observer are after having swept an angle, many at a time: for rendering
+// what is near the hole.  ray_position.h says what a place along a ray is; this computes the same,
+// column by column and without a table, from the angles between the observer and the ends of each
+// orbit.
 #pragma once
 
 #include <array>
@@ -55,8 +56,8 @@ class RayOrbits {
   // The places after psi[k] >= 0 radians.  A radial ray has ended for every psi > 0; one with L/|E|
   // < 1e-40 r counts as radial.
   // Measured against exact_position over 1e-6 <= r <= 1e8 and offsets from an edge down to 1e-15:
-  // relative error below 1e-13 beside what 2e-15 max(1, psi) in psi makes of r.  set() takes 70 ns a
-  // ray and find() 17 ns (AVX2, g++ 12 -O3).
+  // relative error below 1e-13 beside what 2e-15 max(1, psi) in psi makes of r.  set() takes 70 ns
+  // a ray and find() 17 ns (AVX2, g++ 12 -O3).
   void find(const double* psi, RayPlaces& places) const;
 
  private:

@@ -1,5 +1,5 @@
-// The point of an orbit at an angle from one of its ends, without branches, so that a loop over rays
-// becomes SIMD code.  In x = w - 1/3, w = 1/r, where (dw/dpsi)^2 = P = 2 x^3 + x^2 + eps
+// The point of an orbit at an angle from one of its ends, without branches, so that a loop over
+// rays becomes SIMD code.  In x = w - 1/3, w = 1/r, where (dw/dpsi)^2 = P = 2 x^3 + x^2 + eps
 // (orbit_cubic.h), the angle from the singularity is doubled by
 //
 //     x <- (x^4 - (4 x + 1) eps)/(2 P),
@@ -54,8 +54,8 @@ inline RayPoint point_at_twice(double x, double eps) {
 
 // At the angle sigma > 0 from the singularity, up to half of the way to the other end: where the
 // orbit comes near to the light circle for ever, it is there from 40 radians on.  inverse_b = |E|/L
-// below 1e40, eps = inverse_b^2 - 1/27 with its own digits.  Measured against orbits integrated with
-// 40 digits: relative error of w below 1e-15 beside what an error of sigma makes of it.
+// below 1e40, eps = inverse_b^2 - 1/27 with its own digits.  Measured against orbits integrated
+// with 40 digits: relative error of w below 1e-15 beside what an error of sigma makes of it.
 inline RayPoint point_from_singularity(double inverse_b, double eps, double sigma) {
   const DoublingStart start = doubling_start(inverse_b, eps, sigma);
   double x = x_at_twice(x_at_twice(start.x, eps), eps);

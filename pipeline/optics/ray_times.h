@@ -1,8 +1,8 @@
 // When light left a place on its way to the observer, for many rays at a time.
 //
 // Times count in the observer's own null coordinate, as in emission_time.h: v = t + r* in the rain
-// frame, u = t - r* in the outgoing frame, r* = r + 2 ln|r/2 - 1|.  The same coordinate at the place
-// is finite but where it belongs to another horizon: v on the past one, u on the future one.
+// frame, u = t - r* in the outgoing frame, r* = r + 2 ln|r/2 - 1|.  The same coordinate at the
+// place is finite but where it belongs to another horizon: v on the past one, u on the future one.
 #pragma once
 
 #include "pipeline/optics/ray_orbits.h"

@@ -34,8 +34,8 @@ struct BandMemory {
 // Draws skies and stars, the disc before them and bodies, unless these are null, into a
 // frame of the projection's size, by all threads of the arena that calls.  Where there are borders,
 // stars end at them, and bodies do not.  In a half frame, a value beyond the largest
-// half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming the
-// pixel, if a value is not finite, and RenderStopped once `stop` is set.
+// half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming
+// the pixel, if a value is not finite, and RenderStopped once `stop` is set.
 template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
                 const DiscPass* disc, const std::optional<SkyBorders>& borders,

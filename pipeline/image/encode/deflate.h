@@ -1,9 +1,9 @@
 // Deflate (RFC 1951) by Intel's ISA-L at its level 1: a quarter of zlib's time at the same size.
 //
-// The bytes do not depend on the state of memory (see stream_memory.h), and are the same on every x86-64 processor with
-// SSE4.2, which all since 2009 have: ISA-L finds repetitions by a hash that is this instruction's,
-// and its ways for AVX2 and AVX-512 find the same ones.  Its levels 2 and above are no better for
-// frames, and level 3 gives other bytes for other instructions.
+// The bytes do not depend on the state of memory (see stream_memory.h), and are the same on every
+// x86-64 processor with SSE4.2, which all since 2009 have: ISA-L finds repetitions by a hash that
+// is this instruction's, and its ways for AVX2 and AVX-512 find the same ones.  Its levels 2 and
+// above are no better for frames, and level 3 gives other bytes for other instructions.
 #pragma once
 
 #include <cstddef>

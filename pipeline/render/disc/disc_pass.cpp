@@ -203,8 +203,8 @@ class DiscPass::Strip {
   void shade(const Pixels& pixels, int k, const Division& division, double turn,
              const DiscImages::Interval& rims, const Share& share, double weight) {
     const double width = rims.high - rims.low;
-    // How much of the interval a pixel's reach is.  It is slanted as the rims are, the more the nearer
-    // it is to either.
+    // How much of the interval a pixel's reach is.  It is slanted as the rims are, the more the
+    // nearer it is to either.
     const double middle = (pixels.label[k] - rims.low) / width, near = std::clamp(middle, 0.0, 1.0);
     const double slope = rims.low_slope + (rims.high_slope - rims.low_slope) * near;
     const double per = length(pixels.label_per[k], slope * division.turn_per) / width;

@@ -14,8 +14,9 @@ namespace domefall {
 template <int kImages>
 class Veil {
  public:
-  // Lays an image of this opacity over the part [from, to] of the pixel, 0 <= from <= to <= 1, behind
-  // those that are there.  Returns how much of the image's light is seen, as a part of the pixel.
+  // Lays an image of this opacity over the part [from, to] of the pixel, 0 <= from <= to <= 1,
+  // behind those that are there.  Returns how much of the image's light is seen, as a part of the
+  // pixel.
   double lay(double from, double to, double opacity) {
     divide(from);
     divide(to);

@@ -49,8 +49,8 @@ struct ViewRayBatch {
   V3d along(int k) const { return {along_x[k], along_y[k], along_z[k]}; }
 };
 
-// Directions of view in the frame in which light's ways are known: the reference tetrad's, or, where
-// light goes straight near a hole, that of the observer at rest.
+// Directions of view in the frame in which light's ways are known: the reference tetrad's, or,
+// where light goes straight near a hole, that of the observer at rest.
 struct FrameRayBatch {
   template <class T>
   using Column = ViewRayBatch::Column<T>;

@@ -109,8 +109,8 @@ struct Compared {
   int by_table = 0, by_integrator = 0;
 };
 
-// Where the ray is on its way, by the closed form, by what renders and by the integrator, which errs
-// in psi by the bound of its azimuth.
+// Where the ray is on its way, by the closed form, by what renders and by the integrator, which
+// errs in psi by the bound of its azimuth.
 void expect_one_place(const RayRequest& q, double psi, double bound, const TraceOptions& options) {
   constexpr double kStep = 1e-6;
   const auto r_after = [&](double angle, TraceMethod method) {

@@ -83,7 +83,8 @@ TEST(RayTimes, AreTheEmissionTimesOfTheSingularityAtItsEnd) {
   EXPECT_GT(compared, tries(500, 50));
 }
 
-// Light that neither turns nor comes from beyond the other horizon: the regular form of the integral.
+// Light that neither turns nor comes from beyond the other horizon: the regular form of the
+// integral.
 TEST(RayTimes, AreRegularWhereTheirHorizonIsCrossed) {
   RandomRays random;
   for (int n = 0; n < tries(300, 30); ++n) {

@@ -1,5 +1,5 @@
-// All light of a disc that reaches an observer, by quadrature over its exact images: the rims of each
-// by inverting exact_position, and between them the places of rays by the same.  It shares the
+// All light of a disc that reaches an observer, by quadrature over its exact images: the rims of
+// each by inverting exact_position, and between them the places of rays by the same.  It shares the
 // formulas of the gas's shift and colour with the renderer, and no table of rays.
 #pragma once
 
