@@ -195,7 +195,7 @@ class ShowFuzz : public ShowFile {
       ASSERT_FALSE(HasFailure()) << "mutant " << k << ":\n" << yaml;
     }
     // Both kinds are frequent enough that the test means something.
-    EXPECT_GT(shows, mutants / 20);
+    EXPECT_GT(shows, mutants / 25);
     EXPECT_GT(mutants - shows, mutants / 20);
     RecordProperty("shows", shows);
   }
