@@ -5,14 +5,18 @@
 namespace domefall {
 namespace {
 
-[[gnu::always_inline]] inline void into_frame_loop(const M33d& tetrad_from_camera,
-                                                   const Aberration& aberration,
+// What the loop needs of the observer; it copies it, as those of lensed_rays.cpp do.
+struct MovingCamera {
+  M33d tetrad_from_camera;
+  Aberration aberration;
+};
+
+[[gnu::always_inline]] inline void into_frame_loop(const MovingCamera& camera,
                                                    const CameraDirection* n, int count,
                                                    FrameRayBatch& batch) {
-  const M33d axes = tetrad_from_camera;
-  const Aberration moving = aberration;
+  const MovingCamera c = camera;
   for (int k = 0; k < count; ++k) {
-    const AberratedLight in = moving.to_rest(apply(axes, n[k].v));
+    const AberratedLight in = c.aberration.to_rest(apply(c.tetrad_from_camera, n[k].v));
     batch.x[k] = in.direction.x;
     batch.y[k] = in.direction.y;
     batch.z[k] = in.direction.z;
@@ -24,7 +28,7 @@ Dispatched<into_frame_loop> into_tetrad_frame;
 }  // namespace
 
 void ViewTracer::into_frame(const CameraDirection* n, int count, FrameRayBatch& batch) const {
-  into_tetrad_frame(tetrad_from_camera_, Aberration(vantage_.celerity), n, count, batch);
+  into_tetrad_frame({tetrad_from_camera_, Aberration(vantage_.celerity)}, n, count, batch);
   if (to_rest_)
     for (int k = 0; k < count; ++k) {
       const AberratedLight rest = to_rest_->to_rest(V3d(batch.x[k], batch.y[k], batch.z[k]));
