@@ -29,7 +29,7 @@ struct Series {
 };
 
 GivenVelocity below_the_horizon(double depth) {
-  return {Region::kII, Tetrad::kRain, 2 - depth, {}};
+  return {Region::kII, Tetrad::kRain, 2 - depth, V3d(0, 0, 0)};
 }
 
 GivenVelocity at_rest_above_the_horizon(double altitude) {
