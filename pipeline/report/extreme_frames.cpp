@@ -17,10 +17,11 @@ void add_domes(FrameTally& frames, const Trajectory& trajectory) {
 
 ExtremeResult lorentz_factor_of_a_million() {
   FrameTally frames;
-  for (const GivenVelocity& place : {GivenVelocity{Region::kI, Tetrad::kRain, 10, {}},
-                                     GivenVelocity{Region::kI, Tetrad::kRain, 2.001, {}},
-                                     GivenVelocity{Region::kII, Tetrad::kRain, 0.5, {}},
-                                     GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, {}}})
+  for (const GivenVelocity& place :
+       {GivenVelocity{Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)},
+        GivenVelocity{Region::kI, Tetrad::kRain, 2.001, V3d(0, 0, 0)},
+        GivenVelocity{Region::kII, Tetrad::kRain, 0.5, V3d(0, 0, 0)},
+        GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, V3d(0, 0, 0)}})
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
@@ -48,7 +49,7 @@ ExtremeResult frames_at(std::initializer_list<double> radii, const char* outcome
 ExtremeResult white_hole_frames() {
   FrameTally frames;
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-15, 2.0})
-    add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, {}});
+    add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, V3d(0, 0, 0)});
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-12})
     add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r,
                                     resting_celerity(r, Tetrad::kOutgoing)});
