@@ -39,6 +39,10 @@ std::vector<Body> read_bodies(const Section& show, const Show& to) {
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (!to.mass_solar) list->fail("need a black hole: give the show black_hole.mass_solar");
+  if (!list->node.IsMap()) {
+    list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
+    return bodies;
+  }
   for (const auto& [name, item] : entries_of(*list)) bodies.push_back(read_body(name, item, to));
   return bodies;
 }

@@ -50,6 +50,8 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
        "3:13: bodies.a.r is missing (units of M)"},
       {"no orbit", kShow + "bodies: {a: {r: 3}}\n",
        "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
+      {"a list", kShow + "bodies: [{r: 9}]\n",
+       "3:9: bodies must be a map of names and bodies, e.g. {beacon: {r: 10}}, got a list"},
   });
   EXPECT_NE(
       complaint("bodies: {a: {r: 9}}\ntimeline: [{duration_s: 2, trajectory: {type: static}}]\n")
