@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/cli/pixel_reach.h"
 #include "pipeline/cli/stars_at_pixel.h"
 #include "pipeline/render/scene/body_sight.h"
-#include "pipeline/render/scene/point_spread.h"
 
 namespace domefall {
 
 std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& state,
                                          PixelPosition pixel) {
-  constexpr double kReach = 3.5;  // sigmas, to which the smallest blob reaches
-  const double reach = kReach * PointSpread(show.point_spread, state.projection, 1).least();
+  const double reach = pixel_reach(show, state.projection);
   const V3d towards = direction_at(state.projection, pixel).v;
   const BodySight sight(show, state);
   std::vector<BodyAtPixel> found;

@@ -137,7 +137,7 @@ std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int in
                      {"slowest", StatusJson::array()},
                      {"failed_chunks", StatusJson::array()},
                      {"conclusion", status.conclusion},
-                     {"todo", as_ranges(found.to_make())}};
+                     {"to_make", as_ranges(found.to_make())}};
   const auto add_segments = [&](const std::map<int, int>& frames_of, const char* work) {
     for (const auto& [segment, count] : frames_of)
       json["invalidated"].push_back({{"segment", segment + 1}, {"frames", count}, {"work", work}});

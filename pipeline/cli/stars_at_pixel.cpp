@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/render/scene/point_spread.h"
+#include "pipeline/cli/pixel_reach.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/scene/star_sight.h"
 #include "pipeline/show/stars_section.h"
@@ -24,8 +24,7 @@ std::vector<std::string> names_of_star(const StarCatalogue& catalogue, const Sta
 
 std::vector<StarAtPixel> stars_at_pixel(const Show& show, const FrameState& state,
                                         PixelPosition pixel) {
-  constexpr double kReach = 3.5;  // sigmas, to which the smallest blob reaches
-  const double reach = kReach * PointSpread(show.point_spread, state.projection, 1).least();
+  const double reach = pixel_reach(show, state.projection);
   const V3d towards = direction_at(state.projection, pixel).v;
   const StarSight sight(show, state);
   std::vector<StarAtPixel> found;

@@ -39,7 +39,7 @@ class Verification {
   const std::vector<int>& black() const { return black_; }
 
   // What a run has to make again; of what cannot be read nobody knows.
-  std::vector<int> todo() const {
+  std::vector<int> to_make() const {
     const std::vector<int> bad = found_.to_make(), suspicious = this->suspicious();
     return joined_frames({&bad, &suspicious});
   }
@@ -49,7 +49,7 @@ class Verification {
   // Makes what is to do and what cannot be read, and looks at it again.  Throws InputError if the
   // folder is another show's, and as run_frames.
   void repair() {
-    const std::vector<int> bad = todo();
+    const std::vector<int> bad = to_make();
     const std::vector<int> frames = joined_frames({&bad, &found_.unreadable});
     if (frames.empty()) return;
     // The files of other shows may go only where the folder is this show's.
@@ -132,7 +132,7 @@ nlohmann::ordered_json verify_json(const FarmFrames& frames, const Verification&
            {{"black", as_ranges(verified.black())},
             {"not_finite", as_ranges(found.not_finite)},
             {"unlike_manifest", as_ranges(found.unlike)}}},
-          {"todo", as_ranges(verified.todo())}};
+          {"to_make", as_ranges(verified.to_make())}};
 }
 
 void print_page(const FarmFrames& frames, const Verification& verified) {
@@ -164,7 +164,7 @@ void end_by(const FarmFrames& frames, const Verification& verified, bool repair)
   };
   if (const auto count = verified.found().unreadable.size())
     throw TemporaryError(folder + ": " + counted(count, "frame") + " cannot be read");
-  if (const auto count = verified.todo().size())
+  if (const auto count = verified.to_make().size())
     throw std::runtime_error(
         fmt::format("{}: {} to be made; --repair makes them", folder, counted(count, "frame")));
   if (const auto count = verified.foreign().size(); count > 0 && !repair)

@@ -53,13 +53,13 @@ FramesVerdict verify_frames(const FarmPlan& plan) {
   try {
     const auto json = nlohmann::json::parse(
         begin == std::string::npos ? "" : said.substr(begin, end + 2 - begin));
-    verdict.todo = json.at("todo").get<std::string>();
+    verdict.to_make = json.at("to_make").get<std::string>();
     verdict.frames = json.at("frames");
-    verdict.todo_count = verdict.frames - json.at("good").get<int>();
+    verdict.to_make_count = verdict.frames - json.at("good").get<int>();
   } catch (const nlohmann::json::exception&) {
     throw TemporaryError("domefall farm verify: " + said);
   }
-  verdict.complete = verdict.todo.empty();
+  verdict.complete = verdict.to_make.empty();
   return verdict;
 }
 
@@ -67,14 +67,14 @@ FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most) {
   const int round = plan.rounds.empty() ? 1 : plan.rounds.back().round + 1;
   const auto first = chunks_of_round(plan, 0);
   std::vector<int> frames;
-  for (std::size_t at = 0; at < verdict.todo.size();) {
+  for (std::size_t at = 0; at < verdict.to_make.size();) {
     int from = 0, to = 0;
-    const char* const end = verdict.todo.data() + verdict.todo.size();
-    const char* next = std::from_chars(verdict.todo.data() + at, end, from).ptr;
+    const char* const end = verdict.to_make.data() + verdict.to_make.size();
+    const char* next = std::from_chars(verdict.to_make.data() + at, end, from).ptr;
     to = from;
     if (next != end && *next == '-') next = std::from_chars(next + 1, end, to).ptr;
     for (int frame = from; frame <= to; ++frame) frames.push_back(frame);
-    at = static_cast<std::size_t>(next - verdict.todo.data()) + 1;
+    at = static_cast<std::size_t>(next - verdict.to_make.data()) + 1;
   }
   const int wanted = std::max<int>(1, static_cast<int>(first.size()));
   const int per_chunk =

@@ -11,8 +11,8 @@ namespace domefall {
 // What `domefall farm verify` says of a plan's frames.
 struct FramesVerdict {
   bool complete = false;
-  std::string todo;  // frames that are missing, damaged or stale: 3-5,9
-  int todo_count = 0, frames = 0;
+  std::string to_make;  // frames that are missing, damaged or stale: 3-5,9
+  int to_make_count = 0, frames = 0;
 };
 
 // Runs `domefall farm verify`, which reads all frames.  Throws InputError and TemporaryError as it

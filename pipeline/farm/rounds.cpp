@@ -40,7 +40,7 @@ void note_round(FarmPlan& plan, int round, const std::string& job) {
 std::string missing_text(const FarmPlan& plan, const FramesVerdict& verdict) {
   return fmt::format(
       "missing, damaged or of another version: frames {} ({} of {}); the logs are in {}",
-      verdict.todo, verdict.todo_count, verdict.frames, farm_log_folder(plan.out).string());
+      verdict.to_make, verdict.to_make_count, verdict.frames, farm_log_folder(plan.out).string());
 }
 
 void finish_plan(const FarmPlan& plan, const FramesVerdict& verdict) {
@@ -51,8 +51,8 @@ void finish_plan(const FarmPlan& plan, const FramesVerdict& verdict) {
 FarmPlan next_round(const FarmPlan& plan, const FramesVerdict& verdict) {
   FarmPlan next = with_round(plan, verdict, most_chunks(plan));
   announce(fmt::format("round {} of at most {}: frames {} ({} of {}) are rendered again",
-                       next.rounds.back().round, plan.most_rounds, verdict.todo, verdict.todo_count,
-                       verdict.frames));
+                       next.rounds.back().round, plan.most_rounds, verdict.to_make,
+                       verdict.to_make_count, verdict.frames));
   return next;
 }
 

@@ -44,7 +44,7 @@ sed -i 's/"job": ""/"job": "4"/' planned/farm/plan_*.json
 mv planned/farm/plan_*.json out/farm
 exits 0 domefall farm verify out --json
 grep -q '"good": 20,' stdout || fail "$(cat stdout)"
-has todo ''
+has to_make ''
 has black ''
 exits 0 domefall farm status out --json
 grep -q '"done": 20,' stdout || fail "$(cat stdout)"
@@ -121,7 +121,7 @@ has unreadable 8
 has stale ''
 has black 11
 has unlike_manifest 11
-has todo '2-3,5,7,11'
+has to_make '2-3,5,7,11'
 foreign graded/notes.txt linear/fall_00005.exr linear/fall_00020.exr
 exits 75 domefall farm verify out
 says '1 frame cannot be read'
@@ -131,7 +131,7 @@ mv out/farm/manifest manifest
 exits 75 domefall farm verify out --json
 has black 11
 has unlike_manifest ''
-has todo '2-3,5,7,11'
+has to_make '2-3,5,7,11'
 mv manifest out/farm/manifest
 
 # ---- status sees what beginnings, lengths and names tell, and the last line of a log ----
@@ -150,7 +150,7 @@ rmdir "$(linear 8)"
 # Foreign files are left and told, and do not keep a movie waiting that follows a repair.
 exits 0 domefall farm verify out --repair --json
 grep -q '"good": 20,' stdout || fail "$(cat stdout)"
-has todo ''
+has to_make ''
 foreign graded/notes.txt linear/fall_00020.exr
 exits 1 domefall farm verify out
 says '2 files among them not this show'
