@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "pipeline/grade/grade_cells.h"
@@ -36,10 +37,15 @@ struct Probe {
   float grey, hue;
   int largest;
 };
-constexpr std::array kProbes{Probe{0.5f, 0.5f, cells::kStep / 2},
-                             Probe{-0.5f, 0.5f, cells::kStep / 4},
-                             Probe{0.5f, -0.5f, 3 * cells::kStep / 4},
-                             Probe{-0.5f, -0.5f, cells::kStep / 2}, Probe{0, 0, cells::kStep / 2}};
+constexpr std::array kProbes{
+    Probe{0.5f, 0.5f, cells::kStep / 2}, Probe{-0.5f, -0.5f, cells::kStep / 2},
+    Probe{-0.5f, 0.5f, cells::kStep / 4}, Probe{0.5f, -0.5f, 3 * cells::kStep / 4},
+    Probe{0, 0, cells::kStep / 2}};
+// Most cells are so exact at the first two probes, or err so much there, that the others are left
+// out. These two are opposite corners: what errs by the largest channel has one sign at both, what
+// errs by grey and hue has two.
+constexpr int kFirstProbes = 2;
+constexpr double kSmallPart = 0.1;
 // Between the probes an error may be larger than at them.
 constexpr double kProbedPart = 0.8;
 
@@ -108,25 +114,35 @@ void GradeTable::fill(int block) {
 void GradeTable::compare(int block) {
   std::vector<float> rgb(3 * kPlaneCells), codes(3 * kPlaneCells);
   std::vector<unsigned short> looked_up(3 * kPlaneCells + 1);
-  std::vector<int> missed(kPlaneCells + 1);
+  std::vector<int> missed(kPlaneCells + 1), compared;
   cells::Places places;
   static_assert(kPlaneCells <= cells::Places::kSize);
   for_planes(block, cells::kCells, [&](int order, int n) {
-    for (const Probe& probe : kProbes) {
-      for (int k = 0; k < kPlaneCells; ++k) {
-        const int i = k / cells::kInnerHues + 1, j = k % cells::kInnerHues + 1;
+    float* error = &errors_[first_cell(order, n)];
+    compared.resize(kPlaneCells);
+    std::iota(compared.begin(), compared.end(), 0);
+    for (std::size_t p = 0; p < kProbes.size(); ++p) {
+      const Probe& probe = kProbes[p];
+      if (p == kFirstProbes)
+        std::erase_if(compared, [&](int k) {
+          return error[k] <= kSmallPart * kMostError || error[k] > kProbedPart * kMostError;
+        });
+      const int count = static_cast<int>(compared.size());
+      if (count == 0) break;
+      for (int k = 0; k < count; ++k) {
+        const int i = compared[k] / cells::kInnerHues + 1, j = compared[k] % cells::kInnerHues + 1;
         cells::put_pixel(order, cells::value_of(n * cells::kStep + probe.largest),
                          static_cast<float>(i) + probe.grey, static_cast<float>(j) + probe.hue,
                          &rgb[3 * k]);
         cells::put_place(places, k, cells::node_at(order, n, i, j), probe.grey, probe.hue,
                          static_cast<float>(probe.largest) / cells::kStep);
       }
-      formulas_(rgb.data(), kPlaneCells, codes.data());
-      cells::interpolate(nodes_.data(), places, kPlaneCells, looked_up.data(), missed.data());
-      float* error = &errors_[first_cell(order, n)];
-      for (int k = 0; k < 3 * kPlaneCells; ++k) {
+      formulas_(rgb.data(), count, codes.data());
+      cells::interpolate(nodes_.data(), places, count, looked_up.data(), missed.data());
+      for (int k = 0; k < 3 * count; ++k) {
         const float off = std::abs(static_cast<float>(looked_up[k]) / 65535 - shown(codes[k]));
-        error[k / 3] = std::max(error[k / 3], off);
+        float& most = error[compared[k / 3]];
+        most = std::max(most, off);
       }
     }
   });

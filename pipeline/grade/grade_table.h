@@ -7,10 +7,10 @@
 // and 32 evenly spaced ones below; the ratio has 21, even in its square root, from 0.25 to 1, and
 // the hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
 //
-// When the table is made, each of its cells is compared with the formulas at five places.  One that
-// errs by more than 0.8 kMostError there is left out with its neighbours, and so are cells in which
-// a channel leaves black, ratios below 0.25, values that are negative or above 65504, and what is
-// no number.  Those pixels are for the caller to grade by the formulas.
+// When the table is made, each of its cells is compared with the formulas at two to five places.
+// One that errs by more than 0.8 kMostError there is left out with its neighbours, and so are cells
+// in which a channel leaves black, ratios below 0.25, values that are negative or above 65504, and
+// what is no number.  Those pixels are for the caller to grade by the formulas.
 #pragma once
 
 #include <atomic>
@@ -39,8 +39,8 @@ class GradeTable {
   void make();
 
   // Of a table that is made.  Grades `count` pixels to 16 bits, and writes the numbers of those
-  // that it does not hold, in ascending order, to missed[].  Returns how many those are; their codes
-  // are not set.  out[] and missed[] have room for one value more, which is overwritten.
+  // that it does not hold, in ascending order, to missed[].  Returns how many those are; their
+  // codes are not set.  out[] and missed[] have room for one value more, which is overwritten.
   int look_up(const PixelPlanes& planes, int count, unsigned short* out, int* missed) const;
 
   // The largest error found in the cells that are held, as a part of white, and the part of all

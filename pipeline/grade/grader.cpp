@@ -30,7 +30,7 @@ namespace ocio = OCIO_NAMESPACE;
 namespace {
 
 // It grows whenever any pixel's code changes, so that frames of before are graded again.
-constexpr int kCodesVersion = 2;
+constexpr int kCodesVersion = 3;
 
 using Code = std::array<unsigned short, 3>;
 
