@@ -14,6 +14,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/preview/live_show.h"
 #include "pipeline/preview/page_files.h"
+#include "pipeline/preview/patient_server.h"
 #include "pipeline/preview/screen_view.h"
 #include "pipeline/preview/show_facts.h"
 #include "pipeline/preview/show_warnings.h"
@@ -119,7 +120,7 @@ struct PreviewServer::Inside {
   int port = 0;
   std::atomic<int> waiting_for_news = 0;
   std::atomic<std::uint64_t> nobodies = 0;
-  httplib::Server http;
+  PatientServer http;
 
   Inside(const std::filesystem::path& file, int wanted_port, int threads) : show(file, threads) {
     limit_descriptors();

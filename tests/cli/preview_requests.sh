@@ -20,7 +20,7 @@ grep -q "ssh -L $port:127.0.0.1:$port " address || fail "no word of a tunnel: $(
 # A still picture is the one that --out writes, but for what half a step of 12 bits of the grade does.
 exits 0 "$DOMEFALL" preview fall.yaml --frame 6 --out still.jpg --size 320x180
 python3 - "$url" "$server" still.jpg <<'END'
-import json, random, re, socket, sys, urllib.parse, urllib.request
+import json, random, re, socket, sys, time, urllib.parse, urllib.request
 
 url, server, still = sys.argv[1], int(sys.argv[2]), sys.argv[3]
 where = urllib.parse.urlsplit(url)
@@ -147,6 +147,28 @@ while sent < 10_000:
     except OSError:
         connection.close()
         connection = None
+
+# Endless requests, of header lines and of one line, and one that comes byte by byte: each is cut off.
+for endless in (b'X: y\r\n' * 1000, b'y' * 6000):
+    with socket.create_connection(('127.0.0.1', int(port)), timeout=10) as talker:
+        talker.sendall(f'GET /{token}/show HTTP/1.1\r\nHost: {host}\r\n'.encode())
+        said = 0
+        try:
+            while said < 100e6:
+                talker.sendall(endless)
+                said += len(endless)
+        except OSError:
+            pass
+        assert said < 20e6, said
+with socket.create_connection(('127.0.0.1', int(port)), timeout=10) as drip:
+    began = time.monotonic()
+    try:
+        while time.monotonic() - began < 20:
+            drip.sendall(b'G')
+            time.sleep(0.1)
+    except OSError:
+        pass
+    assert time.monotonic() - began < 10
 
 # 500 at once that say half of a request, and 100 that say nothing.
 slow = []

@@ -107,7 +107,8 @@ export class Pictures {
   adapt(began) {
     const now = performance.now(), took = Math.max(now - began, began - this.last < calm ? now - this.last : 0);
     this.last = now;
-    if (took > 40) this.scale = Math.max(0.35, this.scale * 0.95);
-    else if (took < 37) this.scale = Math.min(1, this.scale * 1.03);
+    // The aim lies below 40 ms, since one slow picture outweighs several quick ones.
+    if (took > 37) this.scale = Math.max(0.35, this.scale * 0.95);
+    else if (took < 34) this.scale = Math.min(1, this.scale * 1.03);
   }
 }
