@@ -62,7 +62,8 @@ function refused(text) {
 const pictures = new Pictures('view', wantedView, (bitmap, about) => {
   projector.take('shown', bitmap, about);
   if (view.own && about.projection === view.projection) Object.assign(view, lookOf(about.camera, about.projection));
-  Object.assign(tests, { drawn: tests.drawn + 1, frame: about.frame, revision: about.revision, ready: true });
+  Object.assign(tests, { drawn: tests.drawn + 1, frame: about.frame, revision: about.revision,
+    size: [about.width, about.height], ready: true });
   draw();
 }, refused);
 
