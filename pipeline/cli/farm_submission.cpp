@@ -53,14 +53,18 @@ std::vector<double> frame_seconds(const Show& show, const std::vector<int>& fram
                                   bool measured) {
   Renderer renderer(show);
   if (!measured) {
-    relative_costs(show, {frames.front(), frames.back()}, renderer);
+    relative_light_costs(show, {frames.front(), frames.back()}, renderer);
     return std::vector<double>(frames.size(), 1);
   }
-  std::vector<double> costs = relative_costs(show, frames, renderer);
+  std::vector<double> costs = relative_light_costs(show, frames, renderer);
   std::optional<Grader> grader;
   if (show.output.graded) grader.emplace(show.grade);
   const RenderTime time = estimate_render_time(show, renderer, grader ? &*grader : nullptr);
-  for (double& cost : costs) cost *= time.frame_s * time.threads / threads;
+  // Grading and files take about as long for each.
+  constexpr double kLeastPart = 1e-3;
+  for (double& cost : costs)
+    cost = time.frame_s * time.threads / threads *
+           std::max(kLeastPart, 1 - time.light_part + time.light_part * cost);
   return costs;
 }
 

@@ -1,7 +1,9 @@
 #include "pipeline/survey/frame_costs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -12,54 +14,123 @@
 namespace domefall {
 namespace {
 
-constexpr int kCostWidth = 256;
-constexpr std::size_t kMostCostSamples = 9;
-// No frame is taken to cost less than this part of the mean: its files are written in any case.
-constexpr double kLeastCost = 0.2;
+// In smaller pictures stars are found one by one, which takes ten times as long as it does in large
+// ones (StarImageFinder).
+constexpr int kCostWidth = 512;
+constexpr std::size_t kMostSegments = 8, kMostMeasured = 16;
+// Two samples differ too much for what is between them to be interpolated, if half of the
+// difference comes to more than this part of all frames' cost.
+constexpr double kPreciseEnough = 5e-3;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+// The places in `frames` where another segment begins, the first one with it, and the end.
+std::vector<std::size_t> segment_bounds(const Show& show, const std::vector<int>& frames) {
+  std::vector<std::size_t> bounds{0};
+  while (bounds.back() < frames.size() && bounds.size() <= kMostSegments) {
+    const int segment = frame_state(show, frames[bounds.back()]).segment;
+    const auto end = std::partition_point(
+        frames.begin() + static_cast<std::ptrdiff_t>(bounds.back()), frames.end(),
+        [&](int frame) { return frame_state(show, frame).segment <= segment; });
+    bounds.push_back(static_cast<std::size_t>(end - frames.begin()));
+  }
+  if (bounds.back() < frames.size()) return {0, frames.size()};
+  return bounds;
+}
+
+// Measures the light of single frames.
+class LightClock {
+ public:
+  LightClock(const Show& show, Renderer& renderer)
+      : show_(show), instant_(show), width_(std::min(columns(show.projection), kCostWidth)) {
+    instant_.exposure.shutter = 0;
+    if (show.exposure.shutter > 0) own_.emplace(instant_, renderer.threads());
+    renderer_ = own_ ? &*own_ : &renderer;
+  }
+
+  double seconds(int number) {
+    const FrameState small = reduced(frame_state(instant_, number), width_);
+    // The first frame of all loads the skies and the stars.
+    if (!is_warm_) render_for_files(*renderer_, instant_, small, frame_);
+    is_warm_ = true;
+    const double start = processor_time();
+    render_for_files(*renderer_, instant_, small, frame_);
+    const double took = processor_time() - start;
+    return show_.exposure.shutter > 0
+               ? took * instants_for(show_, frame_state(show_, number), optics_)
+               : took;
+  }
+
+ private:
+  const Show& show_;
+  Show instant_;
+  int width_;
+  std::optional<Renderer> own_;
+  Renderer* renderer_ = nullptr;
+  OpticsStore optics_;
+  RenderedFrame frame_;
+  bool is_warm_ = false;
+};
+
+// Measured costs by their places in a list of frames.
+using Samples = std::map<std::size_t, double>;
+
+// Between two samples of one segment, half of their difference times the frames between them.
+struct Gap {
+  std::size_t first = 0, last = 0;
+  double doubt = 0;
+};
+
+Gap most_doubtful(const Samples& samples, const std::vector<std::size_t>& bounds) {
+  Gap most;
+  for (auto b = samples.begin(), a = b++; b != samples.end(); a = b++) {
+    if (std::ranges::binary_search(bounds, b->first)) continue;  // a cut is between them
+    const std::size_t length = b->first - a->first;
+    const double doubt = std::abs(b->second - a->second) / 2 * static_cast<double>(length);
+    if (length > 1 && doubt > most.doubt) most = {a->first, b->first, doubt};
+  }
+  return most;
+}
+
+std::vector<double> interpolated(const Samples& samples, std::size_t count) {
+  std::vector<double> costs(count, 0);
+  auto before = samples.begin();
+  for (const auto& [at, cost] : samples) {
+    for (std::size_t k = before->first; k < at; ++k)
+      costs[k] = std::lerp(
+          before->second, cost,
+          static_cast<double>(k - before->first) / static_cast<double>(at - before->first));
+    costs[at] = cost;
+    before = samples.find(at);
+  }
+  return costs;
+}
+
 }  // namespace
 
-std::vector<double> relative_costs(const Show& show, const std::vector<int>& frames,
-                                   Renderer& renderer) {
+std::vector<double> relative_light_costs(const Show& show, const std::vector<int>& frames,
+                                         Renderer& renderer) {
   if (frames.empty()) return {};
-  Show instant = show;
-  instant.exposure.shutter = 0;
-  std::optional<Renderer> own;
-  if (show.exposure.shutter > 0) own.emplace(instant, renderer.threads());
-  Renderer& used = own ? *own : renderer;
-  OpticsStore optics;
-  const int width = std::min(columns(show.projection), kCostWidth);
-  const std::size_t samples = std::min(frames.size(), kMostCostSamples), last = frames.size() - 1;
-  const auto index = [&](std::size_t k) { return samples > 1 ? k * last / (samples - 1) : 0; };
-  std::vector<double> sampled;
-  RenderedFrame frame;
-  for (std::size_t k = 0; k < samples; ++k) {
-    const FrameState state = frame_state(instant, frames[index(k)]);
-    // The first frame of all loads the skies and the stars.
-    for (int tries = k == 0 ? 0 : 1; tries < 2; ++tries) {
-      const double start = processor_time();
-      render_for_files(used, instant, reduced(state, width), frame);
-      if (tries == 1) sampled.push_back(processor_time() - start);
+  LightClock clock(show, renderer);
+  const std::vector<std::size_t> bounds = segment_bounds(show, frames);
+  Samples samples;
+  const auto sample = [&](std::size_t at) {
+    if (!samples.contains(at)) samples[at] = clock.seconds(frames[at]);
+  };
+  for (std::size_t k = 1; k < bounds.size(); ++k)
+    for (const std::size_t at : {bounds[k - 1], (bounds[k - 1] + bounds[k]) / 2, bounds[k] - 1})
+      sample(at);
+  for (;;) {
+    std::vector<double> costs = interpolated(samples, frames.size());
+    const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
+    const Gap gap = most_doubtful(samples, bounds);
+    if (gap.doubt > kPreciseEnough * sum && samples.size() < kMostMeasured) {
+      sample((gap.first + gap.last) / 2);
+      continue;
     }
-    if (show.exposure.shutter > 0)
-      sampled.back() *= instants_for(show, frame_state(show, frames[index(k)]), optics);
+    for (double& cost : costs) cost *= sum > 0 ? static_cast<double>(costs.size()) / sum : 0;
+    return costs;
   }
-  const double mean = std::max(
-      1e-9, std::accumulate(sampled.begin(), sampled.end(), 0.0) / static_cast<double>(samples));
-  for (double& cost : sampled) cost = std::max(kLeastCost, cost / mean);
-  std::vector<double> costs(frames.size(), sampled.front());
-  for (std::size_t k = 1; k < samples; ++k) {
-    const std::size_t from = index(k - 1), to = index(k);
-    for (std::size_t i = from; i <= to; ++i) {
-      const double part = static_cast<double>(i - from) / static_cast<double>(to - from);
-      costs[i] = (1 - part) * sampled[k - 1] + part * sampled[k];
-    }
-  }
-  const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
-  for (double& cost : costs) cost *= static_cast<double>(costs.size()) / sum;
-  return costs;
 }
 
 }  // namespace domefall

@@ -20,4 +20,11 @@ FrameState reduced(FrameState state, int width) {
   return state;
 }
 
+FrameState without_stars(FrameState state) {
+  for (const SkyRegion sky : kEverySky) state.settings.sky[sky].star_gain = 0;
+  if (state.vanishing)
+    state.vanishing = std::make_shared<const FrameState>(without_stars(*state.vanishing));
+  return state;
+}
+
 }  // namespace domefall

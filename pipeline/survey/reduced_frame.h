@@ -12,4 +12,7 @@ Projection reduced(const Projection& projection, int width);
 // The same frame in that projection, and so is the one that dissolves into it.
 FrameState reduced(FrameState state, int width);
 
+// The same frame with no star in any sky.
+FrameState without_stars(FrameState state);
+
 }  // namespace domefall

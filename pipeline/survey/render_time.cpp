@@ -19,13 +19,15 @@ namespace {
 
 // The width in pixels of the largest of the three sizes.  The others have a half and a quarter of
 // it.
-constexpr int kLarge = 1024, kSmallest = 16;
+constexpr int kLarge = 1024;
 constexpr int kFrames = 3;  // measured at each size
 constexpr double kWorth = 0.05;
 
-std::array<int, 3> measured_widths(const Show& show) {
-  const int large = std::min(columns(show.projection), kLarge);
-  return {std::max(kSmallest, large / 4), std::max(kSmallest, large / 2), large};
+int largest_width(const Show& show) { return std::min(columns(show.projection), kLarge); }
+
+// How often the width doubles from the largest measured size to the full one.
+double doublings_of(const Show& show) {
+  return std::log2(1.0 * columns(show.projection) / largest_width(show));
 }
 
 // The state of one of the measured frames, k from 0 to kFrames.  The first two are one.
@@ -52,13 +54,13 @@ struct Cost {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-class Run {
+class Measurement {
  public:
-  Run(const Show& show, Renderer& renderer, const Grader* grader)
+  Measurement(const Show& show, Renderer& renderer, const Grader* grader)
       : show_(show), renderer_(renderer), grader_(grader) {}
 
   // The cost of a frame in a run in which one frame is written while the next is rendered.
-  Cost per_frame(int width) const {
+  Cost of_frames(int width, bool stars = true) const {
     using Clock = std::chrono::steady_clock;
     std::future<void> writing;
     Clock::time_point start;
@@ -67,7 +69,7 @@ class Run {
     // One frame more is made: the clocks run from the writing of the first one on.
     for (int k = 0; k <= kFrames; ++k) {
       auto frame = std::make_shared<RenderedFrame>();
-      render_for_files(renderer_, show_, reduced(measured_state(show_, k), width), *frame);
+      render_for_files(renderer_, show_, state(k, width, stars), *frame);
       if (writing.valid()) {
         writing.get();
         add_sizes(cost);
@@ -80,7 +82,27 @@ class Run {
     return cost;
   }
 
+  // That of its light alone.
+  Cost of_light(int width, bool stars = true) const {
+    RenderedFrame frame;
+    render_for_files(renderer_, show_, state(0, width, stars), frame);
+    const auto start = std::chrono::steady_clock::now();
+    const double processor = processor_seconds();
+    for (int k = 1; k <= kFrames; ++k)
+      render_for_files(renderer_, show_, state(k, width, stars), frame);
+    Cost cost;
+    cost.wall =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kFrames;
+    cost.processor = (processor_seconds() - processor) / kFrames;
+    return cost;
+  }
+
  private:
+  FrameState state(int k, int width, bool stars) const {
+    const FrameState small = reduced(measured_state(show_, k), width);
+    return stars ? small : without_stars(small);
+  }
+
   std::filesystem::path linear() const { return folder_ / "linear.exr"; }
   std::filesystem::path graded() const { return folder_ / "graded"; }
 
@@ -112,31 +134,15 @@ class Run {
   ScratchFolder folder_;
 };
 
-// The cost of a frame's light alone.
-Cost light_cost(const Show& show, Renderer& renderer, int width) {
-  RenderedFrame frame;
-  render_for_files(renderer, show, reduced(measured_state(show, 0), width), frame);
-  const auto start = std::chrono::steady_clock::now();
-  const double processor = processor_seconds();
-  for (int k = 1; k <= kFrames; ++k)
-    render_for_files(renderer, show, reduced(measured_state(show, k), width), frame);
-  Cost cost;
-  cost.wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kFrames;
-  cost.processor = (processor_seconds() - processor) / kFrames;
-  return cost;
-}
-
-// Seconds by the clock at a width that is `doublings` doublings above that of the last of three
+// The processor time at a width that is `doublings` doublings above that of the last of three
 // costs, each of twice the width of the one before.  A part of the work is proportional to the
 // pixels, another to the length of edges, and another to the stars.
-double seconds_at(const std::array<Cost, 3>& costs, double doublings) {
+double processor_at(const std::array<Cost, 3>& costs, double doublings) {
   const auto& [quarter, half, whole] = costs;
   const double step = std::max(0.0, whole.processor - half.processor);
   const double growth =
       std::clamp(step / std::max(half.processor - quarter.processor, 1e-9), 2.0, 4.0);
-  const double more = step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
-  return whole.wall * (1 + more / std::max(whole.processor, 1e-9));
+  return whole.processor + step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
 }
 
 // A file's size at a width that is `doublings` doublings above `whole`'s.
@@ -148,10 +154,10 @@ double size_at(double half, double whole, double doublings) {
 }  // namespace
 
 bool is_worth_measuring(const Show& show) {
-  double measured = 0;  // frames of full size
-  for (const int width : measured_widths(show))
-    measured += (kFrames + 1) * std::pow(1.0 * width / columns(show.projection), 2);
-  return measured < kWorth * frame_count(show);
+  const double part = std::pow(1.0 * largest_width(show) / columns(show.projection), 2);
+  // Those of a half and a quarter of the width have a quarter and a sixteenth of the pixels.
+  const double sizes = doublings_of(show) > 0 ? 1 + 1.0 / 4 + 1.0 / 16 : 1;
+  return (kFrames + 1) * part * sizes < kWorth * frame_count(show);
 }
 
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader) {
@@ -162,28 +168,37 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   instant.exposure.shutter /= instants;
   std::optional<Renderer> own;
   if (instants > 1) own.emplace(instant, renderer.threads());
-  Renderer& measured = own ? *own : renderer;
   std::optional<Grader> as_at_full_size;
   if (grader) {
     as_at_full_size = grader->as_for(columns(show.projection), rows(show.projection));
     as_at_full_size->grade(HalfFrame(1, 1));  // A table is made once in a run: not by the clocks.
   }
-  const Run run(instant, measured, as_at_full_size ? &*as_at_full_size : nullptr);
-  const auto widths = measured_widths(show);
-  const std::array<Cost, 3> costs{run.per_frame(widths[0]), run.per_frame(widths[1]),
-                                  run.per_frame(widths[2])};
-  const double doublings = std::log2(1.0 * columns(show.projection) / widths[2]);
+  const Measurement measured(instant, own ? *own : renderer,
+                             as_at_full_size ? &*as_at_full_size : nullptr);
+  const int width = largest_width(show);
+  const double doublings = doublings_of(show);
+  const Cost whole = measured.of_frames(width), whole_light = measured.of_light(width);
   RenderTime time;
   time.threads = renderer.threads();
-  time.frame_s = seconds_at(costs, doublings);
-  if (instants > 1) {
-    const std::array<Cost, 3> light{light_cost(instant, measured, widths[0]),
-                                    light_cost(instant, measured, widths[1]),
-                                    light_cost(instant, measured, widths[2])};
-    time.frame_s += (instants - 1) * seconds_at(light, doublings);
+  double processor = whole.processor, light = whole_light.processor;
+  time.linear_bytes = whole.linear_bytes, time.graded_bytes = whole.graded_bytes;
+  if (doublings > 0) {
+    const Cost half = measured.of_frames(width / 2), half_light = measured.of_light(width / 2);
+    // In pictures of a quarter of kLarge stars are found one by one, which takes ten times as long
+    // as it does in large ones (StarImageFinder).
+    const double stars = half_light.processor - measured.of_light(width / 2, false).processor;
+    Cost quarter = measured.of_frames(width / 4, false);
+    Cost quarter_light = measured.of_light(width / 4, false);
+    quarter.processor += stars, quarter_light.processor += stars;
+    processor = processor_at({quarter, half, whole}, doublings);
+    light = processor_at({quarter_light, half_light, whole_light}, doublings);
+    time.linear_bytes = size_at(half.linear_bytes, whole.linear_bytes, doublings);
+    time.graded_bytes = size_at(half.graded_bytes, whole.graded_bytes, doublings);
   }
-  time.linear_bytes = size_at(costs[1].linear_bytes, costs[2].linear_bytes, doublings);
-  time.graded_bytes = size_at(costs[1].graded_bytes, costs[2].graded_bytes, doublings);
+  const double all_light = instants * light, all = processor + all_light - light;
+  time.light_part = std::clamp(all_light / std::max(all, 1e-9), 0.0, 1.0);
+  time.frame_s = whole.wall * processor / std::max(whole.processor, 1e-9) +
+                 (instants - 1) * whole_light.wall * light / std::max(whole_light.processor, 1e-9);
   time.seconds = time.frame_s * frame_count(show);
   return time;
 }

@@ -9,6 +9,8 @@ namespace domefall {
 struct RenderTime {
   double seconds = 0;  // of the whole show
   double frame_s = 0;  // of one frame
+  // Of a frame's processor time, what its light takes; the rest grades it and writes its files.
+  double light_part = 0;
   int threads = 0;
   double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 where none is made
 };
@@ -18,9 +20,10 @@ struct RenderTime {
 bool is_worth_measuring(const Show& show);
 
 // Renders, grades and writes frames spread over the show, as domefall render does it but into a
-// scratch folder, at three reduced sizes, each twice as wide as the one before.  The
-// processor time that a doubling adds is taken to grow by a constant factor from one doubling to
-// the next, which the three sizes give and which lies between 2 and 4.  The clock at the largest
+// scratch folder, at three reduced sizes, each twice as wide as the one before; one of at most 1024
+// pixels at its own size alone.  The processor time that a doubling adds is taken to grow by a
+// constant factor from one doubling to the next, which the three sizes give and which lies between
+// 2 and 4.  The clock at the largest
 // size turns processor time into seconds on this machine under its present load.  `grader` is null
 // for a show without a grade.
 // Of a frame with an open shutter one instant is measured, and counted as often as it has instants.
