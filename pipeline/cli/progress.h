@@ -10,10 +10,12 @@ namespace domefall {
 
 // A line on standard output for each frame, made or found good.
 enum class ProgressForm {
-  kPlain,    // frame 12: 3 of 40
-  kJson,     // {"frame":12,"done":3,"total":40,"made":true,"seconds":4.2}
-  kOpenJd,   // openjd_progress: 7.5, and openjd_status: with the plain text
-  kAfanasy,  // FRAME: 12 and PROGRESS: 7%, as its generic parser takes them
+  kPlain,   // frame 12: 3 of 40
+  kJson,    // {"frame":12,"done":3,"total":40,"made":true,"seconds":4.2}
+  kOpenJd,  // openjd_progress: 7.5, and openjd_status: with the plain text
+  // FRAME: 12 and PROGRESS: 100%.  Afanasy's generic parser counts the frames, takes the percentage
+  // for that of the frame, and knows how many frames a task of a numbered block has.
+  kAfanasy,
 };
 
 // Throws InputError for other names than plain, json, openjd and afanasy.

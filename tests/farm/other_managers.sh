@@ -86,7 +86,7 @@ progress_is_told_in_the_form_of_each_manager() {
       >"$form.out" 2>/dev/null
   done
   [[ $(cat plain.out) == $'frame 3: 1 of 2\nframe 4: 2 of 2' ]] || fail "$(cat plain.out)"
-  [[ $(cat afanasy.out) == $'FRAME: 3\nPROGRESS: 50%\nFRAME: 4\nPROGRESS: 100%' ]] ||
+  [[ $(cat afanasy.out) == $'FRAME: 3\nPROGRESS: 100%\nFRAME: 4\nPROGRESS: 100%' ]] ||
     fail "$(cat afanasy.out)"
   python3 -c '
 import json, sys
