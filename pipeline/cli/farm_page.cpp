@@ -79,7 +79,7 @@ FarmStatus farm_status(const FarmFrames& frames, int threads) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   status.now_s = std::chrono::duration<double>(now).count();
   status.frames_per_second = frames_per_second(status.manifest, status.now_s);
-  status.slowest = slowest_frames(status.manifest, kMostSlow);
+  status.slowest = slowest_frames(status.manifest, frames.frames(), kMostSlow);
   status.failed = failed_chunks(frames.tasks(), status.found.to_make(), status.manifest, folder);
   status.conclusion = frames.conclusion();
   return status;

@@ -1,6 +1,7 @@
 #include "pipeline/farm/work_summary.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <set>
 #include <utility>
@@ -43,6 +44,18 @@ fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_firs
                             [&](const std::string& end) { return log.stem.ends_with(end); }))
       return log.path;
   return {};
+}
+
+// What stands for the last line of an empty log; nothing where the task may just have begun.
+std::string line_of_empty(const fs::path& log) {
+  constexpr std::uintmax_t kFull = 1 << 16;  // bytes that are left
+  constexpr std::chrono::seconds kBeginning(10);
+  std::error_code error;
+  if (fs::space(log, error).available < kFull && !error)
+    return "the log is empty: the disk is full";
+  const auto written = fs::last_write_time(log, error);
+  if (!error && fs::file_time_type::clock::now() - written < kBeginning) return {};
+  return "the log is empty";
 }
 
 // Whether a log ends with what `domefall render` says when it has made its frames.
@@ -91,10 +104,12 @@ std::optional<double> frames_per_second(const Manifest& manifest, double now_s) 
   return static_cast<double>(finished) / over;
 }
 
-std::vector<SlowFrame> slowest_frames(const Manifest& manifest, std::size_t most) {
+std::vector<SlowFrame> slowest_frames(const Manifest& manifest, const std::vector<int>& among,
+                                      std::size_t most) {
   std::map<int, const MadeFile*> last;
   for (const auto& [file, lines] : manifest.files)
     for (const MadeFile& made : lines) {
+      if (!std::ranges::binary_search(among, made.frame)) continue;
       const MadeFile*& known = last[made.frame];
       if (!known || known->mtime_ns < made.mtime_ns) known = &made;
     }
@@ -129,7 +144,8 @@ std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
     chunk.log = log_of(task, logs);
     if (chunk.log.empty()) continue;
     chunk.last_line = last_line_of(chunk.log);
-    if (tells_of_success(chunk.last_line)) continue;
+    if (chunk.last_line.empty()) chunk.last_line = line_of_empty(chunk.log);
+    if (chunk.last_line.empty() || tells_of_success(chunk.last_line)) continue;
     failed.push_back(std::move(chunk));
   }
   std::ranges::reverse(failed);

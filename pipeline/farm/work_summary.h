@@ -21,8 +21,10 @@ struct SlowFrame {
   std::string host;
 };
 
-// The frames that took longest, slowest first; each once, by its last making.
-std::vector<SlowFrame> slowest_frames(const Manifest& manifest, std::size_t most);
+// Those of these frames that took longest, slowest first; each once, by its last making.  `among`
+// is sorted.
+std::vector<SlowFrame> slowest_frames(const Manifest& manifest, const std::vector<int>& among,
+                                      std::size_t most);
 
 // The last line of a log that is not empty, without what a terminal would do with it; where it
 // cannot be read, why.
@@ -44,8 +46,9 @@ struct FailedChunk {
 
 // Tasks of which frames are lacking, none is being made, and a log is in DIR/farm/log: the one that
 // was written last.  One whose log ends well has not failed: its frames were lost or outdated
-// later.  A frame counts for the last task that has it, so that one that is submitted again has not
-// failed before that task began.  `tasks` are in the order of their rounds; `lacking` is sorted.
+// later; nor has one whose log is empty, in its first seconds.  A frame counts for the last task
+// that has it, so that one that is submitted again has not failed before that task began.  `tasks`
+// are in the order of their rounds; `lacking` is sorted.
 std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
                                        const std::vector<int>& lacking, const Manifest& manifest,
                                        const std::filesystem::path& frames);

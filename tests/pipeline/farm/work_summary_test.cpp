@@ -51,12 +51,14 @@ TEST(SlowFrames, AreThoseOfTheLastMakingSlowestFirst) {
         {frame, "", 1, at, "", "", seconds, 1, "host" + std::to_string(at), 1});
   };
   add(1, 10, 3), add(2, 10, 9), add(2, 20, 1), add(3, 10, 3), add(4, 10, 5);
-  const auto slow = slowest_frames(manifest, 3);
+  const auto slow = slowest_frames(manifest, {1, 2, 3, 4}, 3);
   ASSERT_THAT(slow, SizeIs(3));
   EXPECT_EQ(slow[0].frame, 4);
   EXPECT_EQ(slow[1].frame, 1);
   EXPECT_EQ(slow[2].frame, 3);
-  EXPECT_THAT(slowest_frames(manifest, 100), SizeIs(4));
+  EXPECT_THAT(slowest_frames(manifest, {1, 2, 3, 4}, 100), SizeIs(4));
+  // Frames of another plan are no part of this one's work.
+  EXPECT_EQ(slowest_frames(manifest, {2, 3}, 1).front().frame, 3);
 }
 
 class FailedChunks : public TestFolder {
@@ -89,7 +91,15 @@ TEST_F(FailedChunks, AreNotThoseThatAreDoneOrBeingMade) {
   manifest.writers.emplace_back().being_made[2] = 100;
   EXPECT_THAT(failed_chunks(chunks_, {2, 3}, manifest, folder_), IsEmpty());
   EXPECT_THAT(failed_chunks(chunks_, {}, {}, folder_), IsEmpty());
-  EXPECT_EQ(failed_chunks(chunks_, {0}, {}, folder_).at(0).last_line, "");
+}
+
+// It may just have begun; where the disk is full, nothing can be written there either.
+TEST_F(FailedChunks, SayThatTheirLogIsEmptyAfterAWhile) {
+  put_log("slurm_7_0.log", "");
+  EXPECT_THAT(failed_chunks(chunks_, {0}, {}, folder_), IsEmpty());
+  fs::last_write_time(folder_ / "farm/log/slurm_7_0.log",
+                      fs::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_EQ(failed_chunks(chunks_, {0}, {}, folder_).at(0).last_line, "the log is empty");
 }
 
 TEST_F(FailedChunks, AreToldByTheLogThatWasWrittenLast) {
