@@ -87,6 +87,11 @@ void make_farm_folder(const fs::path& folder) {
   if (error) throw_file_error(folder, error.value());
 }
 
+// Of a part of the show, which was there and good already.
+bool had_nothing_to_do(const FarmPlan& plan) {
+  return plan.chunks.empty() && !plan.frames.empty() && plan.movie.empty() && plan.deliver.empty();
+}
+
 std::string utc_text(const char* form, std::time_t time) {
   std::tm parts{};
   gmtime_r(&time, &parts);
@@ -138,16 +143,19 @@ std::optional<FarmPlan> newest_plan(const fs::path& out) {
       ids.push_back(name.substr(prefix.size(), name.size() - prefix.size() - suffix.size()));
   }
   std::ranges::sort(ids, std::greater());
+  std::optional<FarmPlan> idle;
   for (const std::string& id : ids) {
     try {
       FarmPlan plan = read_plan(out, id);
-      if (!plan.rounds.empty()) return plan;
+      if (plan.rounds.empty()) continue;
+      if (!had_nothing_to_do(plan)) return plan;
+      if (!idle) idle = std::move(plan);
     } catch (const TemporaryError&) {
       // A submission that was refused has removed it meanwhile.
       if (fs::exists(plan_file(out, id), error)) throw;
     }
   }
-  return std::nullopt;
+  return idle;
 }
 
 void drop_unaccepted_plan(const FarmPlan& plan) {

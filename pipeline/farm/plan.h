@@ -57,7 +57,8 @@ std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 // no plan or the id is none.
 FarmPlan read_plan(const std::filesystem::path& out, const std::string& id);
 
-// The latest plan of a folder that an engine has accepted; nothing if there is none.  Throws as
+// The latest plan of a folder that an engine has accepted; nothing if there is none.  One of a part
+// of the show that found nothing to do is passed over where there is an earlier one.  Throws as
 // read_plan().
 std::optional<FarmPlan> newest_plan(const std::filesystem::path& out);
 

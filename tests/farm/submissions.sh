@@ -59,6 +59,13 @@ what_an_engine_refuses_is_no_plan() {
   says status.out "4 of 4 frames are done"
 }
 
+a_plan_that_found_nothing_to_do_is_passed_over() {
+  expect 0 idle.log "${local_run[@]}" --frames 6
+  says idle.log "all 1 frames are there"
+  status both
+  says status.out "4 of 4 frames are done"
+}
+
 a_plan_of_all_frames_follows_the_show() {
   cp fall.yaml long.yaml
   expect 0 all.log "${submit[@]/fall.yaml/long.yaml}" --engine list --out follows
