@@ -30,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTaskSeconds = 300;  // of a task where there is much to do
-// The start of a process, 0.6 s with a grade, is little of this.
-constexpr double kShortTaskSeconds = 30;
+// The start of a process, 0.55 s with a grade, is a hundredth of this.
+constexpr double kShortTaskSeconds = 60;
 constexpr int kFewestFrames = 10;   // a task of this length spends little time on being started
 constexpr int kManyMachines = 100;  // a show is cut for, if its tasks are not too short then
 constexpr int kLongestLocalChunk = 100, kMostChunks = 10000, kTaskThreads = 4;
@@ -47,8 +47,9 @@ std::string program_path(const SubmitOptions& o) {
   return self.string();
 }
 
-// Seconds that each of these frames takes with that many threads.  Renders a few small frames in
-// any case: so what the show reads is there and can be read.
+// Seconds that each of these frames takes on a machine that does nothing else, with that many
+// threads.  Renders a few small frames in any case: so what the show reads is there and can be
+// read.
 std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads,
                                   bool measured) {
   Renderer renderer(show);
@@ -63,7 +64,7 @@ std::vector<double> frame_seconds(const Show& show, const std::vector<int>& fram
   // Grading and files take about as long for each.
   constexpr double kLeastPart = 1e-3;
   for (double& cost : costs)
-    cost = time.frame_s * time.threads / threads *
+    cost = time.processor_s / threads *
            std::max(kLeastPart, 1 - time.light_part + time.light_part * cost);
   return costs;
 }

@@ -14,7 +14,7 @@ namespace domefall {
 struct PlannedChunk {
   int round = 0, task = 0;
   std::string frames;      // as --frames takes them: 0-9,12
-  double estimated_s = 0;  // by the clock, on a machine like the one that submits; 0: not estimated
+  double estimated_s = 0;  // on a machine like the one that submits, when idle; 0: not estimated
 };
 
 // Chunks that were handed to an engine together.

@@ -196,6 +196,7 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
     time.graded_bytes = size_at(half.graded_bytes, whole.graded_bytes, doublings);
   }
   const double all_light = instants * light, all = processor + all_light - light;
+  time.processor_s = all;
   time.light_part = std::clamp(all_light / std::max(all, 1e-9), 0.0, 1.0);
   time.frame_s = whole.wall * processor / std::max(whole.processor, 1e-9) +
                  (instants - 1) * whole_light.wall * light / std::max(whole_light.processor, 1e-9);

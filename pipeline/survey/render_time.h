@@ -7,10 +7,10 @@
 namespace domefall {
 
 struct RenderTime {
-  double seconds = 0;  // of the whole show
-  double frame_s = 0;  // of one frame
-  // Of a frame's processor time, what its light takes; the rest grades it and writes its files.
-  double light_part = 0;
+  double seconds = 0;      // of the whole show
+  double frame_s = 0;      // of one frame
+  double processor_s = 0;  // the processor time of one frame, which other programs hardly change
+  double light_part = 0;   // of it for light; the rest is for the grade and the files
   int threads = 0;
   double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 where none is made
 };
