@@ -69,8 +69,23 @@ std::vector<double> frame_seconds(const Show& show, const std::vector<int>& fram
   return costs;
 }
 
+// A plan that is only printed needs no controller.
+int most_array_tasks_if_known() {
+  constexpr int kPatienceS = 3;
+  try {
+    return most_array_tasks(kPatienceS);
+  } catch (const InputError&) {
+  } catch (const TemporaryError&) {
+  }
+  std::fprintf(stderr,
+               "Slurm does not answer here; an array is taken to have %d tasks at most, which is "
+               "its default\n",
+               kDefaultArrayTasks);
+  return kDefaultArrayTasks;
+}
+
 int most_tasks(const SubmitOptions& o) {
-  if (o.engine == "slurm") return most_array_tasks();
+  if (o.engine == "slurm") return o.dry ? most_array_tasks_if_known() : most_array_tasks();
   return o.engine == "openjd" ? kMostOpenJdTasks : kMostChunks;
 }
 

@@ -85,17 +85,18 @@ void leave_out_this_node(const SlurmTask& task) {
 
 }  // namespace
 
-int most_array_tasks() {
+int most_array_tasks(int patience_s) {
   std::string said;
-  const WorkerEnd end = run_program({"scontrol", "show", "config"}, said);
+  std::vector<std::string> command{"scontrol", "show", "config"};
+  if (patience_s > 0) command.insert(command.begin(), {"timeout", std::to_string(patience_s)});
+  const WorkerEnd end = run_program(command, said);
   if (end.code == kNoSuchProgram)
     throw InputError("scontrol: no such program; Slurm is not installed here");
   if (end.code != 0 || end.signal != 0) throw TemporaryError("scontrol: " + trimmed(said));
   const std::size_t at = said.find("MaxArraySize");
   const std::size_t value = at == std::string::npos ? at : said.find('=', at);
-  constexpr int kSlurmsDefault = 1001;
-  return value == std::string::npos ? kSlurmsDefault
-                                    : number_or(said.substr(value + 1, 16), kSlurmsDefault);
+  return value == std::string::npos ? kDefaultArrayTasks
+                                    : number_or(said.substr(value + 1, 16), kDefaultArrayTasks);
 }
 
 std::vector<std::string> array_submission(const FarmPlan& plan, int round) {

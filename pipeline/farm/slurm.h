@@ -10,8 +10,10 @@
 namespace domefall {
 
 // How many tasks Slurm lets an array have (MaxArraySize).  Throws InputError where Slurm is not
-// installed and TemporaryError where its controller does not answer.
-int most_array_tasks();
+// installed and TemporaryError where its controller does not answer, for which Slurm may take a
+// minute, or within `patience_s` seconds, unless these are 0.
+int most_array_tasks(int patience_s = 0);
+inline constexpr int kDefaultArrayTasks = 1001;
 
 // The command line that submits the chunks of a round as an array, and the one that submits the job
 // which verifies their frames when all tasks have ended, however they ended, and goes on from
