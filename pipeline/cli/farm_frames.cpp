@@ -7,6 +7,7 @@
 
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/manifest.h"
 #include "pipeline/farm/plan.h"
@@ -54,12 +55,17 @@ void require_folder(const fs::path& folder) {
 }  // namespace
 
 void add_farm_options(CLI::App& verb, FarmRequest& request) {
-  verb.add_option("folder", request.folder, "folder of the frames")->required();
-  verb.add_option("--show", request.show, "show file (YAML); default as planned");
+  verb.add_option("DIR", request.folder, "folder of the frames")
+      ->type_name(kFolderType)
+      ->required();
+  verb.add_option("--show", request.show, "show file (YAML); default as planned")
+      ->type_name(kFileType);
   verb.add_option("--plan", request.plan, "ID of DIR/farm/plan_ID.json; default the latest");
   verb.add_option("--frames", request.frames,
-                  "such as 7, 0-299 or 3-5,9; default as planned, or all");
-  verb.add_option("--size", request.size, "of the frames; default as planned, or the show's");
+                  "such as 7, 0-299 or 3-5,9; default as planned, or all")
+      ->type_name("FRAMES");
+  verb.add_option("--size", request.size, "of the frames; default as planned, or the show's")
+      ->type_name("SIZE");
   add_overlay_option(verb, request.overlays);
   verb.add_option("--threads", request.threads, "0: four, or one per processor")
       ->check(number_in(0, 1024));

@@ -4,20 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
-#include "pipeline/cli/delivery_run.h"
+#include "pipeline/cli/farm_products.h"
+#include "pipeline/cli/farm_program.h"
 #include "pipeline/cli/frame_folder.h"
 #include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/frame_survey.h"
-#include "pipeline/cli/movie_frames.h"
+#include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/equal_chunks.h"
 #include "pipeline/farm/job_lists.h"
 #include "pipeline/farm/slurm.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/movie/preset.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
@@ -35,17 +36,6 @@ constexpr double kShortTaskSeconds = 60;
 constexpr int kFewestFrames = 10;   // a task of this length spends little time on being started
 constexpr int kManyMachines = 100;  // a show is cut for, if its tasks are not too short then
 constexpr int kLongestLocalChunk = 100, kMostChunks = 10000, kTaskThreads = 4;
-
-fs::path absolute_path(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
-
-// Where the nodes find domefall: what --program says, or else this program itself.
-std::string program_path(const SubmitOptions& o) {
-  if (!o.program.empty()) return absolute_path(o.program).string();
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw TemporaryError("/proc/self/exe: " + error.message() + "; name --program");
-  return self.string();
-}
 
 // Seconds that each of these frames takes on a machine that does nothing else, with that many
 // threads.  Renders a few small frames in any case: so what the show reads is there and can be
@@ -143,44 +133,23 @@ void add_chunks(FarmPlan& plan, const SubmitOptions& o, const Show& show,
   }
 }
 
-void add_movie_and_delivery(FarmPlan& plan, const SubmitOptions& o, const Show& show, bool all) {
-  if (!o.movie.empty()) {
-    plan.movie = o.movie;
-    const MoviePreset& preset = movie_preset(o.movie);
-    plan.movie_file =
-        (plan.out / fmt::format("{}_{}.{}", show.file.stem().string(), o.movie, preset.extension))
-            .string();
-    if (plan.frames.find(',') != std::string::npos)
-      throw InputError("--frames " + o.frames + ": a movie takes one range, such as 0-299");
-    if (!show.output.graded)
-      throw InputError(o.show + ": --movie needs graded frames, and the show makes none");
-    movie_size_of(preset, show.projection);
-    if (std::error_code none; fs::is_directory(plan.movie_file, none))
-      throw InputError(plan.movie_file + ": is a folder, where --movie would write its file");
-  }
-  if (o.deliver.empty()) return;
-  if (!all) throw InputError("--deliver " + o.deliver + ": takes all frames of the show");
-  if (!show.output.graded)
-    throw InputError(o.show + ": --deliver needs graded frames, and the show makes none");
-  plan.deliver = absolute_path(o.deliver).string();
-  check_delivery_folder({show, plan.out, plan.deliver, {}, {}, {}, {}});
-}
-
 }  // namespace
 
 FarmPlan make_plan(const SubmitOptions& o) {
   Show show = read_show(o.show);
+  overlay(show, o.overlays);
   show.projection = resized(show.projection, o.size);
   const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   FarmPlan plan;
   plan.id = o.dry ? "PLAN" : new_plan_id();
   plan.version = "domefall " DOMEFALL_VERSION;
-  plan.program = program_path(o);
-  plan.show = absolute_path(o.show);
-  plan.out = absolute_path(frames_folder(show, o.out));
+  plan.program = farm_program(o.program, o.engine == "local");
+  plan.show = fs::absolute(o.show).lexically_normal();
+  plan.out = fs::absolute(frames_folder(show, o.out)).lexically_normal();
   // A plan of all frames stays one when the show becomes longer or shorter.
   if (!o.frames.empty()) plan.frames = as_ranges(frames);
   if (!o.size.empty()) plan.options = {"--size", o.size};
+  if (!o.overlays.empty()) plan.options.insert(plan.options.end(), {"--overlay", o.overlays});
   if (o.replace) plan.options.emplace_back("--replace");
   plan.engine = o.engine;
   plan.engine_options = o.engine_options;
@@ -190,7 +159,7 @@ FarmPlan make_plan(const SubmitOptions& o) {
   plan.at_once = local ? (o.workers > 0 ? o.workers : std::max(1, processors / 4)) : o.at_once;
   plan.retries = o.retries;
   plan.most_rounds = o.rounds;
-  add_movie_and_delivery(plan, o, show, static_cast<int>(frames.size()) == frame_count(show));
+  add_products(plan, o.products, show, frames);
   const FrameRun run{show, frames, plan.out, 0, false, true, o.replace, true};
   add_chunks(plan, o, show, frames_to_make(run));
   return plan;

@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/cli/farm_products.h"
 #include "pipeline/farm/plan.h"
 
 namespace domefall {
 
 struct SubmitOptions {
-  std::string show, engine, frames, size, out, program, movie, deliver;
+  std::string show, engine, frames, size, out, program, overlays;
+  FarmProducts products;
   std::vector<std::string> engine_options;
   int workers = 0, threads = 0, chunk = 0, at_once = 0, retries = 3, rounds = 2;
   bool replace = false, wait = false, dry = false;

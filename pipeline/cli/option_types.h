@@ -21,6 +21,11 @@ std::string one_of(const Names& names) {
   return fmt::format("{{{}}}", fmt::join(names, ","));
 }
 
+// An empty path would stand for the default, which a script with an unset variable does not mean.
+inline std::string refuse_empty(const std::string& path) {
+  return path.empty() ? std::string("got an empty path") : std::string();
+}
+
 // The show that a verb is about.
 inline CLI::Option* add_show(CLI::App& verb, std::string& file) {
   return verb.add_option(kShowName, file, "show file (YAML)")->type_name(kFileType);

@@ -12,6 +12,7 @@
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
+#include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/deliver/contact_sheet.h"
 #include "pipeline/deliver/delivery_check.h"
@@ -23,7 +24,7 @@ namespace domefall {
 namespace {
 
 struct DeliverOptions {
-  std::string show, from, out, size, name, check;
+  std::string show, from, out, size, name, check, overlays;
   std::vector<std::string> sounds, subtitles;
   int bits = 0, threads = 0;
   bool leader = false;
@@ -68,6 +69,7 @@ void deliver(const DeliverOptions& o) {
   if (o.show.empty() || o.out.empty())
     throw InputError("a show and --out are needed, or --check with a folder");
   Show show = read_show(o.show);
+  overlay(show, o.overlays);
   show.projection = resized(show.projection, o.size);
   DeliveryRun run{show,     frames_folder(show, o.from), o.out, {}, o.name, {}, {},
                   o.leader, threads_of(o.threads)};
@@ -121,6 +123,7 @@ void add_deliver(CLI::App& app) {
       ->type_name("NAME");
   verb->add_option("--audio", o->sounds, "WAV files, as long as the frames")->type_name(kFileType);
   verb->add_option("--subtitles", o->subtitles, "SubRip files (.srt)")->type_name(kFileType);
+  add_overlay_option(*verb, o->overlays);
   verb->add_flag("--leader", o->leader, "slate and countdown, in a folder of their own");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->add_option("--check", o->check, "instead: say what a delivered folder lacks")

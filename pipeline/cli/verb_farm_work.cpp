@@ -8,6 +8,7 @@
 
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/number_in.h"
+#include "pipeline/cli/option_types.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/farm/farm_task.h"
 #include "pipeline/farm/rounds.h"
@@ -122,7 +123,9 @@ void conclude(const WorkOptions& o) {
 }
 
 void add_place_options(CLI::App& verb, WorkOptions& o, const char* round) {
-  verb.add_option("DIR", o.out, "folder of the frames, which has farm/plan_ID.json")->required();
+  verb.add_option("DIR", o.out, "folder of the frames, which has farm/plan_ID.json")
+      ->type_name(kFolderType)
+      ->required();
   verb.add_option("--plan", o.plan, "the ID")->required();
   verb.add_option("--round", o.round, round)
       ->check(number_in(0, kMostRound))

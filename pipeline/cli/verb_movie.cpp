@@ -161,7 +161,8 @@ void add_movie(CLI::App& app) {
                    "the sound of the whole show: one file, or six that end in L, R, C, LFE, Ls, Rs")
       ->type_name(kFileType);
   verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv")
-      ->type_name(kFileType);
+      ->type_name(kFileType)
+      ->check(refuse_empty);
   add_overlay_option(*verb, o->overlays);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   verb->callback([o] { movie(*o); });

@@ -52,7 +52,8 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
                   "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture")
       ->type_name("SIZE");
   verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME")
-      ->type_name(kFolderType);
+      ->type_name(kFolderType)
+      ->check(refuse_empty);
   add_overlay_option(verb, o->overlays);
   verb.add_flag("--replace", o->replace, "replace frames of another size, show or kind");
 }

@@ -35,9 +35,11 @@ void add_option(std::vector<std::string>& command, const std::string& name,
   if (!value.empty()) command.insert(command.end(), {name, value});
 }
 
-std::string size_option(const FarmPlan& plan) {
-  const auto at = std::find(plan.options.begin(), plan.options.end(), "--size");
-  return at == plan.options.end() ? std::string() : *(at + 1);
+// Adds an option of the frames, if they have it.
+void add_option_of_frames(std::vector<std::string>& command, const FarmPlan& plan,
+                          const std::string& name) {
+  const auto at = std::ranges::find(plan.options, name);
+  if (at != plan.options.end()) add_option(command, name, *(at + 1));
 }
 
 }  // namespace
@@ -101,14 +103,18 @@ std::vector<std::string> movie_command(const FarmPlan& plan) {
                                    plan.movie,   "--from", plan.out.string()};
   add_option(command, "--out", plan.movie_file);
   add_option(command, "--frames", plan.frames);
-  add_option(command, "--size", size_option(plan));
+  add_option_of_frames(command, plan, "--size");
+  add_option_of_frames(command, plan, "--overlay");
+  command.insert(command.end(), plan.movie_options.begin(), plan.movie_options.end());
   return command;
 }
 
 std::vector<std::string> deliver_command(const FarmPlan& plan) {
   std::vector<std::string> command{plan.program,      "deliver", plan.show.string(), "--from",
                                    plan.out.string(), "--out",   plan.deliver};
-  add_option(command, "--size", size_option(plan));
+  add_option_of_frames(command, plan, "--size");
+  add_option_of_frames(command, plan, "--overlay");
+  command.insert(command.end(), plan.deliver_options.begin(), plan.deliver_options.end());
   return command;
 }
 

@@ -46,6 +46,8 @@ Json plan_json(const FarmPlan& plan) {
             {"movie", plan.movie},
             {"movie_file", plan.movie_file},
             {"deliver", plan.deliver},
+            {"movie_options", plan.movie_options},
+            {"deliver_options", plan.deliver_options},
             {"chunks", Json::array()},
             {"rounds", Json::array()}};
   for (const PlannedChunk& chunk : plan.chunks) json["chunks"].push_back(chunk_json(chunk));
@@ -71,6 +73,8 @@ FarmPlan plan_of(const Json& json) {
   json.at("movie").get_to(plan.movie);
   json.at("movie_file").get_to(plan.movie_file);
   json.at("deliver").get_to(plan.deliver);
+  json.at("movie_options").get_to(plan.movie_options);
+  json.at("deliver_options").get_to(plan.deliver_options);
   for (const Json& chunk : json.at("chunks"))
     plan.chunks.push_back(
         {chunk.at("round"), chunk.at("task"), chunk.at("frames"), chunk.value("estimated_s", 0.0)});

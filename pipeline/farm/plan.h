@@ -40,6 +40,7 @@ struct FarmPlan {
   std::string movie;    // a preset, once all frames are good; empty: no movie
   std::string movie_file;
   std::string deliver;  // a folder for `domefall deliver`, likewise
+  std::vector<std::string> movie_options, deliver_options;  // of these two
   std::vector<PlannedChunk> chunks;
   std::vector<FarmRound> rounds;  // empty until the engine has accepted the first one
 };

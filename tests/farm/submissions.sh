@@ -91,6 +91,59 @@ what_cannot_follow_the_frames_is_refused_at_once() {
   says early.log "taken: the folder is not empty and holds no delivery"
 }
 
+# What the options say is kept in the plan, and handed to the verbs that make movie and delivery.
+sound_overlays_and_parts_of_a_delivery_are_checked_and_kept() {
+  local options words
+  python3 -c "
+import wave
+with wave.open('mix.wav', 'wb') as sound:
+    sound.setparams((1, 2, 48000, 0, 'NONE', ''))
+    sound.writeframes(bytes(2 * 4 * 48000))"
+  printf '1\n00:00:00,100 --> 00:00:03,500\nA hole.\n' >words.srt
+  while IFS='|' read -r options words; do
+    # shellcheck disable=SC2086 # several words
+    expect 2 product.log "${submit[@]}" --engine local --out early $options </dev/null
+    says product.log "$words"
+    [[ ! -e early ]] || fail "$options: frames were begun"
+  done <<'CASES'
+--audio mix.wav|--audio mix.wav: is the sound of --movie and --deliver
+--movie review --audio none.wav|none.wav: No such file or directory
+--leader|--leader: is of --deliver
+--depth 8|--depth 8: is of --deliver
+--deliver d --subtitles none.srt|none.srt: No such file or directory
+--deliver d --audio words.srt|words.srt: no sound that can be delivered
+--overlay nosuch|--overlay nosuch: overlays are grid
+--program nosuch|--program nosuch: PATH has no such program
+--program ./none|none: cannot be started: No such file or directory
+--program /bin/true|and this is domefall
+CASES
+  expect 2 empty.log "${submit[@]}" --engine local --out ""
+  expect 0 job.json "${submit[@]}" --engine openjd --out products --overlay burn_in --movie review \
+    --deliver d --depth 8 --leader --audio mix.wav --subtitles words.srt
+  python3 - job.json "$scratch" <<'PY'
+import json, sys
+job, folder = json.load(open(sys.argv[1])), sys.argv[2]
+words = {s["name"]: " ".join(s["script"]["actions"]["onRun"]["args"]) for s in job["steps"]}
+for step in ("render", "movie", "deliver"):
+    assert "--overlay burn_in" in words[step], words
+assert f"--audio {folder}/mix.wav" in words["movie"], words
+assert f"--depth 8 --leader --audio {folder}/mix.wav --subtitles {folder}/words.srt" in words["deliver"], words
+PY
+  expect 0 heard.log "${submit[@]}" --engine local --out heard --frames 0-1 --overlay burn_in \
+    --movie review --audio mix.wav
+  [[ $(ffprobe -v error -show_entries stream=codec_type -of csv=p=0 heard/fall_review.mp4 | sort) == \
+    $'audio\nvideo' ]] || fail "the movie has no sound"
+  status heard
+  says status.out "2 of 2 frames are done"
+}
+
+what_is_only_printed_needs_no_controller() {
+  printf '#!/bin/sh\nexec sleep 30\n' >bin/scontrol
+  PATH=$scratch/bin:$PATH expect 0 dry.log "${submit[@]}" --engine slurm --out dry --dry-run
+  says dry.log "an array is taken to have 1001 tasks at most"
+  says dry.log "sbatch --parsable"
+}
+
 a_list_takes_nothing_that_follows_the_frames() {
   expect 2 follows.log "${submit[@]}" --engine list --out listed --movie review
   says follows.log "--engine list: its lines make frames only"
@@ -135,8 +188,11 @@ what_ended_well_has_not_failed_when_the_show_is_edited() {
 
 for claim in two_runs_into_a_folder_make_their_own_frames \
   status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
-  a_plan_of_all_frames_follows_the_show what_cannot_follow_the_frames_is_refused_at_once \
-  a_list_takes_nothing_that_follows_the_frames what_fails_after_the_frames_is_told_by_status \
+  a_plan_that_found_nothing_to_do_is_passed_over a_plan_of_all_frames_follows_the_show \
+  what_cannot_follow_the_frames_is_refused_at_once \
+  sound_overlays_and_parts_of_a_delivery_are_checked_and_kept \
+  what_is_only_printed_needs_no_controller a_list_takes_nothing_that_follows_the_frames \
+  what_fails_after_the_frames_is_told_by_status \
   what_ended_well_has_not_failed_when_the_show_is_edited; do
   $claim
   pass "$claim"
