@@ -62,44 +62,69 @@ void find_assets() {
   if (!error) take_program_folder(program.lexically_normal());
 }
 
+// The show of an object.  For one that __new__ has made and __init__ has not been called for,
+// pybind11 would hand on memory in which there is none.
+ShowObject& show_of(const py::object& self) {
+  if (!py::isinstance<ShowObject>(self))
+    throw py::type_error("expected a domefall.Show, got " + std::string(py::repr(self)));
+  auto* const instance = reinterpret_cast<py::detail::instance*>(self.ptr());
+  if (!instance->get_value_and_holder().holder_constructed())
+    throw py::type_error("this domefall.Show has no show: its __init__ was not called");
+  return self.cast<ShowObject&>();
+}
+
 void define_show(py::module_& module) {
+  using Self = const py::object&;
   py::class_<ShowObject>(module, "Show", manual::kShow)
       .def(py::init<const fs::path&, int>(), py::arg("file"), py::arg("threads") = 0,
            manual::kShowInit)
       .def_property_readonly(
-          "file", [](const ShowObject& s) { return s.show().file; }, manual::kFile)
+          "file", [](Self self) { return show_of(self).show().file; }, manual::kFile)
       .def_property_readonly(
-          "title", [](const ShowObject& s) { return s.show().title; }, manual::kTitle)
+          "title", [](Self self) { return show_of(self).show().title; }, manual::kTitle)
       .def_property_readonly(
-          "frames", [](const ShowObject& s) { return frame_count(s.show()); }, manual::kFrames)
+          "frames", [](Self self) { return frame_count(show_of(self).show()); }, manual::kFrames)
       .def_property_readonly(
-          "frames_per_second", [](const ShowObject& s) { return s.show().frames_per_second; },
+          "frames_per_second", [](Self self) { return show_of(self).show().frames_per_second; },
           manual::kFramesPerSecond)
       .def_property_readonly(
           "mass_solar",
-          [](const ShowObject& s) -> py::object {
-            if (!s.show().mass_solar) return py::none();
-            return py::float_(*s.show().mass_solar);
+          [](Self self) -> py::object {
+            const auto& mass = show_of(self).show().mass_solar;
+            if (!mass) return py::none();
+            return py::float_(*mass);
           },
           manual::kMassSolar)
       .def_property_readonly(
           "projection",
-          [](const ShowObject& s) { return std::string(projection_name(s.show().projection)); },
+          [](Self self) { return std::string(projection_name(show_of(self).show().projection)); },
           manual::kProjection)
       .def_property_readonly(
           "size",
-          [](const ShowObject& s) {
-            return py::make_tuple(columns(s.show().projection), rows(s.show().projection));
+          [](Self self) {
+            const Projection& projection = show_of(self).show().projection;
+            return py::make_tuple(columns(projection), rows(projection));
           },
           manual::kSize)
-      .def("states", &ShowObject::states, py::arg("frames") = py::none(), manual::kStates)
-      .def("frame", &ShowObject::frame, py::arg("number"), py::arg("size") = py::none(),
-           manual::kFrame)
-      .def("graded", &ShowObject::graded, py::arg("number"), py::arg("size") = py::none(),
-           manual::kGraded)
-      .def("__repr__", [](const ShowObject& s) {
-        return py::str("<domefall.Show {!r}: {} frames>")
-            .format(s.show().title, frame_count(s.show()));
+      .def(
+          "states",
+          [](Self self, const py::object& frames) { return show_of(self).states(frames); },
+          py::arg("frames") = py::none(), manual::kStates)
+      .def(
+          "frame",
+          [](Self self, const py::object& number, const py::object& size) {
+            return show_of(self).frame(number, size);
+          },
+          py::arg("number"), py::arg("size") = py::none(), manual::kFrame)
+      .def(
+          "graded",
+          [](Self self, const py::object& number, const py::object& size) {
+            return show_of(self).graded(number, size);
+          },
+          py::arg("number"), py::arg("size") = py::none(), manual::kGraded)
+      .def("__repr__", [](Self self) {
+        const Show& show = show_of(self).show();
+        return py::str("<domefall.Show {!r}: {} frames>").format(show.title, frame_count(show));
       });
 }
 

@@ -44,6 +44,11 @@ raises(mistaken, "frame 24: ", lambda: show.states([[0, 24]]))
 raises(TypeError, "cannot be interpreted as an integer", lambda: show.frame(1.0))
 raises(TypeError, "frames must be integers, got an array of float64", lambda: show.states([0.5]))
 raises(TypeError, "frames must be integers, got an array of bool", lambda: show.states([True]))
+unmade = domefall.Show.__new__(domefall.Show)
+for use in (lambda: unmade.frame(0), lambda: unmade.states(), lambda: unmade.graded(0),
+            lambda: unmade.title, lambda: repr(unmade)):
+    raises(TypeError, "its __init__ was not called", use)
+raises(TypeError, "expected a domefall.Show, got 3", lambda: domefall.Show.frame(3, 0))
 for size in (15, "5k", -1, 10**30, (64, 64), "64x64"):
     raises(mistaken, ": a dome takes 1k, 2k, 4k, 8k or a number", lambda: show.frame(0, size))
 raises(mistaken, "size must be a number of pixels", lambda: show.frame(0, (1, 2, 3)))
