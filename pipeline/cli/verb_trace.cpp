@@ -66,9 +66,12 @@ class RayTable {
   static RayRequest request_of(const RayCells& cells) {
     const TraceObserver observer = trace_observer(cells.observer);
     const Radius at = decimal_radius(cells.r);
-    if (!cells.edge.empty())
-      return ray_at_edge(observer, at, cells.edge,
-                         static_cast<double>(decimal_number(cells.offset, "offset")));
+    if (!cells.edge.empty()) {
+      const RayRequest ray = ray_at_edge(
+          observer, at, cells.edge, static_cast<double>(decimal_number(cells.offset, "offset")));
+      if (!cells.delta.empty()) require_delta(ray, decimal_number(cells.delta, "delta"));
+      return ray;
+    }
     if (!cells.offset.empty()) throw InputError("offset is given without an edge");
     return ray_at_angle(observer, at, decimal_number(cells.delta, "delta"));
   }

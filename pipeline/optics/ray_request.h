@@ -33,4 +33,8 @@ RayRequest ray_at_angle(TraceObserver observer, const Radius& at, long double de
 RayRequest ray_at_edge(TraceObserver observer, const Radius& at, std::string_view edge,
                        double offset);
 
+// Refuses an angle delta, given beside the edge of such a ray, that is not its own: one that
+// differs by more than 1e-9 of the edge's angle and the offset together.
+void require_delta(const RayRequest& at_edge, long double delta);
+
 }  // namespace domefall

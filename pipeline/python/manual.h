@@ -128,8 +128,9 @@ delta: angle in radians, 0 to pi, between the direction of view and -R of the ob
     which outside is the direction of the hole.
 edge, offset: instead of delta, an edge of the sky and the angle in radians from it, which keeps all
     digits of rays that nearly touch it.  The edge is "silhouette", or "region3" for the border of
-    the other sky inside the horizon; the ray has delta = edge + offset.  Where the edge is "",
-    delta counts.  An offset that is not given is 0.
+    the other sky inside the horizon; the ray has delta = edge + offset, and a delta
+    that is given, too, must be that to 1e-9 of both.  Where the edge is "", delta counts.  An
+    offset that is not given is 0.
 observer: "rain" falls from rest at infinity; "static" hovers at r > 2; "outgoing" rises to rest at
     infinity, from region IV where r <= 2; "T_II" and "T_IV" are at rest in t inside the future
     and past horizon, r < 2.

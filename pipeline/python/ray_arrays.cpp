@@ -47,6 +47,10 @@ class Decimals {
     return texts_.empty() ? numbers_.data()[k] : decimal_number(texts_[k], name_);
   }
 
+  bool is_given(std::size_t k) const {
+    return texts_.empty() ? !std::isnan(numbers_.data()[k]) : !texts_[k].empty();
+  }
+
   // A double is taken at its word, and its distances from 2 and 3 are exact.
   Radius radius(std::size_t k) const {
     return texts_.empty() ? Radius(numbers_.data()[k]) : decimal_radius(texts_[k]);
@@ -100,9 +104,13 @@ class GivenRays {
     try {
       const TraceObserver observer = trace_observer(observers[k]);
       const Radius at = radii.radius(k);
-      requests.push_back(edges[k].empty() ? ray_at_angle(observer, at, deltas.number(k))
-                                          : ray_at_edge(observer, at, edges[k],
-                                                        static_cast<double>(offsets.number(k))));
+      if (edges[k].empty()) {
+        requests.push_back(ray_at_angle(observer, at, deltas.number(k)));
+        return;
+      }
+      requests.push_back(
+          ray_at_edge(observer, at, edges[k], static_cast<double>(offsets.number(k))));
+      if (deltas.is_given(k)) require_delta(requests.back(), deltas.number(k));
     } catch (const InputError& error) {
       throw InputError(place_of(k, shape) + error.what());
     }

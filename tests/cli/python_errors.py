@@ -63,6 +63,8 @@ raises(mistaken, "delta must be from 0 to pi, got nan", lambda: trace(6, None, e
 raises(mistaken, "a ray takes delta, or an edge", lambda: trace(6))
 raises(mistaken, "offset is given without an edge", lambda: trace(6, 1, offset=0))
 raises(mistaken, "edge must be silhouette, region3 or empty", lambda: trace(6, edge="rim"))
+raises(mistaken, "ray [1]: delta is 1, and edge and offset give 0.78",
+       lambda: trace([6, 6], [np.nan, 1], edge="silhouette", observer="static"))
 raises(mistaken, "observer must be rain, static", lambda: trace(6, 1, observer="Rain"))
 raises(mistaken, "r must exceed 2", lambda: trace(2, 1, observer="static"))
 raises(mistaken, "method must be one of table, exact, rk4", lambda: trace(6, 1, method="euler"))

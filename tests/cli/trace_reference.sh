@@ -61,6 +61,9 @@ grep -q '^rain,10,1,,,I,' "$folder/stdout" || fail "a spreadsheet's table was no
 row 'rain,10,1,,1e-3'
 exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
 says "bad.csv:2: offset is given without an edge"
+row 'static,6,1,silhouette,0'
+exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
+says "bad.csv:2: delta is 1, and edge and offset give 0.785398"
 row 'rain,0x10,1,,'
 exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
 says "bad.csv:2: r must be a number, got '0x10'"
