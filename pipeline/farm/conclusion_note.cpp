@@ -44,8 +44,11 @@ std::string conclusion_of(const fs::path& out, const std::string& plan_id) {
     const std::string text = read_file(file, kMostBytes);
     const std::size_t end = std::min(text.find('\n'), text.size());
     const fs::path log = end < text.size() ? text.substr(end + 1) : std::string();
-    if (log.empty()) return text.substr(0, end);
-    return text.substr(0, end) + "; " + log.string() + ": " + last_line_of(log);
+    const std::string note = text.substr(0, end);
+    if (log.empty()) return note;
+    // A job that failed has said last what it has noted.
+    const std::string said = last_line_of(log);
+    return note + "; " + log.string() + (note.ends_with(said) ? "" : ": " + said);
   } catch (const TemporaryError&) {
     // It has ended meanwhile.
     if (!fs::exists(file, error)) return {};
