@@ -26,6 +26,8 @@ class DiscPass {
 
   // Lays the disc over the rows [first, end) of the image, the first of which is rgb[3 columns].
   void draw_rows(int first, int end, float* rgb) const;
+  // The same, each pixel looked at by itself: slower, and what draw_rows() is held against.
+  void draw_rows_singly(int first, int end, float* rgb) const;
 
   // The part of the light from a place on the ray that the disc before it lets through: psi radians
   // along the ray that is seen in that direction.  It fades within a pixel of the disc's rims.
@@ -35,6 +37,8 @@ class DiscPass {
 
  private:
   class Strip;
+  class Row;
+  void draw(Row& line, int first, int end, float* rgb) const;
   void locate(const CameraDirection* n, const double* angle, int count, Pixels& pixels) const;
 
   const FrameScene& scene_;

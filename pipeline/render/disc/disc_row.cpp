@@ -1,0 +1,235 @@
+#include "pipeline/render/disc/disc_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/render/disc/rim_coverage.h"
+#include "pipeline/render/rays/pixel_directions.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// What decides where a ray meets the disc changes by less than this part of itself between nodes.
+constexpr double kSteady = 0.25;
+// How much faster, therefore, a distance may change between two nodes than at either of them.
+constexpr double kFaster = 1.6;
+// A cubic is trusted if the third and fourth differences of its nodes are smaller than these parts
+// of the light, or, next to a rim, where differences grow from node to node, a quarter of them.
+// With the fourth difference, its error is at most 1/24 of that.
+constexpr float kMostThird = 0.02f, kMostFourth = 0.006f, kNextToRim = 0.25f;
+// Where a ray is against the image of an order.  Where gas begins to plunge, its light has a kink.
+enum Place : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
+// The nodes that judge a cubic.
+constexpr std::size_t kJudges = 5;
+
+// The weights of four nodes, at -1, 0, 1 and 2, for the pixels from 0 to 1; of the cell before the
+// middle one, and of the one after it.
+using Weights = std::array<std::array<float, 4>, 8>;
+Weights cubic_weights(double first_cell) {
+  Weights weights;
+  for (std::size_t x = 0; x < weights.size(); ++x) {
+    const double t = first_cell + static_cast<double>(x) / static_cast<double>(weights.size());
+    const double a = t, b = t - 1, c = t - 2, d = t - 3;
+    weights[x] = {static_cast<float>(-b * c * d / 6), static_cast<float>(a * c * d / 2),
+                  static_cast<float>(-a * b * d / 2), static_cast<float>(a * b * c / 6)};
+  }
+  return weights;
+}
+
+// The Lorentz factor of the camera against the frame in which light's ways are known, at most.
+double most_gamma(const FrameScene& scene) {
+  const Vantage& vantage = scene.tracer.vantage();
+  const double gamma = std::sqrt(1 + vantage.celerity.dot(vantage.celerity));
+  if (!scene.tracer.goes_straight()) return gamma;
+  return 2 * gamma * std::sqrt(1 + vantage.rest.dot(vantage.rest));
+}
+
+}  // namespace
+
+bool DiscPass::Row::is_steady(const FrameScene& scene) {
+  // The frequency ratio changes by gamma of itself a radian at most.
+  return kStep * central_pixel_angle(scene.projection()) * most_gamma(scene) < kSteady;
+}
+
+DiscPass::Row::Row(const DiscPass& pass, bool with_nodes)
+    : pass_(pass),
+      exposure_(static_cast<float>(pass.scene_.exposure)),
+      with_nodes_(with_nodes),
+      strip_(pass) {
+  const auto width = static_cast<std::size_t>(columns(pass.scene_.projection()));
+  nodes_.reserve(width / kStep + 1);
+  single_.reserve(width);
+}
+
+void DiscPass::Row::draw(int row, float* rgb) {
+  const ColumnRange inside = inside_columns(pass_.scene_.projection(), row);
+  const int width = inside.last - inside.first + 1;
+  if (width <= 0) return;
+  first_ = inside.first;
+  single_.clear();
+  const int cells = with_nodes_ && !pass_.pattern_ ? (width - 1) / kStep : 0;
+  nodes_.resize(static_cast<std::size_t>(cells) + 1);
+  for (int at = 0; cells > 0 && at <= cells; at += Strip::kSize)
+    find_nodes(row, at, std::min(Strip::kSize, cells + 1 - at));
+  for (std::size_t at = 0; at < static_cast<std::size_t>(cells);) {
+    std::size_t last = at;
+    while (last < static_cast<std::size_t>(cells) && joined(nodes_[last], nodes_[last + 1])) ++last;
+    draw_run(at, last, rgb);
+    at = last;
+    if (at == static_cast<std::size_t>(cells)) break;
+    for (int x = 0; x < kStep; ++x) single_.push_back(first_ + static_cast<int>(at) * kStep + x);
+    ++at;
+  }
+  for (int column = first_ + cells * kStep; column <= inside.last; ++column)
+    single_.push_back(column);
+  draw_singly(row, rgb);
+}
+
+// Finds where `count` pixels of a row see the disc.
+template <class ColumnOf>
+void DiscPass::Row::locate(int row, int count, const ColumnOf& column_of) {
+  std::array<double, Strip::kSize> i{}, j{}, angle{};
+  std::array<CameraDirection, Strip::kSize> n{};
+  for (int k = 0; k < count; ++k) {
+    i[static_cast<std::size_t>(k)] = column_of(k) + 1;
+    j[static_cast<std::size_t>(k)] = row + 1;
+  }
+  find_directions(pass_.scene_.projection(), i.data(), j.data(), count, n.data(), angle.data());
+  pass_.locate(n.data(), angle.data(), count, pixels_);
+}
+
+void DiscPass::Row::find_nodes(int row, int first, int count) {
+  locate(row, count, [&](int k) { return first_ + (first + k) * kStep; });
+  std::array<bool, Strip::kSize> lit;
+  for (int k = 0; k < count; ++k) {
+    const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(pixels_, k);
+    lit[static_cast<std::size_t>(k)] = node.lit;
+  }
+  strip_.look(pixels_, count, lit.data());
+  for (int k = 0; k < count; ++k) {
+    Node& node = nodes_[static_cast<std::size_t>(first + k)];
+    node.light = strip_.light(k);
+    node.left = static_cast<float>(strip_.left(k));
+  }
+}
+
+DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
+  constexpr double kFar = 1e3;
+  constexpr unsigned kNoLight = ~0u;
+  Node node;
+  if (!(pixels.energy[k] > 0)) {
+    node.sight = kNoLight;
+    node.clearance = kFar;
+    return node;
+  }
+  const double turned = kStep * pixels.azimuth_per[k];
+  const double toward = pass_.normal_across_ * pixels.azimuth_cosine[k];
+  const double from_plane = std::sqrt(pass_.normal_up_ * pass_.normal_up_ + toward * toward);
+  if (turned > kSteady || turned * pass_.normal_across_ > kSteady * from_plane) return node;
+  const double p = pixels.label[k], per = pixels.label_per[k];
+  const DiscImages& images = pass_.images_;
+  double clearance = kFar;
+  for (int order = 0; order < images.orders(); ++order) {
+    const double beneath = (images.least(order) - p) / per,
+                 above = (p - images.greatest(order)) / per;
+    Place place = kBeneath;
+    constexpr double kNotNear = 4 * kStep;
+    if (above > kNotNear) {
+      place = kAbove;
+    } else if (!(beneath > kNotNear)) {
+      const double turn = pixels.turn[k] + order * pi, turn_per = pixels.turn_per[k];
+      const DiscImages::Interval rims = images.interval(turn);
+      const double over_low = (p - rims.low) / (per + std::abs(rims.low_slope) * turn_per),
+                   over_high = (p - rims.high) / (per + std::abs(rims.high_slope) * turn_per);
+      clearance = std::min({clearance, std::abs(over_low), std::abs(over_high)});
+      if (over_high >= 0) {
+        place = kAbove;
+      } else if (over_low >= 0) {
+        const double u = (p - rims.low) / (rims.high - rims.low);
+        const bool plunges = pass_.scene_.disc->disc().inner < kLastStableOrbit &&
+                             images.inverse_radius(turn, u) * kLastStableOrbit > 1;
+        place = plunges ? kWherePlunging : kWithin;
+      }
+    }
+    node.sight |= static_cast<unsigned>(place) << (2 * order);
+    if (place == kBeneath || place == kAbove) continue;
+    node.lit = true;
+    if (pass_.scene_.disc->disc().opacity == 1) break;
+  }
+  node.clearance = clearance;
+  return node;
+}
+
+// Whether no rim is felt between two neighbouring nodes, nor at either.
+bool DiscPass::Row::joined(const Node& a, const Node& b) const {
+  return a.sight == b.sight && a.clearance > kRimReach && b.clearance > kRimReach &&
+         a.clearance + b.clearance > kFaster * (kStep + 2 * kRimReach);
+}
+
+// Draws the cells between nodes that see the same images, or notes their pixels.
+void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
+  if (!nodes_[first].lit) return;
+  for (std::size_t cell = first; cell < last; ++cell)
+    if (last - first + 1 < kJudges || !draw_cell(cell, first, last, rgb))
+      for (int x = 0; x < kStep; ++x)
+        single_.push_back(first_ + static_cast<int>(cell) * kStep + x);
+}
+
+// Draws a cell of a run by a cubic if it is right there, and returns whether it is.
+bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t last,
+                              float* rgb) const {
+  static const std::array<Weights, 3> kWeights{cubic_weights(0), cubic_weights(1),
+                                               cubic_weights(2)};
+  const std::size_t judge = std::clamp(cell, first + 2, last - 2) - 2;
+  std::array<std::array<float, 3>, kJudges> judges;
+  for (std::size_t k = 0; k < kJudges; ++k) {
+    const WorkingRgb& light = nodes_[judge + k].light;
+    judges[k] = {light.r, light.g, light.b};
+  }
+  const float trust = cell == first || cell + 1 == last ? kNextToRim : 1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto third = [&](std::size_t k) {
+      return judges[k + 3][c] - judges[k][c] + 3 * (judges[k + 1][c] - judges[k + 2][c]);
+    };
+    const float before = third(0), after = third(1), light = trust * judges[2][c];
+    if (!(std::abs(before) <= kMostThird * light && std::abs(after) <= kMostThird * light &&
+          std::abs(after - before) <= kMostFourth * light))
+      return false;
+  }
+  const std::size_t from = std::clamp(cell, first + 1, last - 2) - 1;
+  const Weights& weights = kWeights[cell - from];
+  std::array<std::array<float, 3>, 4> values;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) values[k][c] = exposure_ * judges[from - judge + k][c];
+  const float left = nodes_[cell].left;
+  float* pixel = rgb + 3 * (first_ + static_cast<std::ptrdiff_t>(cell) * kStep);
+  for (const std::array<float, 4>& w : weights) {
+    for (std::size_t c = 0; c < 3; ++c)
+      pixel[c] = left * pixel[c] + (w[0] * values[0][c] + w[1] * values[1][c] +
+                                    w[2] * values[2][c] + w[3] * values[3][c]);
+    pixel += 3;
+  }
+  return true;
+}
+
+void DiscPass::Row::draw_singly(int row, float* rgb) {
+  for (std::size_t at = 0; at < single_.size(); at += Strip::kSize) {
+    const int* column = &single_[at];
+    const int count = static_cast<int>(std::min<std::size_t>(single_.size() - at, Strip::kSize));
+    locate(row, count, [column](int k) { return column[k]; });
+    strip_.look(pixels_, count);
+    for (int k = 0; k < count; ++k) {
+      const auto left = static_cast<float>(strip_.left(k));
+      const WorkingRgb& light = strip_.light(k);
+      float* pixel = rgb + 3 * static_cast<std::ptrdiff_t>(column[k]);
+      pixel[0] = left * pixel[0] + exposure_ * light.r;
+      pixel[1] = left * pixel[1] + exposure_ * light.g;
+      pixel[2] = left * pixel[2] + exposure_ * light.b;
+    }
+  }
+}
+
+}  // namespace domefall

@@ -1,0 +1,57 @@
+// A row of pixels before a disc.
+//
+// Between rims the light of a disc is as smooth as its images: it is found at every eighth pixel,
+// the nodes of the row, and by cubics between them.  Only where a rim is near, or where the cubics
+// would be too far off, is each pixel looked at by itself.  The distances of two neighbouring nodes
+// to the rims, against how fast these can change, tell that no rim passes between them.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/render/disc/disc_strip.h"
+
+namespace domefall {
+
+class DiscPass::Row {
+ public:
+  // Whether what is seen changes slowly enough from node to node.
+  static bool is_steady(const FrameScene& scene);
+
+  // Without nodes, each pixel is looked at by itself.
+  Row(const DiscPass& pass, bool with_nodes);
+
+  // Lays the disc over the row's pixels, rgb[3 columns].
+  void draw(int row, float* rgb);
+
+ private:
+  static constexpr int kStep = 8;  // pixels from node to node
+
+  struct Node {
+    // Where the ray lies: for each order two bits, none of those behind an opaque image.
+    unsigned sight = 0;
+    bool lit = false;      // whether it is in an image
+    double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
+    WorkingRgb light{0, 0, 0};
+    float left = 1;
+  };
+
+  template <class ColumnOf>
+  void locate(int row, int count, const ColumnOf& column_of);
+  void find_nodes(int row, int first, int count);
+  Node sighted(const Pixels& pixels, int k) const;
+  bool joined(const Node& a, const Node& b) const;
+  void draw_run(std::size_t first, std::size_t last, float* rgb);
+  bool draw_cell(std::size_t cell, std::size_t first, std::size_t last, float* rgb) const;
+  void draw_singly(int row, float* rgb);
+
+  const DiscPass& pass_;
+  float exposure_;
+  bool with_nodes_;
+  Strip strip_;
+  Pixels pixels_;
+  int first_ = 0;  // column of the first node
+  std::vector<Node> nodes_;
+  std::vector<int> single_;  // columns of pixels that are looked at one by one
+};
+
+}  // namespace domefall

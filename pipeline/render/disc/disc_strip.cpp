@@ -1,0 +1,198 @@
+#include "pipeline/render/disc/disc_strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/disc/disc_shift.h"
+#include "pipeline/render/disc/rim_coverage.h"
+#include "pipeline/render/disc/veil.h"
+#include "pipeline/render/scene/effect_ratios.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// psi changes by less than this within one division of a pixel.
+constexpr double kMostTurn = 0.1;
+constexpr int kMostDivisions = 48;
+
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
+}  // namespace
+
+DiscPass::Strip::Strip(const DiscPass& pass)
+    : pass_(pass), effects_(pass.scene_.effects), disc_(pass.scene_.disc->disc()) {}
+
+void DiscPass::Strip::look(const Pixels& pixels, int count, const bool* wanted) {
+  light_.fill(WorkingRgb{0, 0, 0});
+  for (int k = 0; k < count; ++k) {
+    double& left = left_[static_cast<std::size_t>(k)];
+    left = 1;
+    if (!(pixels.energy[k] > 0) || (wanted && !wanted[k])) continue;
+    const double turn_per = pixels.turn_per[k];
+    left = turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5
+               ? look_at(pixels, k,
+                         {pixels.turn[k], turn_per, pixels.azimuth_cosine[k],
+                          pixels.azimuth_sine[k], 1})
+               : look_at_divisions(pixels, k);
+  }
+  flush();
+}
+
+double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
+  // psi_0 = atan2(up, across cos(azimuth)) grows with |azimuth| from 0 to pi.
+  const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
+  const double azimuth = std::atan2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
+  const double half = std::min(pixels.azimuth_per[k], pi) / 2;
+  const auto turn_at = [&](double at) {
+    const double turn = std::atan2(up, across * std::cos(at));
+    return turn > 0 ? turn : pi;
+  };
+  double left = 0;
+  const auto divide = [&](double first, double last) {  // where psi_0 is monotone
+    if (!(last > first)) return;
+    const double begin = turn_at(first), end = turn_at(last);
+    const int count = std::clamp(static_cast<int>(std::ceil(std::abs(end - begin) / kMostTurn)), 1,
+                                 kMostDivisions);
+    double before = first;
+    for (int n = 1; n <= count; ++n) {
+      const double until = begin + (end - begin) * n / count;
+      const double turned = std::acos(
+          std::clamp(up / across * std::cos(until) / std::max(std::sin(until), 1e-300), -1.0, 1.0));
+      const double sign = first + last < 0 ? -1 : 1;
+      const double after = n == count ? last : sign * turned;
+      const double part = std::abs(after - before) / (2 * half);
+      left +=
+          part * look_at(pixels, k,
+                         {turn_at((before + after) / 2), std::abs(end - begin) / count,
+                          std::cos((before + after) / 2), std::sin((before + after) / 2), part});
+      before = after;
+    }
+  };
+  double first = azimuth - half;
+  const double last = azimuth + half;
+  for (const double fold : {-pi, 0.0, pi})
+    if (fold > first && fold < last) {
+      divide(first, fold);
+      first = fold;
+    }
+  divide(first, last);
+  return left;
+}
+
+// Adds the samples of a division, and returns what is left there of the light from behind.
+double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& division) {
+  const DiscImages& images = pass_.images_;
+  const double p = pixels.label[k], per = pixels.label_per[k];
+  Veil<DiscImages::kOrders> veil;
+  double left = 1;
+  for (int order = 0; order < images.orders() && left > 1e-4; ++order) {
+    if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
+    const double turn = division.turn + order * pi;
+    const DiscImages::Interval rims = images.interval(turn);
+    const Share share{
+        beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
+        beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
+    if (!(share.to - share.from > 1e-5)) continue;
+    const double seen = veil.lay(share.from, share.to, disc_.opacity);
+    shade(pixels, k, division, turn, rims, share, seen * division.part);
+    left = veil.left();
+  }
+  return left;
+}
+
+// The light of what a pixel sees of an image: the mean over its part of the interval, with the
+// weights by which the pixel sees it, so that all pixels together see each place once.
+void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& division, double turn,
+                            const DiscImages::Interval& rims, const Share& share, double weight) {
+  const double width = rims.high - rims.low, p = pixels.label[k];
+  // How much of the interval a pixel's reach is.  It is slanted as the rims are, the more the
+  // nearer it is to either.
+  const double near = std::clamp((p - rims.low) / width, 0.0, 1.0);
+  const double slope = rims.low_slope + (rims.high_slope - rims.low_slope) * near;
+  const double per = length(pixels.label_per[k], slope * division.turn_per);
+  const auto label_at = [&](double covered) {
+    return std::clamp(p - distance_to_rim(covered) * per, rims.low, rims.high);
+  };
+  const double seen = (label_at(share.from) - label_at(share.to)) / width;
+  constexpr double kPart = 0.06;
+  constexpr int kMost = 16;
+  const int count = std::clamp(static_cast<int>(std::ceil(seen / kPart)), 1, kMost);
+  for (int n = 0; n < count; ++n) {
+    const double label = label_at(share.to + (share.from - share.to) * (n + 0.5) / count);
+    const double u = (label - rims.low) / width;
+    put(pixels, k, division, turn, label, u, weight / count);
+    if (pass_.pattern_) note_place(pixels, k, division, turn, u, seen / count);
+    if (count_ == kSize) flush();
+  }
+}
+
+void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division, double turn,
+                          double label, double u, double weight) {
+  const double r = 1 / pass_.images_.inverse_radius(turn, u);
+  const double w0 = 1 / pass_.r_;
+  const bool straight = pass_.scene_.tracer.goes_straight();
+  // 1/b^2 = p^2 + w_0^2 - 2 w_0^3
+  const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
+  const double energy = pixels.energy[k];
+  const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
+  const double about =
+      (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * division.azimuth_sine;
+  const double shift = disc_shift({energy, momentum, momentum * about}, r,
+                                  r < kLastStableOrbit && outward(turn, label, u));
+  const double g = pixels.rays.frequency[k] / shift;
+  samples_.r[count_] = static_cast<float>(r);
+  samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
+  samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
+  samples_.pixel[count_] = k;
+  ++count_;
+}
+
+// The place and the moment of the last sample, for the pattern.  `part` is what it covers of u.
+void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& division, double turn,
+                                 double u, double part) {
+  const DiscImages::Moment at = pass_.images_.moment(turn, u);
+  const double r = 1 / at.w, sine = std::sin(turn), cosine = std::cos(turn);
+  // Around R from the normal's part across it, as locate_loop has it.
+  const double side = pass_.normal_up_ > 0 ? -1 : 1;
+  const double along = side * division.azimuth_cosine, beside = side * division.azimuth_sine;
+  const double up = std::cos(pass_.normal_azimuth_), aside = std::sin(pass_.normal_azimuth_);
+  const V3d place(cosine, sine * (along * up - beside * aside),
+                  sine * (along * aside + beside * up));
+  const double time = disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
+  // Around R the place moves by psi and about the axis of psi, at right angles.
+  const double turned = length(division.turn_per, sine * pixels.azimuth_per[k] * division.part),
+               aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
+  samples_.place[count_ - 1] = {r, std::atan2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
+                                time, std::abs(at.w_slope) * part * r * r, length(turned, aged)};
+}
+
+// Whether light sets out there to larger radii: back in time along the ray w then grows.
+bool DiscPass::Strip::outward(double turn, double label, double u) const {
+  constexpr double kStep = 1e-3;
+  const DiscImages::Interval later = pass_.images_.interval(turn + kStep);
+  const double then = std::clamp((label - later.low) / (later.high - later.low), 0.0, 1.0);
+  return pass_.images_.inverse_radius(turn + kStep, then) > pass_.images_.inverse_radius(turn, u);
+}
+
+void DiscPass::Strip::flush() {
+  const std::size_t count = count_;
+  pass_.scene_.disc->light({samples_.r.data(), count}, {samples_.g.data(), count},
+                           {colour_.data(), count});
+  if (pass_.pattern_) {
+    pass_.pattern_->factors({samples_.place.data(), count}, {factor_.data(), count});
+    for (std::size_t k = 0; k < count; ++k) samples_.weight[k] *= factor_[k];
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    WorkingRgb& light = light_[static_cast<std::size_t>(samples_.pixel[k])];
+    const float weight = samples_.weight[k];
+    light.r += weight * colour_[k].r;
+    light.g += weight * colour_[k].g;
+    light.b += weight * colour_[k].b;
+  }
+  count_ = 0;
+}
+
+}  // namespace domefall

@@ -1,0 +1,64 @@
+// Pixels of one row, or of several, on their way to light: each is looked at by itself.
+#pragma once
+
+#include <array>
+
+#include "pipeline/render/disc/disc_pixels.h"
+
+namespace domefall {
+
+// Samples of the disc wait until there are enough of them for the loops over samples.
+class DiscPass::Strip {
+ public:
+  static constexpr int kSize = ViewRayBatch::kSize;
+
+  explicit Strip(const DiscPass& pass);
+
+  // Finds light() and left() of `count` <= kSize pixels, or of those that are `wanted`.
+  void look(const Pixels& pixels, int count, const bool* wanted = nullptr);
+
+  // The light that the k-th pixel gets from the disc (cd/m^2), and the part that is left there of
+  // the light from behind.
+  const WorkingRgb& light(int k) const { return light_[static_cast<std::size_t>(k)]; }
+  double left(int k) const { return left_[static_cast<std::size_t>(k)]; }
+
+ private:
+  // A division of a pixel: all of it, as a rule.
+  struct Division {
+    double turn, turn_per;  // psi_0, and by how much it changes here
+    double azimuth_cosine, azimuth_sine;
+    double part;  // of the pixel
+  };
+  // The parts of a pixel that are beyond an image's inner rim, and beyond its outer one.
+  struct Share {
+    double from, to;
+  };
+
+  double look_at_divisions(const Pixels& pixels, int k);
+  double look_at(const Pixels& pixels, int k, const Division& division);
+  void shade(const Pixels& pixels, int k, const Division& division, double turn,
+             const DiscImages::Interval& rims, const Share& share, double weight);
+  void put(const Pixels& pixels, int k, const Division& division, double turn, double label,
+           double u, double weight);
+  void note_place(const Pixels& pixels, int k, const Division& division, double turn, double u,
+                  double part);
+  bool outward(double turn, double label, double u) const;
+  void flush();
+
+  const DiscPass& pass_;
+  const Effects& effects_;
+  const Disc& disc_;
+  template <class T>
+  using Column = std::array<T, kSize>;
+  Column<double> left_{};
+  Column<WorkingRgb> light_{}, colour_{};
+  struct {
+    Column<float> r, g, weight;
+    Column<int> pixel;
+    Column<PatternPlace> place;
+  } samples_{};
+  Column<float> factor_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace domefall

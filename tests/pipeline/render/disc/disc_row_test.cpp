@@ -1,0 +1,72 @@
+// Rows of pixels before a disc, most of which are drawn by cubics, against each pixel by itself.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "pipeline/render/disc/disc_pass.h"
+#include "tests/pipeline/render/disc/disc_views.h"
+#include "tests/sanitized.h"
+
+namespace domefall {
+namespace {
+
+// The values of a picture that are drawn with each pixel by itself, and those by rows.
+struct Drawn {
+  FloatImage singly, by_rows;
+};
+
+Drawn drawn(const DiscView& view, const Projection& projection) {
+  const Show show = disc_show(view, projection);
+  const FrameState state = frame_state(show, 0);
+  const HoleOptics optics = make_hole_optics(view.at.r, view.at.tetrad, {});
+  const DiscLight light(*show.disc);
+  const FrameScene scene(show, state, plan_frame(show, state), optics, {}, {}, nullptr, &light);
+  const DiscPass pass(scene);
+  const int width = columns(projection), height = rows(projection);
+  Drawn pictures{FloatImage(width, height), FloatImage(width, height)};
+  // What is behind the disc is not black.
+  std::fill(pictures.singly.pixels.begin(), pictures.singly.pixels.end(), 0.25f);
+  pictures.by_rows.pixels = pictures.singly.pixels;
+  pass.draw_rows_singly(0, height, pictures.singly.row(0));
+  pass.draw_rows(0, height, pictures.by_rows.row(0));
+  return pictures;
+}
+
+Disc disc_of(double opacity, bool plunging = false) {
+  Disc disc;
+  disc.opacity = opacity;
+  disc.plunging = plunging;
+  if (plunging) disc.inner = 2.5;
+  return disc;
+}
+
+// Far away and near, above the plane and in it, between the images, inside the horizon, and fast.
+std::vector<DiscView> views() {
+  constexpr Region kI = Region::kI;
+  constexpr Tetrad kRain = Tetrad::kRain;
+  return {{{kI, kRain, 15, celerity_of_rest(15)}, normal_seen_from(10), disc_of(1)},
+          {{kI, kRain, 40, celerity_of_rest(40)}, normal_seen_from(80), disc_of(0.6)},
+          {{kI, kRain, 30, celerity_of_rest(30)}, normal_seen_from(0.3), disc_of(0.8)},
+          {{kI, kRain, 12, V3d(0.4, -0.2, 0.5)}, normal_seen_from(1), disc_of(1)},
+          {{kI, kRain, 9, celerity_of_rest(9)}, normal_seen_from(0), disc_of(1)},
+          {{kI, kRain, 4, V3d(0, 0, 0)}, V3d(0.3, -1, 0.2), disc_of(0.5)},
+          {{Region::kII, kRain, 1, V3d(0, 0.3, 0)}, V3d(0.1, -1, 0.4), disc_of(0.7, true)},
+          {{kI, Tetrad::kOutgoing, 10, V3d(-0.5, 0.3, 0.1)}, V3d(0.7, 0.7, 0.1), disc_of(1)},
+          {{kI, kRain, 25, V3d(1.5, 1.2, -2)}, V3d(0.3, -0.8, 0.4), disc_of(0.9)}};
+}
+
+TEST(DiscRow, IsThatOfItsPixels) {
+  int differ = 0;
+  for (std::size_t v = 0; v < views().size(); ++v) {
+    const Drawn pictures = drawn(views()[v], Domemaster{tries(512, 256)});
+    const std::vector<float>&singly = pictures.singly.pixels, &by_rows = pictures.by_rows.pixels;
+    for (std::size_t k = 0; k < singly.size(); ++k) {
+      differ += singly[k] != by_rows[k];
+      ASSERT_NEAR(by_rows[k], singly[k], 1e-3f * singly[k]) << "view " << v << ", value " << k;
+    }
+  }
+  EXPECT_GT(differ, 1000);
+}
+
+}  // namespace
+}  // namespace domefall
