@@ -7,6 +7,7 @@
 
 #include "pipeline/optics/ray_orbits.h"
 #include "pipeline/optics/ray_times.h"
+#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -205,7 +206,8 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
 DiscImages::Interval DiscImages::interval(double psi) const {
   if (straight_) {
     // w = w_0 cos psi + p sin psi
-    const double sine = std::sin(psi), cosine = std::cos(psi);
+    const SineCosine t = sin_cos(psi);
+    const double sine = t.sine, cosine = t.cosine;
     const auto p = [&](double w) { return (w - observer_w_ * cosine) / sine; };
     const auto slope = [&](double w) { return (observer_w_ - w * cosine) / (sine * sine); };
     return {p(outer_w_), p(inner_w_), slope(outer_w_), slope(inner_w_)};

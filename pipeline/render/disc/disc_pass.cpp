@@ -7,6 +7,7 @@
 
 #include "pipeline/render/disc/disc_row.h"
 #include "pipeline/render/disc/rim_coverage.h"
+#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -26,7 +27,7 @@ DiscImages images_for(const FrameScene& scene) {
 }  // namespace
 
 DiscPass::Clock::Clock(const ObserverState& observer) : outgoing(is_outgoing(observer.tetrad)) {
-  const double r = observer.r, tortoise = r + 2 * std::log(std::abs(r / 2 - 1));
+  const double r = observer.r, tortoise = r + 2 * logarithm(std::abs(r / 2 - 1));
   // A mirrored observer's t counts the other way.
   null_time = is_mirrored(observer.tetrad) ? (outgoing ? -2 : 2) * tortoise - observer.null_time
                                            : observer.null_time;
@@ -36,7 +37,7 @@ DiscPass::Clock::Clock(const ObserverState& observer) : outgoing(is_outgoing(obs
 double DiscPass::Clock::time_at(double r, double delay) const {
   // On the horizon light sets out an infinite time ago; no pattern is there.
   constexpr double kLeast = 1e-9;
-  const double tortoise = r + 2 * std::log(std::max(r / 2 - 1, kLeast));
+  const double tortoise = r + 2 * logarithm(std::max(r / 2 - 1, kLeast));
   return null_time + delay + (outgoing ? tortoise : -tortoise);
 }
 
@@ -54,8 +55,9 @@ DiscPass::DiscPass(const FrameScene& scene)
   const V3d normal =
       apply_transposed(scene.state.observer.sky_from_tetrad, scene.disc->disc().normal.v);
   normal_up_ = normal.x;
-  normal_across_ = std::hypot(normal.y, normal.z);
-  normal_azimuth_ = std::atan2(normal.z, normal.y);
+  normal_across_ = std::sqrt(normal.y * normal.y + normal.z * normal.z);
+  normal_cosine_ = normal_across_ > 0 ? normal.y / normal_across_ : 1;
+  normal_sine_ = normal_across_ > 0 ? normal.z / normal_across_ : 0;
   node_ = apply_transposed(scene.state.observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
   // Light that goes straight: cos alpha/(r sin alpha), and the energy of the frame at rest.

@@ -58,7 +58,7 @@ class DiscPass {
   std::optional<DiscPattern> pattern_;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
   // The disc's normal: its part along R, that across it, and the angle of that from Theta.
-  double normal_up_, normal_across_, normal_azimuth_;
+  double normal_up_, normal_across_, normal_cosine_, normal_sine_;
 };
 
 }  // namespace domefall

@@ -62,16 +62,10 @@ void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
   static const Dispatched<locate_on_disc_loop> loop;
   scene_.tracer.into_frame(n, count, pixels.rays);
   const bool straight = scene_.tracer.goes_straight();
-  const DiscSight sight{r_,
-                        straight ? 0 : s_,
-                        straight ? 1 : one_minus_s_,
-                        label_sign_,
-                        energy_sign_,
-                        straight ? std::sqrt((r_ - 2) / r_) : 0.0,
-                        normal_up_,
-                        normal_across_,
-                        std::cos(normal_azimuth_),
-                        std::sin(normal_azimuth_)};
+  const DiscSight sight{r_,          straight ? 0 : s_, straight ? 1 : one_minus_s_,
+                        label_sign_, energy_sign_,      straight ? std::sqrt((r_ - 2) / r_) : 0.0,
+                        normal_up_,  normal_across_,    normal_cosine_,
+                        normal_sine_};
   loop(sight, angle, count, pixels);
 }
 

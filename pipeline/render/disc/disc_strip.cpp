@@ -8,6 +8,7 @@
 #include "pipeline/render/disc/rim_coverage.h"
 #include "pipeline/render/disc/veil.h"
 #include "pipeline/render/scene/effect_ratios.h"
+#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -44,11 +45,17 @@ void DiscPass::Strip::look(const Pixels& pixels, int count, const bool* wanted) 
 double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
   // psi_0 = atan2(up, across cos(azimuth)) grows with |azimuth| from 0 to pi.
   const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
-  const double azimuth = std::atan2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
+  const double azimuth = arc_tangent2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
   const double half = std::min(pixels.azimuth_per[k], pi) / 2;
   const auto turn_at = [&](double at) {
-    const double turn = std::atan2(up, across * std::cos(at));
+    const double turn = arc_tangent2(up, across * sin_cos(at).cosine);
     return turn > 0 ? turn : pi;
+  };
+  // The inverse, from 0 to pi.
+  const auto azimuth_at = [&](double turn) {
+    const SineCosine t = sin_cos(turn);
+    const double x = up * t.cosine, length = across * t.sine;
+    return arc_tangent2(std::sqrt(std::max(0.0, (length - x) * (length + x))), x);
   };
   double left = 0;
   const auto divide = [&](double first, double last) {  // where psi_0 is monotone
@@ -59,15 +66,14 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
     double before = first;
     for (int n = 1; n <= count; ++n) {
       const double until = begin + (end - begin) * n / count;
-      const double turned = std::acos(
-          std::clamp(up / across * std::cos(until) / std::max(std::sin(until), 1e-300), -1.0, 1.0));
+      const double turned = azimuth_at(until);
       const double sign = first + last < 0 ? -1 : 1;
       const double after = n == count ? last : sign * turned;
       const double part = std::abs(after - before) / (2 * half);
-      left +=
-          part * look_at(pixels, k,
-                         {turn_at((before + after) / 2), std::abs(end - begin) / count,
-                          std::cos((before + after) / 2), std::sin((before + after) / 2), part});
+      const SineCosine middle = sin_cos((before + after) / 2);
+      left += part * look_at(pixels, k,
+                             {turn_at((before + after) / 2), std::abs(end - begin) / count,
+                              middle.cosine, middle.sine, part});
       before = after;
     }
   };
@@ -154,19 +160,21 @@ void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division,
 void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& division, double turn,
                                  double u, double part) {
   const DiscImages::Moment at = pass_.images_.moment(turn, u);
-  const double r = 1 / at.w, sine = std::sin(turn), cosine = std::cos(turn);
+  const SineCosine turned = sin_cos(turn);
+  const double r = 1 / at.w;
   // Around R from the normal's part across it, as locate_loop has it.
   const double side = pass_.normal_up_ > 0 ? -1 : 1;
   const double along = side * division.azimuth_cosine, beside = side * division.azimuth_sine;
-  const double up = std::cos(pass_.normal_azimuth_), aside = std::sin(pass_.normal_azimuth_);
-  const V3d place(cosine, sine * (along * up - beside * aside),
-                  sine * (along * aside + beside * up));
+  const double up = pass_.normal_cosine_, aside = pass_.normal_sine_;
+  const V3d place(turned.cosine, turned.sine * (along * up - beside * aside),
+                  turned.sine * (along * aside + beside * up));
   const double time = disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
   // Around R the place moves by psi and about the axis of psi, at right angles.
-  const double turned = length(division.turn_per, sine * pixels.azimuth_per[k] * division.part),
+  const double moved =
+                   length(division.turn_per, turned.sine * pixels.azimuth_per[k] * division.part),
                aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
-  samples_.place[count_ - 1] = {r, std::atan2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
-                                time, std::abs(at.w_slope) * part * r * r, length(turned, aged)};
+  samples_.place[count_ - 1] = {r, arc_tangent2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
+                                time, std::abs(at.w_slope) * part * r * r, length(moved, aged)};
 }
 
 // Whether light sets out there to larger radii: back in time along the ray w then grows.
