@@ -123,8 +123,8 @@ void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& divisio
     return std::clamp(p - distance_to_rim(covered) * per, rims.low, rims.high);
   };
   const double seen = (label_at(share.from) - label_at(share.to)) / width;
-  constexpr double kPart = 0.06;
-  constexpr int kMost = 16;
+  constexpr double kPart = 0.03;
+  constexpr int kMost = 32;
   const int count = std::clamp(static_cast<int>(std::ceil(seen / kPart)), 1, kMost);
   for (int n = 0; n < count; ++n) {
     const double label = label_at(share.to + (share.from - share.to) * (n + 0.5) / count);

@@ -4,27 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/simd/vector_math.h"
-
 namespace domefall {
 
-// How far a rim is felt, in pixels.
-inline constexpr double kRimReach = 0.75;
+// A pixel sees a rim by a weight that is 1 next to its middle and falls evenly to 0 at kRimReach:
+// the mean of a square's chords, on the one hand along the rows and on the other along the
+// diagonals.  So a line that is narrower than a pixel has the same light wherever it lies between
+// two rows, or between two diagonals.
+inline constexpr double kRimDiagonal = 0.70710678118654752440;
+inline constexpr double kRimEven = (1 - kRimDiagonal) / 2, kRimReach = (1 + kRimDiagonal) / 2;
 
-// The part of a pixel on the greater side of a rim, from the distance to it in pixels.  It goes
-// from 0 to 1 a little more slowly than the pixel's square would, so that slanted rims look
-// straight.
+// The part of a pixel on the greater side of a rim, from the distance to it in pixels.
 inline double beyond_rim(double distance) {
-  const double x = std::clamp(distance / (2 * kRimReach) + 0.5, 0.0, 1.0);
-  return x * x * (3 - 2 * x);
+  const double off = std::abs(distance), rest = std::max(0.0, kRimReach - off);
+  const double more = off < kRimEven ? 0.5 + off : 1 - rest * rest * kRimDiagonal;
+  return distance < 0 ? 1 - more : more;
 }
 
-// The inverse, for parts from 0 to 1: x = 1/2 - sin(asin(1 - 2 part)/3).
+// The inverse, for parts from 0 to 1.
 inline double distance_to_rim(double part) {
-  if (part <= 0 || part >= 1) return part <= 0 ? -kRimReach : kRimReach;
-  if (part == 0.5) return 0;  // the middle of nearly all pixels
-  const double sine = 1 - 2 * part, cosine = 2 * std::sqrt(part * (1 - part));
-  return -2 * kRimReach * sin_cos(arc_tangent2(sine, cosine) / 3).sine;
+  const double less = std::min(part, 1 - part);
+  const double off = less > 0.5 - kRimEven
+                         ? 0.5 - less
+                         : kRimReach - std::sqrt(std::max(0.0, less) / kRimDiagonal);
+  return part < 0.5 ? -off : off;
 }
 
 }  // namespace domefall

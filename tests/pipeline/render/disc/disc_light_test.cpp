@@ -37,11 +37,12 @@ DiscView from_afar(double degrees, const Disc& disc) {
 }
 
 TEST(DiscLight, OfARingSeenFromAboveIsThatOfItsExactImages) {
-  expect_all_light(from_afar(60, ring(9, 11, 1)), picture(256, 50), 1e-3);
+  expect_all_light(from_afar(60, ring(9, 11, 1)), picture(256, 50), 2e-4);
 }
 
 TEST(DiscLight, OfARingWithAllItsImagesIsThatOfItsExactImages) {
-  expect_all_light(from_afar(10, ring(9, 11, 0.5)), picture(256, 50), 1.5e-3);
+  expect_all_light(from_afar(10, ring(9, 11, 0.5)), picture(256, 50), 4e-4);
+  expect_all_light(from_afar(10, ring(6, 20, 1)), picture(256, 50), 4e-4);
 }
 
 // Rings narrower than a pixel: the pixels of this picture are as wide as 0.2 M there.
@@ -55,7 +56,7 @@ TEST(DiscLight, IsKeptOnEdge) {
   const Projection projection = picture(192, 50);
   for (const double degrees : {0.2, 0.01}) {
     SCOPED_TRACE(degrees);
-    expect_all_light(from_afar(degrees, disc), projection, 1.5e-3);
+    expect_all_light(from_afar(degrees, disc), projection, 1e-3);
   }
   // In the plane itself the line has no light, and all else is as next to it: the light changes by
   // 1.6 per mille in a hundredth of a degree.
@@ -68,7 +69,7 @@ TEST(DiscLight, IsKeptOnEdge) {
 
 // Pixels of pictures of the whole sphere are 0.7 degrees wide here.  What they err by falls with
 // their size.
-constexpr double kOfTheSphere = 2e-3;
+constexpr double kOfTheSphere = 8e-4;
 
 // From among the gas, above it by more or less than a pixel's angle.
 TEST(DiscLight, IsKeptWithinTheDisc) {
@@ -86,7 +87,7 @@ TEST(DiscLight, IsKeptForFastObservers) {
 }
 
 TEST(DiscLight, IsKeptBetweenDiscAndHoleAndBehindTheHorizon) {
-  for (const double r : {4.0, 2.0, 1.0})
+  for (const double r : {4.0, 2.0, 1.0, 0.8})
     expect_all_light(
         {{r > 2 ? kI : Region::kII, kRain, r, V3d(0, 0, 0)}, V3d(0.5, -1, 0), ring(6, 20, 0.9)},
         Equirectangular{512}, kOfTheSphere);

@@ -46,7 +46,7 @@ class ExactDiscLight {
   }
 
  private:
-  using Nodes = boost::math::quadrature::gauss<double, 10>;
+  using Nodes = boost::math::quadrature::gauss<double, 20>;
   static constexpr int kOrders = 4;
 
   struct Images {
