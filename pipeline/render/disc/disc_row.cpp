@@ -70,7 +70,7 @@ void DiscPass::Row::draw(int row, float* rgb) {
   if (width <= 0) return;
   first_ = inside.first;
   single_.clear();
-  const int cells = with_nodes_ && !pass_.pattern_ ? (width - 1) / kStep : 0;
+  const int cells = with_nodes_ ? (width - 1) / kStep : 0;
   nodes_.resize(static_cast<std::size_t>(cells) + 1);
   for (int at = 0; cells > 0 && at <= cells; at += Strip::kSize)
     find_nodes(row, at, std::min(Strip::kSize, cells + 1 - at));
@@ -108,6 +108,8 @@ void DiscPass::Row::find_nodes(int row, int first, int count) {
     const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(pixels_, k);
     lit[static_cast<std::size_t>(k)] = node.lit;
   }
+  // A pattern is too fine for cubics: only where nothing is lit are nodes enough.
+  if (pass_.pattern_) return;
   strip_.look(pixels_, count, lit.data());
   for (int k = 0; k < count; ++k) {
     Node& node = nodes_[static_cast<std::size_t>(first + k)];
@@ -173,7 +175,7 @@ bool DiscPass::Row::joined(const Node& a, const Node& b) const {
 void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
   if (!nodes_[first].lit) return;
   for (std::size_t cell = first; cell < last; ++cell)
-    if (last - first + 1 < kJudges || !draw_cell(cell, first, last, rgb))
+    if (pass_.pattern_ || last - first + 1 < kJudges || !draw_cell(cell, first, last, rgb))
       for (int x = 0; x < kStep; ++x)
         single_.push_back(first_ + static_cast<int>(cell) * kStep + x);
 }
