@@ -1,87 +1,162 @@
 #include "pipeline/optics/body_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "pipeline/optics/emission_time.h"
 
 namespace domefall {
 namespace {
 
-// One guess of when the light left the body, and what it leads to.
-struct RetardedImage {
-  BodyPoint body;
+// The light of one order that comes from a place on the body's way.
+struct Light {
   PlaceImage place;
-  V3d across;  // the direction to which the ray sweeps
-  double psi;
-  double t;  // at which light of that order would have left the place
+  V3d across;     // the direction to which the ray sweeps
+  double energy;  // E, signed, of light that is one in the tetrad
+  double late;    // by how much later it would have to leave to be seen now, by v or u
 };
 
-std::optional<RetardedImage> image_at(const PlaceView& view, double null_time,
-                                      const BodyMotion& motion, int order, double radius,
-                                      double t) {
-  using std::numbers::pi;
-  const BodyPoint body = motion(t);
-  const V3d& n = body.direction;
-  const double sine = std::hypot(n.y, n.z), angle = std::atan2(sine, n.x);
-  const bool same_side = order % 2 == 0;
-  const double psi = same_side ? angle + order * pi : (order + 1) * pi - angle;
-  const V3d towards = sine > 0 ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
-  const auto place = image_of_place(view, body.r, psi, radius / body.r);
-  if (!place) return std::nullopt;
-  const double star = tortoise(body.r);
-  return RetardedImage{body, *place, towards * (same_side ? 1.0 : -1.0), psi,
-                       null_time + place->null_time + (view.outgoing ? star : -star)};
+// A guess of when the light left the body, and what it leads to.
+struct Guess {
+  BodyPoint body;
+  double psi;
+  // Whether a signal from there reaches the observer before now, so that the light left later.
+  bool is_past;
+  std::optional<Light> light;  // none where none of that order comes from there
+};
+
+class Retardation {
+ public:
+  Retardation(const PlaceView& view, double null_time, const BodyMotion& motion, int order,
+              double radius)
+      : view_(view), null_time_(null_time), motion_(motion), order_(order), radius_(radius) {}
+
+  Guess guess(double tau) const {
+    using std::numbers::pi;
+    Guess guess{motion_.at(tau), 0, false, {}};
+    const BodyPoint& body = guess.body;
+    if (body.r == 0) {
+      guess.is_past = true;
+      return guess;
+    }
+    const V3d& n = body.direction;
+    const double sine = std::hypot(n.y, n.z), angle = std::atan2(sine, n.x);
+    const bool same_side = order_ % 2 == 0;
+    guess.psi = same_side ? angle + order_ * pi : (order_ + 1) * pi - angle;
+    const V3d towards = sine > 0 ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
+    const V3d across = towards * (same_side ? 1.0 : -1.0);
+    if (body.r > 2) {
+      guess.light = light_by(view_, body, guess.psi, across);
+      guess.is_past = guess.light && guess.light->late > 0;
+    } else if (view_.at.above_horizon < 0) {
+      // Within the hole light reaches the observer from both sides, with E > 0 and with E < 0.
+      // What it has seen or sees lies between the two.
+      PlaceView other = view_;
+      other.far = true;
+      const auto falling = light_by(view_, body, guess.psi, across),
+                 rising = light_by(other, body, guess.psi, across);
+      if (!falling || !rising) return guess;
+      guess.is_past = falling->late > 0 && rising->late < 0;
+      guess.light = std::abs(falling->late) < std::abs(rising->late) ? falling : rising;
+    }
+    // Nothing that is within the hole is seen from outside.
+    return guess;
+  }
+
+ private:
+  std::optional<Light> light_by(const PlaceView& view, const BodyPoint& body, double psi,
+                                const V3d& across) const {
+    const auto place = image_of_place(view, body.r, psi, radius_ / body.r);
+    // A place of region II is on the ray before it has turned.
+    if (!place || (body.r < 2 && place->slope < 0)) return std::nullopt;
+    const double own = body.null_time - (view.outgoing ? 2 * tortoise(body.r) : 0);
+    return Light{*place, across, invariants(place->ray).energy,
+                 null_time_ + place->null_time - own};
+  }
+
+  const PlaceView& view_;
+  double null_time_;
+  const BodyMotion& motion_;
+  int order_;
+  double radius_;
+};
+
+// k^r of the light at the body: away from the hole if the ray goes inwards when followed back.
+double radial_momentum(const PlaceView& view, const BodyPoint& body, const Light& light,
+                       double momentum) {
+  if (momentum > 0 && light.place.slope != 0)
+    return -momentum * light.place.slope / (body.r * body.r);
+  return body.r > view.at.r ? -std::abs(light.energy) : std::abs(light.energy);
 }
 
-// nu = E u^t - k_r u^r - L.L'/r^2 of light that is one in the tetrad.  Its angular momentum is that
-// of light which comes back along the ray: -L about R x across.
-double emitted(const RetardedImage& image) {
-  const BodyPoint& body = image.body;
-  const RayInvariants k = invariants(image.place.ray);
-  const double lapse = 1 - 2 / body.r, r2 = body.r * body.r;
-  const double radial = -k.angular_momentum * image.place.slope / r2;
-  const V3d axis = V3d(1, 0, 0).cross(image.across);
-  const double around = -k.angular_momentum * axis.dot(body.angular_momentum) / r2;
-  return (k.energy * body.energy - radial * body.radial) / lapse - around;
+// The frequency that the body gives to light that is one in the tetrad.  In the rain at the body it
+// is (E + s k^r)/(1 - s^2), s = sqrt(2/r), or, for light that falls, (E^2 + 2 L^2/r^3)/(E - s k^r),
+// where nothing cancels on the horizon.
+double emitted(const PlaceView& view, const BodyPoint& body, const Light& light) {
+  const double momentum = invariants(light.place.ray).angular_momentum, energy = light.energy;
+  const double k_r = radial_momentum(view, body, light, momentum);
+  const double s = std::sqrt(2 / body.r), across = momentum / body.r;
+  const double in_rain = energy > 0 && k_r < 0
+                             ? (energy * energy + s * s * across * across) / (energy - s * k_r)
+                             : (energy + s * k_r) / (1 - s * s);
+  // Light that comes back along the ray has the angular momentum -L about R x across.
+  const V3d axis = V3d(1, 0, 0).cross(light.across);
+  const double around = -across * axis.dot(body.angular_momentum) / body.r;
+  return in_rain * body.gamma - (k_r + s * in_rain) * body.radial - around;
 }
 
-V3d seen_direction(const RetardedImage& image) {
-  const NullRay& ray = image.place.ray;
+V3d seen_direction(const Light& light) {
+  const NullRay& ray = light.place.ray;
   const double sine = 2 * ray.sin_half * ray.cos_half;
   const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
-  return V3d(ray.outgoing ? cosine : -cosine, 0, 0) + image.across * sine;
+  return V3d(ray.outgoing ? cosine : -cosine, 0, 0) + light.across * sine;
 }
 
 }  // namespace
 
 std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius) {
-  constexpr int kSteps = 60;
+  constexpr int kSteps = 200;
   constexpr double kEnough = 1e-10;
-  double t = null_time;
-  auto image = image_at(view, null_time, motion, order, radius, t);
-  // A body is slower than light, so that what is left of the error shrinks by itself; a secant
-  // makes it quick.
-  double before = 0, error_before = 0;
-  for (int step = 0; image && step < kSteps; ++step) {
-    const double error = image->t - t;
-    if (std::abs(error) <= kEnough * image->body.r) {
-      const double ratio = 1 / emitted(*image);
-      return BodyImage{seen_direction(*image),
-                       ratio,
-                       image->body.r,
-                       t,
-                       image->place.solid_angle_per_area,
-                       image->psi};
+  const Retardation retardation(view, null_time, motion, order, radius);
+  // The instant lies between one whose light has come before and one whose light has yet to come.
+  // Until both are found the steps grow.
+  double low = motion.begin, high = motion.end, step = 1, tau = std::clamp(null_time, low, high);
+  bool has_low = false, has_high = false;
+  std::optional<std::pair<double, Guess>> best;
+  for (int n = 0; n < kSteps; ++n) {
+    if (tau <= low)
+      tau = has_low || std::isfinite(low) ? std::midpoint(low, std::min(high, low + 2)) : tau;
+    if (tau >= high) tau = std::isfinite(high) ? std::midpoint(std::max(low, high - 2), high) : tau;
+    if (tau <= low || tau >= high) break;
+    const Guess guess = retardation.guess(tau);
+    std::optional<double> next;
+    if (guess.light) {
+      best = {tau, guess};
+      if (std::abs(guess.light->late) <= kEnough * guess.body.r) break;
+      // The phase of light is the same along a ray: E dt = nu dtau.
+      next =
+          tau + guess.light->late * guess.light->energy / emitted(view, guess.body, *guess.light);
     }
-    const double fall = step > 0 ? (error_before - error) / (t - before) : 1;
-    before = t;
-    error_before = error;
-    t += fall > 0.1 && fall < 10 ? error / fall : error;
-    image = image_at(view, null_time, motion, order, radius, t);
+    (guess.is_past ? low : high) = tau;
+    (guess.is_past ? has_low : has_high) = true;
+    if (next && *next > low && *next < high)
+      tau = *next;
+    else if (has_low && has_high)
+      tau = std::midpoint(low, high);
+    else
+      tau += (has_low ? 1 : -1) * (step *= 2);
   }
-  return std::nullopt;
+  if (!best) return std::nullopt;
+  const auto& [at, guess] = *best;
+  const Light& light = *guess.light;
+  const double ratio = 1 / emitted(view, guess.body, light);
+  if (!(std::abs(light.late) <= 1e-6 * guess.body.r)) return std::nullopt;
+  return BodyImage{
+      seen_direction(light), ratio, guess.body.r, at, light.place.solid_angle_per_area, guess.psi};
 }
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The images of a body that moves near the hole in region I, each at its retarded place.
+// The images of a body that moves near the hole in regions I and II, each at its retarded place.
 #pragma once
 
 #include <functional>
@@ -9,32 +9,37 @@
 
 namespace domefall {
 
-// Where a body is at the time t, by components along R, Theta and Phi of the observer's tetrad as
-// directions from the hole, and how it moves, by what its four-velocity u conserves on a geodesic.
+// Where a body is at its proper time tau, by components along R, Theta and Phi of the observer's
+// tetrad as directions from the hole, and how it moves against the rain there.
 struct BodyPoint {
   V3d direction;         // unit
-  double r;              // > 2 (M)
-  double energy;         // (1 - 2/r) u^t
-  double radial;         // u^r
-  V3d angular_momentum;  // r^2 u^phi about its axis
+  double r;              // M; 0 stands for a body that is not there yet: in region IV
+  double null_time;      // v = t + r*, since the instant that the observer's null time counts from
+  double gamma, radial;  // of the celerity: its gamma, and its component along R
+  V3d angular_momentum;  // r u^phi about its axis, units of M
 };
-// t counts as the null coordinates do of which it is made: v - r* in rain, u + r* in the outgoing
-// frame (emission_time.h).
-using BodyMotion = std::function<BodyPoint(double t)>;
+
+// tau in (begin, end); v grows with tau.
+struct BodyMotion {
+  std::function<BodyPoint(double tau)> at;
+  double begin, end;  // may be infinite
+};
 
 struct BodyImage {
   V3d direction;           // in the tetrad; unit
   double frequency_ratio;  // observed in the tetrad / emitted
   double r;                // of the body when the light left it, M
-  double t;                // then
+  double proper_time;      // its tau then
   double solid_angle_per_area;
   double psi;  // radians that the light swept
 };
 
 // The image of an order, 0 the direct one: odd ones are seen on the other side of the hole.
-// `null_time` is the observer's v or u, `radius` the body's (M, >= 0), which bounds its light on
-// the axis of the lens.  None where no light of that order gets to the observer.  The time of
-// emission is right to 1e-10 of r.
+// `null_time` is the observer's v (rain) or u (outgoing frame), `radius` the body's (M, >= 0),
+// which bounds its light on the axis of the lens.  None where no light of that order gets to the
+// observer. What falls into the hole is seen from outside to come to rest above the horizon, for
+// ever redder; who falls after it sees it cross the horizon when crossing it, and then within.
+// The time of emission is right to 1e-10 of r.
 std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
 

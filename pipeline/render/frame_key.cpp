@@ -99,7 +99,14 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     common.add("body");
     for (const V3d& v : {body.normal.v, body.node.v})
       for (const double x : {v.x, v.y, v.z}) common.add(steady(x));
-    for (const double x : {body.r, body.azimuth, body.temperature, body.magnitude}) common.add(x);
+    // Whoever moves freely is told by how it starts.
+    const OrbitPoint start = point_at(body.trajectory, body.start);
+    common.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
+    for (const double x : {start.r, start.celerity.x, start.celerity.z}) common.add(steady(x));
+    for (const double x :
+         {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
+          body.temperature, body.magnitude})
+      common.add(x);
   }
   if (keeps_floats(show)) common.add("float");
   common_ = common.hex();

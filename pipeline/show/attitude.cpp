@@ -75,6 +75,15 @@ V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
   return motion_direction(resting);
 }
 
+// Where a body is seen in the tetrad; the hole where it is not.
+V3d direct_image(const Body& body, const ObserverState& o) {
+  const V3d hole(-1, 0, 0);
+  if (!sees_bodies(o)) return hole;
+  const PlaceView view{o.r, is_outgoing(o.tetrad), false};
+  const auto image = image_of_body(view, o.null_time, motion_of(body, o.sky_from_tetrad), 0, 0);
+  return image ? image->direction : hole;
+}
+
 }  // namespace
 
 V3d motion_direction(const ObserverState& o) {
@@ -103,6 +112,8 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
                                       : to_tetrad(vantage.rest, source).direction;
     return to_observer(vantage.celerity, image).direction;
   }
+  if (const auto* target = std::get_if<LookAtBody>(&attitude))
+    return to_observer(vantage.celerity, direct_image(*target->body, o)).direction;
   return std::nullopt;
 }
 

@@ -1,8 +1,10 @@
 // How a camera is oriented.
 #pragma once
 
+#include <memory>
 #include <variant>
 
+#include "pipeline/show/body.h"
 #include "projections/projection.h"
 #include "trajectories/directions.h"
 
@@ -19,7 +21,11 @@ struct LookAlongMotion {};  // against the static frame, continued smoothly insi
 struct LookAtSky {          // at the primary image of a place on sky I, lensing included
   SkyDirection target;
 };
-using Attitude = std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngles, LookOutward>;
+struct LookAtBody {  // at the direct image of a body, or at the hole where there is none
+  std::shared_ptr<const Body> body;
+};
+using Attitude =
+    std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngles, LookOutward, LookAtBody>;
 
 struct Camera {
   Attitude attitude = LookAtHole{};

@@ -31,11 +31,26 @@ std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras
   return std::nullopt;
 }
 
+// Reads {body: NAME}.
+std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& named) {
+  const Section s(item, {"body"});
+  const Item* name = s.find("body");
+  const auto text = name ? read_text(*name) : std::nullopt;
+  if (!text) return std::nullopt;
+  const auto found = named.bodies.find(*text);
+  if (found != named.bodies.end()) return LookAtBody{found->second};
+  std::vector<std::string_view> known;
+  for (const auto& [key, body] : named.bodies) known.push_back(key);
+  name->fail("names no body of the show: '" + shown(*text) + "'" + did_you_mean(*text, known));
+  return std::nullopt;
+}
+
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
   static const Words<Attitude, 3> kWords{
       {{"hole", LookAtHole{}}, {"motion", LookAlongMotion{}}, {"outward", LookOutward{}}}};
   if (auto attitude = meaning(item, kWords)) return attitude;
   if (peek(item, "keyframe")) return read_other_keyframe(item, named);
+  if (peek(item, "body")) return read_body_target(item, named);
   if (const auto place = read_sky_place(item, lookup, names_of(kWords))) return LookAtSky{*place};
   return std::nullopt;
 }
@@ -108,9 +123,11 @@ void read_named_cameras(const Item& item, ShowCamera& show, Lookup& lookup) {
 
 }  // namespace
 
-ShowCamera read_show_camera(const Section& show, Lookup& lookup) {
+ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies, Lookup& lookup) {
   const Section camera = subsection(show, "camera", kKeys);
   ShowCamera result;
+  for (const Body& body : bodies)
+    result.named.bodies.emplace(body.name, std::make_shared<const Body>(body));
   result.projection = read_projection(show, camera);
   result.keys = read_keys(camera, result.projection, result.named, lookup);
   if (const auto fov = result.keys.values[Channel::kFov])

@@ -15,10 +15,12 @@ struct CameraKeys {
   ChannelValues values;  // of kRoll, kElevation, kDomeTilt and kFov
 };
 
-// What camera sections may refer to: the entries of `cameras`, and keyframes that bear a name.
+// What camera sections may refer to: the entries of `cameras`, keyframes that bear a name, and
+// bodies.
 struct NamedCameras {
   std::map<std::string, CameraKeys, std::less<>> cameras;
   std::map<std::string, Attitude, std::less<>> keyframes;
+  std::map<std::string, std::shared_ptr<const Body>, std::less<>> bodies;
 };
 
 struct ShowCamera {
@@ -28,7 +30,8 @@ struct ShowCamera {
 };
 
 // Reads the show's `camera`, its `cameras`, and its `size`, which depends on the projection.
-ShowCamera read_show_camera(const Section& show, Lookup& lookup);
+// Cameras may look at the bodies.
+ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies, Lookup& lookup);
 
 // Reads the camera of a segment or a keyframe, which is the name of an entry of `cameras` or a map.
 CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup);

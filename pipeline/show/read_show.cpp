@@ -59,8 +59,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.markers = read_markers(section);
   show.fades = read_fades(section);
   read_black_hole(section, lookup, show);
-  show.bodies = read_bodies(section, show);
-  const ShowCamera camera = read_show_camera(section, lookup);
+  show.bodies = read_bodies(section, show, lookup);
+  const ShowCamera camera = read_show_camera(section, show.bodies, lookup);
   show.projection = camera.projection;
   read_stars(section, show);
   read_sky(root, section, lookup, show);

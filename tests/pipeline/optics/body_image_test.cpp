@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pipeline/optics/emission_time.h"
@@ -12,18 +13,51 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
 // A body on a circular orbit about `axis`, which at t = 0 is at `start`.
 BodyMotion circular(double r, const V3d& axis, const V3d& start) {
   const double rate = 1 / (r * std::sqrt(r)), u_t = 1 / std::sqrt(1 - 3 / r);
-  return [=](double t) {
-    const V3d across = axis.cross(start);
-    return BodyPoint{start * std::cos(rate * t) + across * std::sin(rate * t), r, (1 - 2 / r) * u_t,
-                     0, axis * (r * r * rate * u_t)};
-  };
+  // Against the rain: u^Phi = 1/sqrt(r - 3), and u^R = sqrt(2/(r - 3)), since u^r = 0.
+  const double around = 1 / std::sqrt(r - 3), outwards = std::sqrt(2) * around;
+  return {[=](double tau) {
+            const double t = u_t * tau;
+            const V3d across = axis.cross(start);
+            return BodyPoint{start * std::cos(rate * t) + across * std::sin(rate * t),
+                             r,
+                             t + tortoise(r),
+                             std::sqrt(1 + 3 * around * around),
+                             outwards,
+                             axis * (r * around)};
+          },
+          -kForEver, kForEver};
 }
 
 BodyMotion at_rest(double r, const V3d& direction) {
-  return [=](double) { return BodyPoint{direction, r, std::sqrt(1 - 2 / r), 0, V3d(0, 0, 0)}; };
+  const double outwards = std::sqrt(2 / (r - 2));
+  return {[=](double tau) {
+            return BodyPoint{direction,
+                             r,
+                             tau / std::sqrt(1 - 2 / r) + tortoise(r),
+                             std::sqrt(1 + outwards * outwards),
+                             outwards,
+                             V3d(0, 0, 0)};
+          },
+          -kForEver, kForEver};
+}
+
+// Rain itself, which crosses r = 2 at tau = v = 0.
+BodyMotion falling(const V3d& direction) {
+  const auto null_time = [](double r) {
+    const double x = std::sqrt(r / 2);
+    return -4 * (x * (1 + x * (x / 3 - 0.5)) - std::log1p(x));
+  };
+  const double at_end = 4.0 / 3;
+  return {[=](double tau) {
+            const double r = 2 * std::pow(1 - tau / at_end, 2.0 / 3);
+            return BodyPoint{direction, r, null_time(r) - null_time(2), 1, 0, V3d(0, 0, 0)};
+          },
+          -kForEver, at_end};
 }
 
 // The shift for an observer at rest, not in free fall: light of the tetrad, boosted along R.
@@ -77,16 +111,18 @@ TEST(BodyImage, IsSeenAtItsRetardedPlace) {
   for (int order = 0; order < 3; ++order) {
     const auto image = image_of_body(view, 1000, motion, order, 0);
     ASSERT_TRUE(image);
-    const V3d n = motion(image->t).direction;
+    const BodyPoint then = motion.at(image->proper_time);
+    const V3d n = then.direction;
     const double angle = std::acos(n.x), psi = order == 0   ? angle
                                                : order == 1 ? 2 * pi - angle
                                                             : 2 * pi + angle;
     const auto place = image_of_place(view, 20, psi, 0);
     ASSERT_TRUE(place);
-    EXPECT_NEAR(image->t, 1000 + place->null_time - tortoise(20), 2e-9);
+    EXPECT_NEAR(then.null_time, 1000 + place->null_time, 2e-9);
     EXPECT_EQ(image->direction.y * n.y > 0, order != 1);
     const double t_observer = 1000 - tortoise(50);
-    EXPECT_GT(t_observer - image->t, 25);  // light needs so long at least
+    const double t = then.null_time - tortoise(20);
+    EXPECT_GT(t_observer - t, 25);  // light needs so long at least
   }
 }
 
@@ -99,11 +135,62 @@ TEST(BodyImage, IsSeenByWhoHasFallenIn) {
     for (int order = 0; order < 4; ++order) {
       const auto image = image_of_body(view, 0, motion, order, 0);
       ASSERT_TRUE(image);
-      EXPECT_LT(image->t, 0);
-      EXPECT_LT(image->t, before);
-      before = image->t;
+      EXPECT_LT(image->proper_time, 0);
+      EXPECT_LT(image->proper_time, before);
+      before = image->proper_time;
     }
   }
+}
+
+// Light that goes straight out keeps u: from afar each 4 M of waiting redden what falls by a factor
+// e.
+TEST(BodyImage, OfWhatFallsReddensForEver) {
+  const PlaceView view{100, false, false};
+  const BodyMotion motion = falling(V3d(1, 0, 0));
+  double before = 0;
+  for (const double v : {250.0, 254.0, 258.0, 262.0}) {
+    const auto image = image_of_body(view, v, motion, 0, 0);
+    ASSERT_TRUE(image) << v;
+    EXPECT_GT(image->r, 2);
+    EXPECT_LT(image->proper_time, 0);
+    if (before > 0) {
+      EXPECT_NEAR(before / image->frequency_ratio, std::exp(1), 0.05);
+    }
+    before = image->frequency_ratio;
+  }
+  EXPECT_LT(before, 1e-4);
+  EXPECT_GT(before, 0);
+}
+
+// Who falls in the same rain, behind it, sees it before, at and behind the horizon, always ahead
+// and without a jump, and both are at r = 2 at the same instant.
+TEST(BodyImage, OfWhatFallsAheadIsSeenAcrossTheHorizon) {
+  int crossings = 0;
+  for (const V3d& aside : {V3d(1, 0, 0), V3d(std::cos(0.3), std::sin(0.3), 0)}) {
+    const BodyMotion ahead = falling(aside), own = falling(V3d(1, 0, 0));
+    const double behind = 1.5;  // v of the observer's crossing
+    double before = HUGE_VAL, shift = 0;
+    for (double tau = -2; tau < 1; tau += 0.03125) {
+      const BodyPoint at = own.at(tau);
+      if (std::abs(at.r - 2) < 1e-9) continue;
+      const auto image = image_of_body({at.r, false, false}, at.null_time + behind, ahead, 0, 0);
+      ASSERT_TRUE(image) << tau << " " << at.r;
+      EXPECT_LT(image->r, before) << tau;
+      EXPECT_LT(image->direction.x, 0) << tau;
+      if (shift > 0) {
+        EXPECT_NEAR(image->frequency_ratio / shift, 1, 0.2) << tau;
+      }
+      // Light that stays on the horizon loses a factor e in each 4 M of v.
+      if (aside == V3d(1, 0, 0) && std::abs(at.r - 2) < 0.05) {
+        EXPECT_NEAR(image->frequency_ratio, std::exp(-behind / 4), 0.03) << at.r;
+        ++crossings;
+      }
+      before = image->r;
+      shift = image->frequency_ratio;
+    }
+    EXPECT_LT(before, 1.5);
+  }
+  EXPECT_GT(crossings, 0);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ Light light_of(const FloatImage& frame) {
 
 Body body_at(double r, double azimuth, double magnitude) {
   Body body;
-  body.r = r;
+  body.trajectory = CircularOrbit{r};
   body.azimuth = azimuth;
   body.magnitude = magnitude;
   return body;

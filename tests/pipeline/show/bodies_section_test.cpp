@@ -16,7 +16,7 @@ TEST_F(Bodies, GoWithTheFirstOrbitFromTheObserversPlaceUnlessTheySayOtherwise) {
   ASSERT_EQ(show.bodies.size(), 1u);
   const Body& body = show.bodies[0];
   EXPECT_EQ(body.name, "beacon");
-  EXPECT_EQ(body.r, 10);
+  EXPECT_EQ(std::get<CircularOrbit>(body.trajectory).r, 10);
   EXPECT_EQ(body.azimuth, 0);
   EXPECT_EQ(body.temperature, 6000);
   EXPECT_EQ(body.magnitude, 0);
@@ -44,10 +44,42 @@ TEST_F(Bodies, RiseAtTheirNodeByTheirInclination) {
   expect_near(show.bodies[1].normal.v, column(axes, 1));  // it goes the other way
 }
 
+TEST_F(Bodies, GoTheirOwnWays) {
+  const Show show = with(
+      "bodies:\n  falls: {trajectory: {type: infall, rest_r: 9}, begins_m: 3, azimuth_deg: 20}\n"
+      "  passes: {trajectory: {type: hyperbolic, v_inf: 0.3, periastron: 12, from_r: 100}}\n"
+      "camera: {look_at: {body: falls}}\n");
+  ASSERT_EQ(show.bodies.size(), 2u);
+  const M33d axes = place_tetrad(show.hole_at, show.heading, 0);
+  const BodyMotion falls = motion_of(show.bodies[0], axes),
+                   passes = motion_of(show.bodies[1], axes);
+  EXPECT_EQ(falls.begin, 0);
+  const BodyPoint start = falls.at(1e-6);
+  EXPECT_NEAR(start.r, 9, 1e-9);
+  EXPECT_NEAR(start.null_time, 3, 1e-5);
+  EXPECT_NEAR(start.direction.x, std::cos(20 * kDegree), 1e-9);
+  EXPECT_NEAR(start.direction.z, std::sin(20 * kDegree), 1e-9);
+  EXPECT_LT(falls.at(0.999 * falls.end).r, 2);
+  EXPECT_NEAR(passes.at(0).r, 100, 1e-9);
+  EXPECT_EQ(passes.begin, -HUGE_VAL);
+  EXPECT_GT(passes.at(-100).r, 100);
+  const auto* target = std::get_if<LookAtBody>(&show.timeline[0].camera.attitude);
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->body->name, "falls");
+}
+
 TEST_F(BodyMistakes, AreToldWithTheirPlace) {
   expect_complaints({
       {"no radius", kShow + "bodies: {a: {magnitude: 1}}\n",
-       "3:13: bodies.a.r is missing (units of M)"},
+       "3:13: bodies.a.trajectory is missing: how the body moves, or r, the radius of its circular "
+       "orbit"},
+      {"no type of a body's", kShow + "bodies: {a: {trajectory: {type: path, file: x.csv}}}\n",
+       "3:33: bodies.a.trajectory.type must be static, circular, parabolic, hyperbolic, bound, "
+       "infall or thrown, got 'path'"},
+      {"an end", kShow + "bodies: {a: {trajectory: {type: infall, from_r: 9, to_r: 3}}}\n",
+       "3:58: bodies.a.trajectory.to_r is for the trajectories of segments"},
+      {"a name", kShow + "bodies: {a: {r: 9}}\ncamera: {look_at: {body: b}}\n",
+       "4:26: camera.look_at.body names no body of the show: 'b'"},
       {"no orbit", kShow + "bodies: {a: {r: 3}}\n",
        "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
       {"a list", kShow + "bodies: [{r: 9}]\n",

@@ -1,0 +1,62 @@
+#include "pipeline/show/body.h"
+
+#include <cmath>
+#include <limits>
+
+#include "pipeline/optics/emission_time.h"
+#include "pipeline/show/placement.h"
+
+namespace domefall {
+namespace {
+
+// A point in the rain tetrad, if it has one there: outside the past horizon.  E = gamma +- s w and
+// u^r = w +- s gamma, with + in the outgoing tetrad and - in rain.
+OrbitPoint in_rain(OrbitPoint point) {
+  if (!is_outgoing(point.tetrad) || point.region != Region::kI) return point;
+  const double s = std::sqrt(2 / point.r), lapse = 1 - 2 / point.r;
+  const double gamma = std::sqrt(1 + point.celerity.dot(point.celerity));
+  const double energy = gamma + s * point.celerity.x, u_r = point.celerity.x + s * gamma;
+  point.celerity.x = (u_r + s * energy) / lapse;
+  point.null_time = point.null_time + 2 * tortoise(point.r);
+  point.tetrad = Tetrad::kRain;
+  return point;
+}
+
+// Its proper time since Body::start when it begins to shine, and when it ends.
+double begin_of(const Body& body) {
+  if (!body.shines_before) return 0;
+  const auto* geodesic = std::get_if<Geodesic>(&body.trajectory);
+  return geodesic ? geodesic->birth() - double(body.start)
+                  : -std::numeric_limits<double>::infinity();
+}
+double end_of(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
+
+}  // namespace
+
+bool sees_bodies(const ObserverState& observer) {
+  return !is_flat(observer) && !is_mirrored(observer.tetrad) && observer.region != Region::kIV;
+}
+
+BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
+  const V3d normal = apply_transposed(sky_from_tetrad, body.normal.v);
+  const V3d node = apply_transposed(sky_from_tetrad, body.node.v);
+  const V3d onward = normal.cross(node);
+  const auto point = [&body](double tau) {
+    return in_rain(placed(point_at(body.trajectory, body.start + tau), {false, body.backward, 0}));
+  };
+  const OrbitPoint start = point(0);
+  return {[=](double tau) {
+            const OrbitPoint now = point(tau);
+            if (now.region == Region::kIV) return BodyPoint{};
+            const double phi = body.azimuth + (now.azimuth - start.azimuth);
+            return BodyPoint{node * std::cos(phi) + onward * std::sin(phi),
+                             now.r,
+                             body.null_time + double(now.null_time - start.null_time),
+                             std::sqrt(1 + now.celerity.dot(now.celerity)),
+                             now.celerity.x,
+                             normal * (now.r * now.celerity.z)};
+          },
+          begin_of(body), end_of(body)};
+}
+
+}  // namespace domefall
