@@ -12,6 +12,7 @@ namespace domefall {
 std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& state,
                                          PixelPosition pixel) {
   const double reach = pixel_reach(show, state.projection);
+  const double sigma = PointSpread(show.point_spread, state.projection, 1).least();
   const V3d towards = direction_at(state.projection, pixel).v;
   const BodySight sight(show, state);
   std::vector<BodyAtPixel> found;
@@ -26,8 +27,12 @@ std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& sta
       const double magnitude = body.magnitude - 2.5 * std::log10(seen.brightening);
       faint = magnitude > kFaintestSeen ? faint + 1 : 0;
       const auto at = pixel_of(state.projection, seen.direction);
-      if (faint > 0 || !at || (seen.direction.v - towards).length() > reach) continue;
-      found.push_back({body.name, image->r, magnitude, seen.frequency_ratio, order, *at});
+      if (faint > 0 || !at) continue;
+      const auto is_near = [&](const SkyImage& piece) {
+        return (sight.seen(piece).direction.v - towards).length() <= reach;
+      };
+      if (is_near(image->at) || std::ranges::any_of(sight.pieces(body, *image, sigma), is_near))
+        found.push_back({body.name, image->traced.r, magnitude, seen.frequency_ratio, order, *at});
     }
   }
   std::ranges::stable_sort(found, {}, &BodyAtPixel::seen_v);

@@ -18,8 +18,8 @@ struct BodyAtPixel {
   PixelPosition at;        // of its middle
 };
 
-// The images whose middles are so near to the pixel that the smallest blob of the frame reaches it,
-// the brightest first.
+// The images whose middles, or those of the pieces that they are drawn in, are so near to the pixel
+// that the smallest blob of the frame reaches it, the brightest first.
 std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& state,
                                          PixelPosition pixel);
 

@@ -1,5 +1,5 @@
-// What the values of options are, in the words of --help and of the manual.  Bash completion goes by
-// them: it offers files, folders, shows or the words in braces.
+// What the values of options are, in the words of --help and of the manual.  Bash completion goes
+// by them: it offers files, folders, shows or the words in braces.
 #pragma once
 
 #include <fmt/format.h>

@@ -31,8 +31,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  // Each counts one more frame: one that was made, or one that was there and good.  Which one matters
-  // only where a form prints it.
+  // Each counts one more frame: one that was made, or one that was there and good.  Which one
+  // matters only where a form prints it.
   void made(int frame = 0);
   void skipped(int frame = 0);
 

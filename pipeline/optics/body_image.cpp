@@ -46,7 +46,10 @@ class Retardation {
     const double sine = std::hypot(n.y, n.z), angle = std::atan2(sine, n.x);
     const bool same_side = order_ % 2 == 0;
     guess.psi = same_side ? angle + order_ * pi : (order_ + 1) * pi - angle;
-    const V3d towards = sine > 0 ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
+    // On the axis, to what the time of emission is found to, two orders must not take opposite
+    // sides.
+    constexpr double kOnAxis = 1e-9;
+    const V3d towards = sine > kOnAxis ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
     const V3d across = towards * (same_side ? 1.0 : -1.0);
     if (body.r > 2) {
       guess.light = light_by(view_, body, guess.psi, across);
@@ -108,6 +111,12 @@ double emitted(const PlaceView& view, const BodyPoint& body, const Light& light)
   return in_rain * body.gamma - (k_r + s * in_rain) * body.radial - around;
 }
 
+// Of the terms of the frequency only the last depends on the ray's plane: (R x e).L' = e.(L' x R).
+V3d swing(const BodyPoint& body, const Light& light) {
+  const double momentum = invariants(light.place.ray).angular_momentum;
+  return body.angular_momentum.cross(V3d(1, 0, 0)) * (momentum / (body.r * body.r));
+}
+
 V3d seen_direction(const Light& light) {
   const NullRay& ray = light.place.ray;
   const double sine = 2 * ray.sin_half * ray.cos_half;
@@ -155,8 +164,16 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
   const Light& light = *guess.light;
   const double ratio = 1 / emitted(view, guess.body, light);
   if (!(std::abs(light.late) <= 1e-6 * guess.body.r)) return std::nullopt;
-  return BodyImage{
-      seen_direction(light), ratio, guess.body.r, at, light.place.solid_angle_per_area, guess.psi};
+  return BodyImage{seen_direction(light),
+                   ratio,
+                   guess.body.r,
+                   at,
+                   light.place.solid_angle_per_area,
+                   guess.psi,
+                   light.across,
+                   swing(guess.body, light),
+                   light.place.angle_per_length,
+                   light.place.angle_per_psi};
 }
 
 }  // namespace domefall

@@ -32,6 +32,11 @@ struct BodyImage {
   double proper_time;      // its tau then
   double solid_angle_per_area;
   double psi;  // radians that the light swept
+  // What belongs to places about the body, to first order (sphere_image.h).
+  V3d across;  // unit: the ray lies in the plane of R and this
+  V3d swing;   // light of the plane of R and e instead is emitted with the frequency
+               // 1/frequency_ratio + swing.(e - across)
+  double angle_per_length, angle_per_psi;  // PlaceImage's
 };
 
 // The image of an order, 0 the direct one: odd ones are seen on the other side of the hole.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "pipeline/optics/emission_time.h"
 #include "pipeline/optics/exact_azimuth.h"
@@ -77,7 +78,8 @@ double growth(const NullRay& ray, double psi, double r, double outer) {
   return r * r * std::abs(8 * (w(h) - w(-h)) - (w(2 * h) - w(-2 * h))) / (12 * h);
 }
 
-// Along the axis itself light diverges as in flat space, by its affine parameter: r/|E|.
+// Along the axis itself light diverges as in flat space, by its affine parameter: r/|E|.  What is
+// above the observer is seen the farther from the hole the nearer it is to the axis.
 PlaceImage radial_image(const PlaceView& view, double r) {
   const bool outwards = r > view.at.r, to_home = outwards && !view.far;
   const double tangent = to_home != view.outgoing ? std::numeric_limits<double>::infinity() : 0;
@@ -85,7 +87,8 @@ PlaceImage radial_image(const PlaceView& view, double r) {
   const double apart = (r - view.at.r) / one_plus_z(ray);
   // Light that falls from region I keeps v, all other u.
   const double twice = to_home != view.outgoing ? 0 : 2 * (tortoise(r) - tortoise(view.at));
-  return {ray, 0, view.outgoing ? -twice : twice, 1 / (apart * apart)};
+  return {ray,       0, view.outgoing ? -twice : twice, 1 / (apart * apart), 1 / std::abs(apart),
+          -r / apart};
 }
 
 }  // namespace
@@ -108,13 +111,18 @@ std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double
     if (middle == low || middle == high) break;
     (is_beyond(middle) ? high : low) = middle;
   }
-  PlaceImage image{fan.ray((low + high) / 2, outside), 0, 0, 0};
+  PlaceImage image{fan.ray((low + high) / 2, outside), 0, 0, 0, 0, 0};
   const double there = r_after(image.ray, psi, &image.slope);
   if (!(std::abs(there / r - 1) < 1e-6)) return std::nullopt;  // no ray is there: it jumps
   image.null_time = null_time_after(image.ray, psi);
-  const double sine = std::hypot(std::sin(psi), blur);
-  image.solid_angle_per_area =
-      one_plus_z(image.ray) / (view.at.r * sine * growth(image.ray, psi, r, fan.outer()));
+  // Light that has hardly swept anything meets no caustic.
+  const double swept = psi < std::numbers::pi ? std::sin(psi / 2) : 1;
+  const double sine = std::hypot(std::sin(psi), blur * swept * swept);
+  const double energy = one_plus_z(image.ray), rise = growth(image.ray, psi, r, fan.outer());
+  image.solid_angle_per_area = energy / (view.at.r * sine * rise);
+  // The rays of two places that are dr apart at one psi are |dr| L/(r E) apart at right angles.
+  image.angle_per_length = energy * r / (invariants(image.ray).angular_momentum * rise);
+  image.angle_per_psi = -image.slope / rise;
   return image;
 }
 

@@ -23,8 +23,12 @@ struct PlaceImage {
   double null_time;  // ray_times.h
   // Solid angle at the observer per area at right angles to the light at the place, which is the
   // same for whoever moves there, units of M^-2: |E|/(r_o |sin psi dr/dalpha|), where r_o is the
-  // observer's r.  On the axis, where a point would be a ring, |sin psi| counts as `blur` at least.
+  // observer's r.  Where a point on the axis would be a ring, which is all but the direct image of
+  // one in front, |sin psi| counts as `blur` at least.
   double solid_angle_per_area;
+  // Of places nearby: the angle in the image per length at right angles to the light within the
+  // ray's plane, radians per M, and how the angle from the hole grows with psi at the same r.
+  double angle_per_length, angle_per_psi;
 };
 
 // The place is at 2 < r < infinity and psi >= 0 radians from the observer's radial direction, in

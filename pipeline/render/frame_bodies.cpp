@@ -7,21 +7,38 @@
 
 namespace domefall {
 
+namespace {
+
+// Draws one image.  Returns whether it is bright enough.
+bool append_body(const BodySight& sight, const Body& body, const BodySight::Image& image,
+                 const DiscPass* disc, const FrameScene& scene, const StarImageFinder& finder,
+                 std::vector<StarImage>& images) {
+  const SceneStar star = BodySight::star_of(body);
+  std::vector<SkyImage> pieces = sight.pieces(body, image, scene.point_spread.least());
+  const bool is_one = pieces.empty();
+  if (is_one) pieces.push_back(image.at);
+  if (disc)
+    for (SkyImage& piece : pieces)
+      piece.amplification *= disc->left_before(sight.seen(piece).direction, image.traced.psi);
+  return is_one ? finder.append_image(star, pieces[0], images)
+                : finder.append_pieces(star, pieces, images);
+}
+
+}  // namespace
+
 void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc, BlobLayer& layer) {
   const BodySight sight(show, scene.state);
   std::vector<StarImage> images;
   if (sight.sees()) {
     const StarImageFinder finder(scene, SkyRegion::kI);
     for (const Body& body : show.bodies) {
-      const SceneStar star = BodySight::star_of(body);
       int faint = 0;
       for (int order = 0; order < BodySight::kMostOrders && faint < BodySight::kFaintOrders;
            ++order) {
-        auto image = sight.image(body, order);
+        const auto image = sight.image(body, order);
         if (!image) break;
-        if (disc)
-          image->at.amplification *= disc->left_before(sight.seen(image->at).direction, image->psi);
-        faint = finder.append_image(star, image->at, images) ? 0 : faint + 1;
+        const bool bright = append_body(sight, body, *image, disc, scene, finder, images);
+        faint = bright ? 0 : faint + 1;
       }
     }
   }

@@ -105,7 +105,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     for (const double x : {start.r, start.celerity.x, start.celerity.z}) common.add(steady(x));
     for (const double x :
          {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
-          body.temperature, body.magnitude})
+          body.temperature, body.magnitude, body.radius})
       common.add(x);
   }
   if (keeps_floats(show)) common.add("float");

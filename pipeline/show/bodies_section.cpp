@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9;
+constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9, kLargestBody = 1e6;
 constexpr double kBrightestMagnitude = -100, kFaintestMagnitude = 100;
 
 // What a body does by itself.  The others need a segment, or an engine.
@@ -54,7 +54,7 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
 
 Body read_body(const std::string& name, const Item& item, const Show& to, Lookup& lookup) {
   const Section s(item, {"r", "trajectory", "begins_m", "inclination_deg", "node_deg",
-                         "azimuth_deg", "temperature_k", "magnitude"});
+                         "azimuth_deg", "temperature_k", "magnitude", "radius"});
   Body body;
   body.name = name;
   read_way(s, to, lookup, body);
@@ -73,6 +73,7 @@ Body read_body(const std::string& name, const Item& item, const Show& to, Lookup
   body.magnitude =
       s.number("magnitude", Range{"magnitudes"}.within(kBrightestMagnitude, kFaintestMagnitude),
                body.magnitude);
+  body.radius = s.number("radius", kUnitsOfM.above(0).at_most(kLargestBody), body.radius);
   return body;
 }
 

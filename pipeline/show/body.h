@@ -25,6 +25,7 @@ struct Body {
   double temperature = 6000;  // of a blackbody, K
   // V, as it would be at rest at a distance of kBodyMagnitudeDistance without a hole.
   double magnitude = 0;
+  double radius = 0;  // of a glowing sphere, M; 0 of a point
 };
 inline constexpr double kBodyMagnitudeDistance = 100;  // M
 

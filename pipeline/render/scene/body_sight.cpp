@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/optics/aberration.h"
+#include "pipeline/optics/sphere_image.h"
 #include "pipeline/render/scene/star_light.h"
 
 namespace domefall {
+
 BodySight::BodySight(const Show& show, const FrameState& state)
     : show_(show), observer_(state.observer), vantage_(vantage_of(state.observer, show.effects)) {}
 
@@ -20,16 +23,36 @@ SceneStar BodySight::star_of(const Body& body) {
   return SceneStars({star})[0];
 }
 
+// A body without a size of its own is as large as its light needs, and not too small for a lens.
+double BodySight::radius_of(const Body& body) const {
+  if (body.radius > 0) return body.radius;
+  return std::max(star_of(body).angular_radius, show_.least_star_radius) * kBodyMagnitudeDistance;
+}
+
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
-  const double radius =
-      std::max(star_of(body).angular_radius, show_.least_star_radius) * kBodyMagnitudeDistance;
   const PlaceView view{observer_.r, is_outgoing(observer_.tetrad), false};
-  const auto image = image_of_body(view, observer_.null_time,
-                                   motion_of(body, observer_.sky_from_tetrad), order, radius);
+  const auto image =
+      image_of_body(view, observer_.null_time, motion_of(body, observer_.sky_from_tetrad), order,
+                    radius_of(body));
   if (!image) return std::nullopt;
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
-  return Image{{{image->direction}, image->frequency_ratio, light}, image->r, image->psi};
+  return Image{{{image->direction}, image->frequency_ratio, light}, *image};
+}
+
+std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, double sigma) const {
+  // A row of Gaussians at this distance is even to 3e-4.
+  constexpr double kSpacing = 1.5;
+  const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance;
+  const auto spacing = [&](const V3d& direction) {
+    return kSpacing * sigma * to_observer(vantage_.celerity, direction).frequency_ratio;
+  };
+  if (show_.effects.amplification == Amplification::kNone ||
+      size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
+    return {};
+  std::vector<SkyImage> pieces = image_of_sphere(image.traced, radius, spacing);
+  for (SkyImage& piece : pieces) piece.amplification /= std::numbers::pi * whole * whole;
+  return pieces;
 }
 
 BodySight::Seen BodySight::seen(const SkyImage& image) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "pipeline/optics/body_image.h"
 #include "pipeline/optics/hole_optics.h"
@@ -30,10 +31,14 @@ class BodySight {
   // The image of an order in the tetrad; its amplification is over the light of that star.
   struct Image {
     SkyImage at;
-    double r;    // of the body when the light left it, M
-    double psi;  // radians that the light swept since
+    BodyImage traced;
   };
   std::optional<Image> image(const Body& body, int order) const;
+
+  // The pieces of which an image is drawn that is too large for one blob of width sigma (radians,
+  // for the camera): of a sphere, an arc, a part of a ring.  None where one blob is enough, and
+  // where images are not amplified.
+  std::vector<SkyImage> pieces(const Body& body, const Image& image, double sigma) const;
 
   // The same for the camera, with the flux over that star's as the renderer draws it, and the
   // frequency ratio that is measured.
@@ -44,6 +49,8 @@ class BodySight {
   Seen seen(const SkyImage& image) const;
 
  private:
+  double radius_of(const Body& body) const;
+
   const Show& show_;
   const ObserverState& observer_;
   Vantage vantage_;

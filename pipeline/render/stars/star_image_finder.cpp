@@ -221,7 +221,7 @@ bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
     const auto spacing = [&](const V3d& direction) {
       return kPieceSigmas * least_sigma_at(direction);
     };
-    return append_arc(star, arc_of(*table_, source, order, radius_of(star), spacing), images);
+    return append_pieces(star, arc_of(*table_, source, order, radius_of(star), spacing), images);
   }
   return append_image(star, image(star, source, order), images);
 }
@@ -273,8 +273,8 @@ bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail
   return true;
 }
 
-bool StarImageFinder::append_arc(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                 std::vector<StarImage>& images) const {
+bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                                    std::vector<StarImage>& images) const {
   const std::size_t before = images.size();
   double peak = 0;
   for (const SkyImage& piece : pieces) {

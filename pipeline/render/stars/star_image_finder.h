@@ -42,6 +42,10 @@ class StarImageFinder {
   bool append_image(const SceneStar& star, const SkyImage& image,
                     std::vector<StarImage>& images) const;
 
+  // The same for an image in pieces that lie so close that they are seen as one.
+  bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                     std::vector<StarImage>& images) const;
+
   // The number of the stars, counted from the first, that may be bright enough by their magnitudes
   // and fluxes.
   std::size_t count(const SceneStars& stars) const;
@@ -76,8 +80,6 @@ class StarImageFinder {
   // The pieces of a part of a trail that is so many sigma long and whose light, in one piece, has
   // this peak.
   static int pieces_of(double sigmas, double peak, double& brightest);
-  bool append_arc(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                  std::vector<StarImage>& images) const;
   // The least sigma of the frame about a direction, carried back through the boost: radians there.
   double least_sigma_at(const V3d& direction) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,

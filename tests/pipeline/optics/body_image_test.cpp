@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/optics/emission_time.h"
+#include "tests/pipeline/optics/resting_body.h"
 
 namespace domefall {
 namespace {
@@ -29,19 +30,6 @@ BodyMotion circular(double r, const V3d& axis, const V3d& start) {
                              std::sqrt(1 + 3 * around * around),
                              outwards,
                              axis * (r * around)};
-          },
-          -kForEver, kForEver};
-}
-
-BodyMotion at_rest(double r, const V3d& direction) {
-  const double outwards = std::sqrt(2 / (r - 2));
-  return {[=](double tau) {
-            return BodyPoint{direction,
-                             r,
-                             tau / std::sqrt(1 - 2 / r) + tortoise(r),
-                             std::sqrt(1 + outwards * outwards),
-                             outwards,
-                             V3d(0, 0, 0)};
           },
           -kForEver, kForEver};
 }
@@ -72,7 +60,7 @@ TEST(BodyImage, OfABodyAtRestIsShiftedByItsDepth) {
     for (const double r : {2.1, 3.0, 8.0})
       for (int order = 0; order < 3; ++order) {
         const PlaceView view{observer, false, false};
-        const auto image = image_of_body(view, 0, at_rest(r, V3d(0.6, 0.8, 0)), order, 0);
+        const auto image = image_of_body(view, 0, resting_body(r, V3d(0.6, 0.8, 0)), order, 0);
         ASSERT_TRUE(image) << observer << " " << r << " " << order;
         const double expected = std::sqrt((1 - 2 / r) / (1 - 2 / observer));
         EXPECT_NEAR(ratio_at_rest(view, *image) / expected, 1, 1e-11);

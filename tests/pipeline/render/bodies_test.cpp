@@ -1,11 +1,14 @@
 // Bodies near the hole as frames show them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/optics/body_image.h"
 #include "pipeline/render/frame_key.h"
+#include "pipeline/render/scene/body_sight.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -97,6 +100,57 @@ TEST(Bodies, GrowTenfoldWithTwoMagnitudesAndAHalf) {
   const double bright = light_of(picture(show_with(30, body_at(10, 1, -17.5)))).sum;
   const double faint = light_of(picture(show_with(30, body_at(10, 1, -15)))).sum;
   EXPECT_NEAR(bright / faint, 10, 0.01);
+}
+
+// The area (sr) of the pixels that are brighter than half of the brightest.
+double bright_area(const FloatImage& frame, const Projection& projection) {
+  float most = 0;
+  for (const float value : frame.pixels) most = std::max(most, value);
+  int count = 0;
+  for (int row = 0; row < frame.height; ++row)
+    for (int column = 0; column < frame.width; ++column)
+      if (frame.row(row)[3 * column] > most / 2) ++count;
+  const double side = central_pixel_angle(projection);
+  return count * side * side;
+}
+
+TEST(Bodies, OfASizeAreSpheresOfTheSameLight) {
+  Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.5, 30), -15));
+  show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
+  const double as_point = light_of(picture(show)).sum;
+  show.bodies[0].radius = 0.7;
+  const FloatImage frame = picture(show);
+  EXPECT_NEAR(light_of(frame).sum / as_point, 1, 0.01);
+  const FrameState state = frame_state(show, 0);
+  const BodySight sight(show, state);
+  const auto image = sight.image(show.bodies[0], 0);
+  ASSERT_TRUE(image);
+  // What the observer's motion against the tetrad does to light, it does to areas.
+  const double stretch = sight.seen(image->at).frequency_ratio / image->at.frequency_ratio;
+  const double area = std::numbers::pi * 0.49 * image->traced.solid_angle_per_area;
+  EXPECT_NEAR(bright_area(frame, show.projection) / (area / (stretch * stretch)), 1, 0.04);
+}
+
+// The images of both sides meet in a ring as the body goes through the axis.
+TEST(Bodies, StraightBehindTheHoleAreRings) {
+  for (const double off : {0.0, 0.02}) {
+    Show show = show_with(30, body_at(10, azimuth_seen_at(10, std::numbers::pi - off, 30), -8));
+    show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
+    show.bodies[0].radius = 0.3;
+    const FloatImage frame = picture(show);
+    std::array<double, 8> sector{};
+    double total = 0;
+    for (int row = 0; row < frame.height; ++row)
+      for (int column = 0; column < frame.width; ++column) {
+        const double azimuth = std::atan2(row - 100, column - 100) + std::numbers::pi;
+        const auto k = static_cast<std::size_t>(azimuth / (std::numbers::pi / 4) + 0.5) % 8;
+        sector[k] += frame.row(row)[3 * column + 1];
+        total += frame.row(row)[3 * column + 1];
+      }
+    for (const double light : sector) EXPECT_GT(light, total / 40) << off;
+    // Left and right of the body, which moves across.
+    EXPECT_NEAR(sector[2] / sector[6], 1, 0.02) << off;
+  }
 }
 
 TEST(Bodies, AreSeenFromBeyondTheHorizon) {

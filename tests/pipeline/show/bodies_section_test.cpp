@@ -29,7 +29,8 @@ TEST_F(Bodies, GoWithTheFirstOrbitFromTheObserversPlaceUnlessTheySayOtherwise) {
 TEST_F(Bodies, RiseAtTheirNodeByTheirInclination) {
   const Show show = with(
       "bodies:\n  one: {r: 6, inclination_deg: 30, node_deg: 90, azimuth_deg: -45,"
-      " temperature_k: 3e4, magnitude: -2.5}\n  two: {r: 3.5, inclination_deg: 180}\n");
+      " temperature_k: 3e4, magnitude: -2.5, radius: 0.2}\n  two: {r: 3.5, inclination_deg: "
+      "180}\n");
   ASSERT_EQ(show.bodies.size(), 2u);
   const Body& one = show.bodies[0];
   const M33d axes = place_tetrad(show.hole_at, show.heading, 0);
@@ -41,6 +42,8 @@ TEST_F(Bodies, RiseAtTheirNodeByTheirInclination) {
   EXPECT_NEAR(one.azimuth, -45 * kDegree, 1e-15);
   EXPECT_EQ(one.temperature, 3e4);
   EXPECT_EQ(one.magnitude, -2.5);
+  EXPECT_EQ(one.radius, 0.2);
+  EXPECT_EQ(show.bodies[1].radius, 0);
   expect_near(show.bodies[1].normal.v, column(axes, 1));  // it goes the other way
 }
 
@@ -82,6 +85,8 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
        "4:26: camera.look_at.body names no body of the show: 'b'"},
       {"no orbit", kShow + "bodies: {a: {r: 3}}\n",
        "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
+      {"no size", kShow + "bodies: {a: {r: 9, radius: 0}}\n",
+       "3:28: bodies.a.radius must exceed 0 (units of M), got 0"},
       {"a list", kShow + "bodies: [{r: 9}]\n",
        "3:9: bodies must be a map of names and bodies, e.g. {beacon: {r: 10}}, got a list"},
   });
