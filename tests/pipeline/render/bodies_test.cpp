@@ -153,6 +153,27 @@ TEST(Bodies, StraightBehindTheHoleAreRings) {
   }
 }
 
+// Discs that stand across the orbit, in a plane at an azimuth between the observer's and the body's
+// or beyond both.  The direct light crosses the first at r = 14.
+TEST(Bodies, AreHiddenByADiscBeforeThem) {
+  const Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.6, 30), -14));
+  const M33d axes = frame_state(show, 0).observer.sky_from_tetrad;
+  const double alone = light_of(picture(show)).sum;
+  const auto light_left = [&](double azimuth, double inner, double opacity) {
+    Show hidden = show;
+    Disc& disc = hidden.disc.emplace();
+    disc.normal = {column(axes, 2) * std::cos(azimuth) - column(axes, 0) * std::sin(azimuth)};
+    disc.node = {column(axes, 1)};
+    disc.inner = inner, disc.outer = 26, disc.opacity = opacity;
+    disc.luminance = 1e-12;
+    return light_of(picture(hidden)).sum / alone;
+  };
+  EXPECT_LT(light_left(0.3, 6, 1), 0.05);
+  EXPECT_NEAR(light_left(0.3, 6, 0.25), 0.75, 0.03);
+  EXPECT_GT(light_left(0.3, 20, 1), 0.95);
+  EXPECT_GT(light_left(1.2, 6, 1), 0.9);
+}
+
 TEST(Bodies, AreSeenFromBeyondTheHorizon) {
   Show show = show_with(30, body_at(10, 1, -18));
   show.timeline[0].trajectory = RadialInfall{1.2};
