@@ -12,6 +12,7 @@
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/overlay/ink.h"
 #include "pipeline/render/overlay/stroke.h"
+#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/scene/star_sight.h"
 #include "pipeline/show/stars_section.h"
@@ -55,6 +56,25 @@ std::optional<std::vector<PicturePoint>> places_of_label(const TextSurface& surf
   return places;
 }
 
+NamedImage named_image(const std::string& name, int order, const CameraDirection& direction,
+                       double magnitude) {
+  return {name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude};
+}
+
+// The first two images of each body, as of a star.
+void append_bodies(const Show& show, const FrameState& state, std::vector<NamedImage>& found) {
+  const BodySight sight(show, state);
+  if (!sight.sees()) return;
+  for (const Body& body : show.bodies)
+    for (int order = 0; order < 2; ++order)
+      if (const auto image = sight.image(body, order)) {
+        const BodySight::Seen seen = sight.seen(image->at);
+        const double magnitude = body.magnitude - 2.5 * std::log10(seen.brightening);
+        if (magnitude <= kFaintestNamedImage)
+          found.push_back(named_image(body.name, order, seen.direction, magnitude));
+      }
+}
+
 }  // namespace
 
 LetterStyle label_style() { return {"Sans", TextAlign::kLeft}; }
@@ -91,11 +111,11 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
         const StarSight::Image image = finder.image(sky, star.direction, order);
         const double magnitude = star.magnitude - 2.5 * std::log10(drawn * image.brightening);
         if (!(magnitude <= kFaintestNamedImage)) continue;
-        found.push_back(
-            {star.name + (order > 0 ? "\u2032" : ""), order > 0, image.direction, magnitude});
+        found.push_back(named_image(star.name, order, image.direction, magnitude));
       }
     }
   }
+  append_bodies(show_, state, found);
   std::ranges::stable_sort(found, {}, &NamedImage::magnitude);
   return found;
 }

@@ -8,6 +8,7 @@
 
 #include "pipeline/optics/body_image.h"
 #include "pipeline/render/frame_key.h"
+#include "pipeline/render/overlay/star_labels.h"
 #include "pipeline/render/scene/body_sight.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -172,6 +173,24 @@ TEST(Bodies, AreHiddenByADiscBeforeThem) {
   EXPECT_NEAR(light_left(0.3, 6, 0.25), 0.75, 0.03);
   EXPECT_GT(light_left(0.3, 20, 1), 0.95);
   EXPECT_GT(light_left(1.2, 6, 1), 0.9);
+}
+
+TEST(Bodies, AreNamedAtTheirFirstTwoImages) {
+  Show show = show_with(30, body_at(10, 1, -15));
+  show.bodies[0].name = "beacon";
+  const FrameState state = frame_state(show, 0);
+  const std::vector<NamedImage> named = StarLabels(show).images(state);
+  ASSERT_EQ(named.size(), 2u);
+  EXPECT_EQ(named[0].name, "beacon");
+  EXPECT_EQ(named[1].name, "beacon\u2032");
+  EXPECT_LT(named[0].magnitude, named[1].magnitude);
+  const BodySight sight(show, state);
+  for (int order = 0; order < 2; ++order) {
+    const V3d seen = sight.seen(sight.image(show.bodies[0], order)->at).direction.v;
+    EXPECT_LT((named[static_cast<std::size_t>(order)].direction.v - seen).length(), 1e-12);
+  }
+  show.bodies[0].magnitude = 15;
+  EXPECT_TRUE(StarLabels(show).images(state).empty());
 }
 
 TEST(Bodies, AreSeenFromBeyondTheHorizon) {
