@@ -87,7 +87,7 @@ std::vector<DiscView> twenty_views() {
   for (const double r : {1.9, 1.0, 0.4})
     views.push_back({{kII, kRain, r, V3d(0, 0, 0)}, random_direction(random), falling});
   views.push_back({{kI, kRain, 12, V3d(0.4, -0.2, 0.5)}, V3d(0.3, -1, 0), usual});
-  views.push_back({{kI, kRain, 10, V3d(3, 1, -2)}, V3d(0.2, -1, 0), disc_from(6, 30, 0.6)});
+  views.push_back({{kI, kRain, 10, V3d(3, 1, -2)}, V3d(0.01, -1, 0), disc_from(6, 30, 0.6)});
   views.push_back({{kI, kOut, 10, V3d(-0.5, 0.3, 0.1)}, V3d(0.7, 0.7, 0.1), usual});
   views.push_back({{kI, kOut, 2.5, V3d(0.1, 0, 0.2)}, V3d(-0.5, 0.7, 0.1), falling});
   return views;
