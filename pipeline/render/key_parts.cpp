@@ -30,7 +30,9 @@ void add_effects(Digest& digest, const Effects& e) {
 
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
-  digest.add("disc").add(disc->inner).add(disc->outer);
+  // It is raised with every change that alters the pixels of discs alone.
+  constexpr int kDiscVersion = 2;
+  digest.add("disc").add(kDiscVersion).add(disc->inner).add(disc->outer);
   for (const V3d& axis : {disc->normal.v, disc->node.v})
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(steady(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
