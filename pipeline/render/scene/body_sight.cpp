@@ -31,10 +31,11 @@ double BodySight::radius_of(const Body& body) const {
 
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
   const PlaceView view{observer_.r, is_outgoing(observer_.tetrad), false};
-  const auto image =
-      image_of_body(view, observer_.null_time, motion_of(body, observer_.sky_from_tetrad), order,
-                    radius_of(body));
-  if (!image) return std::nullopt;
+  const double radius = radius_of(body);
+  const auto image = image_of_body(view, observer_.null_time,
+                                   motion_of(body, observer_.sky_from_tetrad), order, radius);
+  // Who is within a body sees nothing of it.
+  if (!image || !(image->solid_angle_per_area * radius * radius < 1)) return std::nullopt;
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
   return Image{{{image->direction}, image->frequency_ratio, light}, *image};

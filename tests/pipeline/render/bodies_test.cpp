@@ -103,6 +103,14 @@ TEST(Bodies, GrowTenfoldWithTwoMagnitudesAndAHalf) {
   EXPECT_NEAR(bright / faint, 10, 0.01);
 }
 
+TEST(Bodies, AreNotSeenFromWithin) {
+  Body body = body_at(30, 0, -20);
+  body.trajectory = StaticObserver{30};
+  for (const double value : picture(show_with(30, body)).pixels) ASSERT_EQ(value, 0);
+  body.azimuth = 0.01;
+  EXPECT_GT(light_of(picture(show_with(30, body))).sum, 0);
+}
+
 // The area (sr) of the pixels that are brighter than half of the brightest.
 double bright_area(const FloatImage& frame, const Projection& projection) {
   float most = 0;
