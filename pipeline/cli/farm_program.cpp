@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 fs::path this_program() {
   std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  fs::path self = fs::read_symlink("/proc/self/exe", error);
   if (error) throw TemporaryError("/proc/self/exe: " + error.message() + "; name --program");
   return self;
 }
@@ -27,7 +27,7 @@ fs::path found_in_path(const std::string& name) {
   const char* const folders = std::getenv("PATH");
   std::istringstream stream(folders ? folders : "");
   for (std::string folder; std::getline(stream, folder, ':');) {
-    const fs::path file = fs::path(folder.empty() ? "." : folder) / name;
+    fs::path file = fs::path(folder.empty() ? "." : folder) / name;
     if (access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file)) return file;
   }
   throw InputError("--program " + name + ": PATH has no such program; a path names one elsewhere");

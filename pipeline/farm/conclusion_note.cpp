@@ -44,7 +44,7 @@ std::string conclusion_of(const fs::path& out, const std::string& plan_id) {
     const std::string text = read_file(file, kMostBytes);
     const std::size_t end = std::min(text.find('\n'), text.size());
     const fs::path log = end < text.size() ? text.substr(end + 1) : std::string();
-    const std::string note = text.substr(0, end);
+    std::string note = text.substr(0, end);
     if (log.empty()) return note;
     // A job that failed has said last what it has noted.
     const std::string said = last_line_of(log);

@@ -17,7 +17,7 @@ class PatientServer final : public httplib::Server {
 
  private:
   // Answers the requests of one connection, one after the other, then closes it.
-  bool process_and_close_socket(socket_t connection) override;
+  bool process_and_close_socket(socket_t socket) override;
 };
 
 }  // namespace domefall
