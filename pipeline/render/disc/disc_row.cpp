@@ -103,7 +103,7 @@ void DiscPass::Row::locate(int row, int count, const ColumnOf& column_of) {
 
 void DiscPass::Row::find_nodes(int row, int first, int count) {
   locate(row, count, [&](int k) { return first_ + (first + k) * kStep; });
-  std::array<bool, Strip::kSize> lit;
+  std::array<bool, Strip::kSize> lit{};
   for (int k = 0; k < count; ++k) {
     const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(pixels_, k);
     lit[static_cast<std::size_t>(k)] = node.lit;
