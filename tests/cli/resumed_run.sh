@@ -8,7 +8,14 @@ write_show fall.yaml
 exits 0 "$DOMEFALL" render fall.yaml --out whole
 says '24 frames made, 0 already there'
 
-pictures() { find broken -name '*.png' | wc -l; }
+# Frames of which both files are there.
+pictures() {
+  local frame
+  for frame in broken/graded/*.png; do
+    frame=${frame#broken/graded/}
+    [ ! -e "broken/linear/${frame%.png}.exr" ] || echo "$frame"
+  done | wc -l
+}
 for enough in 0 5 14; do
   rm -rf broken
   mkdir broken
