@@ -34,8 +34,9 @@ std::optional<BodySight::Image> BodySight::image(const Body& body, int order) co
   const double radius = radius_of(body);
   const auto image = image_of_body(view, observer_.null_time,
                                    motion_of(body, observer_.sky_from_tetrad), order, radius);
-  // Who is within a body sees nothing of it.
-  if (!image || !(image->solid_angle_per_area * radius * radius < 1)) return std::nullopt;
+  // Who is within a body sees nothing of it.  The lens makes an image behind the hole longer about
+  // the axis, but not within the ray's plane.
+  if (!image || !(image->angle_per_length * radius < 1)) return std::nullopt;
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
   return Image{{{image->direction}, image->frequency_ratio, light}, *image};
