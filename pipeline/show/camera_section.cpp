@@ -16,33 +16,35 @@ constexpr std::array<std::string_view, 8> kKeys{"projection",    "cut",         
                                                 "look_at",       "euler_deg",    "roll_deg",
                                                 "elevation_deg", "dome_tilt_deg"};
 
+// Reads {KEY: NAME}: what `known` has under that name, or null.  `missing` begins the message about
+// a name that it does not have.
+template <class Known>
+const typename Known::mapped_type* read_name(const Item& item, std::string_view key,
+                                             const Known& known, const std::string& missing) {
+  const Section s(item, {key});
+  const Item* name = s.find(key);
+  const auto text = name ? read_text(*name) : std::nullopt;
+  if (!text) return nullptr;
+  const auto found = known.find(*text);
+  if (found != known.end()) return &found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [other, meaning] : known) names.push_back(other);
+  name->fail(missing + ": '" + shown(*text) + "'" + did_you_mean(*text, names));
+  return nullptr;
+}
+
 // Reads {keyframe: NAME}: the attitude of a keyframe that bears the name.
 std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
-  const Section s(item, {"keyframe"});
-  const Item* name = s.find("keyframe");
-  const auto text = name ? read_text(*name) : std::nullopt;
-  if (!text) return std::nullopt;
-  const auto found = named.keyframes.find(*text);
-  if (found != named.keyframes.end()) return found->second;
-  std::vector<std::string_view> known;
-  for (const auto& [key, attitude] : named.keyframes) known.push_back(key);
-  name->fail("names no keyframe before this one that has a name and a direction: '" + shown(*text) +
-             "'" + did_you_mean(*text, known));
-  return std::nullopt;
+  const Attitude* attitude =
+      read_name(item, "keyframe", named.keyframes,
+                "names no keyframe before this one that has a name and a direction");
+  return attitude ? std::optional(*attitude) : std::nullopt;
 }
 
 // Reads {body: NAME}.
 std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& named) {
-  const Section s(item, {"body"});
-  const Item* name = s.find("body");
-  const auto text = name ? read_text(*name) : std::nullopt;
-  if (!text) return std::nullopt;
-  const auto found = named.bodies.find(*text);
-  if (found != named.bodies.end()) return LookAtBody{found->second};
-  std::vector<std::string_view> known;
-  for (const auto& [key, body] : named.bodies) known.push_back(key);
-  name->fail("names no body of the show: '" + shown(*text) + "'" + did_you_mean(*text, known));
-  return std::nullopt;
+  const auto* body = read_name(item, "body", named.bodies, "names no body of the show");
+  return body ? std::optional<Attitude>(LookAtBody{*body}) : std::nullopt;
 }
 
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
