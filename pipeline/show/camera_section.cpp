@@ -28,6 +28,7 @@ const typename Known::mapped_type* read_name(const Item& item, std::string_view 
   const auto found = known.find(*text);
   if (found != known.end()) return &found->second;
   std::vector<std::string_view> names;
+  names.reserve(known.size());
   for (const auto& [other, meaning] : known) names.push_back(other);
   name->fail(missing + ": '" + shown(*text) + "'" + did_you_mean(*text, names));
   return nullptr;
