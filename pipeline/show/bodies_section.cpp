@@ -2,14 +2,18 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/orbital_elements.h"
 #include "pipeline/show/placement.h"
 #include "pipeline/show/trajectory_section.h"
 
 namespace domefall {
 namespace {
 
+constexpr double kLongestPeriod = 1e9, kSecondsPerYear = 31557600;  // Julian years
+constexpr Range kYears = Range{"years"}.within(-1e6, 1e6);
 constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9, kLargestBody = 1e6;
 constexpr double kBrightestMagnitude = -100, kFaintestMagnitude = 100;
 
@@ -21,7 +25,8 @@ constexpr std::array<std::string_view, 7> kTypes{"static", "circular", "paraboli
 bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   const Item* way = s.one_of({"r", "trajectory"});
   if (!way) {
-    s.require("trajectory", ": how the body moves, or r, the radius of its circular orbit");
+    s.require("trajectory",
+              ": how the body moves, or r, the radius of its circular orbit, or elements");
     return false;
   }
   if (way == s.find("r")) {
@@ -52,12 +57,8 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   return true;
 }
 
-Body read_body(const std::string& name, const Item& item, const Show& to, Lookup& lookup) {
-  const Section s(item, {"r", "trajectory", "begins_m", "inclination_deg", "node_deg",
-                         "azimuth_deg", "temperature_k", "magnitude", "radius"});
-  Body body;
-  body.name = name;
-  read_way(s, to, lookup, body);
+// Reads the plane of an orbit that is given by the first one, and when it begins.
+void read_plane(const Section& s, const Show& to, Body& body) {
   const double inclination = radians(s.number("inclination_deg", kDegrees.within(0, 180), 0));
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), 0));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
@@ -68,12 +69,72 @@ Body read_body(const std::string& name, const Item& item, const Show& to, Lookup
   const auto begins = s.number("begins_m", kUnitsOfM.within(-kFarthest, kFarthest));
   body.null_time = begins.value_or(0);
   body.shines_before = !begins;
+}
+
+// `year` is the one in which the show begins, if it says so.
+void read_elements(const Item& item, const Show& to, std::optional<double> year, Body& body) {
+  const Section s(item, {"period_years", "eccentricity", "inclination_deg", "node_deg",
+                         "pericentre_deg", "pericentre_year"});
+  const auto period =
+      s.required_number("period_years", Range{"years"}.above(0).at_most(kLongestPeriod));
+  const auto eccentricity = s.required_number("eccentricity", Range{""}.at_least(0).below(1));
+  const auto inclination = s.required_number("inclination_deg", kDegrees.within(0, 180));
+  const auto node = s.required_number("node_deg", kDegrees.within(-360, 360));
+  const auto pericentre = s.required_number("pericentre_deg", kDegrees.within(-360, 360));
+  const auto passage = s.required_number("pericentre_year", kYears);
+  if (passage && !year) {
+    s.find("pericentre_year")->fail("needs the show's begins_year, the year in which it begins");
+    return;
+  }
+  if (!period || !eccentricity || !inclination || !node || !pericentre || !passage) return;
+  const double years_m = kSecondsPerYear / (kSecondsPerSolarMass * to.mass_solar.value_or(1));
+  try {
+    set_orbit({*period * years_m, *eccentricity, radians(*inclination), radians(*node),
+               radians(*pericentre)},
+              to.hole_at, body);
+  } catch (const std::domain_error& error) {
+    item.fail(std::string("has an orbit that this hole does not have: ") + error.what());
+  }
+  body.null_time = (*passage - *year) * years_m;
+}
+
+// V at kBodyMagnitudeDistance of what has this absolute magnitude, which is meant for 10 pc.
+double near_magnitude(double absolute, double mass_solar) {
+  constexpr double kTenParsecs = 1.0292712503e9;  // light seconds
+  const double distance = kBodyMagnitudeDistance * kSecondsPerSolarMass * mass_solar;
+  return absolute + 5 * std::log10(distance / kTenParsecs);
+}
+
+void read_light(const Section& s, const Show& to, Body& body) {
+  constexpr Range kMagnitudes = Range{"magnitudes"}.within(kBrightestMagnitude, kFaintestMagnitude);
   body.temperature = s.number("temperature_k", Range{"kelvin"}.within(kCoolestBodyK, kHottestBodyK),
                               body.temperature);
-  body.magnitude =
-      s.number("magnitude", Range{"magnitudes"}.within(kBrightestMagnitude, kFaintestMagnitude),
-               body.magnitude);
+  const Item* magnitude = s.one_of({"magnitude", "absolute_magnitude"});
+  const auto given = magnitude ? read_number(*magnitude, kMagnitudes) : std::nullopt;
+  if (given)
+    body.magnitude = magnitude == s.find("magnitude")
+                         ? *given
+                         : near_magnitude(*given, to.mass_solar.value_or(1));
   body.radius = s.number("radius", kUnitsOfM.above(0).at_most(kLargestBody), body.radius);
+}
+
+Body read_body(const std::string& name, const Item& item, const Show& to,
+               std::optional<double> year, Lookup& lookup) {
+  const Section s(item,
+                  {"r", "trajectory", "elements", "begins_m", "inclination_deg", "node_deg",
+                   "azimuth_deg", "temperature_k", "magnitude", "absolute_magnitude", "radius"});
+  Body body;
+  body.name = name;
+  if (const Item* elements = s.find("elements")) {
+    for (const std::string_view key :
+         {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
+      s.one_of({"elements", key});
+    read_elements(*elements, to, year, body);
+  } else {
+    read_way(s, to, lookup, body);
+    read_plane(s, to, body);
+  }
+  read_light(s, to, body);
   return body;
 }
 
@@ -81,6 +142,7 @@ Body read_body(const std::string& name, const Item& item, const Show& to, Lookup
 
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup) {
   std::vector<Body> bodies;
+  const auto year = show.number("begins_year", kYears);
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (!to.mass_solar) list->fail("need a black hole: give the show black_hole.mass_solar");
@@ -89,7 +151,7 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
     return bodies;
   }
   for (const auto& [name, item] : entries_of(*list))
-    bodies.push_back(read_body(name, item, to, lookup));
+    bodies.push_back(read_body(name, item, to, year, lookup));
   return bodies;
 }
 

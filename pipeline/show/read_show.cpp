@@ -45,12 +45,17 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
 }
 
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
-  const Section section(root,
-                        {"title",      "frames_per_second", "size",      "black_hole", "timeline",
-                         "camera",     "cameras",           "keyframes", "markers",    "fade_in_s",
-                         "fade_out_s", "effects",           "sky",       "stars",      "disc",
-                         "bodies",     "exposure",          "grade",     "dome",       "titles",
-                         "output"});
+  const Section section(root, {"title",       "frames_per_second",
+                               "size",        "black_hole",
+                               "timeline",    "camera",
+                               "cameras",     "keyframes",
+                               "markers",     "fade_in_s",
+                               "fade_out_s",  "effects",
+                               "sky",         "stars",
+                               "disc",        "bodies",
+                               "begins_year", "exposure",
+                               "grade",       "dome",
+                               "titles",      "output"});
   if (!root.node.IsMap()) return;
   show.title = show.file.stem().string();
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");

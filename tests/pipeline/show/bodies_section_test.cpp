@@ -9,6 +9,10 @@ namespace {
 using Bodies = ShowKeys;
 using BodyMistakes = ShowMistakes;
 
+const std::string kOrbit =
+    "{period_years: 16, eccentricity: 0.9, inclination_deg: 1, node_deg: 2, pericentre_deg: 3,"
+    " pericentre_year: 4}";
+
 TEST_F(Bodies, AreNoneUnlessAShowNamesThem) { EXPECT_TRUE(with("").bodies.empty()); }
 
 TEST_F(Bodies, GoWithTheFirstOrbitFromTheObserversPlaceUnlessTheySayOtherwise) {
@@ -71,16 +75,68 @@ TEST_F(Bodies, GoTheirOwnWays) {
   EXPECT_EQ(target->body->name, "falls");
 }
 
+// S2 by the GRAVITY Collaboration (2019, A&A 625, L10): it came towards its pericentre of May 2018
+// receding at 4000 km/s, and went from it approaching at 1900 km/s.
+TEST_F(Bodies, HaveTheOrbitsThatAstronomersPublish) {
+  const Show show = with(
+      "begins_year: 2010\nbodies: {S2: {elements: {period_years: 16.05, eccentricity: 0.8843,"
+      " inclination_deg: 133.9, node_deg: 228.07, pericentre_deg: 66.25, pericentre_year: 2018.38},"
+      " absolute_magnitude: -3.8}}\n",
+      "{type: infall, from_r: 30}", "{mass_solar: 4.154e6}");
+  ASSERT_EQ(show.bodies.size(), 1u);
+  const double seconds = kSecondsPerSolarMass * *show.mass_solar, year = 31557600 / seconds;
+  EXPECT_NEAR(show.bodies[0].null_time, 8.38 * year, 1e-6 * year);
+  // At 10 pc, 1.0293e9 light seconds, it would be of magnitude -3.8.
+  EXPECT_NEAR(show.bodies[0].magnitude, -3.8 - 5 * std::log10(1.0293e9 / (100 * seconds)), 1e-3);
+  const BodyMotion motion = motion_of(show.bodies[0], M33d());
+  const V3d away = show.hole_at.v, east = V3d(-away.y, away.x, 0).normalized(),
+            north = away.cross(east);
+  const auto place = [&motion](double tau) {
+    const BodyPoint point = motion.at(tau);
+    return point.direction * point.r;
+  };
+  double most = 0, least = 0, nearest = 1;  // to the node, as a part of r
+  V3d at_node(0, 0, 0);
+  for (int day = -1000; day <= 1000; ++day) {
+    const double tau = day * year / 365.25, step = 0.1 * year / 365.25;
+    const double velocity =
+        299792.458 * (place(tau + step) - place(tau - step)).dot(away) / (2 * step);
+    most = std::max(most, velocity);
+    least = std::min(least, velocity);
+    const V3d at = place(tau).normalized();
+    if (velocity < 0 || std::abs(at.dot(away)) > nearest) continue;
+    nearest = std::abs(at.dot(away));
+    at_node = at;
+  }
+  EXPECT_NEAR(most, 3972, 12);
+  EXPECT_NEAR(least, -1886, 6);
+  EXPECT_NEAR(std::atan2(at_node.dot(east), at_node.dot(north)), (228.07 - 360) * kDegree, 0.05);
+  // 0.12506'' of 8178 pc are 1022.7 AU, of 499.0 light seconds each.
+  EXPECT_NEAR(motion.at(0).r * seconds, 1022.7 * 499.0 * (1 - 0.8843), 0.3 * 499.0);
+  EXPECT_NEAR(place(0).normalized().dot(away),
+              std::sin(66.25 * kDegree) * std::sin(133.9 * kDegree), 1e-12);
+}
+
 TEST_F(BodyMistakes, AreToldWithTheirPlace) {
   expect_complaints({
       {"no radius", kShow + "bodies: {a: {magnitude: 1}}\n",
        "3:13: bodies.a.trajectory is missing: how the body moves, or r, the radius of its circular "
-       "orbit"},
+       "orbit, or elements"},
       {"no type of a body's", kShow + "bodies: {a: {trajectory: {type: path, file: x.csv}}}\n",
        "3:33: bodies.a.trajectory.type must be static, circular, parabolic, hyperbolic, bound, "
        "infall or thrown, got 'path'"},
       {"an end", kShow + "bodies: {a: {trajectory: {type: infall, from_r: 9, to_r: 3}}}\n",
        "3:58: bodies.a.trajectory.to_r is for the trajectories of segments"},
+      {"two ways", kShow + "begins_year: 1\nbodies: {a: {r: 9, elements: " + kOrbit + "}}\n",
+       "4:17: bodies.a.r excludes elements; give one of them"},
+      {"no year to count from", kShow + "bodies: {a: {elements: " + kOrbit + "}}\n",
+       "3:131: bodies.a.elements.pericentre_year needs the show's begins_year, the year in which "
+       "it "
+       "begins"},
+      {"an orbit within the hole's reach",
+       kShow + "begins_year: 1\nbodies: {a: {elements: {period_years: 1e-12, eccentricity: 0.5,"
+               " inclination_deg: 1, node_deg: 2, pericentre_deg: 3, pericentre_year: 4}}}\n",
+       "4:24: bodies.a.elements has an orbit that this hole does not have: "},
       {"a name", kShow + "bodies: {a: {r: 9}}\ncamera: {look_at: {body: b}}\n",
        "4:26: camera.look_at.body names no body of the show: 'b'"},
       {"no orbit", kShow + "bodies: {a: {r: 3}}\n",
