@@ -44,7 +44,7 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
       return false;
     }
   constexpr double kMoment = 1e-9;  // of which a segment's default ends want something
-  const Stage stage{to.mass_solar, place_tetrad(to.hole_at, to.heading, 0), kMoment, nullptr};
+  const Stage stage{to.mass_solar, place_tetrad(to.hole_at, to.heading, 0), kMoment};
   const auto read = read_trajectory(*way, stage, lookup);
   if (!read) return false;
   if (read->placement.mirrored || read->placement.turn != 0) {

@@ -1,5 +1,6 @@
 #include "pipeline/show/body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +58,38 @@ BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
                              normal * (now.r * now.celerity.z)};
           },
           begin_of(body), end_of(body)};
+}
+
+Beginning beginning_beside(const Body& body, double tau, double behind) {
+  const BodyPoint at = motion_of(body, M33d()).at(tau);
+  const OrbitPoint own = point_at(body.trajectory, body.start + tau);
+  const bool outgoing = is_outgoing(own.tetrad) && own.region == Region::kI;
+  return {from_columns(at.direction, -body.normal.v, body.normal.v.cross(at.direction)),
+          at.null_time + behind - (outgoing ? 2 * tortoise(own.r) : 0)};
+}
+
+// v grows with tau.
+std::optional<double> time_of_null(const Body& body, double null_time) {
+  const BodyMotion motion = motion_of(body, M33d());
+  const auto is_later = [&](double tau) { return motion.at(tau).null_time > null_time; };
+  constexpr double kFarthestTau = 1e15, kFirstStep = 1e-3;  // M
+  double low = 0, high = 0;
+  for (double step = kFirstStep; is_later(low); step *= 2) {
+    if (low <= motion.begin || low < -kFarthestTau) return std::nullopt;
+    high = low;
+    low = std::max(low - step, motion.begin);
+  }
+  for (double step = kFirstStep; !is_later(high); step *= 2) {
+    if (high > kFarthestTau) return std::nullopt;
+    // Its end is not an instant of its own.
+    const double next = high + step;
+    if (next >= motion.end && motion.end - high <= std::abs(motion.end) * 1e-15)
+      return std::nullopt;
+    high = next < motion.end ? next : high + (motion.end - high) / 2;
+  }
+  for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
+    (is_later(middle) ? high : low) = middle;
+  return low;
 }
 
 }  // namespace domefall

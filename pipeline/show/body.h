@@ -1,9 +1,11 @@
 // A body that shines on an orbit of its own about the hole.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "pipeline/optics/body_image.h"
+#include "pipeline/show/placement.h"
 #include "trajectories/directions.h"
 #include "trajectories/observer_state.h"
 #include "trajectories/trajectory.h"
@@ -35,5 +37,12 @@ bool sees_bodies(const ObserverState& observer);
 
 // How it moves as an observer in that frame has to know it: proper time counts from Body::start.
 BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad);
+
+// Where an observer begins who moves as the body does, `behind` later (M of v), and is at its
+// proper time `start` + tau.
+Beginning beginning_beside(const Body& body, double tau, double behind);
+
+// The tau at which its v is `null_time`; nothing where it is not there, before or after.
+std::optional<double> time_of_null(const Body& body, double null_time);
 
 }  // namespace domefall

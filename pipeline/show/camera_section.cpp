@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "pipeline/show/nearest_word.h"
+#include "pipeline/show/known_name.h"
 #include "pipeline/show/projection_section.h"
 
 namespace domefall {
@@ -16,35 +16,18 @@ constexpr std::array<std::string_view, 8> kKeys{"projection",    "cut",         
                                                 "look_at",       "euler_deg",    "roll_deg",
                                                 "elevation_deg", "dome_tilt_deg"};
 
-// Reads {KEY: NAME}: what `known` has under that name, or null.  `missing` begins the message about
-// a name that it does not have.
-template <class Known>
-const typename Known::mapped_type* read_name(const Item& item, std::string_view key,
-                                             const Known& known, const std::string& missing) {
-  const Section s(item, {key});
-  const Item* name = s.find(key);
-  const auto text = name ? read_text(*name) : std::nullopt;
-  if (!text) return nullptr;
-  const auto found = known.find(*text);
-  if (found != known.end()) return &found->second;
-  std::vector<std::string_view> names;
-  names.reserve(known.size());
-  for (const auto& [other, meaning] : known) names.push_back(other);
-  name->fail(missing + ": '" + shown(*text) + "'" + did_you_mean(*text, names));
-  return nullptr;
-}
-
 // Reads {keyframe: NAME}: the attitude of a keyframe that bears the name.
 std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
   const Attitude* attitude =
-      read_name(item, "keyframe", named.keyframes,
-                "names no keyframe before this one that has a name and a direction");
+      find_named(Section(item, {"keyframe"}), "keyframe", named.keyframes,
+                 "names no keyframe before this one that has a name and a direction");
   return attitude ? std::optional(*attitude) : std::nullopt;
 }
 
 // Reads {body: NAME}.
 std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& named) {
-  const auto* body = read_name(item, "body", named.bodies, "names no body of the show");
+  const auto* body =
+      find_named(Section(item, {"body"}), "body", named.bodies, "names no body of the show");
   return body ? std::optional<Attitude>(LookAtBody{*body}) : std::nullopt;
 }
 

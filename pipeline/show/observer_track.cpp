@@ -41,7 +41,8 @@ Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
 Joint joint_of(const Show& show, int segment) {
   if (!show.joints.empty()) return show.joints[static_cast<std::size_t>(segment)];
   Joint joint = first_joint(show, show.timeline.front());
-  for (int k = 0; k < segment; ++k) joint = joint_after(joint, segment_of(show, k));
+  for (int k = 0; k < segment; ++k)
+    joint = joint_into(joint_after(joint, segment_of(show, k)), segment_of(show, k + 1));
   return joint;
 }
 
@@ -100,11 +101,27 @@ Joint first_joint(const Show& show, const Segment& first) {
   Joint joint;
   joint.axes = place_tetrad(show.hole_at, show.heading, 0);
   joint.tetrad = point_of(first, first.timing.tau_begin).tetrad;
-  return joint;
+  return joint_into(joint, first);
 }
 
 Joint joint_after(const Joint& joint, const Segment& segment) {
   return moved(joint, segment, point_of(segment, segment.timing.tau_end));
+}
+
+Joint joint_into(const Joint& reached, const Segment& next) {
+  if (!next.placement.beginning) return reached;
+  const OrbitPoint point = point_of(next, next.timing.tau_begin);
+  Joint joint = reached;
+  joint.axes = next.placement.beginning->axes;
+  joint.null_time = next.placement.beginning->null_time;
+  joint.tetrad = point.tetrad, joint.r = point.r;
+  return joint;
+}
+
+double rain_time(const Joint& joint) {
+  if (is_mirrored(joint.tetrad)) return 0;
+  if (!is_outgoing(joint.tetrad)) return double(joint.null_time);
+  return joint.r > 2 && !std::isinf(joint.r) ? double(joint.null_time) + 2 * tortoise(joint.r) : 0;
 }
 
 void join_segments(Show& show) {
@@ -112,8 +129,9 @@ void join_segments(Show& show) {
   show.joints.clear();
   for (const Segment& segment : show.timeline) {
     const std::size_t k = show.joints.size();
-    show.joints.push_back(k == 0 ? first_joint(show, segment)
-                                 : joint_after(show.joints.back(), show.timeline[k - 1]));
+    show.joints.push_back(
+        k == 0 ? first_joint(show, segment)
+               : joint_into(joint_after(show.joints.back(), show.timeline[k - 1]), segment));
     show.joints.back().begin_s = times[k];
   }
 }

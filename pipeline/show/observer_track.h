@@ -10,10 +10,14 @@ namespace domefall {
 // passed.  At both ends it is that of the segment's timing.
 ProperTime proper_time_at(const Segment& segment, double part);
 
-// What the first segment of a show sets out with, except for its instant, and what the segment
-// after `segment` takes over.
+// What the first segment of a show sets out with, except for its instant.
 Joint first_joint(const Show& show, const Segment& first);
+// What `segment` hands over at its end, and what `next` makes of it.
 Joint joint_after(const Joint& joint, const Segment& segment);
+Joint joint_into(const Joint& reached, const Segment& next);
+
+// The v of a joint in region I or II; 0 in the others, which have none.
+double rain_time(const Joint& joint);
 
 // Sets the joints of a show, so that a state costs the same in a show of any length.
 void join_segments(Show& show);

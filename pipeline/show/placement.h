@@ -1,6 +1,8 @@
 // How the plane of an orbit lies on the celestial sphere.
 #pragma once
 
+#include <optional>
+
 #include "trajectories/directions.h"
 #include "trajectories/orbit_point.h"
 
@@ -18,12 +20,19 @@ M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth);
 // The same axes after a further azimuth (radians) in their plane.
 M33d moved_on(const M33d& axes, double azimuth);
 
+// Where and when an observer begins who does not go on from where another one ended.
+struct Beginning {
+  M33d axes;         // of the reference tetrad on the sky
+  double null_time;  // of that tetrad, counted from the show's start, M
+};
+
 // What a segment does with the orbit of its trajectory.
 struct Placement {
   bool mirrored = false;  // t -> -t, so that what happens in region I happens in region III
   bool backward = false;  // it moves against the sense of Phi
   double turn = 0;  // radians from Phi through north by which its plane leaves that of the orbit
                     // before, about R
+  std::optional<Beginning> beginning{};  // none where it begins at the end of the segment before
 };
 
 // The axes at the start of a segment, from those at the end of the one before and Placement::turn.

@@ -72,7 +72,8 @@ class TimelineReader {
     read_motion(item, section, begin, segment);
     end_ = begin + segment.duration_s;
     segment.titles = read_titles(section, {begin, end_}, show_);
-    joint_ = joint_after(segments_.empty() ? first_joint(show_, segment) : joint_, segment);
+    joint_ = joint_after(
+        segments_.empty() ? first_joint(show_, segment) : joint_into(joint_, segment), segment);
     segments_.push_back(std::move(segment));
   }
 
@@ -136,8 +137,8 @@ class TimelineReader {
     return values;
   }
 
-  // Reads camera, exposure, CDL and skies.  Each value is taken from the first of these that gives it:
-  // the segment's keyframes, the segment, the show's keyframes, the show.
+  // Reads camera, exposure, CDL and skies.  Each value is taken from the first of these that gives
+  // it: the segment's keyframes, the segment, the show's keyframes, the show.
   void read_view(const Section& section, double begin, Segment& segment) {
     CameraKeys own;
     if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
@@ -179,7 +180,8 @@ class TimelineReader {
     const Item* trajectory = section.find("trajectory");
     std::optional<TimedTrajectory> motion;
     const std::size_t reported = item.problems->count();
-    Stage stage{show_.mass_solar, axes_before(), segment.duration_s, nullptr};
+    Stage stage{show_.mass_solar, axes_before(), segment.duration_s,
+                nullptr,          &show_.bodies, segments_.empty() ? 0 : rain_time(joint_)};
     if (!segments_.empty()) stage.before = &segments_.back();
     if (!trajectory && !show_.mass_solar) {
       motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};

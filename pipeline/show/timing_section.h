@@ -16,6 +16,8 @@ struct Stage {
   M33d axes;                         // of the reference tetrad on the sky, where the segment begins
   double duration_s = 1;             // of the segment
   const Segment* before = nullptr;   // null for the first segment
+  const std::vector<Body>* bodies = nullptr;  // of the show
+  double null_time = 0;  // v where the segment begins, counted from the show's start, M
 };
 
 // The proper time (units of M; seconds in flat space) that passes in `seconds` of the observer's

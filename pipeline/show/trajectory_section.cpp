@@ -8,6 +8,7 @@
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/orbit_section.h"
 #include "pipeline/show/path_section.h"
+#include "pipeline/show/ride_section.h"
 #include "pipeline/show/velocity_section.h"
 
 namespace domefall {
@@ -27,18 +28,26 @@ std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& traject
 Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
 
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage) {
-  const Section s(item, {"type", "r", "region"});
-  const double real_time = proper_time_in(stage, stage.duration_s);
+  const Section s(item, {"type", "r", "rate_m_per_s", "time_lapse", "region"});
+  Timing timing{0, proper_time_in(stage, stage.duration_s)};
   if (!stage.mass_solar) {
-    if (const Item* r = s.find("r")) r->fail("needs a black hole; in flat space leave it out");
-    return TimedTrajectory{StaticObserver{}, {0, real_time}, {}};
+    for (const char* key : {"r", "rate_m_per_s", "time_lapse"})
+      if (const Item* given = s.find(key))
+        given->fail("needs a black hole; in flat space leave it out");
+    return TimedTrajectory{StaticObserver{}, timing, {}};
   }
   const auto r = s.required_number(
       "r", kUnitsOfM.above(kStaticInnermost, "nothing holds still at or inside the horizon")
                .at_most(kFarthest));
   const bool mirrored = is_in_region_three(s);
+  // Its clock runs in real time unless something that moves wants another.
+  if (find_end(s, {})) {
+    const auto rate = read_rate(s, stage);
+    if (!rate) return std::nullopt;
+    timing = timing_of(*rate);
+  }
   if (!r) return std::nullopt;
-  return TimedTrajectory{StaticObserver{*r}, {0, real_time}, {mirrored}};
+  return TimedTrajectory{StaticObserver{*r}, timing, {mirrored}};
 }
 
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage) {
@@ -143,6 +152,7 @@ std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stag
   if (!timing) return std::nullopt;
   Placement placement = stage.before->placement;
   placement.turn = 0;
+  placement.beginning.reset();
   return TimedTrajectory{stage.before->trajectory, *timing, placement};
 }
 
@@ -182,6 +192,7 @@ constexpr std::array kTypes{Type{"static", true, without_lookup<read_static>},
                             Type{"kruskal", false, without_lookup<read_kruskal>},
                             Type{"path", false, read_path},
                             Type{"velocity", true, read_velocity},
+                            Type{"body", false, without_lookup<read_ride>},
                             Type{"continue", true, without_lookup<read_continue>}};
 
 constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {

@@ -136,7 +136,9 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
       {"an orbit within the hole's reach",
        kShow + "begins_year: 1\nbodies: {a: {elements: {period_years: 1e-12, eccentricity: 0.5,"
                " inclination_deg: 1, node_deg: 2, pericentre_deg: 3, pericentre_year: 4}}}\n",
-       "4:24: bodies.a.elements has an orbit that this hole does not have: "},
+       "4:24: bodies.a.elements has an orbit that this hole does not have: p must exceed 7 "
+       "(units of M), got 0.7598204518: at e = 0.5 a smaller orbit falls into the hole (p > 6 + "
+       "2e)"},
       {"a name", kShow + "bodies: {a: {r: 9}}\ncamera: {look_at: {body: b}}\n",
        "4:26: camera.look_at.body names no body of the show: 'b'"},
       {"no orbit", kShow + "bodies: {a: {r: 3}}\n",

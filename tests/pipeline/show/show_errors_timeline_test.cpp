@@ -40,10 +40,10 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
   expect_complaints({
       {"NoType", moving("{r: 9}"),
        "3:33: timeline[1].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
-       "bound, infall, thrown, kruskal, path, velocity or continue"},
+       "bound, infall, thrown, kruskal, path, velocity, body or continue"},
       {"TypeMisspelt", moving("{type: infal, from_r: 9}"),
        "3:40: timeline[1].trajectory.type must be static, circular, parabolic, hyperbolic, "
-       "bound, infall, thrown, kruskal, path, velocity or continue, got "
+       "bound, infall, thrown, kruskal, path, velocity, body or continue, got "
        "'infal'; did you mean infall?"},
       {"FromRNegative", moving("{type: infall, from_r: -3}"),
        "3:56: timeline[1].trajectory.from_r must exceed 0 (units of M), got -3"},

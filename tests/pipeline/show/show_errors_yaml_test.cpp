@@ -60,7 +60,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
        kHole + "timeline:\n"
                "  - &s {duration_s: 1, trajectory: *s}\n",
        "3:5: timeline[1].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
-       "bound, infall, thrown, kruskal, path, velocity or continue"},
+       "bound, infall, thrown, kruskal, path, velocity, body or continue"},
       {"MergeKey", kShow + "camera: {<<: {look_at: hole}}\n",
        "3:10: camera.<< is an unknown key; known here: projection, cut, fov_deg, look_at, "
        "euler_deg, "
@@ -82,7 +82,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"UnknownKey", kShow + "projection: domemaster\n",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "timeline, camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, "
-       "disc, bodies, exposure, grade, dome, titles or output"},
+       "disc, bodies, begins_year, exposure, grade, dome, titles or output"},
       {"MisspeltKey", kShow + "exposre: {ev: 1}\n",
        "3:1: exposre is an unknown key; did you mean exposure?"},
       {"UnitLeftOut", kShow + "camera: {projection: stereographic, fov: 90}\n",
