@@ -144,7 +144,8 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
     const Guess guess = retardation.guess(tau);
     std::optional<double> next;
     if (guess.light) {
-      best = {tau, guess};
+      if (!best || std::abs(guess.light->late) < std::abs(best->second.light->late))
+        best = {tau, guess};
       if (std::abs(guess.light->late) <= kEnough * guess.body.r) break;
       // The phase of light is the same along a ray: E dt = nu dtau.
       next =

@@ -75,13 +75,14 @@ V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
   return motion_direction(resting);
 }
 
-// Where a body is seen in the tetrad; the hole where it is not.
+// Where a body is seen in the tetrad; the hole where it is not, or where the observer rides it.
 V3d direct_image(const Body& body, const ObserverState& o) {
+  constexpr double kApart = 1e-6;  // M; what is nearer has no direction but that of rounding
   const V3d hole(-1, 0, 0);
   if (!sees_bodies(o)) return hole;
   const PlaceView view{o.r, is_outgoing(o.tetrad), false};
   const auto image = image_of_body(view, o.null_time, motion_of(body, o.sky_from_tetrad), 0, 0);
-  return image ? image->direction : hole;
+  return image && image->angle_per_length * kApart < 1 ? image->direction : hole;
 }
 
 }  // namespace

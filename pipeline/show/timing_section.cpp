@@ -71,7 +71,7 @@ std::optional<ProperTime> read_begin(const Section& s, const Trajectory& traject
   const auto leg = read_leg(s, "from_leg", "from_r");
   if (s.find("from_tau_m")) return read_begin_time(s, trajectory);
   if (!given) {
-    if (!start.tau) s.require("from_r", " (units of M): where the segment begins");
+    if (!start.tau) s.require("from_r", " (units of M): where it begins");
     return start.tau;
   }
   const auto r = s.number("from_r", kRadius);

@@ -16,7 +16,7 @@ TEST_F(ShowErrorsInOrbits, Parabolas) {
        "3:63: timeline[1].trajectory.periastron must exceed 4 (units of M), got 4: what falls from "
        "rest at infinity does not come back from there"},
       {"Parabolas3", moving("{type: parabolic, periastron: 5}"),
-       "3:33: timeline[1].trajectory.from_r is missing (units of M): where the segment begins"},
+       "3:33: timeline[1].trajectory.from_r is missing (units of M): where it begins"},
       {"Parabolas4", moving("{type: parabolic, angular_momentum: 3.9, from_r: 30}"),
        "3:69: timeline[1].trajectory.angular_momentum must exceed 4 (units of M), got 3.9: what "
        "falls from rest at infinity with less is captured"},

@@ -15,11 +15,11 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"AListInsteadOfAMap", "- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, disc, "
-       "bodies, exposure, grade, dome, titles or output), got a list"},
+       "bodies, begins_year, exposure, grade, dome, titles or output), got a list"},
       {"TextInsteadOfAMap", "hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, timeline, "
        "camera, cameras, keyframes, markers, fade_in_s, fade_out_s, effects, sky, stars, disc, "
-       "bodies, exposure, grade, dome, titles or output), got 'hello'"},
+       "bodies, begins_year, exposure, grade, dome, titles or output), got 'hello'"},
       {"TabInIndentation",
        "timeline:\n"
        "	- {duration_s: 2}\n",
