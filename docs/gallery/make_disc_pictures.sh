@@ -29,3 +29,24 @@ oiiotool "$out/graded/disc_00840.png" --ch R,G,B --cut 1000x700+1500+2400 --comp
   -o docs/gallery/disc_crop.jpg
 strip plane 960 988 4
 strip horizon 1740 1789 7
+
+# As the film's renderer had it, and with its shifts of frequency left out, as in the film.
+view() {
+  local name=$1 effects=$2
+  cat >"$out/$name.yaml" <<SHOW
+size: [1600, 800]
+black_hole: {mass_solar: 1e8}
+disc: {inclination_deg: 3.44, inner_r: 9.26, outer_r: 18.7, t_max_k: 4500}
+exposure: {ev: -0.5}
+stars: {min_sigma_deg: 0.03}
+effects: $effects
+camera: {projection: rectilinear, fov_deg: 46, look_at: hole}
+timeline:
+  - {duration_s: 1, trajectory: {type: static, r: 74.1}}
+SHOW
+  "$domefall" render "$out/$name.yaml" --frames 0 --out "$out/$name"
+}
+view film '{doppler_colour: false, intensity: false}'
+view whole '{}'
+oiiotool "$out"/{film/graded/film,whole/graded/whole}_00000.png --mosaic 1x2 --ch R,G,B \
+  --resize 1000x1000 --compression jpeg:86 -o docs/gallery/disc_dngr.jpg
