@@ -45,15 +45,19 @@ Imf::FrameBuffer buffer_of(ImageRgb<T>& frame, Imf::PixelType type) {
   return buffer;
 }
 
-// For the rates that SMPTE ST 12-1 counts by whole frames; other frames bear none.
+// For the rates that SMPTE ST 12-1 counts by whole frames, or from above 30 on by pairs of them, of
+// which the second has the mark of a second field; other frames bear none.
 std::optional<ExrTimeCode> time_code(const FrameInfo& info) {
   const auto rate = static_cast<int>(info.frames_per_second);
   constexpr int kFastest = 30, kMinute = 60, kHour = 60, kDay = 24;
-  if (rate < 1 || rate > kFastest || rate != info.frames_per_second) return std::nullopt;
-  const int seconds = info.frame / rate, minutes = seconds / kMinute;
-  const Imf::TimeCode code(minutes / kHour % kDay, minutes % kHour, seconds % kMinute,
-                           info.frame % rate);
-  return ExrTimeCode{code.timeAndFlags()};
+  const int counted = rate > kFastest ? 2 : 1;
+  if (rate < 1 || rate > 2 * kFastest || rate % counted != 0 || rate != info.frames_per_second)
+    return std::nullopt;
+  const int seconds = info.frame / rate, minutes = seconds / kMinute, frame = info.frame % rate;
+  Imf::TimeCode code(minutes / kHour % kDay, minutes % kHour, seconds % kMinute, frame / counted);
+  code.setFieldPhase(frame % counted == 1);
+  return ExrTimeCode{
+      code.timeAndFlags(rate == 50 ? Imf::TimeCode::TV50_PACKING : Imf::TimeCode::TV60_PACKING)};
 }
 
 std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& info) {
