@@ -77,7 +77,7 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
                          "pericentre_deg", "pericentre_year"});
   const auto period =
       s.required_number("period_years", Range{"years"}.above(0).at_most(kLongestPeriod));
-  const auto eccentricity = s.required_number("eccentricity", Range{""}.at_least(0).below(1));
+  const auto eccentricity = s.required_number("eccentricity", kPureNumber.at_least(0).below(1));
   const auto inclination = s.required_number("inclination_deg", kDegrees.within(0, 180));
   const auto node = s.required_number("node_deg", kDegrees.within(-360, 360));
   const auto pericentre = s.required_number("pericentre_deg", kDegrees.within(-360, 360));

@@ -7,11 +7,14 @@
 #include "trajectories/bound_orbit.h"
 
 namespace domefall {
+namespace {
 
 double semi_latus_rectum(const OrbitalElements& elements) {
   const double e = elements.eccentricity;
   return std::pow(elements.period / (2 * std::numbers::pi), 2.0 / 3) * (1 - e) * (1 + e);
 }
+
+}  // namespace
 
 // With N, E and Z to the north, to the east and away from us, the body is at
 //     N: r (cos Omega cos u - sin Omega sin u cos i),

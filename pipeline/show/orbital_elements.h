@@ -15,13 +15,11 @@ struct OrbitalElements {
   double pericentre;    // from the node, in the sense of the motion
 };
 
-// p = a (1 - e^2), in M, where a is Kepler's: a^3 = (period/2 pi)^2.  The orbit's own period, from
-// pericentre to pericentre, is longer by a part of about 3/a.
-double semi_latus_rectum(const OrbitalElements& elements);
-
 // Lays the orbit into space as it is seen along `line_of_sight`: sets the trajectory, whose tau is
-// 0 at the pericentre, its plane, and its azimuth there.  Throws std::domain_error where the
-// trajectory does (bound_orbit.h).
+// 0 at the pericentre, its plane, and its azimuth there.  Its p is a (1 - e^2), where a is
+// Kepler's, a^3 = (period/2 pi)^2, so that from pericentre to pericentre it takes longer than the
+// period by a part of about 3/a.  Throws std::domain_error where the trajectory does
+// (bound_orbit.h).
 void set_orbit(const OrbitalElements& elements, const SkyDirection& line_of_sight, Body& body);
 
 }  // namespace domefall
