@@ -19,8 +19,8 @@ std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& sta
   if (!sight.sees()) return found;
   for (const Body& body : show.bodies) {
     int faint = 0;
-    for (int order = 0; order < BodySight::kMostOrders && faint < BodySight::kFaintOrders;
-         ++order) {
+    for (int order = sight.first_order(body);
+         order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
       const auto image = sight.image(body, order);
       if (!image) break;
       const BodySight::Seen seen = sight.seen(image->at);

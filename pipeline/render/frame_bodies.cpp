@@ -33,8 +33,8 @@ void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc,
     const StarImageFinder finder(scene, SkyRegion::kI);
     for (const Body& body : show.bodies) {
       int faint = 0;
-      for (int order = 0; order < BodySight::kMostOrders && faint < BodySight::kFaintOrders;
-           ++order) {
+      for (int order = sight.first_order(body);
+           order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
         const auto image = sight.image(body, order);
         if (!image) break;
         const bool bright = append_body(sight, body, *image, disc, scene, finder, images);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/simd/half_row.h"
 #include "projections/projection.h"
 
@@ -20,13 +21,34 @@ constexpr double kExceeding = 0.05;
 // any motion would be infinitely many pixels.
 constexpr double kNarrowest = 0.25;
 
+// How far, in pixels, the direct image of a body moves that is bright enough to be seen.
+double motion_of_bodies(const Show& show, const FrameState& from, const FrameState& to) {
+  constexpr double kFaintest = 10;  // V at 0 EV, fainter than the stars of a default sky
+  const double magnitudes_per_stop = 2.5 * std::log10(2.0);
+  const BodySight before(show, from), after(show, to);
+  if (!before.sees() || !after.sees()) return 0;
+  double most = 0;
+  for (const Body& body : show.bodies) {
+    const auto first = before.image(body, 0), last = after.image(body, 0);
+    if (!first || !last) continue;
+    const BodySight::Seen at = before.seen(first->at);
+    const auto begin = pixel_of(from.projection, at.direction),
+               end = pixel_of(to.projection, after.seen(last->at).direction);
+    const double magnitude = body.magnitude - 2.5 * std::log10(at.brightening);
+    if (begin && end && magnitude < kFaintest + magnitudes_per_stop * from.settings.ev)
+      most = std::max(most, std::hypot(end->i - begin->i, end->j - begin->j));
+  }
+  return most;
+}
+
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
                       OpticsStore& optics) {
   // The store keeps the optics of one radius only, so the first are copied.
   const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
   const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
-  return motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
-                          ViewTracer(to, second, show.effects));
+  return std::max(motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
+                                   ViewTracer(to, second, show.effects)),
+                  motion_of_bodies(show, from, to));
 }
 
 }  // namespace

@@ -9,6 +9,15 @@
 #include "pipeline/render/scene/star_light.h"
 
 namespace domefall {
+namespace {
+
+// Whether the observer is outside a body of that radius.  The lens makes an image behind the hole
+// longer about the axis, but not within the ray's plane.
+bool is_outside(const BodyImage& image, double radius) {
+  return image.angle_per_length * radius < 1;
+}
+
+}  // namespace
 
 BodySight::BodySight(const Show& show, const FrameState& state)
     : show_(show), observer_(state.observer), vantage_(vantage_of(state.observer, show.effects)) {}
@@ -29,14 +38,21 @@ double BodySight::radius_of(const Body& body) const {
   return std::max(star_of(body).angular_radius, show_.least_star_radius) * kBodyMagnitudeDistance;
 }
 
-std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
+std::optional<BodyImage> BodySight::traced(const Body& body, int order) const {
   const PlaceView view{observer_.r, is_outgoing(observer_.tetrad), false};
-  const double radius = radius_of(body);
-  const auto image = image_of_body(view, observer_.null_time,
-                                   motion_of(body, observer_.sky_from_tetrad), order, radius);
-  // Who is within a body sees nothing of it.  The lens makes an image behind the hole longer about
-  // the axis, but not within the ray's plane.
-  if (!image || !(image->angle_per_length * radius < 1)) return std::nullopt;
+  return image_of_body(view, observer_.null_time, motion_of(body, observer_.sky_from_tetrad), order,
+                       radius_of(body));
+}
+
+int BodySight::first_order(const Body& body) const {
+  const auto direct = traced(body, 0);
+  if (!direct || is_outside(*direct, radius_of(body))) return 0;
+  return body.radius > 0 ? kMostOrders : 1;
+}
+
+std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
+  const auto image = traced(body, order);
+  if (!image || !is_outside(*image, radius_of(body))) return std::nullopt;
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
   return Image{{{image->direction}, image->frequency_ratio, light}, *image};

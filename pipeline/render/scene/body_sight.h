@@ -28,6 +28,10 @@ class BodySight {
   // The star that has the body's light at kBodyMagnitudeDistance.
   static SceneStar star_of(const Body& body);
 
+  // The first order that is seen.  Who rides a body of no size does not see it, but for the light
+  // that it sent around the hole before; who is within a sphere sees nothing of it.
+  int first_order(const Body& body) const;
+
   // The image of an order in the tetrad; its amplification is over the light of that star.
   struct Image {
     SkyImage at;
@@ -50,6 +54,7 @@ class BodySight {
 
  private:
   double radius_of(const Body& body) const;
+  std::optional<BodyImage> traced(const Body& body, int order) const;
 
   const Show& show_;
   const ObserverState& observer_;

@@ -10,6 +10,7 @@
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/star_labels.h"
 #include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/shutter.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -106,9 +107,43 @@ TEST(Bodies, GrowTenfoldWithTwoMagnitudesAndAHalf) {
 TEST(Bodies, AreNotSeenFromWithin) {
   Body body = body_at(30, 0, -20);
   body.trajectory = StaticObserver{30};
+  body.radius = 0.1;
   for (const double value : picture(show_with(30, body)).pixels) ASSERT_EQ(value, 0);
   body.azimuth = 0.01;
   EXPECT_GT(light_of(picture(show_with(30, body))).sum, 0);
+}
+
+// The light that it sent around the hole comes back as a ring about the hole's silhouette.
+TEST(Bodies, AreSeenByTheirRiderAroundTheHole) {
+  Body body = body_at(30, 0, -20);
+  body.trajectory = StaticObserver{30};
+  const Show show = show_with(30, body);
+  const FrameState state = frame_state(show, 0);
+  const BodySight sight(show, state);
+  EXPECT_EQ(sight.first_order(show.bodies[0]), 1);
+  const FloatImage frame = picture(show);
+  EXPECT_GT(light_of(frame).sum, 0);
+  EXPECT_EQ(frame.row(100)[3 * 100], 0);  // the body itself would be anywhere
+  const double silhouette = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
+                            central_pixel_angle(show.projection);
+  int brightest = 100;
+  for (int column = 101; column < 201; ++column)
+    if (frame.row(100)[3 * column] > frame.row(100)[3 * brightest]) brightest = column;
+  EXPECT_NEAR(brightest - 100, silhouette, 2);
+}
+
+TEST(Bodies, ThatMoveBlurWhereTheSkyStands) {
+  Show show = show_with(30, body_at(10, 1, -20));
+  show.timeline[0].duration_s = 10;
+  show.timeline[0].timing = {0, 30};  // 3 M a second
+  show.frames_per_second = 1;
+  show.exposure.shutter = 1;
+  OpticsStore optics;
+  const int instants = instants_for(show, frame_state(show, 2), optics);
+  EXPECT_GT(instants, 4);
+  EXPECT_LT(instants, kMostInstants);
+  show.bodies[0].magnitude = 30;
+  EXPECT_EQ(instants_for(show, frame_state(show, 2), optics), 1);
 }
 
 // The area (sr) of the pixels that are brighter than half of the brightest.

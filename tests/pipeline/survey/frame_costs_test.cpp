@@ -40,7 +40,8 @@ TEST_F(LightCosts, OfFewFramesAreAsMany) {
   const Show show = two_segments();
   Renderer renderer(show, 1);
   EXPECT_THAT(relative_light_costs(show, {}, renderer), testing::IsEmpty());
-  EXPECT_THAT(relative_light_costs(show, {7}, renderer), testing::ElementsAre(1));
+  EXPECT_THAT(relative_light_costs(show, {7}, renderer),
+              testing::ElementsAre(testing::DoubleNear(1, 1e-12)));
   EXPECT_THAT(relative_light_costs(show, {7, 15}, renderer), testing::SizeIs(2));
 }
 
