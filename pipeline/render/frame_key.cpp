@@ -17,8 +17,9 @@
 namespace domefall {
 namespace {
 
-// It is raised with every change that alters a pixel, so that older frames are made again.
-constexpr int kPixelVersion = 9;
+// They are raised with every change that alters a pixel, that of bodies where there are any, so
+// that older frames are made again.
+constexpr int kPixelVersion = 9, kBodiesVersion = 2;
 
 // What came after the first version is added only where it is in use, so that other shows keep
 // their keys.
@@ -96,7 +97,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_disc(common, show.disc);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   for (const Body& body : show.bodies) {
-    common.add("body");
+    common.add("body").add(kBodiesVersion);
     for (const V3d& v : {body.normal.v, body.node.v})
       for (const double x : {v.x, v.y, v.z}) common.add(steady(x));
     // Whoever moves freely is told by how it starts.
