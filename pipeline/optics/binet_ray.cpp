@@ -13,6 +13,14 @@
 // Backward in time dr/dp = -k^r and dphi/dp = L/r^2, so w' = k^r / L.  Each form is scaled: y is w
 // or q over its first value, and psi = phi / kappa with kappa = min(1, L / (r |k^r|)), so that
 // nearly radial rays, straight lines in y, neither overflow nor need small steps.
+//
+// Where a ray is stopped on its way, a third component counts the time.  With e = E/L and p = w',
+// for which p^2 = e^2 - (1 - 2 w) w^2, backward in time dt = -e dphi/((1 - 2 w) w^2) and dr* = -p
+// dphi/((1 - 2 w) w^2), so that
+//
+//   dv/dphi = -1/(e - p)   and   du/dphi = -1/(e + p).
+//
+// One of them is regular wherever the ray is, and du = dv - 2 dr* leads from one to the other.
 
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
@@ -20,6 +28,7 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/optics/emission_time.h"
 #include "pipeline/optics/ray_methods.h"
 #include "pipeline/optics/scaled_step_control.h"
 
@@ -28,7 +37,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-using State = std::array<double, 2>;  // y, dy/dpsi
+using State = std::array<double, 3>;  // y, dy/dpsi, and v or u less the observer's
 
 // Where a form takes over from the other.  Inwards a ray that has passed the horizon has no turning
 // point left (c - w^2 + 2 w^3 > 0 for w > 1/2); the gaps keep a ray that turns near 2 in one form.
@@ -36,6 +45,7 @@ constexpr double kToRootInwards = 2.0, kToInverseOutwards = 2.25;
 constexpr double kGapOfShares = 2.0;  // in c r^3 / 2
 
 enum class Form { kInverse, kRoot };  // w, q
+enum class Counted { kNothing, kV, kU };
 
 // The equation of either form, y'' = linear y + power y^2 or y^5.
 struct Equation {
@@ -44,19 +54,22 @@ struct Equation {
   double unit;   // r where y = 1
   double kappa;  // phi = kappa psi
   double linear, power;
+  Counted counted;
   long* evaluations;
 
   void operator()(const State& y, State& dy, double /*psi*/) const {
     ++*evaluations;
     const double square = y[0] * y[0];
     const double high = form == Form::kInverse ? square : square * square * y[0];
-    dy = {y[1], linear * y[0] + power * high};
+    dy = {y[1], linear * y[0] + power * high,
+          counted == Counted::kNothing ? 0 : -kappa / off_horizon(y, counted)};
   }
 
   // The second component is measured against a turn of the orbit too: its own size says nothing at
   // a turning point.
   State scale(const State& y, const State& dy, double h) const {
-    return {std::abs(y[0]) + std::abs(h * dy[0]), std::abs(y[1]) + kappa * std::abs(y[0])};
+    return {std::abs(y[0]) + std::abs(h * dy[0]), std::abs(y[1]) + kappa * std::abs(y[0]),
+            counted == Counted::kNothing ? 1 : std::abs(y[2]) + std::abs(h * dy[2])};
   }
 
   double radius(const State& y) const {
@@ -66,6 +79,11 @@ struct Equation {
   double steepness(const State& y) const {
     return y[1] / (y[0] * kappa) * (form == Form::kInverse ? 1 : -2);
   }
+  // e - p for v, e + p for u: it vanishes on the horizon where that is infinite.
+  double off_horizon(const State& y, Counted of) const {
+    const double p = steepness(y) / radius(y);
+    return of == Counted::kV ? energy_over_l - p : energy_over_l + p;
+  }
 };
 
 struct Arc {
@@ -73,17 +91,48 @@ struct Arc {
   State y;
 };
 
-// c = (E/L)^2; steepness = dln(w)/dphi = r k^r / L.
-Arc arc_at(double r, double steepness, double energy_over_l, Form form, long* evaluations) {
+// c = (E/L)^2; steepness = dln(w)/dphi = r k^r / L; `time` is what has been counted.
+Arc arc_at(double r, double steepness, double energy_over_l, Form form, Counted counted,
+           double time, long* evaluations) {
   const double kappa = 1 / std::max(1.0, std::abs(steepness));
-  const double slope = kappa * steepness;
-  if (form == Form::kInverse)
-    return {{form, energy_over_l, r, kappa, -kappa * kappa, 3 * kappa * kappa / r, evaluations},
-            {1, slope}};
+  const double slope = kappa * steepness, square = kappa * kappa;
   const double scaled_energy = kappa * energy_over_l * r;
-  return {{form, energy_over_l, r, kappa, -kappa * kappa / 4, 0.75 * scaled_energy * scaled_energy,
-           evaluations},
-          {1, -slope / 2}};
+  const bool inverse = form == Form::kInverse;
+  return {{form, energy_over_l, r, kappa, inverse ? -square : -square / 4,
+           inverse ? 3 * square / r : 0.75 * scaled_energy * scaled_energy, counted, evaluations},
+          {1, inverse ? slope : -slope / 2, time}};
+}
+
+// The place's null coordinates less those of an observer at that r*.
+NullTimes passed_times(const Arc& arc, double observer_star) {
+  const double stars = 2 * (tortoise(arc.equation.radius(arc.y)) - observer_star);
+  const double time = arc.y[2];
+  return arc.equation.counted == Counted::kV ? NullTimes{time, time - stars}
+                                             : NullTimes{time + stars, time};
+}
+
+// Counts the other coordinate from here on if that is further off its horizon, by a factor that
+// keeps a ray between the two from changing to and fro; says whether it is so.
+bool change_coordinate(Arc& arc, double observer_star) {
+  constexpr double kGap = 2;
+  const auto off = [&arc](Counted of) { return std::abs(arc.equation.off_horizon(arc.y, of)); };
+  const Counted now = arc.equation.counted, other = now == Counted::kV ? Counted::kU : Counted::kV;
+  if (kGap * off(now) > off(other)) return false;
+  const NullTimes both = passed_times(arc, observer_star);
+  arc.y[2] = other == Counted::kV ? both.v : both.u;
+  arc.equation.counted = other;
+  return true;
+}
+
+// The step of psi over which e - p or e + p changes by a tenth of itself, p' being 3 w^2 - w, so
+// that none passes the horizon where the coordinate in use is infinite.  Fehlberg's 7(8) is blind
+// to the time's error: its two formulas differ by stages at the ends of the step, of which a
+// quadrature sees no difference.
+double step_to_horizon(const Arc& arc) {
+  constexpr double kShare = 0.1;
+  const double w = 1 / arc.equation.radius(arc.y), rate = std::abs(w * (3 * w - 1));
+  const double off = std::abs(arc.equation.off_horizon(arc.y, arc.equation.counted));
+  return kShare * off / (arc.equation.kappa * rate + std::numeric_limits<double>::min());
 }
 
 // The part of a step h from y after which y vanishes, by Newton's method on the step itself, so
@@ -137,8 +186,12 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
 
   IntegratedRay ray = undecided_ray();
   const double energy_over_l = photon.energy / photon.angular_momentum;
+  const double observer_star = tortoise(photon.r);
+  const bool stops = std::isfinite(until);
+  const Counted regular = photon.energy * photon.radial > 0 ? Counted::kU : Counted::kV;
   Arc arc = arc_at(photon.r, photon.r * (photon.radial / photon.angular_momentum), energy_over_l,
-                   first_form(photon.r, energy_over_l), &ray.evaluations);
+                   first_form(photon.r, energy_over_l), stops ? regular : Counted::kNothing, 0,
+                   &ray.evaluations);
   std::optional<Stepper> stepper;
   double phi = 0, psi = 0, h = kFirstStep;
   for (; ray.steps < kRayStepBudget; ++ray.steps) {
@@ -152,10 +205,12 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
       error_stepper.do_step(arc.equation, before, 0.0, at, part);
       ray.phi = until;
       ray.r = arc.equation.radius(at);
+      ray.passed = passed_times({arc.equation, at}, observer_star);
       ++ray.steps;
       return ray;
     };
     h = std::min(h, kLargestStep / arc.equation.kappa);
+    if (stops) h = std::min(h, step_to_horizon(arc));
     if (!stepper)
       stepper.emplace(ScaledErrorChecker(arc.equation, tolerance),
                       typename Stepper::step_adjuster_type(), blank_stepper<ErrorStepper>());
@@ -169,12 +224,14 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
       return ray;
     }
     if (phi + arc.equation.kappa * psi >= until) return stopped();
+    if (stops && change_coordinate(arc, observer_star)) stepper.reset();
     if (!other_form_is_due(arc.equation, arc.y)) continue;
     phi += arc.equation.kappa * psi;
     psi = 0;
     h = kFirstStep;
     arc = arc_at(arc.equation.radius(arc.y), arc.equation.steepness(arc.y), energy_over_l,
-                 arc.equation.form == Form::kRoot ? Form::kInverse : Form::kRoot, &ray.evaluations);
+                 arc.equation.form == Form::kRoot ? Form::kInverse : Form::kRoot,
+                 arc.equation.counted, arc.y[2], &ray.evaluations);
     stepper.reset();
   }
   return ray;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/optics/emission_time.h"
 #include "pipeline/optics/ray_methods.h"
 
 namespace domefall {
@@ -92,6 +93,14 @@ double azimuth_to_singularity(double inverse_b, double r) {
 
 double radius_of(const ChartedRay& ray) {
   return ray.chart == Chart::kSchwarzschild ? ray.y[1] : 2 + radius_less_two(ray.y[0] * ray.y[1]);
+}
+
+NullTimes null_times_of(const ChartedRay& ray) {
+  if (ray.chart == Chart::kKruskal)
+    return {ray.shift + 4 * std::log(std::abs(ray.y[0])),
+            ray.shift - 4 * std::log(std::abs(ray.y[1]))};
+  const double t = ray.y[0], star = tortoise(ray.y[1]);
+  return {t + star, t - star};
 }
 
 ChartedRay charted_ray(const PhotonAtObserver& photon) {

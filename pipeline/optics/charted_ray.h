@@ -27,6 +27,9 @@ struct RayGoals {
 
 double radius_of(const ChartedRay& ray);  // units of M
 
+// v and u of a place on the ray, units of M: 4 ln|U| and -4 ln|V| in Kruskal's chart.
+NullTimes null_times_of(const ChartedRay& ray);
+
 // t = 0 at the observer: all else is a shift.
 ChartedRay charted_ray(const PhotonAtObserver& photon);
 

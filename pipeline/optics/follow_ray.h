@@ -23,6 +23,7 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
   IntegratedRay result = undecided_ray();
   ChartedRay ray = charted_ray(photon);
   const bool stops = std::isfinite(until);
+  const NullTimes seen = null_times_of(ray);
   RayGoals goals = goals_of(photon);
   if (stops) goals = {1e15, 1e-10};
   const auto equations_of = [&result](const ChartedRay& at) {
@@ -41,6 +42,8 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
     if (stops && left <= kReached * until) {
       result.phi = until;
       result.r = radius_of(ray);
+      const NullTimes there = null_times_of(ray);
+      result.passed = {there.v - seen.v, there.u - seen.u};
       return result;
     }
     if (const auto origin = origin_of(ray, goals)) {

@@ -48,6 +48,13 @@ struct PhotonAtObserver {
   double radial = 0;            // k^r
 };
 
+// The null coordinates of a place less those of the observer, v = t + r* and u = t - r* with r* = r
+// + 2 ln|r/2 - 1|, units of M.  NaN or infinite is one that is infinite at either, being that of
+// the other horizon.
+struct NullTimes {
+  double v = 0, u = 0;
+};
+
 enum class Integrator { kPaperRk4, kFullDopri5, kFullRkf78, kBinetDopri5, kBinetRkf78 };
 
 struct IntegratedRay {
@@ -58,6 +65,7 @@ struct IntegratedRay {
   long steps = 0;        // attempted, rejected ones included
   long evaluations = 0;  // of the right-hand side; none for a radial ray of Binet's equation
   double r = 0;          // where it was stopped on its way (units of M); 0 if it was not
+  NullTimes passed;      // of the stopped ray: when its light was there
 };
 
 // No ray takes more attempted steps; one that would is undecided.
@@ -67,8 +75,9 @@ inline constexpr long kRayStepBudget = 100000;
 IntegratedRay integrate_ray(const PhotonAtObserver& photon, Integrator integrator,
                             double tolerance);
 
-// Where the ray is after having swept psi > 0 radians, as IntegratedRay::r, unless it has ended
-// (then origin tells where) or whirls for ever.  Between 1e-10 and 1e15.
+// Where the ray is after having swept psi > 0 radians, as IntegratedRay::r and passed, unless it
+// has ended (then origin tells where) or whirls for ever.  r lies between 1e-10 and 1e15.  The
+// step control of Binet's equation includes the time; the second-order sets carry t along.
 IntegratedRay integrate_ray_to(double psi, const PhotonAtObserver& photon, Integrator integrator,
                                double tolerance);
 

@@ -20,7 +20,7 @@ IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance,
 IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until);
 
 inline IntegratedRay undecided_ray() {
-  return {std::nullopt, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0};
+  return {std::nullopt, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, {}};
 }
 
 // The sky that an outgoing ray (backward in time) ends in.

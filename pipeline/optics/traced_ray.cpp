@@ -230,11 +230,12 @@ std::optional<TracedPlace> trace_place(const RayRequest& q, double psi, TraceMet
   const View view = view_of(q.observer);
   const NullRay ray = ray_of(q, view);
   if (is_integrator(method)) {
-    if (psi == 0) return TracedPlace{q.at.r, kNone};
+    if (psi == 0) return TracedPlace{q.at.r, 0};
     const double delta = q.edge ? seen(ray, view).delta : static_cast<double>(q.delta);
     const IntegratedRay there = integrate_ray_to(psi, photon_at(q.observer, q.at, delta),
                                                  integrator_of(method), options.tolerance);
-    return there.r > 0 ? std::optional(TracedPlace{there.r, kNone}) : std::nullopt;
+    if (!(there.r > 0)) return std::nullopt;
+    return TracedPlace{there.r, ray.outgoing ? there.passed.u : there.passed.v};
   }
   RayOrbits orbits;
   orbits.set(q.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},

@@ -90,8 +90,7 @@ TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions&
 // Where that ray is after having swept psi >= 0, and when its light was there.
 struct TracedPlace {
   double r;  // units of M
-  // The place's v less the observer's, u in the outgoing frame and T_IV (ray_times.h), units of M;
-  // NaN from integrators.
+  // The place's v less the observer's, u in the outgoing frame and T_IV (ray_times.h), units of M.
   double null_time;
 };
 

@@ -164,22 +164,24 @@ std::string places(const Report& report) {
   std::string page = fmt::format(
       "## Places along rays\n\n"
       "Where rays of all these classes are on their way, between 0.02 and 0.98 of the azimuth that "
-      "they sweep, against the\norbit's equation in 50 digits "
-      "(`pipeline/report/reference/reference_position.h`). *exact* and *table* find the place\nby "
-      "its angle from an end of the orbit, by functions that double with the angle; *table* is "
-      "what "
-      "renders: in\na frame 128 rays are taken at a time, {:.0f} ns for what stays the same along "
-      "a ray and {:.0f} ns for a place, and\nfor the time of light's flight {:.0f} and {:.0f} ns "
-      "more. Nothing is built for a radius.\n\n"
-      "| rays | method | tolerance | places | missing | worst error of r, relative | 99 of 100 "
-      "below | ns "
-      "|\n|---|---|---|---|---|---|---|---|\n",
+      "they sweep, and when their\nlight was there, against the orbit's equation in 50 digits "
+      "(`pipeline/report/reference/reference_position.h`).\n*exact* and *table* find the place by "
+      "its angle from an end of the orbit, by functions that double with the angle,\nand the time "
+      "by one function; *table* is what renders: in\na frame 128 rays are taken at a time, {:.0f} "
+      "ns for what stays the same along a ray and {:.0f} ns for a place, and\nfor the time of "
+      "light's flight {:.0f} and {:.0f} ns "
+      "more. Nothing is built for a radius. Times are null coordinates (v, or u in "
+      "the outgoing frame); their\nerrors count in M, or in the time itself where that is more.\n\n"
+      "| rays | method | tolerance | places | missing | r, worst, relative | r, 99 of 100 | time, "
+      "worst | time, 99 of 100 | ns "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n",
       speed.ray, speed.place, speed.ray_time, speed.place_time);
   for (const PositionErrorRow& r : report.positions)
-    page +=
-        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", r.at_edge ? "edge" : "others",
-                    r.method, r.tolerance > 0 ? fmt::format("{:.0e}", r.tolerance) : "", r.places,
-                    r.missing, error(r.worst), error(r.r_99), amount(r.ns_per_place));
+    page += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+                        r.at_edge ? "edge" : "others", r.method,
+                        r.tolerance > 0 ? fmt::format("{:.0e}", r.tolerance) : "", r.places,
+                        r.missing, error(r.r.worst), error(r.r.most), error(r.time.worst),
+                        error(r.time.most), amount(r.ns_per_place));
   return page + "\n";
 }
 

@@ -19,7 +19,8 @@ namespace {
 // A place to be found, and the truth.
 struct SamplePlace {
   RayRequest request;
-  double psi, r;
+  double psi;
+  ReferenceRayPlace place;
 };
 
 std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
@@ -40,6 +41,13 @@ std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
   return places;
 }
 
+PositionErrorRow::Errors summary(std::vector<double> errors) {
+  if (errors.empty()) return {0, 0};
+  std::sort(errors.begin(), errors.end());
+  const auto count = static_cast<double>(errors.size());
+  return {errors.back(), errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1]};
+}
+
 PositionErrorRow measured(bool at_edge, const std::vector<SamplePlace>& places,
                           const NamedTraceMethod& by, double tolerance) {
   TraceOptions options;
@@ -50,19 +58,21 @@ PositionErrorRow measured(bool at_edge, const std::vector<SamplePlace>& places,
   for (const SamplePlace& place : places)
     found.push_back(trace_place(place.request, place.psi, by.method, options));
   const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
-  std::vector<double> errors;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (found[k]) errors.push_back(std::abs(found[k]->r / places[k].r - 1));
-  std::sort(errors.begin(), errors.end());
-  const auto count = static_cast<double>(errors.size());
-  const bool none = errors.empty();
+  std::vector<double> of_r, of_time;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!found[k]) continue;
+    const ReferenceRayPlace& truth = places[k].place;
+    of_r.push_back(std::abs(found[k]->r / truth.r - 1));
+    of_time.push_back(std::abs(found[k]->null_time - truth.null_time) /
+                      std::max(1.0, std::abs(truth.null_time)));
+  }
   return {at_edge,
           by.name,
           tolerance,
           static_cast<int>(places.size()),
-          static_cast<int>(places.size() - errors.size()),
-          none ? 0 : errors.back(),
-          none ? 0 : errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1],
+          static_cast<int>(places.size() - of_r.size()),
+          summary(of_r),
+          summary(of_time),
           passed.count() / static_cast<double>(places.size())};
 }
 

@@ -1,5 +1,5 @@
-// Error against run time of every method to find a place along a ray.  The truth is
-// reference_position.
+// Error against run time of every method to find a place along a ray and when its light was there.
+// The truth is reference_position.
 #pragma once
 
 #include <string>
@@ -12,8 +12,12 @@ struct PositionErrorRow {
   std::string method;  // as in `domefall trace --method`
   double tolerance;    // of an integrator, else 0
   int places;
-  int missing;          // for which the method found no place; these are not in the errors
-  double worst, r_99;   // relative errors of r: the worst, and what 99 of 100 places stay below
+  int missing;  // for which the method found no place; these are not in the errors
+  // Errors, relative ones of r and those of the null time in units of max(1 M, the time itself):
+  // the worst, and what 99 of 100 places stay below.
+  struct Errors {
+    double worst, most;
+  } r, time;
   double ns_per_place;  // of one ray by itself
 };
 

@@ -52,11 +52,12 @@ std::string csv_of(const std::vector<RayErrorRow>& rows) {
 }
 
 std::string csv_of(const std::vector<PositionErrorRow>& rows) {
-  std::string csv = "rays,method,tolerance,places,missing,worst,r_99,ns_per_place\n";
+  std::string csv =
+      "rays,method,tolerance,places,missing,r_worst,r_99,time_worst,time_99,ns_per_place\n";
   for (const PositionErrorRow& r : rows)
-    csv +=
-        joined({r.at_edge ? "edge" : "others", r.method, n(r.tolerance), fmt::to_string(r.places),
-                fmt::to_string(r.missing), n(r.worst), n(r.r_99), n(r.ns_per_place)});
+    csv += joined({r.at_edge ? "edge" : "others", r.method, n(r.tolerance),
+                   fmt::to_string(r.places), fmt::to_string(r.missing), n(r.r.worst), n(r.r.most),
+                   n(r.time.worst), n(r.time.most), n(r.ns_per_place)});
   return csv;
 }
 

@@ -48,16 +48,19 @@ for method in methods - {'exact'}:
     assert fine < coarse / 100, (method, settings, total)
 
 # Places along rays: what renders and the closed form within 1e-8, each integrator better by a finer tolerance.
-places = rows('positions.csv', ['tolerance', 'places', 'missing', 'worst', 'r_99', 'ns_per_place'])
+places = rows('positions.csv', ['tolerance', 'places', 'missing', 'r_worst', 'r_99', 'time_worst', 'time_99', 'ns_per_place'])
 assert {row['method'] for row in places} == methods, places
 assert {row['rays'] for row in places} == {'edge', 'others'}, places
 for row in places:
-    assert float(row['ns_per_place']) > 1 and float(row['r_99']) <= float(row['worst']), row
-    if row['method'] in limit:
-        assert row['missing'] == '0' and 0 < float(row['worst']) < 1e-10, row
+    assert float(row['ns_per_place']) > 1, row
+    for what in ('r', 'time'):
+        assert float(row[what + '_99']) <= float(row[what + '_worst']), row
+        if row['method'] in limit:
+            assert row['missing'] == '0' and 0 < float(row[what + '_worst']) < 1e-10, row
 for method in methods - set(limit):
-    coarse, *_, fine = [float(row['r_99']) for row in places if row['method'] == method and row['rays'] == 'others']
-    assert fine < coarse / 100, (method, coarse, fine)
+    for what in ('r_99', 'time_99'):
+        coarse, *_, fine = [float(row[what]) for row in places if row['method'] == method and row['rays'] == 'others']
+        assert fine < coarse / 100, (method, what, coarse, fine)
 
 frames = rows('frames.csv', ['rms', 'worst', 'seconds', 'copies'])
 scenes = {row['scene'] for row in frames}

@@ -68,8 +68,8 @@ row 'rain,0x10,1,,'
 exits 2 "$DOMEFALL" trace --table "$folder/bad.csv"
 says "bad.csv:2: r must be a number, got '0x10'"
 
-# Places along rays: the 224 of the reference by what renders and by the closed form, one by every integrator, and empty
-# cells where a ray has ended or psi is not given.
+# Places along rays: the 224 of the reference by what renders and by the closed form, one and its time by every
+# integrator, and empty cells where a ray has ended or psi is not given.
 for method in table exact; do
   exits 0 "$DOMEFALL" trace --table "$DOMEFALL_SOURCE/tests/reference/positions.csv" --method "$method"
   python3 - "$DOMEFALL_SOURCE/tests/reference/positions.csv" "$folder/stdout" <<'END'
@@ -87,8 +87,10 @@ printf 'observer,r,delta,psi\nrain,10,1,1\nrain,10,1,9\nrain,10,1,\nrain,10,0,1\
 for method in rk4 dopri5 rkf78 binet-dopri5 binet-rkf78 exact table; do
   exits 0 "$DOMEFALL" trace --table "$folder/psi.csv" --method "$method"
   sed -n 2p "$folder/stdout" | cut -d, -f11 | grep -q '^13\.06725101[0-9]*$' || fail "$method: r_there"
+  sed -n 2p "$folder/stdout" | cut -d, -f12 | grep -q '^-9\.08246619[0-9]*$' || fail "$method: null_time"
   for row in 3 4 5; do sed -n ${row}p "$folder/stdout" | grep -q ',,$' || fail "$method: row $row has a place"; done
   sed -n 6p "$folder/stdout" | cut -d, -f11 | grep -q '^0\.[0-9]*$' || fail "$method: r_there in region IV"
+  sed -n 6p "$folder/stdout" | cut -d, -f12 | grep -q '^-0\.1538045894[0-9]*$' || fail "$method: null_time in region IV"
 done
 printf 'observer,r,delta,psi\nrain,10,1,-1\n' >"$folder/psi.csv"
 exits 2 "$DOMEFALL" trace --table "$folder/psi.csv"

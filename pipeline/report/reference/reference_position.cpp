@@ -23,9 +23,9 @@ TaylorSeries orbit_series(const Digits50& w, const Digits50& slope) {
   return a;
 }
 
-// The step over which the last terms are 1e-40 of w.
+// The step over which the last terms are 1e-40 of the first.
 double step_of(const TaylorSeries& a) {
-  const double size = std::log(static_cast<double>(a[0]));
+  const double size = std::log(static_cast<double>(abs(a[0])));
   const auto allowed = [&](int n) {
     const double term = static_cast<double>(abs(a[n]));
     return term > 0 ? std::exp((size - 40 * std::log(10.0) - std::log(term)) / n) : 1.0;
@@ -33,21 +33,69 @@ double step_of(const TaylorSeries& a) {
   return std::min(allowed(kOrder), allowed(kOrder - 1));
 }
 
+Digits50 sum_at(const TaylorSeries& a, const Digits50& h) {
+  Digits50 sum = a[kOrder];
+  for (int n = kOrder - 1; n >= 0; --n) sum = sum * h + a[n];
+  return sum;
+}
+
+// The last term is 0: it would take one more of w.
+TaylorSeries derivative(const TaylorSeries& a) {
+  TaylorSeries d{};
+  for (int n = 0; n < kOrder; ++n) d[n] = (n + 1) * a[n + 1];
+  return d;
+}
+
+// 1/a: sum a_k q_(n-k) = 0.
+TaylorSeries reciprocal(const TaylorSeries& a) {
+  TaylorSeries q{1 / a[0]};
+  for (int n = 1; n <= kOrder; ++n) {
+    Digits50 sum = 0;
+    for (int k = 1; k <= n; ++k) sum += a[k] * q[n - k];
+    q[n] = -sum / a[0];
+  }
+  return q;
+}
+
+Digits50 star(const Digits50& r) { return r + 2 * log(abs(r / 2 - 1)); }
+
+// With e = E/L the metric gives dv/dpsi = -1/(e - w') and du/dpsi = -1/(e + w'), back in time.  The
+// one of them that is regular here:
+struct Clock {
+  bool counts_v;
+  TaylorSeries rate;  // of -v or -u
+};
+
+Clock clock_at(const Digits50& e, const TaylorSeries& slope) {
+  const bool counts_v = e * slope[0] <= 0;
+  TaylorSeries off{};
+  for (int n = 0; n <= kOrder; ++n) off[n] = counts_v ? Digits50(-slope[n]) : slope[n];
+  off[0] += e;
+  return {counts_v, reciprocal(off)};
+}
+
 }  // namespace
 
-double reference_position(const ReferenceRequest& q, double psi) {
+ReferenceRayPlace reference_position(const ReferenceRequest& q, double psi) {
   const ReferenceInvariants k = reference_invariants(q);
-  Digits50 w(1 / q.r), slope(k.radial / k.angular_momentum);
+  const bool wants_v =
+      q.observer != ReferenceObserver::kOutgoing && q.observer != ReferenceObserver::kFour;
+  const Digits50 e(k.energy / k.angular_momentum);
+  Digits50 w(1 / q.r), slope(k.radial / k.angular_momentum), time = 0;
   for (double left = psi; left > 0;) {
-    const TaylorSeries a = orbit_series(w, slope);
-    const double h = std::min(left, step_of(a));
-    w = a[kOrder];
-    slope = kOrder * a[kOrder];
-    for (int n = kOrder - 1; n >= 0; --n) w = w * h + a[n];
-    for (int n = kOrder - 1; n >= 1; --n) slope = slope * h + n * a[n];
+    const TaylorSeries orbit = orbit_series(w, slope), slopes = derivative(orbit);
+    const Clock clock = clock_at(e, slopes);
+    const double h = std::min({left, step_of(orbit), step_of(clock.rate)});
+    const Digits50 star_before = clock.counts_v == wants_v ? Digits50(0) : star(1 / w);
+    w = sum_at(orbit, h);
+    slope = sum_at(slopes, h);
+    TaylorSeries passed{};
+    for (int n = 0; n < kOrder; ++n) passed[n + 1] = clock.rate[n] / (n + 1);
+    time -= sum_at(passed, h);
+    if (clock.counts_v != wants_v) time += (wants_v ? 2 : -2) * (star(1 / w) - star_before);
     left -= h;
   }
-  return static_cast<double>(1 / w);
+  return {static_cast<double>(1 / w), static_cast<double>(time)};
 }
 
 }  // namespace domefall

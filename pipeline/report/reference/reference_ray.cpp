@@ -14,7 +14,7 @@ Wide square(const Wide& x) { return x * x; }
 
 using Invariants = ReferenceInvariants;
 
-Invariants invariants(ReferenceObserver observer, const Wide& r, const Wide& delta) {
+Invariants plain_invariants(ReferenceObserver observer, const Wide& r, const Wide& delta) {
   const Wide c = cos(delta), l = r * sin(delta), s = sqrt(2 / r);
   const Wide at_rest = sqrt(abs(1 - 2 / r));
   switch (observer) {
@@ -34,29 +34,29 @@ Invariants invariants(ReferenceObserver observer, const Wide& r, const Wide& del
 
 // ---- Where the ray came from ----
 
-enum class Path { kFromSky, kFromSkyTurning, kFromSingularity, kFromSingularityTurning };
+enum class OrbitPath { kFromSky, kFromSkyTurning, kFromSingularity, kFromSingularityTurning };
 
 struct Course {
   ReferenceOrigin origin;
-  Path path;
+  OrbitPath path;
 };
 
 Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k) {
   using enum ReferenceOrigin;
   const bool white_hole =
       observer == ReferenceObserver::kFour || (observer == ReferenceObserver::kOutgoing && r <= 2);
-  if (white_hole) return {kPastSingularity, Path::kFromSingularity};
+  if (white_hole) return {kPastSingularity, OrbitPath::kFromSingularity};
   const bool captured = square(k.angular_momentum) < 27 * square(k.energy);  // b < b_c
   if (r <= 2) {
-    if (!captured) return {kPastSingularity, Path::kFromSingularityTurning};
-    return {k.energy > 0 ? kSkyOne : kSkyThree, Path::kFromSky};
+    if (!captured) return {kPastSingularity, OrbitPath::kFromSingularityTurning};
+    return {k.energy > 0 ? kSkyOne : kSkyThree, OrbitPath::kFromSky};
   }
   if (k.radial < 0) {
-    if (captured || r > 3) return {kSkyOne, Path::kFromSky};
-    return {kPastSingularity, Path::kFromSingularityTurning};
+    if (captured || r > 3) return {kSkyOne, OrbitPath::kFromSky};
+    return {kPastSingularity, OrbitPath::kFromSingularityTurning};
   }
-  if (r > 3 && !captured) return {kSkyOne, Path::kFromSkyTurning};
-  return {kPastSingularity, Path::kFromSingularity};
+  if (r > 3 && !captured) return {kSkyOne, OrbitPath::kFromSkyTurning};
+  return {kPastSingularity, OrbitPath::kFromSingularity};
 }
 
 // ---- The azimuth ----
@@ -101,15 +101,15 @@ struct ThreeRealRoots {
   Wide above(const Wide& w) const {
     return sqrt(Wide(2)) * ellint_rf(Wide(w - w1), Wide(w - w2), Wide(w - w3));
   }
-  Wide swept(const Wide& w, Path path) const {
+  Wide swept(const Wide& w, OrbitPath path) const {
     switch (path) {
-      case Path::kFromSky:
+      case OrbitPath::kFromSky:
         return below(w) - below(0);
-      case Path::kFromSkyTurning:
+      case OrbitPath::kFromSkyTurning:
         return 2 * below(w2) - below(w) - below(0);
-      case Path::kFromSingularityTurning:
+      case OrbitPath::kFromSingularityTurning:
         return 2 * above(w1) - above(w);
-      case Path::kFromSingularity:
+      case OrbitPath::kFromSingularity:
         break;
     }
     return above(w);
@@ -119,7 +119,7 @@ struct ThreeRealRoots {
 // With w = t/3 + 1/6, P = 0 becomes 4 t^3 - 3 t = 1 - 54/b^2.  Its roots are cosines if b > b_c,
 // since cos(3 psi) = 4 cos^3(psi) - 3 cos(psi), and its only real root else is minus a hyperbolic
 // cosine.
-Wide swept_azimuth(const Invariants& k, const Wide& r, Path path) {
+Wide swept_azimuth(const Invariants& k, const Wide& r, OrbitPath path) {
   if (k.angular_momentum == 0) return 0;
   const Wide inverse_b2 = square(k.energy / k.angular_momentum), w = 1 / r;
   const Wide q = 1 - 54 * inverse_b2;
@@ -130,12 +130,12 @@ Wide swept_azimuth(const Invariants& k, const Wide& r, Path path) {
         w, path);
   }
   const OneRealRoot g(inverse_b2, root(-cosh(acosh(Wide(-q)) / 3)));
-  return path == Path::kFromSky ? g.to(w) - g.to(0) : g.to_infinity() - g.to(w);
+  return path == OrbitPath::kFromSky ? g.to(w) - g.to(0) : g.to_infinity() - g.to(w);
 }
 
 // The azimuth is odd about the axis, as L is, so delta may run over both ends of [0, pi].
-Wide signed_azimuth(ReferenceObserver observer, const Wide& r, const Wide& delta, Path path) {
-  const Invariants k = invariants(observer, r, delta);
+Wide signed_azimuth(ReferenceObserver observer, const Wide& r, const Wide& delta, OrbitPath path) {
+  const Invariants k = plain_invariants(observer, r, delta);
   const Wide swept = swept_azimuth(k, r, path);
   return k.angular_momentum < 0 ? -swept : swept;
 }
@@ -181,13 +181,13 @@ Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edg
 }
 
 ReferenceInvariants reference_invariants(const ReferenceRequest& q) {
-  return invariants(q.observer, q.r, delta_of(q));
+  return plain_invariants(q.observer, q.r, delta_of(q));
 }
 
 ReferenceRay reference_ray(const ReferenceRequest& q) {
   check(q.observer, q.r);
   const Wide delta = delta_of(q);
-  const Invariants k = invariants(q.observer, q.r, delta);
+  const Invariants k = plain_invariants(q.observer, q.r, delta);
   const Course course = course_of(q.observer, q.r, k);
   const auto phi = [&](const Wide& at) { return signed_azimuth(q.observer, q.r, at, course.path); };
   const Wide h("1e-40");

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include "pipeline/optics/ray_request.h"
+#include "pipeline/optics/traced_ray.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -21,7 +24,15 @@ TEST(ReferencePosition, IsThatOfTheReferenceRows) {
     for (std::string* cell : {&observer, &r, &delta, &psi, &origin, &there})
       std::getline(cells, *cell, ',');
     const ReferenceRequest request{ReferenceObserver::kRain, Wide(r), Wide(delta), std::nullopt, 0};
-    EXPECT_NEAR(reference_position(request, std::stod(psi)) / std::stod(there), 1, 1e-11) << line;
+    const ReferenceRayPlace place = reference_position(request, std::stod(psi));
+    EXPECT_NEAR(place.r / std::stod(there), 1, 1e-11) << line;
+    // The closed form of the time shares no code with the series.
+    const auto closed =
+        trace_place(ray_at_angle(TraceObserver::kRain, decimal_radius(r), std::stold(delta)),
+                    std::stod(psi), TraceMethod::kExact);
+    ASSERT_TRUE(closed) << line;
+    EXPECT_NEAR(closed->null_time, place.null_time, 1e-10 * (1 + std::abs(place.null_time)))
+        << line;
   }
   EXPECT_EQ(rows, 224);
 }
