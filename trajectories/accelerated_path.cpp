@@ -21,14 +21,14 @@ constexpr double kTolerance = 1e-13;
 constexpr int kDepth = 40;             // halvings of a panel
 constexpr std::size_t kPanels = 4000;  // of a piece
 constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
-constexpr double kRounding =
+constexpr double kEndRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
 // From key to key, of t = 0 to 1: c0 + t (c1 + t (c2 + t c3)).
-struct Cubic {
+struct PathPiece {
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
 
-  static Cubic hermite(double from, double to, double slope_from, double slope_to) {
+  static PathPiece hermite(double from, double to, double slope_from, double slope_to) {
     const double rise = to - from;
     return {from, slope_from, 3 * rise - 2 * slope_from - slope_to,
             slope_from + slope_to - 2 * rise};
@@ -40,7 +40,7 @@ struct Cubic {
 
 struct Piece {
   double begin, end;  // proper time
-  Cubic r, azimuth;
+  PathPiece r, azimuth;
 };
 
 struct Rates {
@@ -148,8 +148,8 @@ std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
     const double span = taus[k + 1] - taus[k];
     pieces.push_back(
         {taus[k], taus[k + 1],
-         Cubic::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
-         Cubic::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
+         PathPiece::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
+         PathPiece::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
   }
   return pieces;
 }
@@ -169,7 +169,7 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
 }
 
 // Where the cubic turns, between 0 and 1, with both ends.
-std::vector<double> turns_of(const Cubic& c) {
+std::vector<double> turns_of(const PathPiece& c) {
   std::vector<double> cuts{0};
   const double a = 3 * c.c3, b = c.c2, under = b * b - a * c.c1;
   if (under > 0) {
@@ -192,7 +192,7 @@ void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
   for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
 }
 
-double where(const Cubic& c, double value, double low, double high) {
+double where(const PathPiece& c, double value, double low, double high) {
   const auto f = [&](double t) { return c.at(t) - value; };
   if (f(low) == 0) return low;
   if (f(high) == 0) return high;
@@ -292,7 +292,7 @@ double AcceleratedPath::begin() const { return tables_->pieces.front().begin; }
 double AcceleratedPath::end() const { return tables_->pieces.back().end; }
 
 OrbitPoint AcceleratedPath::at(double tau) const {
-  const double slack = kRounding * (end() - begin());
+  const double slack = kEndRounding * (end() - begin());
   if (!(tau >= begin() - slack && tau <= end() + slack))
     throw std::domain_error("proper time " + short_number(tau) +
                             " (units of M) is not on the path");

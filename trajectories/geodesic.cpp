@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-using Kind = OrbitCurve::Kind;
+using PathKind = OrbitCurve::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kApexParameter = 1e-6;  // E = 0: 1 - r/2 = tanh^2 of it
@@ -35,10 +35,12 @@ struct Geodesic::Tables {
   OrbitTable table;
 
   bool is_born() const {
-    return curve.kind() == Kind::kReturning || curve.kind() == Kind::kEscaping;
+    return curve.kind() == PathKind::kReturning || curve.kind() == PathKind::kEscaping;
   }
-  bool dies() const { return curve.kind() == Kind::kReturning || curve.kind() == Kind::kPlunging; }
-  bool is_bound() const { return curve.kind() == Kind::kBound; }
+  bool dies() const {
+    return curve.kind() == PathKind::kReturning || curve.kind() == PathKind::kPlunging;
+  }
+  bool is_bound() const { return curve.kind() == PathKind::kBound; }
   double period() const { return table.end().tau - table.begin().tau; }
   OrbitPoint state(double s) const;
   OrbitPoint apex_state(double s) const;

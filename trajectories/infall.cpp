@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-using Kind = OrbitCurve::Kind;
+using FallKind = OrbitCurve::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of gamma: an energy below it is what rounding leaves of 0.
@@ -21,9 +21,9 @@ const char* const kUnitsOfM = "units of M";
 
 // In rain from the throw on.
 double turn_of(const OrbitStart& start) {
-  const Kind kind = start.curve.kind();
-  if (kind == Kind::kEscaping) return start.parameter;
-  return kind == Kind::kReturning ? std::min(start.parameter, 0.0) : -kInfinity;
+  const FallKind kind = start.curve.kind();
+  if (kind == FallKind::kEscaping) return start.parameter;
+  return kind == FallKind::kReturning ? std::min(start.parameter, 0.0) : -kInfinity;
 }
 
 Geodesic geodesic_through(const OrbitConstants& constants, double r, double speed) {

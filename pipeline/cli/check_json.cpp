@@ -12,13 +12,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Twelve digits, which are those that repeat on every machine; JSON has no infinity.
-Json number(double value) {
+Json json_number(double value) {
   return std::isfinite(value) ? Json::parse(fmt::format("{:.12g}", value)) : Json();
 }
 
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
+Json json_number(const std::optional<double>& value) {
+  return value ? json_number(*value) : Json();
+}
 
-Json names_of(const std::vector<Region>& regions) {
+Json region_names(const std::vector<Region>& regions) {
   Json names = Json::array();
   for (const Region region : regions) names.push_back(region_name(region));
   return names;
@@ -27,8 +29,8 @@ Json names_of(const std::vector<Region>& regions) {
 // `value` is what is reached there, in the unit of the page.
 Json extreme(const std::optional<Extreme>& e, double value) {
   if (!e) return {};
-  return {{"value", number(value)},
-          {"time_s", number(e->time_s)},
+  return {{"value", json_number(value)},
+          {"time_s", json_number(e->time_s)},
           {"frame", e->frame},
           {"segment", e->segment + 1}};
 }
@@ -38,59 +40,62 @@ Json extreme(const std::optional<Extreme>& e) { return extreme(e, e ? e->value :
 Json json_of(const SegmentSurvey& s, const std::optional<double>& mass_solar) {
   const double seconds = mass_solar ? *mass_solar * kSecondsPerSolarMass : 1;
   Json json = {{"type", s.type},
-               {"begin_s", number(s.begin_s)},
-               {"end_s", number(s.end_s)},
-               {"dissolve_s", number(s.dissolve_s)},
-               {"from_r", number(s.r_begin)},
-               {"to_r", number(s.r_end)},
+               {"begin_s", json_number(s.begin_s)},
+               {"end_s", json_number(s.end_s)},
+               {"dissolve_s", json_number(s.dissolve_s)},
+               {"from_r", json_number(s.r_begin)},
+               {"to_r", json_number(s.r_end)},
                {"closest", mass_solar ? extreme(s.closest) : Json()}};
   if (mass_solar) {
-    json["regions"] = names_of(s.regions);
-    json["proper_time_m"] = number(s.proper_time);
+    json["regions"] = region_names(s.regions);
+    json["proper_time_m"] = json_number(s.proper_time);
   }
-  json["proper_time_s"] = number(s.proper_time * seconds);
-  json[mass_solar ? "rate_m_per_s" : "time_lapse"] = {number(s.rate_begin), number(s.rate_end)};
+  json["proper_time_s"] = json_number(s.proper_time * seconds);
+  json[mass_solar ? "rate_m_per_s" : "time_lapse"] = {json_number(s.rate_begin),
+                                                      json_number(s.rate_end)};
   return json;
 }
 
 Json json_of(const SegmentJoint& j) {
   return {{"segment", j.segment + 1},
-          {"time_s", number(j.time_s)},
-          {"dissolve_s", number(j.dissolve_s)},
-          {"r_before", number(j.r_before)},
-          {"r_after", number(j.r_after)},
+          {"time_s", json_number(j.time_s)},
+          {"dissolve_s", json_number(j.dissolve_s)},
+          {"r_before", json_number(j.r_before)},
+          {"r_after", json_number(j.r_after)},
           {"region_before", region_name(j.region_before)},
           {"region_after", region_name(j.region_after)},
-          {"velocity_jump", number(j.speed)},
-          {"rate_before", number(j.rate_before)},
-          {"rate_after", number(j.rate_after)}};
+          {"velocity_jump", json_number(j.speed)},
+          {"rate_before", json_number(j.rate_before)},
+          {"rate_after", json_number(j.rate_after)}};
 }
 
 Json json_of(const FrameLight& l) {
   return {{"frame", l.frame},
-          {"time_s", number(l.time_s)},
+          {"time_s", json_number(l.time_s)},
           {"segment", l.segment + 1},
-          {"ev", number(l.ev)},
-          {"mean", number(l.mean)},
-          {"percentile_99", number(l.percentile99)},
-          {"part_at_white", number(l.white)}};
+          {"ev", json_number(l.ev)},
+          {"mean", json_number(l.mean)},
+          {"percentile_99", json_number(l.percentile99)},
+          {"part_at_white", json_number(l.white)}};
 }
 
 Json json_of(const RenderTime& t) {
-  return {{"seconds", number(t.seconds)}, {"frame_s", number(t.frame_s)}, {"threads", t.threads}};
+  return {{"seconds", json_number(t.seconds)},
+          {"frame_s", json_number(t.frame_s)},
+          {"threads", t.threads}};
 }
 
 Json json_of(const DiskSize& d, const std::optional<DiskRoom>& room) {
-  return {{"bytes", number(d.total())},
-          {"frame_linear_bytes", number(d.linear)},
-          {"frame_graded_bytes", number(d.graded)},
+  return {{"bytes", json_number(d.total())},
+          {"frame_linear_bytes", json_number(d.linear)},
+          {"frame_graded_bytes", json_number(d.graded)},
           {"measured", d.measured},
-          {"free_bytes", room ? number(room->free) : Json()}};
+          {"free_bytes", room ? json_number(room->free) : Json()}};
 }
 
 Json json_of(const Show& show, const Marker& m) {
   return {{"name", m.name},
-          {"time_s", number(m.at_s)},
+          {"time_s", json_number(m.at_s)},
           {"frame", nearest_frame(show, m.at_s)},
           {"segment", segment_at(show, m.at_s) + 1}};
 }
@@ -98,15 +103,15 @@ Json json_of(const Show& show, const Marker& m) {
 Json json_of(const ShowWarning& w) {
   if (w.segment == kWholeShow)
     return {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}, {"text", w.text}};
-  return {{"time_s", number(w.time_s)},
+  return {{"time_s", json_number(w.time_s)},
           {"frame", w.frame},
           {"segment", w.segment + 1},
           {"text", w.text}};
 }
 
 void add_fades(const Fades& fades, Json& json) {
-  json["fade_in_s"] = number(fades.in_s);
-  json["fade_out_s"] = number(fades.out_s);
+  json["fade_in_s"] = json_number(fades.in_s);
+  json["fade_out_s"] = json_number(fades.out_s);
 }
 
 Json json_of_head(const CheckReport& report) {
@@ -114,14 +119,14 @@ Json json_of_head(const CheckReport& report) {
   const bool graded = !report.display.empty();
   return {{"title", show.title},
           {"frames", frame_count(show)},
-          {"frames_per_second", number(show.frames_per_second)},
-          {"duration_s", number(segment_times(show).back())},
+          {"frames_per_second", json_number(show.frames_per_second)},
+          {"duration_s", json_number(segment_times(show).back())},
           {"projection", projection_name(show.projection)},
           {"width", columns(show.projection)},
           {"height", rows(show.projection)},
           {"display", graded ? Json(report.display) : Json()},
           {"view", graded ? Json(report.view) : Json()},
-          {"mass_solar", number(show.mass_solar)}};
+          {"mass_solar", json_number(show.mass_solar)}};
 }
 
 Json json_of(const CheckedSky& sky) {
@@ -130,18 +135,18 @@ Json json_of(const CheckedSky& sky) {
   for (int& segment : segments) ++segment;
   return {{"region", name_of(s.region)},
           {"segments", segments},
-          {"black_cd_m2", number(sky.black)},
+          {"black_cd_m2", json_number(sky.black)},
           {"map", s.map.empty() ? Json() : Json(s.map)},
-          {"map_fainter_than", number(s.map_fainter_than)},
+          {"map_fainter_than", json_number(s.map_fainter_than)},
           {"catalogue", s.catalogue.empty() ? Json() : Json(s.catalogue)},
           {"stars", s.stars},
-          {"faintest", s.stars > 0 ? number(s.faintest) : Json()}};
+          {"faintest", s.stars > 0 ? json_number(s.faintest) : Json()}};
 }
 
 // Of the whole show, after its segments and joints.
 void add_whole(const CheckReport& report, Json& json) {
   const ShowSurvey& survey = report.survey;
-  if (report.show.mass_solar) json["regions"] = names_of(survey.regions);
+  if (report.show.mass_solar) json["regions"] = region_names(survey.regions);
   json["closest_r"] = extreme(survey.closest);
   const double celerity = survey.fastest ? survey.fastest->value : 0;
   const double gamma = std::hypot(1.0, celerity);

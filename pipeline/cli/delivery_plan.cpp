@@ -28,7 +28,7 @@ std::string plain_file_name(const fs::path& file) {
   return name;
 }
 
-DeliveredNames names_of(const DeliveryRun& run, const GradedFormat& format) {
+DeliveredNames delivered_names(const DeliveryRun& run, const GradedFormat& format) {
   const int count = frame_count(run.show);
   const NamePattern pattern = run.name.empty()
                                   ? default_name_pattern(run.show.file.stem().string(), count)
@@ -86,7 +86,7 @@ Delivery describe_delivery(const DeliveryRun& run, const GradedFrames& frames,
              .display = frames.grader().display(),
              .view = frames.grader().view(),
              .colour = frames.grader().colour(),
-             .names = names_of(run, format),
+             .names = delivered_names(run, format),
              .sounds = {},
              .subtitles = {},
              .leader_frames = run.leader ? leader_frames(run.show.frames_per_second) : 0,

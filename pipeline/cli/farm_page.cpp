@@ -20,7 +20,7 @@ using StatusJson = nlohmann::ordered_json;
 constexpr std::size_t kMostSlow = 3, kMostShown = 8;
 
 // 1:02:03
-std::string duration_text(double seconds) {
+std::string short_duration(double seconds) {
   const auto s = std::lround(std::max(seconds, 0.0));
   return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
@@ -51,7 +51,7 @@ void add_writers(std::string& page, const FarmStatus& status) {
       if (++shown > kMostShown && ++more) continue;
       page += fmt::format("  {:<12} {} by {}, process {}, since {} ({})\n", "being made", frame,
                           writer.host, writer.pid, clock_of(since),
-                          duration_text(status.now_s - since));
+                          short_duration(status.now_s - since));
     }
   if (more > 0) page += fmt::format("  {:<12} {} more\n", "being made", more);
 }
@@ -106,7 +106,7 @@ std::string farm_page(const FarmFrames& frames, const FarmStatus& status) {
   add_writers(page, status);
   if (status.frames_per_second)
     page += fmt::format("  {:<12} {:.3g} frames/s, {} left\n", "rate", *status.frames_per_second,
-                        duration_text(*seconds_left(status)));
+                        short_duration(*seconds_left(status)));
   for (const SlowFrame& slow : status.slowest)
     page += fmt::format("  {:<12} {} took {:.1f} s on {}\n", "slow", slow.frame, slow.seconds,
                         slow.host);

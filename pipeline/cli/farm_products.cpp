@@ -47,8 +47,8 @@ void require_graded(const Show& show, const char* option) {
                                  show.file.string(), option));
 }
 
-void add_movie(FarmPlan& plan, const FarmProducts& products, const Show& show,
-               const std::vector<int>& frames) {
+void add_movie_product(FarmPlan& plan, const FarmProducts& products, const Show& show,
+                       const std::vector<int>& frames) {
   const MoviePreset& preset = movie_preset(products.movie);
   plan.movie = products.movie;
   plan.movie_file = (plan.out / fmt::format("{}_{}.{}", show.file.stem().string(), products.movie,
@@ -96,7 +96,7 @@ void add_delivery(FarmPlan& plan, const FarmProducts& products, const Show& show
 void add_products(FarmPlan& plan, const FarmProducts& products, const Show& show,
                   const std::vector<int>& frames) {
   refuse_parts_of_nothing(products);
-  if (!products.movie.empty()) add_movie(plan, products, show, frames);
+  if (!products.movie.empty()) add_movie_product(plan, products, show, frames);
   if (!products.deliver.empty()) add_delivery(plan, products, show, frames);
 }
 

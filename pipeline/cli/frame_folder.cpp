@@ -76,7 +76,7 @@ Json read_record(const fs::path& path) {
   }
 }
 
-std::string text_of(const Json& record) {
+std::string record_text(const Json& record) {
   return fmt::format("'{}', {} of {} x {} pixels", record["title"].get<std::string>(),
                      record["projection"].get<std::string>(), record["width"].dump(),
                      record["height"].dump());
@@ -182,13 +182,13 @@ void FrameFolder::check_namesakes() const {
 void FrameFolder::check_owner() const {
   check_namesakes();
   const Json theirs = read_record(record_path()), ours = Json::parse(record());
-  if (!is_record(theirs) || text_of(theirs) == text_of(ours)) return;
+  if (!is_record(theirs) || record_text(theirs) == record_text(ours)) return;
   const int there = frames_there();
   if (there == 0) return;
   throw InputError(fmt::format(
       "{}: the folder belongs to {}, of which {} files are there; this run would make {}. Another "
       "--out keeps them apart, --replace lets this run have the folder",
-      record_path().string(), text_of(theirs), there, text_of(ours)));
+      record_path().string(), record_text(theirs), there, record_text(ours)));
 }
 
 int FrameFolder::frames_there() const {

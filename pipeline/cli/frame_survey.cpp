@@ -45,7 +45,7 @@ std::string joined(const std::vector<std::string>& items) {
 }
 
 // The first of many, and how many more there are.
-std::vector<std::string> shortened(std::vector<std::string> items, std::size_t most) {
+std::vector<std::string> shortened_list(std::vector<std::string> items, std::size_t most) {
   if (items.size() <= most + 1) return items;
   const std::size_t more = items.size() - most;
   items.resize(most);
@@ -53,7 +53,7 @@ std::vector<std::string> shortened(std::vector<std::string> items, std::size_t m
   return items;
 }
 
-std::string describe(const std::map<int, int>& frames_of_segments, const char* work) {
+std::string list_of_segments(const std::map<int, int>& frames_of_segments, const char* work) {
   if (frames_of_segments.empty()) return {};
   std::vector<std::string> segments;
   int frames = 0;
@@ -63,8 +63,8 @@ std::string describe(const std::map<int, int>& frames_of_segments, const char* w
   }
   constexpr std::size_t kMost = 8;
   return fmt::format("segment{} {}: {} frame{} will be {} again\n", segments.size() > 1 ? "s" : "",
-                     joined(shortened(segments, kMost)), grouped(frames), frames > 1 ? "s" : "",
-                     work);
+                     joined(shortened_list(segments, kMost)), grouped(frames),
+                     frames > 1 ? "s" : "", work);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void refuse_to_replace(const FrameSurvey& survey, const FrameFolder& folder) {
 }
 
 std::string describe_work(const FrameSurvey& survey) {
-  return describe(survey.older, "made") + describe(survey.older_grades, "graded");
+  return list_of_segments(survey.older, "made") + list_of_segments(survey.older_grades, "graded");
 }
 
 std::string describe_strangers(const std::vector<std::string>& files) {
@@ -114,7 +114,7 @@ std::string describe_strangers(const std::vector<std::string>& files) {
   const bool many = files.size() > 1;
   return fmt::format("{} file{} not this show's, and {} left alone: {}\n",
                      grouped(static_cast<int>(files.size())), many ? "s are" : " is",
-                     many ? "are" : "is", joined(shortened(files, kMost)));
+                     many ? "are" : "is", joined(shortened_list(files, kMost)));
 }
 
 std::string describe_strangers(const FrameFolder& folder) {

@@ -37,7 +37,7 @@ void on_signal(int signal) {
 
 // Says it only where it can be said at once: a pipe may be full that nobody reads, and a thread
 // that waits for it holds the lock of the stream.
-void say(std::string_view line) {
+void say_to_terminal(std::string_view line) {
   pollfd out{STDERR_FILENO, POLLOUT, 0};
   if (poll(&out, 1, 0) > 0 && (out.revents & POLLOUT) != 0)
     (void)!write(STDERR_FILENO, line.data(), line.size());
@@ -50,7 +50,7 @@ void end_when_told() {
   }
   remove_unfinished();
   nothing_is_unfinished = true;
-  say("stopped; what was not finished has been removed\n");
+  say_to_terminal("stopped; what was not finished has been removed\n");
   _exit(code_after(signal));
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MovieOptions {
   std::string show, preset, frames, size, from, out, overlays;
   std::vector<std::string> audio;
   int threads = 0;
@@ -56,7 +56,7 @@ Projection fitted(const Projection& projection, const MoviePreset& preset) {
                                     : with_width(projection, size.width);
 }
 
-std::vector<int> chosen_frames(const Options& o, const Show& show) {
+std::vector<int> chosen_frames(const MovieOptions& o, const Show& show) {
   std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   if (frames.back() - frames.front() + 1 != static_cast<int>(frames.size()))
     throw InputError("--frames " + o.frames +
@@ -64,7 +64,7 @@ std::vector<int> chosen_frames(const Options& o, const Show& show) {
   return frames;
 }
 
-fs::path chosen_out(const Options& o, const Show& show, const MoviePreset& preset) {
+fs::path chosen_out(const MovieOptions& o, const Show& show, const MoviePreset& preset) {
   const std::string extension = "." + std::string(preset.extension);
   if (o.out.empty()) {
     const fs::path folder = "out";
@@ -103,7 +103,7 @@ void say_tags(const MoviePreset& preset, const ColourTags& tags, const Grader& g
                      .c_str());
 }
 
-void movie(const Options& o) {
+void movie(const MovieOptions& o) {
   const MoviePreset& preset = movie_preset(o.preset);
   Show show = read_show(o.show);
   overlay(show, o.overlays);
@@ -142,7 +142,7 @@ void movie(const Options& o) {
 void add_movie(CLI::App& app) {
   auto* verb = app.add_subcommand(
       "movie", "Make a movie by ffmpeg, of frames rendered for it or of finished ones");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<MovieOptions>();
   add_show(*verb, o->show)->required();
   verb->add_option("--preset", o->preset, presets_for_help())
       ->type_name(one_of(preset_names()))

@@ -29,7 +29,7 @@
 namespace domefall {
 namespace {
 
-struct Options {
+struct PreviewOptions {
   std::string show, out, overlays, size = "1280x720";
   FrameChoice choice;
   int threads = 0, port = 0;
@@ -37,7 +37,7 @@ struct Options {
   bool no_open = false;
 };
 
-void write_still(const Options& o) {
+void write_still(const PreviewOptions& o) {
   const GradedFormat format = format_by_name(o.out);
   Show show = read_show(o.show);
   overlay(show, o.overlays);
@@ -68,7 +68,7 @@ void write_still(const Options& o) {
 }
 
 // Serves until a signal ends it.
-void serve(const Options& o) {
+void serve(const PreviewOptions& o) {
   PreviewServer server(o.show, o.port, o.threads);
   std::printf("%s\n", server.url().c_str());
   std::printf("from another machine: ssh -L %d:127.0.0.1:%d %s, then the same address there\n",
@@ -92,7 +92,7 @@ void serve(const Options& o) {
   throw Interrupted{*was_interrupted(), true};
 }
 
-void preview(const Options& o) {
+void preview(const PreviewOptions& o) {
   if (!o.out.empty()) return write_still(o);
   serve(o);
 }
@@ -102,7 +102,7 @@ void preview(const Options& o) {
 void add_preview(CLI::App& app) {
   auto* verb = app.add_subcommand(
       "preview", "A viewer in the browser, beside the editor; or one frame as a flat picture");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PreviewOptions>();
   add_show(*verb, o->show)->required();
   add_frame_choice(*verb, o->choice);
   auto* out =

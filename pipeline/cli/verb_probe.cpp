@@ -25,9 +25,9 @@ namespace {
 
 using ProbeJson = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kInDegrees = 180 / std::numbers::pi;
 
-struct Options {
+struct ProbeOptions {
   std::string show, size, pixel;
   FrameChoice choice;
   bool json = false;
@@ -125,7 +125,7 @@ void add_shift(const Probed& p, ProbeJson& json) {
       json_number(surface_brightness_ratio(p.show.effects, g) * std::pow(colour, 4));
   json["amplification"] = json_number(amplification(p.ray.bundle, p.width()));
   if (p.is_straight()) return;  // its bundle has an azimuth of no meaning
-  json["swept_azimuth_deg"] = json_number(p.ray.bundle.azimuth * kDegrees);
+  json["swept_azimuth_deg"] = json_number(p.ray.bundle.azimuth * kInDegrees);
   json["order"] = static_cast<int>(p.ray.bundle.azimuth / std::numbers::pi);
 }
 
@@ -145,7 +145,7 @@ void print_json(const Probed& p) {
       {"dec_deg", json_number(at.dec_deg)},
       {"compression_towards_hole", json_number(p.ray.radial_scale)},
       {"compression_across", json_number(p.ray.tangential_scale)},
-      {"to_edge_deg", json_number(p.ray.to_edge * kDegrees)}};
+      {"to_edge_deg", json_number(p.ray.to_edge * kInDegrees)}};
   add_shift(p, json);
   json["stars"] = ProbeJson::array();
   for (const StarAtPixel& star : p.stars) json["stars"].push_back(json_of_star(star));
@@ -156,7 +156,7 @@ void print_json(const Probed& p) {
   std::puts(json.dump(2, ' ', false, ProbeJson::error_handler_t::replace).c_str());
 }
 
-void probe(const Options& o) {
+void probe(const ProbeOptions& o) {
   Show show = read_show(o.show);
   show.projection = resized(show.projection, o.size);
   const FrameState state = frame_state(show, chosen_frame(o.choice, show));
@@ -178,7 +178,7 @@ void probe(const Options& o) {
 
 void add_probe(CLI::App& app) {
   auto* verb = app.add_subcommand("probe", "What is seen at a pixel: sky, place, redshift, stars");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ProbeOptions>();
   add_show(*verb, o->show)->required();
   add_frame_choice(*verb, o->choice);
   verb->add_option("--pixel", o->pixel, "X,Y counted from 1 at the top left")

@@ -14,7 +14,7 @@
 namespace domefall {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string show, frames, size, out, overlays, progress;
   int threads = 0;
   bool explain = false, replace = false, dry = false, lens_map = false;
@@ -22,7 +22,7 @@ struct Options {
 
 // Does the work of render and of grade, which go over the same frames and put them in the same
 // places.
-void run(const Options& o, bool render) {
+void run(const RenderOptions& o, bool render) {
   Show show = read_show(o.show);
   overlay(show, o.overlays);
   show.projection = resized(show.projection, o.size);
@@ -43,7 +43,7 @@ void run(const Options& o, bool render) {
   run_frames(frames);
 }
 
-void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
+void add_frame_options(CLI::App& verb, const std::shared_ptr<RenderOptions>& o) {
   add_show(verb, o->show)->required();
   verb.add_option("--frames", o->frames,
                   "7, 0-299, 0-599x10 (every tenth), or several joined by commas; default all")
@@ -63,7 +63,7 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<Options>& o) {
 void add_render(CLI::App& app) {
   auto* verb =
       app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG, TIFF or JPEG");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RenderOptions>();
   add_frame_options(*verb, o);
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
   auto* explain =
@@ -84,7 +84,7 @@ void add_render(CLI::App& app) {
 
 void add_grade(CLI::App& app) {
   auto* verb = app.add_subcommand("grade", "Grade frames again that are already rendered");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RenderOptions>();
   add_frame_options(*verb, o);
   verb->callback([o] { run(*o, false); });
 }

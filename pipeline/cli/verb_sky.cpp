@@ -21,11 +21,10 @@
 #include "pipeline/sky/make/starlight_map.h"
 #include "pipeline/sky/maps/sky_file.h"
 #include "pipeline/sky/read_sky.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // V that is fainter than every catalogue's last star.
 constexpr double kEveryStar = 40;
@@ -36,7 +35,7 @@ struct BuildOptions {
   int size = 0;
 };
 
-void say(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
+void print_line(const std::string& line) { std::fputs((line + "\n").c_str(), stderr); }
 
 // Refuses a size that no face may have.  0 leaves the size to the program.
 void check_size(int size, int largest) {
@@ -77,7 +76,8 @@ void build(const BuildOptions& o) {
   out.finish();
   double flux = 0;
   for (const FaintStar& s : stars) flux += s.flux;
-  say(fmt::format("{} stars, {:.6g} W/m^2 of light; the map has {:.6g} W/m^2, times a gain of {:g}",
+  print_line(
+      fmt::format("{} stars, {:.6g} W/m^2 of light; the map has {:.6g} W/m^2, times a gain of {:g}",
                   stars.size(), flux, light.flux(), o.gain));
 }
 
@@ -192,10 +192,10 @@ void import_map(const ImportOptions& o) {
   OutputFile out(o.out);
   import.out = out.path();
   const Orientation stated = import_sky(import);
-  say(fmt::format("{}: {}", o.out, orientation_phrase(stated)));
+  print_line(fmt::format("{}: {}", o.out, orientation_phrase(stated)));
   const StarCatalogue catalogue = check_stars(o.stars);
   const SkyCheck check = check_orientation(SkyFile(out.path()).map(), stated, catalogue);
-  say((check.verdict == SkyVerdict::kOther ? "warning: " : "") + verdict_sentence(check));
+  print_line((check.verdict == SkyVerdict::kOther ? "warning: " : "") + verdict_sentence(check));
   out.finish();
 }
 

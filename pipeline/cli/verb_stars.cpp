@@ -21,7 +21,7 @@
 namespace domefall {
 namespace {
 
-struct Options {
+struct StarOptions {
   std::string format, out, hipparcos, names, corrections;
   std::vector<std::string> inputs;
   double faintest = kFaintestV;
@@ -36,7 +36,7 @@ std::vector<std::string_view> format_list() {
 
 std::string format_names() { return fmt::format("{}", fmt::join(format_list(), ", ")); }
 
-const CatalogueFormat& format_of(const std::string& format, const Paths& inputs) {
+const CatalogueFormat& catalogue_format(const std::string& format, const Paths& inputs) {
   if (format == "auto") {
     if (const CatalogueFormat* guessed = guess_format(inputs)) return *guessed;
     throw InputError(fmt::format("{}: not known by how it begins; name the format: {}",
@@ -71,7 +71,7 @@ void say_result(const RawCatalogue& catalogue, const std::string& out) {
                   with_commas(without_colour(catalogue.stars)), kAssumedColour));
 }
 
-void import(const Options& o) {
+void import(const StarOptions& o) {
   const Paths inputs(o.inputs.begin(), o.inputs.end());
   Paths all = inputs;
   for (const std::string& input : {o.hipparcos, o.names, o.corrections})
@@ -82,7 +82,7 @@ void import(const Options& o) {
     refuse_overwriting(o.out, input);
   }
   OutputFile out(o.out);
-  const CatalogueFormat& format = format_of(o.format, inputs);
+  const CatalogueFormat& format = catalogue_format(o.format, inputs);
   if (o.format == "auto") say(fmt::format("taken as {}", format.title));
   ImportedCatalogue imported = format.import(inputs);
   RawCatalogue& catalogue = imported.catalogue;
@@ -107,7 +107,7 @@ void import(const Options& o) {
 
 void add_import(CLI::App& stars) {
   auto* verb = stars.add_subcommand("import", "Make a .stars catalogue from one of another format");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StarOptions>();
   verb->add_option("FORMAT", o->format, "of the catalogue; auto: told by how it begins")
       ->type_name(one_of(format_list()))
       ->required();

@@ -67,12 +67,12 @@ void print_json(const Show& show, const std::vector<int>& frames) {
   std::puts("\n]");
 }
 
-struct Options {
+struct StatesOptions {
   std::string show, frames, plot;
   bool json = false;
 };
 
-void print_states(const Options& o) {
+void print_states(const StatesOptions& o) {
   const Show show = read_show(o.show);
   const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   if (!o.plot.empty()) write_output(o.plot, show_page(show));
@@ -83,7 +83,7 @@ void print_states(const Options& o) {
 
 void add_states(CLI::App& app) {
   auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV or JSON");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StatesOptions>();
   add_show(*verb, o->show)->required();
   verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all")->type_name("FRAMES");
   verb->add_option("--plot", o->plot,

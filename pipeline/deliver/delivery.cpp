@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_of(const GradedFormat& format) {
+const char* kind_word(const GradedFormat& format) {
   switch (format.kind) {
     case GradedKind::kPng16:
     case GradedKind::kPng8:
@@ -92,12 +92,13 @@ std::string channel_of_name(const std::string& path) {
 }
 
 ShowLines show_lines(const Delivery& d) {
-  return {d.title,
-          fmt::format("{} x {}, {}", columns(d.projection), rows(d.projection),
-                      projection_name(d.projection)),
-          fmt::format("{} frames a second", rate_text(d.rate)),
-          fmt::format("{} frames, {:.3f} s", d.names.count(), duration_s(d)),
-          fmt::format("{}, {} bits a colour, {}", kind_of(d.format), bits_of(d.format), d.display)};
+  return {
+      d.title,
+      fmt::format("{} x {}, {}", columns(d.projection), rows(d.projection),
+                  projection_name(d.projection)),
+      fmt::format("{} frames a second", rate_text(d.rate)),
+      fmt::format("{} frames, {:.3f} s", d.names.count(), duration_s(d)),
+      fmt::format("{}, {} bits a colour, {}", kind_word(d.format), bits_of(d.format), d.display)};
 }
 
 std::string metadata_text(const Delivery& d) {
@@ -122,7 +123,7 @@ std::string metadata_text(const Delivery& d) {
       {"front", has_front_below(d) ? Json("bottom") : Json()},
       {"dimensions", "2D"},
       {"image",
-       {{"kind", kind_of(d.format)},
+       {{"kind", kind_word(d.format)},
         {"bits_per_colour", bits_of(d.format)},
         {"channels", "RGB"},
         {"alpha", false}}},

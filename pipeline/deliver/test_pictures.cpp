@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "pipeline/deliver/canvas.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A picture of letters and lines, which grow with it, and its projection.
 struct Board {

@@ -13,7 +13,7 @@
 namespace domefall {
 namespace {
 
-constexpr double kWidth = 1400, kLeft = 80;
+constexpr double kPageWidth = 1400, kLeft = 80;
 
 std::string subtitle(const Show& show) {
   const int frames = frame_count(show);
@@ -27,14 +27,14 @@ std::string subtitle(const Show& show) {
 }
 
 void draw_title(Svg& page, const Show& show) {
-  constexpr double kSmall = 14, kRoom = kWidth - 2 * kLeft;
+  constexpr double kSmall = 14, kRoom = kPageWidth - 2 * kLeft;
   double size = 28;
   while (size > 18 && text_width(show.title, size) > kRoom) size -= 2;
   page.text({kLeft, 54}, shortened(show.title, size, kRoom), {size, "#1b1e24", "start", true});
   page.text({kLeft, 80}, shortened(subtitle(show), kSmall, kRoom), {kSmall, "#5a606c"});
 }
 
-constexpr PageBox kTimes{kLeft, 132, kWidth - 150, 372};
+constexpr PageBox kTimes{kLeft, 132, kPageWidth - 150, 372};
 
 struct DrawnPage {
   std::string svg;
@@ -44,7 +44,7 @@ struct DrawnPage {
 
 DrawnPage drawn_page(const Show& show, const Path& path) {
   const double height = show.mass_solar ? 1010 : 490;
-  Svg page(kWidth, height);
+  Svg page(kPageWidth, height);
   draw_title(page, show);
   std::vector<PlaceOnPage> places;
   if (show.mass_solar) {
@@ -84,7 +84,7 @@ MarkedPage marked_page(const Show& show, int instants) {
   const Path path = sample_path(show);
   const DrawnPage page = drawn_page(show, path);
   const std::vector<double> times = segment_times(show);
-  MarkedPage marked{page.svg, kWidth, page.height, times.back() / (instants - 1), {}};
+  MarkedPage marked{page.svg, kPageWidth, page.height, times.back() / (instants - 1), {}};
   for (int k = 0; k < instants; ++k) {
     const double time = marked.step_s * k;
     const int segment = segment_at(show, time);

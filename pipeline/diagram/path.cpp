@@ -96,7 +96,7 @@ double killing_time(const Instant& i) {
   return sense_of_t(i.tetrad) * (is_outgoing(i.tetrad) ? i.null_time + star : i.null_time - star);
 }
 
-bool is_inside(Region region) { return region == Region::kII || region == Region::kIV; }
+bool is_within_horizon(Region region) { return region == Region::kII || region == Region::kIV; }
 
 // The v or u at which a horizon is crossed between two ticks of a segment, of which one is inside.
 // It is found by bisection.
@@ -106,7 +106,7 @@ double crossing_time(const Instants& show, Tick a, Tick b) {
     const Tick middle{a.segment, a.tick + (b.tick - a.tick) / 2};
     (show.at(middle).point.region == before ? a : b) = middle;
   }
-  const Instant inner = show.at(is_inside(before) ? a : b);
+  const Instant inner = show.at(is_within_horizon(before) ? a : b);
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
@@ -115,12 +115,13 @@ std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run
   std::vector<double> times;
   for (std::size_t k = 1; k < run.size(); ++k)
     if (run[k - 1].segment == run[k].segment &&
-        is_inside(show.at(run[k - 1]).point.region) != is_inside(show.at(run[k]).point.region))
+        is_within_horizon(show.at(run[k - 1]).point.region) !=
+            is_within_horizon(show.at(run[k]).point.region))
       times.push_back(crossing_time(show, run[k - 1], run[k]));
   return times;
 }
 
-Origin origin_of(const Instants& show, std::span<const Tick> run) {
+Origin kruskal_origin(const Instants& show, std::span<const Tick> run) {
   constexpr double kBothVisible = 16;  // M; U at one crossing is then e^4 times U at the other
   const std::vector<double> crossings = crossings_of(show, run);
   if (crossings.empty())
@@ -138,7 +139,7 @@ std::vector<Origin> origins_of_time(const Instants& show, const std::vector<Tick
     const bool goes_on =
         k < ticks.size() && !is_jump(show.at(ticks[k - 1]).point, show.at(ticks[k]).point);
     if (goes_on) continue;
-    const Origin origin = origin_of(show, std::span(ticks).subspan(first, k - first));
+    const Origin origin = kruskal_origin(show, std::span(ticks).subspan(first, k - first));
     for (int segment = ticks[first].segment; segment <= ticks[k - 1].segment; ++segment)
       origins[static_cast<std::size_t>(segment)] = origin;
     first = k;

@@ -15,8 +15,8 @@ namespace {
 // goes on to the horizon.
 constexpr int kPerUnit = 4096;
 const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
-constexpr double kBrightest = 1e36;
-constexpr std::size_t kBlock = 128;
+constexpr double kMostLight = 1e36;
+constexpr std::size_t kRadiiAtOnce = 128;
 
 double log2_above_singular(const PageThorneProfile& profile, bool plunging, double v) {
   // Next to its ends the function is even enough to be taken a little off them.
@@ -42,8 +42,8 @@ struct ObservedBlock {
   constexpr float kLog2Six = 2.5849625f, kLeast = 1e-30f;
   const ObservedBlock b = block;
   const auto end = static_cast<float>(kInnermost * kPerUnit);
-  std::array<int, kBlock> nodes;
-  std::array<float, kBlock> parts, sums;
+  std::array<int, kRadiiAtOnce> nodes;
+  std::array<float, kRadiiAtOnce> parts, sums;
   for (int k = 0; k < count; ++k) {
     const float v = __builtin_sqrtf(6.0f / r[k]), scaled = v * kPerUnit;
     const float at = scaled < end ? scaled : end;
@@ -86,7 +86,7 @@ WorkingRgb DiscLight::light(double r, double g) const {
   const WorkingRgb c = blackbody_colours().per_flux(seen);
   // Beyond that temperature the light grows with its first power.
   const double beyond = t > seen ? t / seen : 1;
-  const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kBrightest);
+  const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kMostLight);
   const auto f = static_cast<float>(radiance);
   return {c.r * f, c.g * f, c.b * f};
 }
@@ -98,9 +98,9 @@ void DiscLight::light(std::span<const float> r, std::span<const float> g,
                             static_cast<float>(std::log2(blackbody_radiance(1) * scale_)),
                             static_cast<float>(std::log2(disc_.t_max_k))};
   const BlackbodyColours& colours = blackbody_colours();
-  std::array<float, kBlock> log2_t, radiance;
-  for (std::size_t at = 0; at < r.size(); at += kBlock) {
-    const std::size_t count = std::min(kBlock, r.size() - at);
+  std::array<float, kRadiiAtOnce> log2_t, radiance;
+  for (std::size_t at = 0; at < r.size(); at += kRadiiAtOnce) {
+    const std::size_t count = std::min(kRadiiAtOnce, r.size() - at);
     observe(block, r.data() + at, g.data() + at, static_cast<int>(count), log2_t.data(),
             radiance.data());
     for (std::size_t k = 0; k < count; ++k) {

@@ -27,7 +27,7 @@ constexpr std::array<int, kSizes> kGrains{3, 4, 6};
 constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
 // Gas that plunges is drawn out until it is even.
 constexpr double kEvenBelow = 4;
-constexpr std::size_t kBlock = 128;
+constexpr std::size_t kPlacesAtOnce = 128;
 
 // The finaliser of MurmurHash3 (A. Appleby, public domain): each bit depends on each of x.
 [[gnu::always_inline]] inline std::uint32_t mixed(std::uint32_t x) {
@@ -44,18 +44,18 @@ constexpr std::size_t kBlock = 128;
 
 // A block of places, a field at a time.
 struct PlaceBlock {
-  std::array<float, kBlock> rows;              // ln r in rows of the first size
-  std::array<float, kBlock> turns, turning;    // azimuth and angular velocity, in turns
-  std::array<float, kBlock> width, log_width;  // the footprint, in turns and in ln r
-  std::array<double, kBlock> time;
-  std::array<float, kBlock> kept, sum;
+  std::array<float, kPlacesAtOnce> rows;              // ln r in rows of the first size
+  std::array<float, kPlacesAtOnce> turns, turning;    // azimuth and angular velocity, in turns
+  std::array<float, kPlacesAtOnce> width, log_width;  // the footprint, in turns and in ln r
+  std::array<double, kPlacesAtOnce> time;
+  std::array<float, kPlacesAtOnce> kept, sum;
 };
 
 // What a row is at each place: its spline's weight, its key, its youngest generation with the part
 // of its first age that has passed, and the time between generations.
 struct RowBlock {
-  std::array<float, kBlock> weight, passed, span;
-  std::array<std::uint32_t, kBlock> key, youngest;
+  std::array<float, kPlacesAtOnce> weight, passed, span;
+  std::array<std::uint32_t, kPlacesAtOnce> key, youngest;
 };
 
 struct SizeOfGrains {
@@ -184,8 +184,8 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
   };
   const auto contrast = static_cast<float>(pattern_.contrast);
   PlaceBlock block;
-  for (std::size_t at = 0; at < places.size(); at += kBlock) {
-    const int count = static_cast<int>(std::min(kBlock, places.size() - at));
+  for (std::size_t at = 0; at < places.size(); at += kPlacesAtOnce) {
+    const int count = static_cast<int>(std::min(kPlacesAtOnce, places.size() - at));
     read_places(places.data() + at, count, block);
     add_large_grains(size(0), count, block);
     add_middle_grains(size(1), count, block);

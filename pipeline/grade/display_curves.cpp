@@ -40,7 +40,7 @@ ocio::ConstCPUProcessorRcPtr to_light(const ocio::Config& config, const ocio::Co
                                  ocio::OPTIMIZATION_LOSSLESS);
 }
 
-void apply(const ocio::CPUProcessor& cpu, std::vector<Pixel>& pixels) {
+void send_through(const ocio::CPUProcessor& cpu, std::vector<Pixel>& pixels) {
   ocio::PackedImageDesc image(pixels.data(), static_cast<long>(pixels.size()), 1, 3);
   cpu.apply(image);
 }
@@ -50,7 +50,7 @@ bool is_sum_of_channels(const ocio::CPUProcessor& cpu) {
       {{0.2f, 0.6f, 0.9f}, {0.8f, 0.3f, 0.5f}, {0.05f, 0.9f, 0.4f}, {1, 1, 1}}};
   for (const Pixel& mixed : kMixed) {
     std::vector<Pixel> parts{mixed, {mixed[0], 0, 0}, {0, mixed[1], 0}, {0, 0, mixed[2]}, {}};
-    apply(cpu, parts);
+    send_through(cpu, parts);
     for (std::size_t c = 0; c < 3; ++c) {
       const float sum = parts[1][c] + parts[2][c] + parts[3][c] - 2 * parts[4][c];
       if (!(std::abs(parts[0][c] - sum) <= 1e-4f)) return false;
@@ -79,7 +79,7 @@ DomeLight::Curves display_curves(const ocio::Config& config, const std::string& 
     std::vector<Pixel> codes(kCodes, Pixel{});
     for (std::size_t code = 0; code < codes.size(); ++code)
       codes[code][c] = static_cast<float>(code) / (kCodes - 1);
-    apply(*cpu, codes);
+    send_through(*cpu, codes);
     std::vector<double>& curve = curves[c];
     curve.reserve(codes.size());
     for (const Pixel& xyz : codes) curve.push_back(xyz[1] - codes[0][1]);
@@ -142,7 +142,7 @@ std::optional<DisplayColour> display_colour(const ocio::Config& config, const st
   const auto cpu = to_light(config, *space);
   if (!is_sum_of_channels(*cpu)) return std::nullopt;
   std::vector<Pixel> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 0}};
-  apply(*cpu, corners);
+  send_through(*cpu, corners);
   const Pixel black = corners.back();
   DisplayColour colour;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -156,7 +156,7 @@ std::optional<DisplayColour> display_colour(const ocio::Config& config, const st
   std::vector<Pixel> ramp(kGreys);
   for (std::size_t k = 0; k < kGreys; ++k)
     ramp[k].fill(static_cast<float>(k) / static_cast<float>(kGreys - 1));
-  apply(*cpu, ramp);
+  send_through(*cpu, ramp);
   std::vector<double> greys;
   greys.reserve(kGreys);
   for (const Pixel& xyz : ramp)

@@ -9,8 +9,8 @@
 
 namespace domefall::grade_cells {
 
-inline constexpr int kGreys = 21, kHues = 9, kOrders = 6, kStep = 32, kInfinity = 0x7c00;
-inline constexpr int kLargest = kInfinity / kStep + 1;  // nodes of the largest channel
+inline constexpr int kGreys = 21, kHues = 9, kOrders = 6, kNodeStep = 32, kInfinityBits = 0x7c00;
+inline constexpr int kLargest = kInfinityBits / kNodeStep + 1;  // nodes of the largest channel
 // Nodes with a neighbour on either side, which are the middles of cells.
 inline constexpr int kInnerGreys = kGreys - 2, kInnerHues = kHues - 2;
 inline constexpr int kCells = kLargest - 1;                    // of the largest channel
@@ -36,7 +36,7 @@ inline constexpr int kChannels[kOrders][3] = {{0, 2, 1}, {1, 0, 2}, {0, 1, 2},
 
 inline float value_of(int bits) {
   Imath::half h;
-  h.setBits(static_cast<std::uint16_t>(std::min(bits, kInfinity - 1)));
+  h.setBits(static_cast<std::uint16_t>(std::min(bits, kInfinityBits - 1)));
   return h;
 }
 

@@ -38,9 +38,9 @@ struct Probe {
   int largest;
 };
 constexpr std::array kProbes{
-    Probe{0.5f, 0.5f, cells::kStep / 2}, Probe{-0.5f, -0.5f, cells::kStep / 2},
-    Probe{-0.5f, 0.5f, cells::kStep / 4}, Probe{0.5f, -0.5f, 3 * cells::kStep / 4},
-    Probe{0, 0, cells::kStep / 2}};
+    Probe{0.5f, 0.5f, cells::kNodeStep / 2}, Probe{-0.5f, -0.5f, cells::kNodeStep / 2},
+    Probe{-0.5f, 0.5f, cells::kNodeStep / 4}, Probe{0.5f, -0.5f, 3 * cells::kNodeStep / 4},
+    Probe{0, 0, cells::kNodeStep / 2}};
 // Most cells are so exact at the first two probes, or err so much there, that the others are left
 // out. These two are opposite corners: what errs by the largest channel has one sign at both, what
 // errs by grey and hue has two.
@@ -50,7 +50,7 @@ constexpr double kSmallPart = 0.1;
 constexpr double kProbedPart = 0.8;
 
 // The code of 0 to 1 that is shown.  What is no number is shown as black.
-float shown(float code) { return code > 0 ? std::min(code, 1.0f) : 0; }
+float clipped(float code) { return code > 0 ? std::min(code, 1.0f) : 0; }
 
 // Whether a channel leaves black within a cell: it is 0 at some of the cell's nodes, and not at
 // others.  The display's gamma is infinitely steep there, which probes may miss.
@@ -99,14 +99,14 @@ void GradeTable::fill(int block) {
   for_planes(block, cells::kLargest, [&](int order, int n) {
     for (int k = 0; k < kNodes; ++k) {
       const int grey = k / cells::kHues, hue = k % cells::kHues;
-      cells::put_pixel(order, cells::value_of(n * cells::kStep), static_cast<float>(grey),
+      cells::put_pixel(order, cells::value_of(n * cells::kNodeStep), static_cast<float>(grey),
                        static_cast<float>(hue), &rgb[3 * k]);
     }
     formulas_(rgb.data(), kNodes, codes.data());
     for (int k = 0; k < kNodes; ++k)
       for (int c = 0; c < 3; ++c)
         nodes_[cells::node_at(order, n, k / cells::kHues, k % cells::kHues) + c] =
-            shown(codes[3 * k + c]) * 65535;
+            clipped(codes[3 * k + c]) * 65535;
   });
 }
 
@@ -131,16 +131,16 @@ void GradeTable::compare(int block) {
       if (count == 0) break;
       for (int k = 0; k < count; ++k) {
         const int i = compared[k] / cells::kInnerHues + 1, j = compared[k] % cells::kInnerHues + 1;
-        cells::put_pixel(order, cells::value_of(n * cells::kStep + probe.largest),
+        cells::put_pixel(order, cells::value_of(n * cells::kNodeStep + probe.largest),
                          static_cast<float>(i) + probe.grey, static_cast<float>(j) + probe.hue,
                          &rgb[3 * k]);
         cells::put_place(places, k, cells::node_at(order, n, i, j), probe.grey, probe.hue,
-                         static_cast<float>(probe.largest) / cells::kStep);
+                         static_cast<float>(probe.largest) / cells::kNodeStep);
       }
       formulas_(rgb.data(), count, codes.data());
       cells::interpolate(nodes_.data(), places, count, looked_up.data(), missed.data());
       for (int k = 0; k < 3 * count; ++k) {
-        const float off = std::abs(static_cast<float>(looked_up[k]) / 65535 - shown(codes[k]));
+        const float off = std::abs(static_cast<float>(looked_up[k]) / 65535 - clipped(codes[k]));
         float& most = error[compared[k / 3]];
         most = std::max(most, off);
       }

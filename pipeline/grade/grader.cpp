@@ -34,7 +34,8 @@ constexpr int kCodesVersion = 3;
 
 using Code = std::array<unsigned short, 3>;
 
-void apply(const ocio::CPUProcessor& cpu, const Imath::half* in, unsigned short* out, long pixels) {
+void send_halves_through(const ocio::CPUProcessor& cpu, const Imath::half* in, unsigned short* out,
+                         long pixels) {
   constexpr std::ptrdiff_t half = sizeof(Imath::half), word = sizeof(unsigned short);
   // OpenColorIO takes void* even for what it only reads.
   const ocio::PackedImageDesc source(const_cast<Imath::half*>(in), pixels, 1, 3,
@@ -47,7 +48,7 @@ void apply(const ocio::CPUProcessor& cpu, const Imath::half* in, unsigned short*
 Code graded_black(const ocio::CPUProcessor& cpu) {
   const Imath::half black[3] = {0.0f, 0.0f, 0.0f};
   Code code;
-  apply(cpu, black, code.data(), 1);
+  send_halves_through(cpu, black, code.data(), 1);
   return code;
 }
 
@@ -130,7 +131,7 @@ struct Grader::Processor {
     const int pixels = static_cast<int>(colours.size() / 3);
     std::vector<unsigned short> quick(colours.size()), exact(colours.size());
     look_up(table, colours.data(), pixels, quick.data());
-    apply(*cpu, colours.data(), exact.data(), pixels);
+    send_halves_through(*cpu, colours.data(), exact.data(), pixels);
     int most = 0;
     for (std::size_t k = 0; k < quick.size(); ++k)
       most = std::max(most, std::abs(quick[k] - exact[k]));
@@ -162,7 +163,7 @@ struct Grader::Processor {
     std::array<Imath::half, 3 * kMost> rest;
     std::array<unsigned short, 3 * kMost> codes;
     for (int k = 0; k < misses; ++k) std::copy_n(in + 3 * missed[k], 3, &rest[3 * k]);
-    apply(*cpu, rest.data(), codes.data(), misses);
+    send_halves_through(*cpu, rest.data(), codes.data(), misses);
     for (int k = 0; k < misses; ++k) std::copy_n(&codes[3 * k], 3, out + 3 * missed[k]);
   }
 
@@ -278,7 +279,7 @@ void Grader::grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out
     if (table)
       processor_->look_up(*table, in.row(y) + 3 * lit.begin, pixels, out + 3 * lit.begin);
     else if (pixels > 0)
-      apply(*processor_->cpu, in.row(y) + 3 * lit.begin, out + 3 * lit.begin, pixels);
+      send_halves_through(*processor_->cpu, in.row(y) + 3 * lit.begin, out + 3 * lit.begin, pixels);
     fill_black(out, lit.end, in.width, processor_->black);
   }
 }

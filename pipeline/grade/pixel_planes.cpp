@@ -29,7 +29,7 @@ constexpr int kGroup = kLanes;  // pixels
 // Splits so many groups of 8 pixels.
 [[gnu::always_inline]] inline int split_loop(const std::uint16_t* rgb, int groups, float* red,
                                              float* green, float* blue) {
-  constexpr int kInfinity = 0x7c00;
+  constexpr int kInfinityBits = 0x7c00;
   HalfBits blacks{};
   for (int k = 0; k < groups; ++k, rgb += 3 * kGroup) {
     Halves a, b, c;
@@ -45,7 +45,7 @@ constexpr int kGroup = kLanes;  // pixels
     const HalfBits r = __builtin_convertvector(rh, HalfBits);
     const HalfBits g = __builtin_convertvector(gh, HalfBits);
     const HalfBits e = __builtin_convertvector(bh, HalfBits);
-    const HalfBits bad = (r >= kInfinity) | (g >= kInfinity) | (e >= kInfinity);
+    const HalfBits bad = (r >= kInfinityBits) | (g >= kInfinityBits) | (e >= kInfinityBits);
     blacks -= (r | g | e) == 0;
     store_plane(r, bad, red + kGroup * k);
     store_plane(g, bad, green + kGroup * k);

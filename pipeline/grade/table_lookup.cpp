@@ -41,7 +41,7 @@ template <class Vector, class Value>
 [[gnu::always_inline]] inline void locate_loop(const float* red, const float* green,
                                                const float* blue, int count, Places& places) {
   // Halves are 2^-24 apart below 2^-14; above, a float has 13 bits more than a half.
-  constexpr float kNormal = 0x1p-14f, kSubnormalSteps = 0x1p24f / kStep;
+  constexpr float kNormal = 0x1p-14f, kSubnormalSteps = 0x1p24f / kNodeStep;
   constexpr std::int32_t kLeastExponent = 112 << 23, kStepBits = 13 + 5;
   const Lanes zero{}, one = zero + 1.0f;
   for (int k = 0; k < count; k += kGroup) {

@@ -16,7 +16,7 @@ FrameFormat format_of(const std::filesystem::path& path) {
   return extension == ".png" ? FrameFormat::kPng : FrameFormat::kTiff;
 }
 
-const char* name_of(FrameFormat format) {
+const char* format_name(FrameFormat format) {
   switch (format) {
     case FrameFormat::kExr:
       return "an OpenEXR file";
@@ -43,7 +43,7 @@ std::optional<FrameHead> head_of(const FileBytes& file) {
 std::optional<std::string> difference(const std::filesystem::path& path, const FrameHead& head,
                                       const WantedFrame& wanted) {
   if (!head.ours) return "an image that is not Domefall's";
-  if (head.format != format_of(path)) return name_of(head.format);
+  if (head.format != format_of(path)) return format_name(head.format);
   if (head.width != wanted.width || head.height != wanted.height)
     return fmt::format("{} x {} pixels", head.width, head.height);
   if (one_line(head.title) != one_line(wanted.title))

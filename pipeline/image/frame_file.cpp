@@ -29,9 +29,10 @@ namespace {
 // ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
 constexpr ExrChromaticities kAcesCg{
     {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f}};
-constexpr const char *kShow = "showDigest", *kFrame = "frameNumber", *kRegion = "observerRegion",
-                     *kRadius = "observerRadius", *kProperTime = "observerProperTime",
-                     *kRate = "showFramesPerSecond", *kOwner = "owner";
+constexpr const char *kShow = "showDigest", *kFrame = "frameNumber",
+                     *kRegionAttribute = "observerRegion", *kRadius = "observerRadius",
+                     *kProperTime = "observerProperTime", *kRate = "showFramesPerSecond",
+                     *kOwner = "owner";
 
 template <class T>
 Imf::FrameBuffer buffer_of(ImageRgb<T>& frame, Imf::PixelType type) {
@@ -66,7 +67,7 @@ std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& inf
       {kShow, info.show},
       {kExrKey, info.key},
       {kFrame, info.frame},
-      {kRegion, info.region},
+      {kRegionAttribute, info.region},
       {kRadius, info.r},
       {kProperTime, info.proper_time},
       {kRate, info.frames_per_second},
@@ -97,7 +98,7 @@ FrameInfo info_of(const Imf::Header& header) {
   read_attribute<Imf::StringAttribute>(header, kShow, info.show);
   read_attribute<Imf::StringAttribute>(header, kExrKey, info.key);
   read_attribute<Imf::IntAttribute>(header, kFrame, info.frame);
-  read_attribute<Imf::StringAttribute>(header, kRegion, info.region);
+  read_attribute<Imf::StringAttribute>(header, kRegionAttribute, info.region);
   read_attribute<Imf::DoubleAttribute>(header, kRadius, info.r);
   read_attribute<Imf::DoubleAttribute>(header, kProperTime, info.proper_time);
   read_attribute<Imf::DoubleAttribute>(header, kRate, info.frames_per_second);

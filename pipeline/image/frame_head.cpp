@@ -26,7 +26,7 @@ void check_digest(const FrameHead& head, bool has_former_digest) {
 // ---- the description of a PNG, TIFF or JPEG: lines of "name: value" ----
 
 // Where the line's value begins, or npos.
-std::size_t value_of(std::string_view text, std::string_view line) {
+std::size_t place_of_value(std::string_view text, std::string_view line) {
   for (std::size_t begin = 0; begin < text.size();) {
     if (text.substr(begin).starts_with(line)) return begin + line.size();
     const auto end = text.find('\n', begin);
@@ -38,7 +38,7 @@ std::size_t value_of(std::string_view text, std::string_view line) {
 
 void take_description(std::string_view text, std::uint64_t at, FrameHead& head) {
   const auto take = [&](std::string_view line, std::string& value) {
-    const auto begin = value_of(text, line);
+    const auto begin = place_of_value(text, line);
     if (begin == std::string_view::npos) return begin;
     value = text.substr(begin, text.find('\n', begin) - begin);
     return begin;
@@ -50,8 +50,8 @@ void take_description(std::string_view text, std::uint64_t at, FrameHead& head) 
   const auto digest = take(kDigestLine, head.digest);
   if (digest != std::string_view::npos) head.digest_at = at + digest;
   head.ours =
-      key || !head.digest.empty() || value_of(text, kSoftwareLine) != std::string_view::npos;
-  check_digest(head, value_of(text, kFormerDigestLine) != std::string_view::npos);
+      key || !head.digest.empty() || place_of_value(text, kSoftwareLine) != std::string_view::npos;
+  check_digest(head, place_of_value(text, kFormerDigestLine) != std::string_view::npos);
 }
 
 // ---- OpenEXR: "OpenEXR File Layout", Header ----
@@ -151,7 +151,7 @@ FrameHead read_exr_head(const FileBytes& file) {
 
 // ---- PNG: the specification, 5.3: length of the data, name, data, CRC-32 of name and data ----
 
-void take_size(std::string_view data, FrameHead& head) {
+void read_size(std::string_view data, FrameHead& head) {
   head.width = big_endian<std::uint32_t>(data);
   head.height = big_endian<std::uint32_t>(data.substr(4));
   head.bits = static_cast<unsigned char>(data[8]);
@@ -175,7 +175,7 @@ FrameHead read_png_head(const FileBytes& file) {
     const std::uint64_t end = name + data.size();
     if (png_checksum(data) != file.at(end, kNumber))
       throw DamagedFile("the checksum of a chunk is off");
-    if (first) take_size(std::string_view(data).substr(kNumber), head);
+    if (first) read_size(std::string_view(data).substr(kNumber), head);
     if (data.starts_with(keyword)) {
       take_description(std::string_view(data).substr(keyword.size()), name + keyword.size(), head);
       head.chunk_at = name, head.checksum_at = end;

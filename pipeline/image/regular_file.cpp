@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
   throw TemporaryError(what);
 }
 
-const char* kind_of(mode_t mode) {
+const char* kind_of_file(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISFIFO(mode)) return "a pipe";
   if (S_ISSOCK(mode)) return "a socket";
@@ -31,7 +31,7 @@ const char* kind_of(mode_t mode) {
 
 void check_regular(const fs::path& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode))
-    throw InputError(path.string() + ": this is " + kind_of(status.st_mode) +
+    throw InputError(path.string() + ": this is " + kind_of_file(status.st_mode) +
                      "; only regular files can be read");
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr std::time_t kBeyondDoubt = std::time_t{7} * 24 * 3600;
 
 template <class Number>
-bool read_number(std::string_view text, Number& number, int base) {
+bool read_whole_number(std::string_view text, Number& number, int base) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
   return error == std::errc() && end == text.data() + text.size();
 }
@@ -35,7 +35,7 @@ std::uint64_t boot_of_this_machine() {
   for (const char c : text)
     if (c != '-' && digits.size() < 16) digits += c;
   std::uint64_t boot = 0;
-  return digits.size() == 16 && read_number(digits, boot, 16) ? boot : 0;
+  return digits.size() == 16 && read_whole_number(digits, boot, 16) ? boot : 0;
 }
 
 struct ProcessState {
@@ -114,11 +114,11 @@ std::optional<WriterId> writer_of(std::string_view text) {
   }
   constexpr int kHexadecimal = 16, kDecimal = 10;
   WriterId id;
-  if (!read_number(fields[1], id.boot, kHexadecimal) ||
-      !read_number(fields[2], id.device, kHexadecimal) ||
-      !read_number(fields[3], id.process_namespace, kHexadecimal) ||
-      !read_number(fields[4], id.process, kDecimal) ||
-      !read_number(fields[5], id.start, kDecimal) || text_of(id) != text)
+  if (!read_whole_number(fields[1], id.boot, kHexadecimal) ||
+      !read_whole_number(fields[2], id.device, kHexadecimal) ||
+      !read_whole_number(fields[3], id.process_namespace, kHexadecimal) ||
+      !read_whole_number(fields[4], id.process, kDecimal) ||
+      !read_whole_number(fields[5], id.start, kDecimal) || text_of(id) != text)
     return std::nullopt;
   return id;
 }

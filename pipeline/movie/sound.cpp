@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct Channel51 {
   std::string_view word, name, of_ffmpeg;
 };
-constexpr std::array<Channel51, 6> kChannels{{{"l", "L", "FL"},
+constexpr std::array<Channel51, 6> kSurround{{{"l", "L", "FL"},
                                               {"r", "R", "FR"},
                                               {"c", "C", "FC"},
                                               {"lfe", "LFE", "LFE"},
@@ -40,7 +40,7 @@ std::string channel_word(const fs::path& file) {
 
 std::vector<fs::path> by_channel(const std::vector<fs::path>& files) {
   std::vector<fs::path> sorted;
-  for (const Channel51& channel : kChannels) {
+  for (const Channel51& channel : kSurround) {
     const auto is_it = [&](const fs::path& file) { return channel_word(file) == channel.word; };
     const auto found = std::find_if(files.begin(), files.end(), is_it);
     if (std::count_if(files.begin(), files.end(), is_it) != 1)
@@ -89,7 +89,7 @@ Track look_at(const fs::path& file) {
 Sound read_sound(const std::vector<fs::path>& files) {
   Sound sound;
   if (files.empty()) return sound;
-  if (files.size() != 1 && files.size() != kChannels.size())
+  if (files.size() != 1 && files.size() != kSurround.size())
     throw InputError(fmt::format("--audio: takes one file, or six that end in {}; got {}",
                                  kChannelNames, files.size()));
   sound.files = files.size() == 1 ? files : by_channel(files);
@@ -131,7 +131,7 @@ std::vector<std::string> sound_options(const Sound& sound, int first, int count,
   for (std::size_t k = 0; k < sound.files.size(); ++k) {
     filter += fmt::format("[{}:a:0]apad[c{}];", k + 1, k);
     labels += fmt::format("[c{}]", k);
-    map += fmt::format("{}{}.0-{}", k == 0 ? "" : "|", k, kChannels[k].of_ffmpeg);
+    map += fmt::format("{}{}.0-{}", k == 0 ? "" : "|", k, kSurround[k].of_ffmpeg);
   }
   filter +=
       labels + (sound.files.size() == 1 ? std::string("anull")

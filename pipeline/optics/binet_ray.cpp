@@ -37,7 +37,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-using State = std::array<double, 3>;  // y, dy/dpsi, and v or u less the observer's
+using OrbitState = std::array<double, 3>;  // y, dy/dpsi, and v or u less the observer's
 
 // Where a form takes over from the other.  Inwards a ray that has passed the horizon has no turning
 // point left (c - w^2 + 2 w^3 > 0 for w > 1/2); the gaps keep a ray that turns near 2 in one form.
@@ -57,7 +57,7 @@ struct Equation {
   Counted counted;
   long* evaluations;
 
-  void operator()(const State& y, State& dy, double /*psi*/) const {
+  void operator()(const OrbitState& y, OrbitState& dy, double /*psi*/) const {
     ++*evaluations;
     const double square = y[0] * y[0];
     const double high = form == Form::kInverse ? square : square * square * y[0];
@@ -67,20 +67,20 @@ struct Equation {
 
   // The second component is measured against a turn of the orbit too: its own size says nothing at
   // a turning point.
-  State scale(const State& y, const State& dy, double h) const {
+  OrbitState scale(const OrbitState& y, const OrbitState& dy, double h) const {
     return {std::abs(y[0]) + std::abs(h * dy[0]), std::abs(y[1]) + kappa * std::abs(y[0]),
             counted == Counted::kNothing ? 1 : std::abs(y[2]) + std::abs(h * dy[2])};
   }
 
-  double radius(const State& y) const {
+  double radius(const OrbitState& y) const {
     return form == Form::kInverse ? unit / y[0] : unit * y[0] * y[0];
   }
   // dln(w)/dphi
-  double steepness(const State& y) const {
+  double steepness(const OrbitState& y) const {
     return y[1] / (y[0] * kappa) * (form == Form::kInverse ? 1 : -2);
   }
   // e - p for v, e + p for u: it vanishes on the horizon where that is infinite.
-  double off_horizon(const State& y, Counted of) const {
+  double off_horizon(const OrbitState& y, Counted of) const {
     const double p = steepness(y) / radius(y);
     return of == Counted::kV ? energy_over_l - p : energy_over_l + p;
   }
@@ -88,7 +88,7 @@ struct Equation {
 
 struct Arc {
   Equation equation;
-  State y;
+  OrbitState y;
 };
 
 // c = (E/L)^2; steepness = dln(w)/dphi = r k^r / L; `time` is what has been counted.
@@ -138,12 +138,12 @@ double step_to_horizon(const Arc& arc) {
 // The part of a step h from y after which y vanishes, by Newton's method on the step itself, so
 // that the event is as accurate as a step.
 template <class ErrorStepper>
-double part_to_zero(const Equation& equation, const State& y, double h) {
+double part_to_zero(const Equation& equation, const OrbitState& y, double h) {
   constexpr int kIterations = 12;
   double part = h * 0.5;
   for (int i = 0; i < kIterations; ++i) {
     ErrorStepper stepper;
-    State at{};
+    OrbitState at{};
     stepper.do_step(equation, y, 0.0, at, part);
     const double next = std::clamp(part - at[0] / at[1], 0.0, h);
     if (std::abs(next - part) <= std::numeric_limits<double>::epsilon() * h) return next;
@@ -152,13 +152,13 @@ double part_to_zero(const Equation& equation, const State& y, double h) {
   return part;
 }
 
-SkyRegion origin_of(Form form, double energy) {
+SkyRegion origin_at_zero(Form form, double energy) {
   return form == Form::kRoot ? SkyRegion::kIV : sky_of(energy);
 }
 
 // A radial ray has no azimuth to follow and no turning point: its direction says all.
 IntegratedRay radial_ray(const PhotonAtObserver& photon) {
-  return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0, 0};
+  return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0, 0, {}};
 }
 
 // c / 2 w^3: above 1 the ray is nearly radial.
@@ -170,7 +170,7 @@ Form first_form(double r, double energy_over_l) {
   return r < kToRootInwards && radial_share(r, energy_over_l) < 1 ? Form::kRoot : Form::kInverse;
 }
 
-bool other_form_is_due(const Equation& equation, const State& y) {
+bool other_form_is_due(const Equation& equation, const OrbitState& y) {
   const double r = equation.radius(y), steepness = equation.steepness(y);
   const double share = radial_share(r, equation.energy_over_l);
   if (equation.form == Form::kInverse)
@@ -195,12 +195,12 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
   std::optional<Stepper> stepper;
   double phi = 0, psi = 0, h = kFirstStep;
   for (; ray.steps < kRayStepBudget; ++ray.steps) {
-    const State before = arc.y;
+    const OrbitState before = arc.y;
     const double psi_before = psi;
     // The last step again, as far as it is wanted.
     const auto stopped = [&] {
       ErrorStepper error_stepper;
-      State at{};
+      OrbitState at{};
       const double part = (until - phi) / arc.equation.kappa - psi_before;
       error_stepper.do_step(arc.equation, before, 0.0, at, part);
       ray.phi = until;
@@ -218,7 +218,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
     if (arc.y[0] <= 0) {
       psi = psi_before + part_to_zero<ErrorStepper>(arc.equation, before, psi - psi_before);
       if (phi + arc.equation.kappa * psi > until) return stopped();
-      ray.origin = origin_of(arc.equation.form, photon.energy);
+      ray.origin = origin_at_zero(arc.equation.form, photon.energy);
       ray.phi = phi + arc.equation.kappa * psi;
       ++ray.steps;
       return ray;
@@ -240,11 +240,11 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
 }  // namespace
 
 IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance, double until) {
-  return binet_ray<odeint::runge_kutta_dopri5<State>>(photon, tolerance, until);
+  return binet_ray<odeint::runge_kutta_dopri5<OrbitState>>(photon, tolerance, until);
 }
 
 IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until) {
-  return binet_ray<odeint::runge_kutta_fehlberg78<State>>(photon, tolerance, until);
+  return binet_ray<odeint::runge_kutta_fehlberg78<OrbitState>>(photon, tolerance, until);
 }
 
 }  // namespace domefall

@@ -32,7 +32,7 @@ V3d across(const V3d& source, double sine) {
 Critical home_critical(bool outgoing) { return outgoing ? Critical::kSecond : Critical::kFirst; }
 
 // alpha counts from -R in rain, from +R in the outgoing frame.
-TetradDirection direction_of(const NullRay& ray, const V3d& e) {
+TetradDirection tetrad_direction(const NullRay& ray, const V3d& e) {
   const double sine = 2 * ray.sin_half * ray.cos_half;
   const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
   return {V3d(ray.outgoing ? cosine : -cosine, 0, 0) + e * sine};
@@ -71,7 +71,7 @@ SkyImage image_of(const SkyTable* table, const V3d& source, int order, double ax
   const double x = table->distance(o.phi);
   const NullRay ray = table->ray_at_distance(x);
   SkyImage image;
-  image.direction = direction_of(ray, across(source, sine) * o.side);
+  image.direction = tetrad_direction(ray, across(source, sine) * o.side);
   image.frequency_ratio = 1 / one_plus_z(ray);
   // At the far end, where sin(alpha) and sin(phi) vanish together, their ratio is 1/slope.
   const double slope = table->slope(x);
@@ -97,7 +97,7 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
     const NullRay& ray = branches.ray[static_cast<std::size_t>(k)];
     SkyImage& image = images.image[static_cast<std::size_t>(k)];
     const double sin_alpha = 2 * ray.sin_half * ray.cos_half;
-    image.direction = direction_of(ray, across(source, sine) * o.side);
+    image.direction = tetrad_direction(ray, across(source, sine) * o.side);
     image.frequency_ratio = 1;
     const double slope = table.slope(table.place_of(ray));
     image.amplification =
@@ -122,7 +122,7 @@ TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source) {
     const double middle = (low + high) / 2;
     (exact_azimuth(ray_at_offset(middle)) > phi_star ? low : high) = middle;
   }
-  return direction_of(ray_at_offset((low + high) / 2), across(source, sine));
+  return tetrad_direction(ray_at_offset((low + high) / 2), across(source, sine));
 }
 
 }  // namespace domefall

@@ -81,7 +81,7 @@ class Panel {
 };
 
 // The polynomial of degree 7 on [0, 1] with these derivatives at 0 and 1.
-std::array<double, 8> between(const Derivatives& a, const Derivatives& b) {
+std::array<double, 8> hermite_between(const Derivatives& a, const Derivatives& b) {
   const double c2 = a.second / 2, c3 = a.third / 6;
   const double r0 = b.value - a.value - a.first - c2 - c3;
   const double r1 = b.first - a.first - a.second - a.third / 2;
@@ -133,7 +133,7 @@ OctaveCurve::OctaveCurve(double x_min, double x_max, const std::function<double(
     const Derivatives low = at_key(k);
     const double start = key_start(k), h = key_start(k + 1) - start;
     intervals_[static_cast<std::size_t>(k - first_key_)] = {
-        between(stretched(low, h), stretched(high, h))};
+        hermite_between(stretched(low, h), stretched(high, h))};
     high = low;
   }
 }

@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-RayState moved(const RayState& y, double h, const RayState& dy) {
+RayState state_after(const RayState& y, double h, const RayState& dy) {
   RayState out;
   for (std::size_t i = 0; i < y.size(); ++i) out[i] = y[i] + h * dy[i];
   return out;
@@ -25,9 +25,9 @@ RayState moved(const RayState& y, double h, const RayState& dy) {
 RayState classical_step(const GeodesicEquations& equations, const RayState& y, const RayState& dy,
                         double h) {
   RayState k2, k3, k4, out;
-  equations(moved(y, h / 2, dy), k2, 0);
-  equations(moved(y, h / 2, k2), k3, 0);
-  equations(moved(y, h, k3), k4, 0);
+  equations(state_after(y, h / 2, dy), k2, 0);
+  equations(state_after(y, h / 2, k2), k3, 0);
+  equations(state_after(y, h, k3), k4, 0);
   for (std::size_t i = 0; i < y.size(); ++i)
     out[i] = y[i] + h / 6 * (dy[i] + 2 * (k2[i] + k3[i]) + k4[i]);
   return out;
@@ -54,7 +54,7 @@ class DoublingRk4 {
       h *= std::max(kSafety * std::pow(share, -0.25), kShrinkAtMost);
       return false;
     }
-    y = moved(fine, kExtrapolate, error);
+    y = state_after(fine, kExtrapolate, error);
     h *= std::min(kSafety * std::pow(share, -0.2), kGrowAtMost);
     return true;
   }

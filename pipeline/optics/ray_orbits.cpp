@@ -69,7 +69,7 @@ inline InvariantsAt invariants_at(const ObserverPlace& o, double sh, double ch, 
 
 // The rays, and what becomes of them on the way to their orbits: in one place, so that the compiler
 // sees which columns are which.
-struct Beginning {
+struct RayBeginnings {
   using Column = RayPlaces::Column;
   alignas(64) Column sin_half, cos_half, gap_first, gap_second;
   alignas(64) Column inverse_b, eps, sense, inwards, radial;  // the last two 1 or 0
@@ -79,7 +79,7 @@ struct Beginning {
   Integrals first, second;
 };
 
-[[gnu::always_inline]] inline void gap_loop(double tangent, int count, const Beginning& rays,
+[[gnu::always_inline]] inline void gap_loop(double tangent, int count, const RayBeginnings& rays,
                                             double* gaps) {
   for (int k = 0; k < count; ++k) gaps[k] = rays.sin_half[k] - tangent * rays.cos_half[k];
 }
@@ -88,8 +88,8 @@ Dispatched<gap_loop> make_gaps;
 // kFar: whether the observer is beyond the light circle.
 template <bool kFar>
 [[gnu::always_inline]] inline void begin_loop(const ObserverPlace& observer, int count,
-                                              Beginning& rays) {
-  Beginning& q = rays;
+                                              RayBeginnings& rays) {
+  RayBeginnings& q = rays;
   const ObserverPlace o = observer;
   for (int k = 0; k < count; ++k) {
     const InvariantsAt i =
@@ -134,13 +134,14 @@ template <bool kFar>
 Dispatched<begin_loop<true>> begin_far_orbits;
 Dispatched<begin_loop<false>> begin_near_orbits;
 
-[[gnu::always_inline]] inline void integral_loop(int count, Beginning::Integrals& __restrict q) {
+[[gnu::always_inline]] inline void integral_loop(int count,
+                                                 RayBeginnings::Integrals& __restrict q) {
   for (int k = 0; k < count; ++k)
     q.value[k] = q.factor[k] * orbit_ends::carlson_rf(q.a[k], q.b[k], q.c[k]);
 }
 Dispatched<integral_loop> find_integrals;
 
-[[gnu::always_inline]] inline void end_loop(const Beginning& __restrict q, double x, int count,
+[[gnu::always_inline]] inline void end_loop(const RayBeginnings& __restrict q, double x, int count,
                                             OrbitColumns& __restrict to) {
   for (int k = 0; k < count; ++k) {
     const double eps = q.eps[k], first = q.first.value[k], second = q.second.value[k];
@@ -197,7 +198,7 @@ void RayOrbits::set(const Radius& at, bool outgoing, const RayColumns& rays, int
   outgoing_ = outgoing;
   count_ = count;
   const ObserverPlace observer = place_of(at, outgoing);
-  Beginning orbits;
+  RayBeginnings orbits;
   std::copy_n(rays.sin_half, count, orbits.sin_half.begin());
   std::copy_n(rays.cos_half, count, orbits.cos_half.begin());
   const auto set_gaps = [&](const double* given, double tangent, RayPlaces::Column& gaps) {

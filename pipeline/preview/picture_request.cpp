@@ -6,15 +6,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "pipeline/image/errors.h"
 #include "pipeline/show/problems.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kRadian = std::numbers::pi / 180;
 
 class Query {
  public:
@@ -58,7 +56,7 @@ Projection projection_of(const Query& query) {
   const int width = query.number("w", kLeastSide, kMostSide, 960),
             height = query.number("h", kLeastSide, kMostSide, 540);
   const std::string name = query.text("projection").value_or("stereographic");
-  const auto fov = [&](double most) { return query.number("fov", 1e-5, most, 100.0) * kRadian; };
+  const auto fov = [&](double most) { return query.number("fov", 1e-5, most, 100.0) * kDegree; };
   if (name == "stereographic") return Stereographic{width, height, fov(340)};
   if (name == "rectilinear") return Rectilinear{width, height, fov(170)};
   if (name == "fisheye") return Fisheye{width, std::min(width, height), fov(360), 0.5};

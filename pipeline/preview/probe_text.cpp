@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json finite_number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 void add_ray(const Show& show, const FrameState& state, const CameraDirection& along, double width,
              Json& json) {
@@ -23,11 +23,11 @@ void add_ray(const Show& show, const FrameState& state, const CameraDirection& a
   json["sky"] = name_of(ray.sky);
   if (!ray.known) return;
   const Equatorial at = equatorial({ray.sky_direction});
-  json["ra_deg"] = number(at.ra_deg);
-  json["dec_deg"] = number(at.dec_deg);
+  json["ra_deg"] = finite_number(at.ra_deg);
+  json["dec_deg"] = finite_number(at.dec_deg);
   if (ray.sky == SkyRegion::kIV) return;  // the past singularity's light has no redshift
-  json["redshift"] = number(1 / ray.frequency_ratio);
-  json["amplification"] = number(amplification(ray.bundle, width));
+  json["redshift"] = finite_number(1 / ray.frequency_ratio);
+  json["amplification"] = finite_number(amplification(ray.bundle, width));
   json["order"] = static_cast<int>(ray.bundle.azimuth / std::numbers::pi);
 }
 
@@ -48,12 +48,12 @@ Json star_near(const std::vector<NamedImage>& images, const Projection& projecti
     if (distance < least) least = distance, nearest = &image;
   }
   if (!nearest) return {};
-  Json star = {{"name", bare(*nearest)}, {"magnitude", number(nearest->magnitude)}};
+  Json star = {{"name", bare(*nearest)}, {"magnitude", finite_number(nearest->magnitude)}};
   star["images"] = Json::array();
   for (const NamedImage& image : images) {
     if (bare(image) != bare(*nearest)) continue;
     if (const auto pixel = pixel_of(projection, image.direction))
-      star["images"].push_back({number(pixel->i), number(pixel->j)});
+      star["images"].push_back({finite_number(pixel->i), finite_number(pixel->j)});
   }
   return star;
 }
@@ -67,7 +67,7 @@ std::string LivePictures::probe(const PictureRequest& request, PixelPosition at)
   Json json = {
       {"inside", is_inside(seen.projection, at)},
       {"region", is_flat(seen.observer) ? Json() : Json(region_name(seen.observer.region))},
-      {"r", number(seen.observer.r)}};
+      {"r", finite_number(seen.observer.r)}};
   add_ray(prepared_, seen, direction_at(seen.projection, at), pixel_angle(seen.projection, at),
           json);
   json["star"] = star_near(labels_->images(seen), seen.projection, at);

@@ -8,11 +8,12 @@
 #include <numbers>
 
 #include "pipeline/show/camera_track.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180, kHalfSquare = std::numbers::sqrt2 / 2;
+constexpr double kHalfSquare = std::numbers::sqrt2 / 2;
 
 // The axes of a flat camera that looks 45 degrees up the front of a dome, and the other way around:
 // those of a dome whose seats look there.
@@ -93,8 +94,8 @@ void see_in(const Show& show, const Projection& projection, FrameState& state) {
 }
 
 void turn_to(const ScreenLook& look, FrameState& state) {
-  const double azimuth = look.azimuth_deg * kRadian, altitude = look.altitude_deg * kRadian,
-               roll = look.roll_deg * kRadian;
+  const double azimuth = look.azimuth_deg * kDegree, altitude = look.altitude_deg * kDegree,
+               roll = look.roll_deg * kDegree;
   const V3d ahead(std::sin(azimuth) * std::cos(altitude), std::cos(azimuth) * std::cos(altitude),
                   std::sin(altitude));
   const V3d level(std::cos(azimuth), -std::sin(azimuth), 0), steep = ahead.cross(level);
@@ -125,9 +126,9 @@ std::string camera_as_yaml(const Show& show, const FrameState& state) {
   const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
   const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
   const double psi = std::atan2(x.dot(b1), x.dot(a2));
-  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]{}}}", phi / kRadian, theta / kRadian,
-                     psi / kRadian,
-                     tilt != 0 ? fmt::format(", dome_tilt_deg: {:.6g}", tilt / kRadian) : "");
+  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]{}}}", phi / kDegree, theta / kDegree,
+                     psi / kDegree,
+                     tilt != 0 ? fmt::format(", dome_tilt_deg: {:.6g}", tilt / kDegree) : "");
 }
 
 }  // namespace domefall

@@ -23,10 +23,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMostSamples = 2000;  // of a curve
+constexpr int kMostCurveSamples = 2000;  // of a curve
 
 // Six digits, which a page shows; JSON has no infinity.
-Json number(double value) {
+Json rounded_number(double value) {
   if (!std::isfinite(value)) return {};
   return Json::parse(fmt::format("{:.6g}", value));
 }
@@ -37,11 +37,11 @@ Json segments_of(const Show& show) {
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
     const Segment& segment = show.timeline[k];
     list.push_back({{"type", segment.type},
-                    {"begin_s", number(times[k])},
-                    {"end_s", number(times[k] + segment.duration_s)},
-                    {"dissolve_s", number(segment.dissolve_s)},
-                    {"fade_in_s", number(segment.fades.in_s)},
-                    {"fade_out_s", number(segment.fades.out_s)}});
+                    {"begin_s", rounded_number(times[k])},
+                    {"end_s", rounded_number(times[k] + segment.duration_s)},
+                    {"dissolve_s", rounded_number(segment.dissolve_s)},
+                    {"fade_in_s", rounded_number(segment.fades.in_s)},
+                    {"fade_out_s", rounded_number(segment.fades.out_s)}});
   }
   return list;
 }
@@ -66,15 +66,16 @@ Json keyframes_of(const Show& show) {
   Json list = Json::array();
   for (const auto& [at_s, what] : keys)
     if (at_s >= 0 && at_s <= end)
-      list.push_back(
-          {{"time_s", number(at_s)}, {"segment", segment_at(show, at_s) + 1}, {"what", what}});
+      list.push_back({{"time_s", rounded_number(at_s)},
+                      {"segment", segment_at(show, at_s) + 1},
+                      {"what", what}});
   return list;
 }
 
 Json markers_of(const Show& show) {
   Json list = Json::array();
   for (const Marker& marker : show.markers)
-    list.push_back({{"name", marker.name}, {"time_s", number(marker.at_s)}});
+    list.push_back({{"name", marker.name}, {"time_s", rounded_number(marker.at_s)}});
   return list;
 }
 
@@ -83,8 +84,8 @@ Json titles_of(const Show& show) {
   const auto add = [&](const std::vector<Title>& titles) {
     for (const Title& title : titles)
       list.push_back({{"text", title.text},
-                      {"begin_s", number(title.begin_s)},
-                      {"end_s", number(title.end_s)}});
+                      {"begin_s", rounded_number(title.begin_s)},
+                      {"end_s", rounded_number(title.end_s)}});
   };
   add(show.titles);
   for (const Segment& segment : show.timeline) add(segment.titles);
@@ -99,7 +100,7 @@ double speed_of(const ObserverState& o) {
 }
 
 Json states_of(const Show& show) {
-  const int count = frame_count(show), samples = std::min(count, kMostSamples);
+  const int count = frame_count(show), samples = std::min(count, kMostCurveSamples);
   Json frames = Json::array(), r = Json::array(), regions = Json::array(), clocks = Json::array(),
        speeds = Json::array(), shifts = Json::array();
   for (int k = 0; k < samples; ++k) {
@@ -108,19 +109,19 @@ Json states_of(const Show& show) {
     const FrameState state = frame_state(show, frame);
     const ObserverState& o = seen_better(state).observer;
     frames.push_back(frame);
-    r.push_back(number(o.r));
+    r.push_back(rounded_number(o.r));
     regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region)));
-    clocks.push_back(number(o.proper_time));
-    speeds.push_back(number(speed_of(o)));
+    clocks.push_back(rounded_number(o.proper_time));
+    speeds.push_back(rounded_number(speed_of(o)));
     const auto shift = frequency_range(o, false, !show.effects.lensing);
-    shifts.push_back(shift ? number(1 / shift->largest) : Json());
+    shifts.push_back(shift ? rounded_number(1 / shift->largest) : Json());
   }
   return {{"frame", frames},       {"r", r},          {"region", regions},
           {"proper_time", clocks}, {"speed", speeds}, {"shift_ahead", shifts}};
 }
 
 Json plots_of(const Show& show) {
-  const MarkedPage page = marked_page(show, std::clamp(frame_count(show), 2, kMostSamples));
+  const MarkedPage page = marked_page(show, std::clamp(frame_count(show), 2, kMostCurveSamples));
   Json marks = Json::array();
   for (const std::vector<PagePoint>& places : page.places) {
     Json at = Json::array();
@@ -159,7 +160,7 @@ Json overlays_as_json() {
 Json json_of(const ShowWarning& warning) {
   Json json = {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}};
   if (warning.segment != kWholeShow)
-    json = {{"time_s", number(warning.time_s)},
+    json = {{"time_s", rounded_number(warning.time_s)},
             {"frame", warning.frame},
             {"segment", warning.segment + 1}};
   json["text"] = warning.text;
@@ -171,7 +172,7 @@ ShowWarning note_of(const FrameLight& light, const char* text) {
 }
 
 // Bytes that are not UTF-8, of a configuration's names, do not end the page.
-std::string text_of(const Json& json) {
+std::string page_json(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -184,12 +185,12 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
                {"title", show.title},
                {"frames", frame_count(show)},
                {"frames_per_second", show.frames_per_second},
-               {"duration_s", number(end_of(show))},
+               {"duration_s", rounded_number(end_of(show))},
                {"mistake", version.mistake.empty() ? Json() : Json(version.mistake)},
                {"projection", projection_name(show.projection)},
                {"width", columns(show.projection)},
                {"height", rows(show.projection)},
-               {"mass_solar", show.mass_solar ? number(*show.mass_solar) : Json()},
+               {"mass_solar", show.mass_solar ? rounded_number(*show.mass_solar) : Json()},
                {"default_view", "stereographic"},
                {"threads", threads},
                {"segments", segments_of(show)},
@@ -204,7 +205,7 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
                {"overlays", overlays_as_json()},
                {"states", states_of(show)},
                {"plots", plots_of(show)}};
-  return text_of(json);
+  return page_json(json);
 }
 
 std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop) {
@@ -229,7 +230,7 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   Json list = Json::array();
   for (const ShowWarning& warning : warnings) list.push_back(json_of(warning));
-  return text_of({{"done", true}, {"warnings", list}});
+  return page_json({{"done", true}, {"warnings", list}});
 }
 
 }  // namespace domefall

@@ -90,7 +90,7 @@ ExtremeResult crowded_skies() {
 
 // ---- place ----
 
-constexpr double kRadius = 30;
+constexpr double kExtremeRadius = 30;
 constexpr double kMilliarcsecond = pi / 180 / 3600e3;
 
 // The worst displacement of the view rays through the middle row, in pixels of the middle.  The
@@ -98,7 +98,7 @@ constexpr double kMilliarcsecond = pi / 180 / 3600e3;
 // the exact integral at the offset from that edge which the projection gives it.
 double worst_displacement(const Show& show, int size, double fov, double aside) {
   const FrameState state = frame_state(show, 0);
-  const HoleOptics optics = make_hole_optics(kRadius, Tetrad::kRain, {});
+  const HoleOptics optics = make_hole_optics(kExtremeRadius, Tetrad::kRain, {});
   const ViewTracer tracer(state, optics);
   const double middle = (size + 1) / 2.0;
   double worst = 0;
@@ -108,7 +108,7 @@ double worst_displacement(const Show& show, int size, double fov, double aside) 
     const ViewRay ray =
         tracer.trace(direction_at(show.projection, {static_cast<double>(i), middle}));
     if (ray.sky != SkyRegion::kI || aside - turn <= 0) continue;
-    const double phi = exact_azimuth(ray_off_edge(kRadius, Critical::kFirst, aside - turn));
+    const double phi = exact_azimuth(ray_off_edge(kExtremeRadius, Critical::kFirst, aside - turn));
     const V3d seen = apply_transposed(state.observer.sky_from_tetrad, ray.sky_direction);
     const double off =
         std::hypot(seen.x - std::cos(phi), std::hypot(seen.y, seen.z) - std::abs(std::sin(phi)));
@@ -127,8 +127,8 @@ ExtremeResult zoom_to_the_seventh_ghost() {
   for (int view = 0; view < 8; ++view) {
     const double fov = pi / 2 / std::pow(zoom, view);
     const double aside = view == 0 ? 0 : fov / 4;  // so that the edge is in the frame
-    const double vartheta = pi - silhouette_edge(kRadius) - aside;
-    const Show show = extreme_show(RadialInfall{kRadius}, Stereographic{size, size, fov},
+    const double vartheta = pi - silhouette_edge(kExtremeRadius) - aside;
+    const Show show = extreme_show(RadialInfall{kExtremeRadius}, Stereographic{size, size, fov},
                                    EulerAngles{0, vartheta, 0});
     frames.add(show);
     worst = std::max(worst, worst_displacement(show, size, fov, aside));

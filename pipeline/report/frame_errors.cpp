@@ -1,15 +1,14 @@
 #include "pipeline/report/frame_errors.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/show/assets.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kQuickSize = 256, kFullSize = 1024;
 constexpr Repeats kQuickRepeats{3, 1};
 

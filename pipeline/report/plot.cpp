@@ -27,7 +27,7 @@ set grid linewidth 0.5 linecolor rgb "#dddddd"
 set clip one
 )";
 
-std::string number(double value) { return fmt::format("{:.10g}", value); }
+std::string plot_number(double value) { return fmt::format("{:.10g}", value); }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -58,20 +58,21 @@ std::string marks_of_pi(const Axis& axis) {
   for (int k = first; k <= last; ++k)
     marks +=
         fmt::format("{}{} {}", marks.empty() ? "" : ", ", quoted(parts_of_pi(k * axis.mark_every)),
-                    number(k * axis.mark_every * kPi));
+                    plot_number(k * axis.mark_every * kPi));
   return marks;
 }
 
 std::string axis_script(const char* name, const Axis& axis) {
   std::string script = fmt::format("set {}label {}\n", name, quoted(axis.label));
   if (axis.most > axis.least)
-    script += fmt::format("set {}range [{}:{}]\n", name, number(axis.least), number(axis.most));
+    script +=
+        fmt::format("set {}range [{}:{}]\n", name, plot_number(axis.least), plot_number(axis.most));
   if (axis.scale == Axis::Scale::kLog)
     script += fmt::format("set logscale {0}\nset format {0} \"10^{{%L}}\"\n", name);
   if (axis.scale == Axis::Scale::kOfPi)
     script += fmt::format("set {}tics ({})\n", name, marks_of_pi(axis));
   else if (axis.mark_every > 0)
-    script += fmt::format("set {}tics {}\n", name, number(axis.mark_every));
+    script += fmt::format("set {}tics {}\n", name, plot_number(axis.mark_every));
   return script;
 }
 
@@ -83,7 +84,7 @@ std::string data_block(const Plot& plot, const PlotCurve& curve, const std::stri
   std::string block = name + " << EOD\n";
   for (const PlotPoint& p : curve.points)
     if (can_be_drawn(plot.x, p.x) && can_be_drawn(plot.y, p.y))
-      block += fmt::format("{} {}\n", number(p.x), number(p.y));
+      block += fmt::format("{} {}\n", plot_number(p.x), plot_number(p.y));
   return block + "EOD\n";
 }
 
@@ -121,7 +122,7 @@ std::string gnuplot_script(const Plot& plot) {
   script += key_script(plot.legend);
   for (const PlotLabel& label : plot.labels)
     script += fmt::format("set label {} at {},{} center front\n", quoted(label.text),
-                          number(label.x), number(label.y));
+                          plot_number(label.x), plot_number(label.y));
   std::string curves;
   int index = 0;
   for (const PlotCurve& curve : plot.curves) {

@@ -24,13 +24,13 @@ OrbitPoint in_rain(OrbitPoint point) {
 }
 
 // Its proper time since Body::start when it begins to shine, and when it ends.
-double begin_of(const Body& body) {
+double first_proper_time(const Body& body) {
   if (!body.shines_before) return 0;
   const auto* geodesic = std::get_if<Geodesic>(&body.trajectory);
   return geodesic ? geodesic->birth() - double(body.start)
                   : -std::numeric_limits<double>::infinity();
 }
-double end_of(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
+double last_proper_time(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
 
 }  // namespace
 
@@ -57,7 +57,7 @@ BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
                              now.celerity.x,
                              normal * (now.r * now.celerity.z)};
           },
-          begin_of(body), end_of(body)};
+          first_proper_time(body), last_proper_time(body)};
 }
 
 Beginning beginning_beside(const Body& body, double tau, double behind) {

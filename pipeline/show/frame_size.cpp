@@ -21,14 +21,14 @@ int whole_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? value : -1;
 }
 
-bool in_range(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
+bool is_frame_size(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
 Projection with_sides(const Projection& projection, const std::string& size,
                       const std::string& asked) {
   const std::size_t cross = std::min(size.find('x'), size.size());
   const int width = whole_number(std::string_view(size).substr(0, cross));
   const int height = whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
-  if (!in_range(width) || !in_range(height))
+  if (!is_frame_size(width) || !is_frame_size(height))
     throw InputError(asked + size +
                      ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
   if (std::holds_alternative<Fisheye>(projection) && height > width)
@@ -53,14 +53,14 @@ Projection resized(const Projection& projection, const std::string& size, const 
       pixels = thousands * 1024;
   }
   if (cube) {
-    if (!in_range(pixels) || 3 * pixels > kLargest)
+    if (!is_frame_size(pixels) || 3 * pixels > kLargest)
       throw InputError(
           fmt::format("{}{}: the faces of a cubemap take 1k, 2k, 4k or a number "
                       "of pixels from {} to {}",
                       asked, size, kSmallest, kLargest / 3));
     return Cubemap{pixels};
   }
-  if (!in_range(pixels) || (sphere && pixels % 2 != 0))
+  if (!is_frame_size(pixels) || (sphere && pixels % 2 != 0))
     throw InputError(fmt::format("{}{}: {} takes 1k, 2k, 4k, 8k or {} from {} to {}", asked, size,
                                  sphere ? "the width of a whole sphere" : "a dome",
                                  sphere ? "an even number of pixels" : "a number of pixels",

@@ -10,7 +10,7 @@ namespace domefall {
 namespace {
 
 // The tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
-double tortoise(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
+double tortoise_of(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
 
 // What must be added to the null time of a trajectory, so that it goes on from the joint.  Between
 // v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
@@ -19,7 +19,7 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   if (start.tetrad != joint.tetrad) {
     const bool same_sky = is_mirrored(start.tetrad) == is_mirrored(joint.tetrad);
     if (!same_sky || !(joint.r > 2) || std::isinf(joint.r)) return -start.null_time;
-    reached = reached + (is_outgoing(start.tetrad) ? -2 : 2) * tortoise(joint.r);
+    reached = reached + (is_outgoing(start.tetrad) ? -2 : 2) * tortoise_of(joint.r);
   }
   return reached - start.null_time;
 }
@@ -121,7 +121,8 @@ Joint joint_into(const Joint& reached, const Segment& next) {
 double rain_time(const Joint& joint) {
   if (is_mirrored(joint.tetrad)) return 0;
   if (!is_outgoing(joint.tetrad)) return double(joint.null_time);
-  return joint.r > 2 && !std::isinf(joint.r) ? double(joint.null_time) + 2 * tortoise(joint.r) : 0;
+  return joint.r > 2 && !std::isinf(joint.r) ? double(joint.null_time) + 2 * tortoise_of(joint.r)
+                                             : 0;
 }
 
 void join_segments(Show& show) {

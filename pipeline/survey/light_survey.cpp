@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kWidth = 48, kMostInstants = 60;
+constexpr int kSurveyWidth = 48, kMostInstants = 60;
 constexpr double kFadeStops = 3;
 // From this part of white's code value on the steps to white are not seen.
 constexpr double kNearWhite = 0.99;
@@ -84,7 +84,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   for (int k = 0; k < samples; ++k) {
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
-    const FrameState state = reduced(frame_state(show, frame), kWidth);
+    const FrameState state = reduced(frame_state(show, frame), kSurveyWidth);
     FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
     meter.measure(renderer.render(state), state, light);
     lights.push_back(light);

@@ -13,7 +13,7 @@ namespace {
 
 // A segment has as many samples as frames, within these bounds: enough that an orbit has one
 // turning point at most between two of them.
-constexpr int kLeastSamples = 512, kMostSamples = 20'000;
+constexpr int kLeastSurveySamples = 512, kMostSurveySamples = 20'000;
 // About half the bits of a double: r changes by less than rounding closer to a minimum.
 constexpr int kMinimumBits = 26;
 
@@ -31,7 +31,7 @@ class SampledPath {
  public:
   SampledPath(const Segment& segment, int frames) : segment_(segment) {
     const ProperTime &begin = segment.timing.tau_begin, &end = segment.timing.tau_end;
-    const int samples = std::clamp(frames, kLeastSamples, kMostSamples);
+    const int samples = std::clamp(frames, kLeastSurveySamples, kMostSurveySamples);
     const double step = std::min(double(end - begin), period()) / samples;
     for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end, begin + step * k));
     taus_.push_back(end);
@@ -101,9 +101,9 @@ double part_of(const Segment& segment, const ProperTime& tau) {
 SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   const Segment& segment = segment_of(show, k);
   const Timing& timing = segment.timing;
-  const SampledPath path(
-      segment, static_cast<int>(
-                   std::min(segment.duration_s * show.frames_per_second, double{kMostSamples})));
+  const SampledPath path(segment,
+                         static_cast<int>(std::min(segment.duration_s * show.frames_per_second,
+                                                   double{kMostSurveySamples})));
   SegmentSurvey s;
   s.type = segment.type;
   s.begin_s = begin_s, s.end_s = begin_s + segment.duration_s, s.dissolve_s = segment.dissolve_s;

@@ -25,7 +25,7 @@ void collect(const CLI::App& app, const std::string& words, std::vector<TypedVer
 }
 
 // What may stand for a value, in the words of _domefall_complete; "other" for what it cannot know.
-std::string kind_of(const DescribedOption& option) {
+std::string completion_kind(const DescribedOption& option) {
   const std::string many = option.takes_many ? "many " : "";
   if (!option.words.empty())
     return fmt::format("{}{} {}", many, option.joins_words ? "list" : "words",
@@ -77,7 +77,8 @@ std::string values_function(const std::vector<TypedVerb>& all) {
       else
         for (const std::string& name : option.names)
           labels.push_back(fmt::format("'{} {}'", words, name));
-      text += fmt::format("    {}) kind='{}' ;;\n", fmt::join(labels, " | "), kind_of(option));
+      text +=
+          fmt::format("    {}) kind='{}' ;;\n", fmt::join(labels, " | "), completion_kind(option));
     }
   }
   return text + "    *) return 1 ;;\n  esac\n}\n\n";

@@ -3,7 +3,7 @@
 namespace domefall {
 namespace {
 
-constexpr std::uint32_t kStep = 257;  // 16-bit codes in a step of 8 bits
+constexpr std::uint32_t kCodeStep = 257;  // 16-bit codes in a step of 8 bits
 
 // A number without visible order.  [Wellons] "Prospecting for hash functions", lowbias32.
 constexpr std::uint32_t scrambled(std::uint32_t x) {
@@ -13,7 +13,7 @@ constexpr std::uint32_t scrambled(std::uint32_t x) {
 }
 
 // A 16-bit number as one below kStep.
-constexpr std::uint32_t even(std::uint32_t bits) { return bits * kStep >> 16; }
+constexpr std::uint32_t even(std::uint32_t bits) { return bits * kCodeStep >> 16; }
 
 // x/kStep rounded down, for x below 2^16 + kStep: 65281 kStep is 2^24 + 1.
 constexpr std::uint32_t steps_in(std::uint32_t x) { return x * 65281U >> 24; }
@@ -22,7 +22,7 @@ static_assert(steps_in(257) == 1 && steps_in(256) == 0 && steps_in(65791) == 255
 // floor((value + n)/kStep), where n has each whole number below kStep as often, has the mean
 // value/kStep exactly (Hermite's identity).
 constexpr std::uint8_t rounded(std::uint32_t value, std::uint32_t noise) {
-  constexpr std::uint32_t kHalf = kStep / 2, kWhite = 65535;
+  constexpr std::uint32_t kHalf = kCodeStep / 2, kWhite = 65535;
   const std::uint32_t first = even(noise & 0xffff), second = even(noise >> 16);
   const bool inside = value >= kHalf && value <= kWhite - kHalf;
   return static_cast<std::uint8_t>(steps_in(value + first + (inside ? second - kHalf : 0)));

@@ -81,7 +81,7 @@ class PngStrip {
   unsigned sum_ = 0;
 };
 
-std::string header_of(const RowPicture& picture, const PngHead& head) {
+std::string png_header(const RowPicture& picture, const PngHead& head) {
   constexpr char kRgb = 2;
   std::string data = big_endian_bytes(static_cast<std::uint32_t>(picture.width)) +
                      big_endian_bytes(static_cast<std::uint32_t>(picture.height));
@@ -98,7 +98,7 @@ std::string png_checksum(std::string_view name_and_data) {
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head) {
   sink.write("\x89PNG\r\n\x1a\n");
-  write_chunk(sink, "IHDR", {header_of(picture, head)});
+  write_chunk(sink, "IHDR", {png_header(picture, head)});
   for (const PngChunk& chunk : head.chunks) write_chunk(sink, chunk.name, {chunk.data});
   const int rows = rows_of_strip(picture.width, picture.height),
             strips = (picture.height + rows - 1) / rows;

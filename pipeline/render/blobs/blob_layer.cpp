@@ -15,7 +15,7 @@ namespace {
 
 // The images that one task places, whatever the number of threads, and the parts of images that it
 // places at once.
-constexpr std::size_t kTask = 32768, kStep = 256;
+constexpr std::size_t kTask = 32768, kPartsAtOnce = 256;
 
 // Splats are quicker where a frame has more than one image for so many pixels: measured at 4k.
 constexpr double kPixelsPerSplat = 32;
@@ -102,9 +102,9 @@ void BlobLayer::place(std::size_t number, std::vector<StarImage>& images,
 
 // The parts of images that are placed at once: their middles, and the Gaussians of their halos.
 struct BlobLayer::Parts {
-  std::array<StarImage, kStep> image;
-  std::array<double, kStep> sigma;
-  std::array<bool, kStep> is_middle;
+  std::array<StarImage, kPartsAtOnce> image;
+  std::array<double, kPartsAtOnce> sigma;
+  std::array<bool, kPartsAtOnce> is_middle;
   std::size_t count = 0;
 
   void add(const StarImage& part, double width, bool middle) {
@@ -150,9 +150,9 @@ void BlobLayer::place_with_copies(const EllipseBlob& ellipse, int first_row, Tas
 }
 
 void BlobLayer::place_parts(const Parts& parts, const PointSpread& widths, Task& task) const {
-  std::array<EllipseBlob, kStep> ellipses;
-  std::array<int, kStep> first_row;
-  std::array<BlobKind, kStep> kind;
+  std::array<EllipseBlob, kPartsAtOnce> ellipses;
+  std::array<int, kPartsAtOnce> first_row;
+  std::array<BlobKind, kPartsAtOnce> kind;
   place_ellipses(projection_, parts.image.data(), parts.sigma.data(), parts.count,
                  most_coloured_peak(widths.paling()), ellipses.data(), first_row.data(),
                  kind.data());
@@ -182,7 +182,7 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
       for (const PointSpreadParts::Halo& halo : of_image.halo)
         if (halo.share > 0) parts.add(with_share(image, halo.share), halo.sigma, false);
     }
-    if (parts.count + kMostParts > kStep || k + 1 == count) {
+    if (parts.count + kMostParts > kPartsAtOnce || k + 1 == count) {
       place_parts(parts, widths, task);
       parts.count = 0;
     }

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr std::size_t kBatch = 32;
+constexpr std::size_t kPlacedAtOnce = 32;
 // The most that a wide ellipse may err where its relative error is larger than that of others, as a
 // pixel value.
 constexpr double kMostWideError = 5e-4;
@@ -35,9 +35,9 @@ constexpr double kFarBeside = 1e5;
 
 // A batch of images, column by column, with what becomes of them.
 struct Placing {
-  alignas(64) std::array<double, kBatch> x, y, red, green, blue, sigma;
-  alignas(64) std::array<float, kBatch> xx, xy, yy, peak_per_flux;
-  alignas(64) std::array<int, kBatch> kind, first_row;
+  alignas(64) std::array<double, kPlacedAtOnce> x, y, red, green, blue, sigma;
+  alignas(64) std::array<float, kPlacedAtOnce> xx, xy, yy, peak_per_flux;
+  alignas(64) std::array<int, kPlacedAtOnce> kind, first_row;
 };
 
 // Sets what becomes of the k-th image, whose blob has this shape, or is a cap if it is `far`.  The
@@ -70,7 +70,7 @@ struct Placing {
 
 template <bool kDome>
 [[gnu::always_inline]] inline void place_loop(const ImagePlane& plane, Placing& p) {
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  for (std::size_t k = 0; k < kPlacedAtOnce; ++k) {
     const double cx = p.x[k] - plane.middle_x, cy = p.y[k] - plane.middle_y;
     // Far outside the half sphere ellipses grow without bound, so caps are drawn there.
     const bool far = kDome && plane.unit * plane.unit * (cx * cx + cy * cy) > 3;
@@ -89,7 +89,7 @@ bool is_slanted(const BlobShape& s) { return s.xy * s.xy > 0.25 * s.xx * s.yy; }
 // The same by the projection's metric.  Where the scale changes quickly an ellipse may stand for a
 // blob that is so faint that nobody sees the error.
 void place_by_metric(const Projection& projection, const ImagePlane& plane, Placing& p) {
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  for (std::size_t k = 0; k < kPlacedAtOnce; ++k) {
     p.kind[k] = kCap;
     p.first_row[k] = 0;
     p.xx[k] = p.xy[k] = p.yy[k] = p.peak_per_flux[k] = 0;
@@ -110,7 +110,7 @@ void place_batch(const Projection& projection, const ImagePlane& plane, const St
                  const double* sigma, std::size_t count, EllipseBlob* blobs, int* first_row,
                  BlobKind* kind) {
   Placing p;
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  for (std::size_t k = 0; k < kPlacedAtOnce; ++k) {
     const StarImage& image = images[std::min(k, count - 1)];
     p.x[k] = image.x;
     p.y[k] = image.y;
@@ -166,9 +166,9 @@ void place_ellipses(const Projection& projection, const StarImage* images, const
   const double width = columns(projection), height = rows(projection);
   const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
   const ImagePlane plane{unit, (width - 1) / 2, (height - 1) / 2, width, height, most_peak};
-  for (std::size_t k = 0; k < count; k += kBatch)
-    place_batch(projection, plane, images + k, sigma + k, std::min(kBatch, count - k), blobs + k,
-                first_row + k, kind + k);
+  for (std::size_t k = 0; k < count; k += kPlacedAtOnce)
+    place_batch(projection, plane, images + k, sigma + k, std::min(kPlacedAtOnce, count - k),
+                blobs + k, first_row + k, kind + k);
 }
 
 bool place_wide_ellipse(const Projection& projection, const CapBlob& cap, double most_peak,

@@ -9,7 +9,7 @@ namespace domefall {
 namespace {
 
 // Variances along an axis, pixel^2, of a cubic B-spline and of the square of a pixel.
-constexpr double kSpline = 1.0 / 3, kPixel = 1.0 / 12;
+constexpr double kSplineVariance = 1.0 / 3, kPixelVariance = 1.0 / 12;
 // Their fourth cumulants.  The box of a pixel has -1/120, and the spline is four boxes convolved.
 constexpr double kSplineFourth = -4.0 / 120, kPixelFourth = -1.0 / 120;
 // The blur ends where its Gaussian has fallen to e^-10.
@@ -58,7 +58,8 @@ SplatKernel::SplatKernel(const Projection& projection, double sigma)
       width_(columns(projection)),
       height_(rows(projection)) {
   const double pixel = central_pixel_angle(projection), unit = dome_ ? pixel : pixel / 2;
-  const double variance = sigma * sigma / (pixel * pixel), wanted = variance + kPixel - kSpline;
+  const double variance = sigma * sigma / (pixel * pixel),
+               wanted = variance + kPixelVariance - kSplineVariance;
   frame_ = {static_cast<float>((width_ - 1) / 2.0), static_cast<float>((height_ - 1) / 2.0),
             static_cast<float>(unit * unit), static_cast<float>(variance),
             static_cast<float>(1 / (pixel * pixel))};

@@ -12,12 +12,12 @@
 namespace domefall {
 namespace {
 
-constexpr std::size_t kBatch = 64;
-constexpr int kChannels = kSplatChannels, kFloats = 8, kBlocks = 8;
+constexpr std::size_t kSplatBatch = 64;
+constexpr int kFloats = 8, kBlocks = 8;
 static_assert(kBlocks * kFloats == kSplatFloatsBeyond);
 using Block = float __attribute__((vector_size(4 * kFloats)));
-using Pixel = float __attribute__((vector_size(4 * kChannels)));
-using Pair = float __attribute__((vector_size(8 * kChannels)));
+using SplatPixel = float __attribute__((vector_size(4 * kSplatChannels)));
+using Pair = float __attribute__((vector_size(8 * kSplatChannels)));
 
 // ---- the points at which a star is dropped ----
 
@@ -76,7 +76,7 @@ constexpr Rule plane_rule(float missing) {
 // ---- dropping ----
 
 // A batch of splats, column by column.
-using Column = std::array<float, kBatch>;
+using Column = std::array<float, kSplatBatch>;
 struct Splats {
   alignas(64) Column x, y;
   alignas(64) Column along_x, along_y, across_x, across_y;  // the missing widths as vectors, pixels
@@ -86,7 +86,7 @@ struct Splats {
 // of y times the point's light, and the first of their four columns and rows.
 struct Splines {
   alignas(64) Column x0, x1, x2, x3, y0, y1, y2, y3;
-  alignas(64) std::array<int, kBatch> column, row;
+  alignas(64) std::array<int, kSplatBatch> column, row;
 };
 
 // The series of u = (1 - sinc theta)/theta^2 in theta^2; the next term is below 2e-9 at 1.9.
@@ -101,7 +101,7 @@ template <bool kDome>
 [[gnu::always_inline]] inline float find_missing(const SplatFrame& frame, Splats& d) {
   const SplatFrame f = frame;
   std::int32_t most = 0;
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  for (std::size_t k = 0; k < kSplatBatch; ++k) {
     const float cx = d.x[k] - f.middle_x, cy = d.y[k] - f.middle_y;
     const float t = f.unit2 * (cx * cx + cy * cy);
     if constexpr (kDome) {
@@ -139,7 +139,7 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
 // 2/3 + f^2 (3 f - 6)/6, the same of 1 - f, and f^3/6.
 [[gnu::always_inline]] inline void find_splines(const Point& point, const Splats& d, Splines& at) {
   const Point p = point;
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  for (std::size_t k = 0; k < kSplatBatch; ++k) {
     const float x = d.x[k] + (p.along * d.along_x[k] + p.across * d.across_x[k]);
     const float y = d.y[k] + (p.along * d.along_y[k] + p.across * d.across_y[k]);
     const int column = static_cast<int>(x + kPositive) - kPositive;
@@ -167,20 +167,20 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
   std::memcpy(out, &sum, sizeof sum);
 }
 
-[[gnu::always_inline]] inline void add_splines(const Pixel* light, std::size_t count,
+[[gnu::always_inline]] inline void add_splines(const SplatPixel* light, std::size_t count,
                                                const Splines& at, const SplatRows& rows) {
   for (std::size_t k = 0; k < count; ++k) {
-    const Pixel x0 = light[k] * at.x0[k], x1 = light[k] * at.x1[k], x2 = light[k] * at.x2[k],
-                x3 = light[k] * at.x3[k];
+    const SplatPixel x0 = light[k] * at.x0[k], x1 = light[k] * at.x1[k], x2 = light[k] * at.x2[k],
+                     x3 = light[k] * at.x3[k];
     const Pair left = __builtin_shufflevector(x0, x1, 0, 1, 2, 3, 4, 5, 6, 7);
     const Pair right = __builtin_shufflevector(x2, x3, 0, 1, 2, 3, 4, 5, 6, 7);
-    const std::ptrdiff_t column = kChannels * std::ptrdiff_t{at.column[k]};
+    const std::ptrdiff_t column = kSplatChannels * std::ptrdiff_t{at.column[k]};
     float* const* row = rows.row + (at.row[k] - rows.first);
     const float y[4] = {at.y0[k], at.y1[k], at.y2[k], at.y3[k]};
     for (int j = 0; j < 4; ++j) {
       float* out = row[j] + column;
       add_to(out, left * y[j]);
-      add_to(out + 2 * kChannels, right * y[j]);
+      add_to(out + 2 * kSplatChannels, right * y[j]);
     }
   }
 }
@@ -191,12 +191,12 @@ template <bool kDome>
                                               std::size_t count, const SplatRows& rows) {
   Splats splats;
   Splines splines;
-  alignas(64) Pixel light[kBatch];
-  for (std::size_t k = 0; k < kBatch; ++k) {
+  alignas(64) SplatPixel light[kSplatBatch];
+  for (std::size_t k = 0; k < kSplatBatch; ++k) {
     const StarImage& image = images[k < count ? k : count - 1];
     splats.x[k] = image.x;
     splats.y[k] = image.y;
-    light[k] = Pixel{image.rgb[0], image.rgb[1], image.rgb[2], 0};
+    light[k] = SplatPixel{image.rgb[0], image.rgb[1], image.rgb[2], 0};
   }
   const float missing = find_missing<kDome>(frame, splats);
   const Rule rule = kDome ? line_rule(missing) : plane_rule(missing);
@@ -257,10 +257,10 @@ Dispatched<blur_down_loop> down;
                                                    float* __restrict out) {
   const float* rows[2 * kMostSplatTaps + 1];
   for (int n = 0; n <= 2 * blur.taps; ++n) rows[n] = row;
-  for (int k = 0; k < kChannels * count; k += kBlocks * kFloats)
-    blur_blocks(blur, rows, kChannels, k, between);
+  for (int k = 0; k < kSplatChannels * count; k += kBlocks * kFloats)
+    blur_blocks(blur, rows, kSplatChannels, k, between);
   for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c) out[3 * k + c] += between[kChannels * k + c];
+    for (int c = 0; c < 3; ++c) out[3 * k + c] += between[kSplatChannels * k + c];
 }
 Dispatched<blur_along_loop> along;
 
@@ -268,8 +268,8 @@ Dispatched<blur_along_loop> along;
 
 void drop_splats(bool dome, const SplatFrame& frame, const StarImage* images, std::size_t count,
                  const SplatRows& rows) {
-  for (std::size_t k = 0; k < count; k += kBatch) {
-    const std::size_t n = std::min(kBatch, count - k);
+  for (std::size_t k = 0; k < count; k += kSplatBatch) {
+    const std::size_t n = std::min(kSplatBatch, count - k);
     if (dome)
       to_dome(frame, images + k, n, rows);
     else

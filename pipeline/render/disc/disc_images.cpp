@@ -121,7 +121,7 @@ Place place_at(double x, std::size_t count) {
 }
 
 template <class T>
-double interpolate(const T* nodes, const std::array<double, 4>& weights) {
+double weighted_sum(const T* nodes, const std::array<double, 4>& weights) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * static_cast<double>(nodes[k]);
   return sum;
@@ -216,11 +216,11 @@ DiscImages::Interval DiscImages::interval(double psi) const {
   const Place at = place_at(psi * kPerRadian, low_.size());
   const auto weights = cubic(at.t), slopes = cubic_slope(at.t);
   const double scale = (1 + psi) / psi, scale_slope = -1 / (psi * psi);
-  const double low = interpolate(&low_[at.first], weights),
-               high = interpolate(&high_[at.first], weights);
+  const double low = weighted_sum(&low_[at.first], weights),
+               high = weighted_sum(&high_[at.first], weights);
   return {low * scale, high * scale,
-          interpolate(&low_[at.first], slopes) * kPerRadian * scale + low * scale_slope,
-          interpolate(&high_[at.first], slopes) * kPerRadian * scale + high * scale_slope};
+          weighted_sum(&low_[at.first], slopes) * kPerRadian * scale + low * scale_slope,
+          weighted_sum(&high_[at.first], slopes) * kPerRadian * scale + high * scale_slope};
 }
 
 double DiscImages::inverse_radius(double psi, double u) const {
@@ -231,7 +231,7 @@ double DiscImages::inverse_radius(double psi, double u) const {
   const auto across = cubic(part.t), along = cubic(turn.t);
   double w = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    w += along[k] * interpolate(&w_[(turn.first + k) * kStride + part.first], across);
+    w += along[k] * weighted_sum(&w_[(turn.first + k) * kStride + part.first], across);
   return std::clamp(w, outer_w_, inner_w_);
 }
 
@@ -244,10 +244,10 @@ DiscImages::Moment DiscImages::moment(double psi, double u) const {
   Moment sum{};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t first = (turn.first + k) * kStride + part.first;
-    sum.w += along[k] * interpolate(&w_[first], across);
-    sum.w_slope += along[k] * interpolate(&w_[first], slopes) * kParts;
-    sum.time += along[k] * interpolate(&times_[first], across);
-    sum.time_slope += along[k] * interpolate(&times_[first], slopes) * kParts;
+    sum.w += along[k] * weighted_sum(&w_[first], across);
+    sum.w_slope += along[k] * weighted_sum(&w_[first], slopes) * kParts;
+    sum.time += along[k] * weighted_sum(&times_[first], across);
+    sum.time_slope += along[k] * weighted_sum(&times_[first], slopes) * kParts;
   }
   sum.w = std::clamp(sum.w, outer_w_, inner_w_);
   return sum;

@@ -15,12 +15,12 @@ namespace {
 constexpr double kBehind = -0.9998;
 
 // Where a point of a text is seen; nothing if nowhere.
-using TextPlace = std::function<std::optional<PicturePoint>(const TextPoint&)>;
+using PlaceOfPoint = std::function<std::optional<PicturePoint>(const TextPoint&)>;
 
 class OutlineBender {
  public:
   // A line bends by a radian over so many pixels.
-  OutlineBender(TextPlace place, double pixels_of_radian)
+  OutlineBender(PlaceOfPoint place, double pixels_of_radian)
       : place_(std::move(place)), pixels_of_radian_(pixels_of_radian) {}
 
   // Calls use(polygon) for each outline that has an image.
@@ -78,7 +78,7 @@ class OutlineBender {
     return true;
   }
 
-  TextPlace place_;
+  PlaceOfPoint place_;
   double pixels_of_radian_;
 };
 

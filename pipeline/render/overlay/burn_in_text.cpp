@@ -18,7 +18,7 @@ std::string steady_number(double value) {
   return fmt::format("{:.{}f}", value, size < 10 ? 4 : size < 1000 ? 2 : 0);
 }
 
-std::string motion_of(const Show& show, const ObserverState& o) {
+std::string motion_text(const Show& show, const ObserverState& o) {
   const bool has_rest = is_flat(o) || o.r > 2;
   std::string text;
   if (has_rest) {
@@ -33,7 +33,7 @@ std::string motion_of(const Show& show, const ObserverState& o) {
   return text;
 }
 
-std::string place_of(const ObserverState& o) {
+std::string place_text(const ObserverState& o) {
   if (is_flat(o)) return "flat space";
   return fmt::format("region {}\nr = {} M", region_name(o.region), steady_number(o.r));
 }
@@ -52,7 +52,7 @@ std::string clock_of(const Show& show, const ObserverState& o) {
 BurnInText burn_in_text(const Show& show, const FrameState& state) {
   const ObserverState& observer = seen_better(state).observer;
   return {fmt::format("frame {}\n{}", state.frame, clock_text(state.show_time_s)),
-          place_of(observer), clock_of(show, observer), motion_of(show, observer)};
+          place_text(observer), clock_of(show, observer), motion_text(show, observer)};
 }
 
 }  // namespace domefall

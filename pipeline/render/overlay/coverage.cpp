@@ -6,10 +6,10 @@
 namespace domefall {
 namespace {
 
-constexpr double kFarAway = 1e6, kGrid = 4096;
+constexpr double kFarAway = 1e6, kPerPixel = 4096;
 
 PicturePoint on_grid(const PicturePoint& p) {
-  return {std::round(p.x * kGrid) / kGrid, std::round(p.y * kGrid) / kGrid};
+  return {std::round(p.x * kPerPixel) / kPerPixel, std::round(p.y * kPerPixel) / kPerPixel};
 }
 
 bool is_usable(const PicturePoint& p) {

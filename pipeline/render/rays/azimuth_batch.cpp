@@ -28,7 +28,7 @@ struct Polynomials {
     out.inverse_width[k] = index.inverse_width;
   }
 }
-Dispatched<locate_loop> locate;
+Dispatched<locate_loop> locate_pieces;
 
 // Copies a whole cache line of coefficients for each ray.
 [[gnu::always_inline]] inline void fetch_loop(int count, Polynomials& polynomials) {
@@ -61,7 +61,7 @@ void find_azimuths(const Curves& curves, int count, AzimuthBatch& batch) {
     batch.x[k] = 0;
   }
   Polynomials polynomials;
-  locate(curves, whole, batch, polynomials);
+  locate_pieces(curves, whole, batch, polynomials);
   fetch(whole, polynomials);
   evaluate(polynomials, whole, batch);
 }

@@ -89,17 +89,17 @@ Dispatched<cross_flat_space_loop> cross_flat_space;
 // ---- which sky a ray comes from ----
 
 // The edge of a sky.  It counts as one in the image unless both sides of it are dark.
-struct Edge {
+struct EdgeValues {
   SkyEdge edge;
   bool counts;
 };
 
 // Assigns rays on the home sky's side of its edge to that sky and all others to the hole.
-[[gnu::always_inline]] inline void assign_home_loop(const Edge& home,
+[[gnu::always_inline]] inline void assign_home_loop(const EdgeValues& home,
                                                     const TetradRays& __restrict rays, int count,
                                                     LensedRays& __restrict lensed,
                                                     double* __restrict to_edge) {
-  const Edge e = home;
+  const EdgeValues e = home;
   for (int k = 0; k < count; ++k) {
     const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
     lensed.azimuths.x[k] = x;
@@ -111,11 +111,11 @@ struct Edge {
 Dispatched<assign_home_loop> assign_home;
 
 // Assigns rays on the far sky's side of its edge to that sky, unless the home sky has them.
-[[gnu::always_inline]] inline void assign_far_loop(const Edge& far,
+[[gnu::always_inline]] inline void assign_far_loop(const EdgeValues& far,
                                                    const TetradRays& __restrict rays, int count,
                                                    LensedRays& __restrict lensed,
                                                    double* __restrict to_edge) {
-  const Edge e = far;
+  const EdgeValues e = far;
   for (int k = 0; k < count; ++k) {
     const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
     const bool on = (lensed.azimuths.curve[k] == kHole) & (x > 0);
@@ -301,7 +301,7 @@ void ViewTracer::lensed_rays(const CameraDirection* n, int count, ViewRayBatch& 
   LensedRays lensed;
   double* to_edge = batch.to_edge.data();
   const auto edge = [&](const SkyEdge& of, const std::optional<SkyTable>& table) {
-    return Edge{of, table || optics_.white_hole};
+    return EdgeValues{of, table || optics_.white_hole};
   };
   if (optics_.home_edge) {
     assign_home(edge(*optics_.home_edge, optics_.home_sky), rays, count, lensed, to_edge);

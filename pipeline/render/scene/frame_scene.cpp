@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-PerSky<const SceneStars*> stars_of(const FramePlan& plan, const PerSky<const Sky*>& skies) {
+PerSky<const SceneStars*> stars_of_skies(const FramePlan& plan, const PerSky<const Sky*>& skies) {
   PerSky<const SceneStars*> stars{};
   for (const SkyRegion sky : kEverySky)
     if (plan[sky].stars) stars[sky] = skies[sky]->stars.get();
@@ -47,7 +47,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       star_saturation(static_cast<float>(show.star_saturation)),
       least_star_radius(show.least_star_radius),
       motion(std::move(sky_motion)),
-      stars(stars_of(plan, skies)),
+      stars(stars_of_skies(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)),
       disc(disc_light) {}
 

@@ -23,7 +23,7 @@ constexpr double kElongation = 3;
 constexpr int kTapsOfSample = 4;
 // A footprint on a map that is longer than this (radians) is no straight line any more, and is
 // blurred to its length.
-constexpr float kLongestLine = 0.7f;
+constexpr float kLongestSampleLine = 0.7f;
 
 }  // namespace
 
@@ -154,8 +154,8 @@ void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int
     if (sampler == nullptr || std::find(rays.sky.begin(), end, sky) == end) continue;
     maps.any[sky] = true;
     SampleFilter* filters = &maps.filters[sky][first];
-    sampler->choose_filters(&batch.wide[first], &batch.narrow[first], count, most, kLongestLine,
-                            filters);
+    sampler->choose_filters(&batch.wide[first], &batch.narrow[first], count, most,
+                            kLongestSampleLine, filters);
     ViewRayBatch::Column<float> gain, tone;
     scene_.background[sky]->shifts(rays.frequency_ratio.data(), count, gain.data(), tone.data());
     for (int k = 0; k < count; ++k) {

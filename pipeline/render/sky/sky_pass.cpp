@@ -9,10 +9,10 @@
 namespace domefall {
 namespace {
 
-constexpr int kStep = RayGrid::kStep;
+constexpr int kGridStep = RayGrid::kStep;
 // The shorter side of the smallest image that is worth a grid.
 constexpr int kSmallest = 64;
-static_assert(FormulaShader::kSide == kStep);
+static_assert(FormulaShader::kSide == kGridStep);
 
 bool has_backgrounds(const FrameScene& scene) {
   return std::any_of(scene.background.begin(), scene.background.end(),
@@ -51,9 +51,9 @@ SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
 
 // The band is drawn on by way of rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
-  Band band{number, std::min(kStep, rows(scene_.projection()) - number * kStep), {}, rgb};
+  Band band{number, std::min(kGridStep, rows(scene_.projection()) - number * kGridStep), {}, rgb};
   for (int row = 0; row < band.rows; ++row)
-    band.inside[row] = inside_columns(scene_.projection(), number * kStep + row);
+    band.inside[row] = inside_columns(scene_.projection(), number * kGridStep + row);
   return band;
 }
 
@@ -78,13 +78,13 @@ void SkyPass::blacken(const Band& band, int first, int end) const {
 
 // Fills smooth cells of one sky for which one plain sample per pixel is enough, row by row.
 void SkyPass::fill_plain(const Band& band, int first, int end) const {
-  constexpr int kMostCells = SampleBatch::kSize / kStep;
+  constexpr int kMostCells = SampleBatch::kSize / kGridStep;
   const int width = columns(scene_.projection());
   SampleBatch batch;
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   const SkySampler& sampler = *shader_.sampler(grid_.cell(band.number, first).sky);
   for (int from = first; from < end; from += kMostCells) {
-    const int to = std::min(end, from + kMostCells), pixel = from * kStep;
+    const int to = std::min(end, from + kMostCells), pixel = from * kGridStep;
     for (int row = 0; row < band.rows; ++row) {
       const auto [left, right] = band.columns_of(row, from, to);
       if (left > right) continue;
@@ -92,9 +92,9 @@ void SkyPass::fill_plain(const Band& band, int first, int end) const {
       // Whole cells are sampled straight into the row.  The sampler overwrites one float behind
       // them, which the next pixels of the row mend; at the end of a row it would be the next
       // row's.
-      const bool straight = left == pixel && right == to * kStep - 1 && right < width - 1;
+      const bool straight = left == pixel && right == to * kGridStep - 1 && right < width - 1;
       float* out = row_of(band, row);
-      sampler.sample_plain(batch, (to - from) * kStep, straight ? out + 3 * pixel : rgb.data());
+      sampler.sample_plain(batch, (to - from) * kGridStep, straight ? out + 3 * pixel : rgb.data());
       if (straight) continue;
       std::copy(&rgb[3 * (left - pixel)], &rgb[3 * (right + 1 - pixel)], out + 3 * left);
     }
@@ -109,7 +109,8 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   const SkyRegion sky = grid_.cell(band.number, first).sky;
   for (int from = first; from < end; from += RayGrid::kBlock) {
-    const int to = std::min(end, from + RayGrid::kBlock), count = (to - from) * kStep * kStep;
+    const int to = std::min(end, from + RayGrid::kBlock),
+              count = (to - from) * kGridStep * kGridStep;
     grid_.interpolate_block(band.number, from, to, batch);
     if (const FormulaShader* formula = shader_.formula(sky)) {
       formula->shade(batch, count, rgb.data());
@@ -121,11 +122,11 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
     }
     for (int row = 0; row < band.rows; ++row)
       for (int cell = from; cell < to; ++cell) {
-        const float* cell_row = &rgb[3 * kStep * ((cell - from) * kStep + row)];
+        const float* cell_row = &rgb[3 * kGridStep * ((cell - from) * kGridStep + row)];
         const auto [left, right] = band.columns_of(row, cell, cell + 1);
         if (left > right) continue;
-        std::copy(cell_row + 3 * (left - cell * kStep), cell_row + 3 * (right + 1 - cell * kStep),
-                  row_of(band, row) + 3 * left);
+        std::copy(cell_row + 3 * (left - cell * kGridStep),
+                  cell_row + 3 * (right + 1 - cell * kGridStep), row_of(band, row) + 3 * left);
       }
   }
 }
@@ -137,7 +138,7 @@ void SkyPass::append_pixels(const Band& band, int first, int end,
     for (int row = 0; row < band.rows; ++row) {
       const auto [left, right] = band.columns_of(row, cell, cell + 1);
       for (int column = left; column <= right; ++column)
-        pixels.push_back({column, band.number * kStep + row});
+        pixels.push_back({column, band.number * kGridStep + row});
     }
 }
 
@@ -145,7 +146,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
   const Band band = band_at(number, rgb);
   blacken_outside(band);
   std::vector<Pixel> traced;
-  const int cells = (columns(scene_.projection()) + kStep - 1) / kStep;
+  const int cells = (columns(scene_.projection()) + kGridStep - 1) / kGridStep;
   if (!interpolates_) append_pixels(band, 0, cells, traced);
   for (int first = 0, end = 0; interpolates_ && first < cells; first = end) {
     const RayGrid::Cell cell = grid_.cell(number, first);
@@ -158,7 +159,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
     else
       fill_block(band, first, end);
   }
-  shader_.fill(traced, number * kStep, rgb);
+  shader_.fill(traced, number * kGridStep, rgb);
 }
 
 double SkyPass::traced_fraction() const { return interpolates_ ? grid_.traced_fraction() : 1; }

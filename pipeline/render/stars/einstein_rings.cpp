@@ -18,9 +18,9 @@ constexpr int kChords = 8, kChordsAtRim = 64;
 constexpr double kAtRim = 1.5;  // the distance, in radii, up to which there are more chords
 
 // The disc in polar coordinates about the axis.  It is small enough to be flat.
-class Disc {
+class StarDisc {
  public:
-  Disc(double from_axis, double radius)
+  StarDisc(double from_axis, double radius)
       : from_axis_(from_axis),
         radius_(radius),
         drawn_part_(std::clamp((kPoint - from_axis / radius) / (kPoint - 1), 0.0, 1.0)) {}
@@ -78,7 +78,7 @@ class Caustic {
   // The image of a chord, with its solid angle in place of the amplification.  That is the width
   // times the difference of cos(psi) between the chord's ends.  With psi = psi_0 - 4 atan(x/2) and
   // the ends' atan(x/2) = a and b, the difference is 2 sin(psi_0 - 2 (a + b)) sin(2 |a - b|).
-  SkyImage image(const Disc::Chord& chord) const {
+  SkyImage image(const StarDisc::Chord& chord) const {
     const double a = std::atan(distance(chord.near) / 2), b = std::atan(distance(chord.far) / 2);
     const NullRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
     const double psi = 4 * std::atan(table_.x_max() / 2) - 2 * (a + b);
@@ -109,7 +109,7 @@ class Caustic {
 };
 
 // The number of pieces of the arc, whose spacing is the least along it.
-int pieces(const Caustic& caustic, const Disc& disc, double from_axis,
+int pieces(const Caustic& caustic, const StarDisc& disc, double from_axis,
            const std::function<double(const V3d&)>& spacing) {
   constexpr int kSamples = 16;
   const double psi = caustic.psi(from_axis), length = disc.extent() * std::sin(psi);
@@ -163,7 +163,7 @@ std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order
                              const std::function<double(const V3d&)>& spacing) {
   const double from_axis = std::hypot(source.y, source.z);
   const Caustic caustic(table, source, order);
-  const Disc disc(from_axis, radius);
+  const StarDisc disc(from_axis, radius);
   const int count = pieces(caustic, disc, from_axis, spacing);
   const int chords = disc.is_at_rim() ? kChordsAtRim : kChords, each = (chords + count - 1) / count;
   std::vector<SkyImage> arc;

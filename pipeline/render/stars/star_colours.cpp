@@ -8,7 +8,7 @@ namespace domefall {
 namespace {
 
 // The range of the table in kelvin.
-constexpr double kCoolest = 512, kHottest = 0x1p26;
+constexpr double kFirstTemperature = 512, kLastTemperature = 0x1p26;
 
 StarColours::Light light_at(double temperature) {
   const WorkingRgb c = blackbody_colours().per_flux(temperature);
@@ -17,8 +17,8 @@ StarColours::Light light_at(double temperature) {
 
 }  // namespace
 
-StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kCoolest) >> kShift) {
-  const std::uint64_t last = std::bit_cast<std::uint64_t>(kHottest) >> kShift;
+StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kFirstTemperature) >> kShift) {
+  const std::uint64_t last = std::bit_cast<std::uint64_t>(kLastTemperature) >> kShift;
   for (std::uint64_t key = first_; key <= last; ++key)
     table_.push_back(light_at(std::bit_cast<double>(key << kShift)));
   // The luminance of a unit of flux is largest near 6600 K.  The table has nodes 0.1 per cent apart

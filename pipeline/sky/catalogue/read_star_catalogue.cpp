@@ -27,7 +27,7 @@ bool is_star(const StarRecord& r, double length2) {
 }
 
 // Returns where the row's star stands in that year.
-SkyDirection direction_of(const CsvFile& row, double epoch) {
+SkyDirection direction_in_row(const CsvFile& row, double epoch) {
   const double ra = row.required("ra_deg", 0, 360), dec = row.required("dec_deg", -90, 90);
   const double pm_ra = row.number("pm_ra_mas_yr", -kFastest, kFastest).value_or(0);
   const double pm_dec = row.number("pm_dec_mas_yr", -kFastest, kFastest).value_or(0);
@@ -40,7 +40,7 @@ StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude
   CsvFile row(file, {"ra_deg", "dec_deg", "v_mag", "b_v"});
   StarCatalogue catalogue;
   while (row.next()) {
-    const SkyDirection direction = direction_of(row, epoch);
+    const SkyDirection direction = direction_in_row(row, epoch);
     const double v = row.required("v_mag", kBrightestV, kFaintestV);
     const double b_v = row.number("b_v", kBluest, kReddest).value_or(kAssumedColour);
     for (const char* column : {"name", "designation"})

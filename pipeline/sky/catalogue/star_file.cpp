@@ -49,7 +49,7 @@ std::string_view bytes_of(const T& value) {
 }
 
 // Each text becomes one line, so ends of lines within it become blanks.
-std::string text_of(const CatalogueText& text) {
+std::string packed_text(const CatalogueText& text) {
   std::string lines;
   for (std::string line : {text.source, text.licence, text.made}) {
     std::replace(line.begin(), line.end(), '\n', ' ');
@@ -58,7 +58,7 @@ std::string text_of(const CatalogueText& text) {
   return lines;
 }
 
-std::string names_of(const std::vector<StarName>& names) {
+std::string packed_names(const std::vector<StarName>& names) {
   std::string out;
   for (const StarName& name : names) {
     const std::string_view kept = std::string_view(name.name).substr(0, kLongestName);
@@ -81,8 +81,8 @@ std::string index_of(const std::vector<CatalogueStar>& stars, std::string_view r
   return index;
 }
 
-StarFileHeader header_of(const RawCatalogue& catalogue, const std::string& index,
-                         const std::string& text, const std::string& names) {
+StarFileHeader star_header(const RawCatalogue& catalogue, const std::string& index,
+                           const std::string& text, const std::string& names) {
   StarFileHeader head{};
   head.magic = kStarMagic;
   head.byte_order = kByteOrder;
@@ -240,8 +240,8 @@ void write_star_file(const std::filesystem::path& file, const RawCatalogue& cata
   const std::string_view record_bytes(reinterpret_cast<const char*>(records.data()),
                                       records.size() * sizeof(StarRecord));
   const std::string index = index_of(catalogue.stars, record_bytes);
-  const std::string text = text_of(catalogue.text), names = names_of(catalogue.names);
-  const StarFileHeader head = header_of(catalogue, index, text, names);
+  const std::string text = packed_text(catalogue.text), names = packed_names(catalogue.names);
+  const StarFileHeader head = star_header(catalogue, index, text, names);
   std::string bytes;
   bytes.reserve(head.file_size);
   bytes.append(bytes_of(head)).append(index).append(text).append(names);

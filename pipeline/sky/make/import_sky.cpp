@@ -25,7 +25,7 @@ bool is_fits(const std::filesystem::path& path) {
   return start_of_file(path, kStart.size()) == kStart;
 }
 
-SkyOrigin origin_of(const SkyImport& import, const Orientation& orientation) {
+SkyOrigin written_origin(const SkyImport& import, const Orientation& orientation) {
   return {fmt::format("source: {}\n{}", import.image.filename().string(), import.text), orientation,
           import.fainter_than};
 }
@@ -42,7 +42,7 @@ Orientation import_panorama(const SkyImport& import) {
   const double luminance = import.unit.value_or(kPanoramaUnit);
   NewSkyFile file(import.out, SkyMapKind::kColour, panorama_unit(image, luminance),
                   import.size ? import.size : panorama_face(width),
-                  origin_of(import, import.orientation));
+                  written_origin(import, import.orientation));
   paint_panorama(image, import.orientation, luminance, file.pyramid());
   file.finish();
   return import.orientation;
@@ -78,7 +78,7 @@ std::string cmb_text(const CmbSettings& cmb) {
 
 // Refuses a map of bad pixels, which are NaN, and one without light.  The fluctuations of a
 // microwave background may be negative.
-void check_values(const SkyImport& import, const HealpixFile& healpix) {
+void check_texels(const SkyImport& import, const HealpixFile& healpix) {
   bool good = false;
   float least = 0, most = 0;
   for (const float v : healpix.values) {
@@ -96,14 +96,14 @@ void check_values(const SkyImport& import, const HealpixFile& healpix) {
 
 Orientation import_healpix(const SkyImport& import) {
   HealpixFile healpix = read_healpix(import.image, import.column);
-  check_values(import, healpix);
+  check_texels(import, healpix);
   Orientation orientation;
   orientation.frame = frame_of(import, healpix);
   CmbSettings cmb = import.cmb.value_or(CmbSettings{});
   if (import.cmb) cmb.kelvin = kelvin_of(import, healpix.units);
   const HealpixMap map(std::move(healpix), 0);
   const double luminance = import.unit.value_or(kPanoramaUnit);
-  SkyOrigin origin = origin_of(import, orientation);
+  SkyOrigin origin = written_origin(import, orientation);
   if (import.cmb) origin.text += cmb_text(cmb);
   NewSkyFile file(import.out, import.cmb ? SkyMapKind::kThermal : SkyMapKind::kColour,
                   import.cmb ? cmb_unit(cmb) : healpix_unit(map, luminance),

@@ -7,12 +7,12 @@
 #include <numeric>
 
 #include "pipeline/sky/maps/cube_face.h"
+#include "trajectories/degree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kBrightest = 150, kDensest = 40'000;
 // A point or a cloud stands out of its surroundings from this contrast on.
 constexpr double kStandsOut = 1.3;

@@ -34,13 +34,13 @@ std::vector<Cell> gather(const std::vector<FaintStar>& stars, int n) {
   std::vector<Cell> cells(6 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
   for (const FaintStar& star : stars) {
     const FacePoint at = face_of(star.direction);
-    const auto place = [n](double u) {
+    const auto face_coordinate = [n](double u) {
       return static_cast<std::size_t>(std::clamp(static_cast<int>((u + 1) / 2 * n), 0, n - 1));
     };
-    Cell& cell =
-        cells[(static_cast<std::size_t>(at.face) * static_cast<std::size_t>(n) + place(at.v)) *
-                  static_cast<std::size_t>(n) +
-              place(at.u)];
+    Cell& cell = cells[(static_cast<std::size_t>(at.face) * static_cast<std::size_t>(n) +
+                        face_coordinate(at.v)) *
+                           static_cast<std::size_t>(n) +
+                       face_coordinate(at.u)];
     cell.direction += star.flux * star.direction;
     cell.flux += star.flux;
     cell.weighted += star.flux * std::log2(star.temperature / kThermalBase);
@@ -91,7 +91,7 @@ std::size_t flat(int row, int column, int n) {
          static_cast<std::size_t>(column);
 }
 
-double place(int k, int n) { return (2 * k + 1.0) / n - 1; }
+double face_coordinate(int k, int n) { return (2 * k + 1.0) / n - 1; }
 
 }  // namespace
 
@@ -136,7 +136,7 @@ StarlightMap::StarlightMap(int size)
     : size_(size), inverse_length_(flat(size, 0, size)), light_(6 * flat(size, 0, size)) {
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
-      const double u = place(i, size), v = place(j, size);
+      const double u = face_coordinate(i, size), v = face_coordinate(j, size);
       inverse_length_[flat(j, i, size)] = static_cast<float>(1 / std::sqrt(1 + u * u + v * v));
     }
   // The Gaussian as a function of 1 - cos(angle), which for small angles is half of angle^2.  Its
@@ -169,7 +169,7 @@ void StarlightMap::spread(const V3d& direction, double flux, double weighted, do
     boxes[face] = box_of(direction, face, angle, size_);
     const auto& [columns, rows, centre] = boxes[face];
     for (int j = rows.first; j <= rows.last; ++j) {
-      const auto v = static_cast<float>(place(j, size_));
+      const auto v = static_cast<float>(face_coordinate(j, size_));
       const float* inverse = &inverse_length_[flat(j, 0, size_)];
       for (int i = columns.first; i <= columns.last; ++i) {
         const float u = (static_cast<float>(i) + 0.5f) * step - 1;
@@ -212,7 +212,7 @@ double StarlightMap::flux() const {
     for (int j = 0; j < size_; ++j)
       for (int i = 0; i < size_; ++i)
         sum += light_[flat(face * size_ + j, i, size_)].radiance *
-               texel_solid_angle(size_, place(i, size_), place(j, size_));
+               texel_solid_angle(size_, face_coordinate(i, size_), face_coordinate(j, size_));
   return sum;
 }
 

@@ -21,7 +21,7 @@ struct Patch {
 };
 
 // A texel at (u, v) of a face of the cube is seen under (1 + u^2 + v^2)^(-3/2) of its area.
-double solid_angle(int i, int j, int size) {
+double texel_solid_angle(int i, int j, int size) {
   const double u = (2 * i + 1.0) / size - 1, v = (2 * j + 1.0) / size - 1;
   const double s = 1 + u * u + v * v;
   return 1 / (s * std::sqrt(s));
@@ -51,7 +51,7 @@ std::vector<Patch> patches_of(const SkyMap& map) {
       for (int i = 0; i < n; ++i)
         patches.push_back(
             patch_of(map, level->face(face)[static_cast<std::size_t>((j + 1) * (n + 2) + i + 1)],
-                     solid_angle(i, j, n)));
+                     texel_solid_angle(i, j, n)));
   return patches;
 }
 

@@ -173,7 +173,7 @@ std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const He
   return entries;
 }
 
-Header header_of(const SkyMap& map, const SkyOrigin& origin) {
+Header sky_header(const SkyMap& map, const SkyOrigin& origin) {
   Header h;
   h.levels = static_cast<std::uint32_t>(map.levels().size());
   h.text_bytes = static_cast<std::uint32_t>(origin.text.size());
@@ -208,7 +208,7 @@ NewSkyFile::NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, doubl
 void NewSkyFile::finish() {
   pyramid_.finish();
   const SkyMap map = pyramid_.map();
-  Header h = header_of(map, origin_);
+  Header h = sky_header(map, origin_);
   h.file_bytes = file_->size();
   std::byte* at = file_->data() + sizeof h;
   for (const SkyLevel& level : map.levels()) {

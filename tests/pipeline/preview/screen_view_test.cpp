@@ -6,11 +6,10 @@
 #include <numbers>
 
 #include "tests/pipeline/show/show_file.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class ScreenView : public ShowFile {
  protected:

@@ -82,7 +82,7 @@ TEST(Effects, WithoutAberrationMotionIsStillAhead) {
 
 // ---- stars ----
 
-std::vector<StarImage> images_of(const Show& show, const V3d& sky) {
+std::vector<StarImage> found_images(const Show& show, const V3d& sky) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
   const SceneStar star{{sky}, 5, 1e-6, 6500, 1e-9};
@@ -110,7 +110,7 @@ TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
         const CameraDirection n{random_direction(random)};
         const ViewRay ray = traced.tracer.trace(n);
         if (n.v.z < -0.5 || ray.sky != SkyRegion::kI || ray.bundle.azimuth > 2.5) continue;
-        const auto images = images_of(show, ray.sky_direction);
+        const auto images = found_images(show, ray.sky_direction);
         ASSERT_FALSE(images.empty());
         const StarImage& image = images[0];
         EXPECT_LT((centre_of(image, show.projection) - n.v).length(), 1e-6);
@@ -132,7 +132,7 @@ TEST(Effects, WithoutAmplificationBothImagesOfAStarAreAsBrightAsTheStar) {
   show.effects = {true, false, false, true, Amplification::kNone};
   const FrameState state = frame_state(show, 0);
   const V3d sky = apply(state.observer.sky_from_tetrad, V3d(-std::cos(0.1), std::sin(0.1), 0));
-  const auto images = images_of(show, sky);
+  const auto images = found_images(show, sky);
   ASSERT_EQ(images.size(), 2u);
   const V3d ahead(0, 0, 1);
   EXPECT_LT(centre_of(images[0], show.projection)
@@ -144,7 +144,7 @@ TEST(Effects, WithoutAmplificationBothImagesOfAStarAreAsBrightAsTheStar) {
   for (const StarImage& image : images)
     EXPECT_NEAR(image.rgb[1] / (flux * blackbody_colours().per_flux(6500).g), 1, 1e-6);
   show.effects.amplification = Amplification::kStars;
-  EXPECT_GT(images_of(show, sky)[0].rgb[1], 1.5 * images[0].rgb[1]);
+  EXPECT_GT(found_images(show, sky)[0].rgb[1], 1.5 * images[0].rgb[1]);
 }
 
 // ---- amplification of backgrounds ----

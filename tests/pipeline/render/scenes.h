@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -11,10 +10,10 @@
 #include "pipeline/render/scene/frame_scene.h"
 #include "tests/pipeline/render/panorama_file.h"
 #include "tests/source_tree.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
 inline const std::string kTestAssets = source_file("shows/assets/");
 
 // A small panorama of a few clouds, which costs little time to read.  Its file is removed with the

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-const FrameCosts& quick() {
+const FrameCosts& quick_costs() {
   static const FrameCosts costs = measure_frame_costs(true);
   return costs;
 }
@@ -51,22 +51,22 @@ TEST(CostSlopes, ThatAreNotPositiveHaveNoRatio) {
 }
 
 TEST(FrameCosts, AscendInOneThingAlone) {
-  ASSERT_EQ(quick().stars.size(), 6u);
-  ASSERT_EQ(quick().pixels.size(), 6u);
+  ASSERT_EQ(quick_costs().stars.size(), 6u);
+  ASSERT_EQ(quick_costs().pixels.size(), 6u);
   for (std::size_t k = 0; k < 6; ++k) {
-    const FrameCostRow &stars = quick().stars[k], &pixels = quick().pixels[k];
-    EXPECT_EQ(stars.size, quick().stars[0].size);
+    const FrameCostRow &stars = quick_costs().stars[k], &pixels = quick_costs().pixels[k];
+    EXPECT_EQ(stars.size, quick_costs().stars[0].size);
     EXPECT_NEAR(pixels.pixels, std::numbers::pi / 4 * std::pow(pixels.size, 2), 4.0 * pixels.size);
     EXPECT_EQ(pixels.stars, k < 3 ? 0 : 1000);
     if (k % 3 == 0) continue;
-    EXPECT_GT(stars.stars, quick().stars[k - 1].stars);
-    EXPECT_GT(pixels.pixels, quick().pixels[k - 1].pixels);
+    EXPECT_GT(stars.stars, quick_costs().stars[k - 1].stars);
+    EXPECT_GT(pixels.pixels, quick_costs().pixels[k - 1].pixels);
   }
-  EXPECT_EQ(quick().stars[2].stars, 10'000);
+  EXPECT_EQ(quick_costs().stars[2].stars, 10'000);
 }
 
 TEST(FrameCosts, AreFiniteTimesAndCopies) {
-  for (const auto* series : {&quick().stars, &quick().pixels})
+  for (const auto* series : {&quick_costs().stars, &quick_costs().pixels})
     for (const FrameCostRow& row : *series) {
       EXPECT_GT(row.seconds, 0) << row.scene;
       EXPECT_GT(row.copies, 0) << row.scene;
@@ -75,9 +75,9 @@ TEST(FrameCosts, AreFiniteTimesAndCopies) {
 }
 
 TEST(FrameCosts, OfThePapersPictureComeWithItsErrors) {
-  ASSERT_EQ(quick().benchmark.size(), 3u);
-  const FrameErrorRow &usual = quick().benchmark[0], &twice = quick().benchmark[1],
-                      &four_times = quick().benchmark[2];
+  ASSERT_EQ(quick_costs().benchmark.size(), 3u);
+  const FrameErrorRow &usual = quick_costs().benchmark[0], &twice = quick_costs().benchmark[1],
+                      &four_times = quick_costs().benchmark[2];
   EXPECT_LT(four_times.rms, twice.rms);
   EXPECT_LT(usual.rms, twice.rms);
   EXPECT_GT(four_times.rms, 0);

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-const std::vector<FrameErrorRow>& quick() {
+const std::vector<FrameErrorRow>& quick_errors() {
   static const std::vector<FrameErrorRow> rows = measure_frames(true);
   return rows;
 }
@@ -15,22 +15,23 @@ const std::vector<FrameErrorRow>& quick() {
 // The rows of a scene whose difficult pixels have ever more view rays.
 std::vector<FrameErrorRow> finer_and_finer(const std::string& scene) {
   std::vector<FrameErrorRow> rows;
-  for (const FrameErrorRow& row : quick())
+  for (const FrameErrorRow& row : quick_errors())
     if (row.scene == scene && row.setting.find("none interpolated") == std::string::npos)
       rows.push_back(row);
   return rows;
 }
 
-const FrameErrorRow& row_of(const std::string& scene, const std::string& part_of_setting) {
-  const auto found = std::find_if(quick().begin(), quick().end(), [&](const FrameErrorRow& row) {
-    return row.scene == scene && row.setting.find(part_of_setting) != std::string::npos;
-  });
-  EXPECT_NE(found, quick().end()) << scene << ", " << part_of_setting;
+const FrameErrorRow& error_row(const std::string& scene, const std::string& part_of_setting) {
+  const auto found =
+      std::find_if(quick_errors().begin(), quick_errors().end(), [&](const FrameErrorRow& row) {
+        return row.scene == scene && row.setting.find(part_of_setting) != std::string::npos;
+      });
+  EXPECT_NE(found, quick_errors().end()) << scene << ", " << part_of_setting;
   return *found;
 }
 
 TEST(FrameErrors, FallWithMoreSamples) {
-  ASSERT_EQ(quick().size(), 10u);
+  ASSERT_EQ(quick_errors().size(), 10u);
   for (const char* scene : {"30 M, grid", "10 M, Milky Way"}) {
     const std::vector<FrameErrorRow> rows = finer_and_finer(scene);
     ASSERT_EQ(rows.size(), 4u);
@@ -45,8 +46,8 @@ TEST(FrameErrors, FallWithMoreSamples) {
 // 0.0025 of itself on a map, and by 0.0003 on the grid.
 TEST(FrameErrors, OfInterpolatingAreSmallBesideTheRest) {
   for (const char* scene : {"10 M, Milky Way", "30 M, grid"}) {
-    const FrameErrorRow &usual = row_of(scene, "default"),
-                        &exact = row_of(scene, "none interpolated");
+    const FrameErrorRow &usual = error_row(scene, "default"),
+                        &exact = error_row(scene, "none interpolated");
     EXPECT_NE(usual.rms, exact.rms) << scene;
     EXPECT_NEAR(usual.rms, exact.rms, 0.02 * exact.rms) << scene;
   }
@@ -55,7 +56,7 @@ TEST(FrameErrors, OfInterpolatingAreSmallBesideTheRest) {
 // The steps are those of 8 bits, and the error is the rms.  A frame of 256 pixels is the smallest
 // that anyone would watch.  Measured: 1.3 steps in both scenes.
 TEST(FrameErrors, OfTheDefaultAreBelowTwoStepsOfADisplay) {
-  for (const FrameErrorRow& row : quick()) {
+  for (const FrameErrorRow& row : quick_errors()) {
     EXPECT_GT(row.rms, 0) << row.setting;
     EXPECT_GE(row.worst, row.rms) << row.setting;
     EXPECT_LE(row.worst, 1) << row.setting;
@@ -65,11 +66,11 @@ TEST(FrameErrors, OfTheDefaultAreBelowTwoStepsOfADisplay) {
 }
 
 TEST(FrameErrors, AreGivenWithTheirSceneSizeAndCost) {
-  for (const FrameErrorRow& row : quick()) {
+  for (const FrameErrorRow& row : quick_errors()) {
     EXPECT_EQ(row.size, 256);
     EXPECT_GT(row.seconds, 0);
     // All rows of a scene are measured by the same copy.
-    const FrameErrorRow& first = row_of(row.scene, "1 view ray");
+    const FrameErrorRow& first = error_row(row.scene, "1 view ray");
     EXPECT_NEAR(row.seconds / row.copies, first.seconds / first.copies, 1e-12);
   }
 }

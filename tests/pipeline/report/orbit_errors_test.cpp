@@ -12,7 +12,7 @@ const std::vector<OrbitErrorRow>& quick() {
   return rows;
 }
 
-OrbitErrorRow row_of(const std::string& orbit, const std::string& method, double tolerance) {
+OrbitErrorRow orbit_row(const std::string& orbit, const std::string& method, double tolerance) {
   for (const OrbitErrorRow& row : quick())
     if (row.orbit.find(orbit) == 0 && row.method == method && row.tolerance == tolerance)
       return row;
@@ -42,7 +42,7 @@ TEST(OrbitErrors, OfClosedFormsInPlaceAreInTheLastBits) {
     EXPECT_LT(row.phi_error, 3e-13) << row.orbit;
     EXPECT_LT(row.r_error, row.orbit.starts_with("fall") ? 2e-9 : 1e-15) << row.orbit;
   }
-  EXPECT_GT(row_of("circular at 3.1 M, 3", "closed form", 0).norm_drift, 0) << "with 50 digits";
+  EXPECT_GT(orbit_row("circular at 3.1 M, 3", "closed form", 0).norm_drift, 0) << "with 50 digits";
 }
 
 // Next to a singularity the rounding of tau matters.  It is 7e-15 M at the end of the fall, where
@@ -66,8 +66,8 @@ TEST(OrbitErrors, OfQuadraturesAreInTheLastBitsToo) {
 // The error of a step grows 1e4-fold while the orbit whirls, and becomes an error in place.
 TEST(OrbitErrors, OfIntegrationsGrowInAWhirl) {
   for (const char* method : {"dopri5", "fehlberg78"})
-    EXPECT_GT(row_of("whirl", method, 1e-9).phi_error,
-              100 * row_of("bound", "quadrature", 0).phi_error)
+    EXPECT_GT(orbit_row("whirl", method, 1e-9).phi_error,
+              100 * orbit_row("bound", "quadrature", 0).phi_error)
         << method;
 }
 
@@ -75,8 +75,8 @@ TEST(OrbitErrors, OfIntegrationsGrowInAWhirl) {
 // places.
 TEST(OrbitErrors, OfIntegrationsFallWithTheTolerance) {
   for (const char* method : {"dopri5", "fehlberg78"}) {
-    const OrbitErrorRow coarse = row_of("circular at 10 M", method, 1e-6),
-                        fine = row_of("circular at 10 M", method, 1e-9);
+    const OrbitErrorRow coarse = orbit_row("circular at 10 M", method, 1e-6),
+                        fine = orbit_row("circular at 10 M", method, 1e-9);
     EXPECT_LT(fine.r_error, coarse.r_error / 100) << method;
     EXPECT_LT(fine.phi_error, coarse.phi_error / 100) << method;
     EXPECT_LT(fine.energy_drift, coarse.energy_drift / 100) << method;
@@ -84,7 +84,7 @@ TEST(OrbitErrors, OfIntegrationsFallWithTheTolerance) {
     EXPECT_LT(fine.norm_drift, coarse.norm_drift / 100) << method;
     EXPECT_LT(fine.r_error, 1e-5) << method;
     EXPECT_LT(fine.phi_error, 1e-3) << method;
-    EXPECT_LT(row_of("fall", method, 1e-9).r_error, row_of("fall", method, 1e-6).r_error / 10)
+    EXPECT_LT(orbit_row("fall", method, 1e-9).r_error, orbit_row("fall", method, 1e-6).r_error / 10)
         << method;
   }
 }
@@ -92,8 +92,8 @@ TEST(OrbitErrors, OfIntegrationsFallWithTheTolerance) {
 // Below 6 M a circle is unstable, so the error of a step grows without end.
 TEST(OrbitErrors, OfIntegrationsGrowOnAnUnstableCircle) {
   for (const char* method : {"dopri5", "fehlberg78"}) {
-    const OrbitErrorRow stable = row_of("circular at 10 M", method, 1e-9),
-                        unstable = row_of("circular at 3.1 M", method, 1e-9);
+    const OrbitErrorRow stable = orbit_row("circular at 10 M", method, 1e-9),
+                        unstable = orbit_row("circular at 3.1 M", method, 1e-9);
     EXPECT_GT(unstable.r_error, 1000 * stable.r_error) << method << ", after 3 turns against 100";
     EXPECT_LT(unstable.energy_drift, 1e-6) << "its constants do not show it";
   }

@@ -9,13 +9,13 @@
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/placement.h"
 #include "tests/pipeline/show/show_file.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // This allows for a dozen roundings of numbers of size 1.
-constexpr double kRounding = 1e-14;
+constexpr double kStateRounding = 1e-14;
 
 class FrameStates : public ShowFile {
  protected:
@@ -24,7 +24,7 @@ class FrameStates : public ShowFile {
   }
 };
 
-void expect_near(const V3d& a, const V3d& b, double tolerance = kRounding) {
+void expect_close(const V3d& a, const V3d& b, double tolerance = kStateRounding) {
   EXPECT_LE((a - b).length(), tolerance) << a << " and " << b;
 }
 
@@ -47,7 +47,7 @@ TEST_F(FrameStates, FrameNShowsTheInstantNOverFramesPerSecond) {
     const FrameState f = frame_state(s, n);
     EXPECT_EQ(f.frame, n);
     EXPECT_DOUBLE_EQ(f.show_time_s, n / 24.0);
-    EXPECT_NEAR(f.observer.proper_time, 3 * n / 24.0, kRounding);
+    EXPECT_NEAR(f.observer.proper_time, 3 * n / 24.0, kStateRounding);
   }
 }
 
@@ -80,7 +80,7 @@ TEST_F(FrameStates, AzimuthRunsOnFromSegmentToSegment) {
   };
   for (int n = 0; n < 30; ++n)
     for (int k = 0; k < 3; ++k)
-      expect_near(column(frame_state(s, n).observer.sky_from_tetrad, k), column(swept(n), k));
+      expect_close(column(frame_state(s, n).observer.sky_from_tetrad, k), column(swept(n), k));
 }
 
 // The time left goes with r^(3/2), so equal factors of one are equal factors of the other.
@@ -123,9 +123,9 @@ TEST_F(FrameStates, CameraAxesAreAlwaysARotation) {
       const Show s = show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n",
                           "camera: {" + std::string(camera) + "}\n");
       const M33d m = frame_state(s, 17).observer.tetrad_from_camera;
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(column(m, k).length(), 1, kRounding);
-      expect_near(column(m, 0).cross(column(m, 1)), column(m, 2));
-      EXPECT_NEAR(column(m, 0).dot(column(m, 1)), 0, kRounding);
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(column(m, k).length(), 1, kStateRounding);
+      expect_close(column(m, 0).cross(column(m, 1)), column(m, 2));
+      EXPECT_NEAR(column(m, 0).dot(column(m, 1)), 0, kStateRounding);
     }
 }
 
@@ -133,7 +133,7 @@ TEST_F(FrameStates, TheHoleStands45DegreesAboveTheFrontOfADome) {
   for (const char* mover : kMovers) {
     const FrameState f =
         frame_state(show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n"), 12);
-    expect_near(hole_seen(f.observer), at_front(f, 45 * kDegree));
+    expect_close(hole_seen(f.observer), at_front(f, 45 * kDegree));
     // On the image it is in the middle column, half way from the centre to the bottom edge.
     const V3d n = apply_transposed(f.observer.tetrad_from_camera, hole_seen(f.observer));
     const auto pixel = pixel_of(f.projection, {n});
@@ -147,7 +147,7 @@ TEST_F(FrameStates, DomeTiltAddsToTheElevation) {
   const FrameState f = frame_state(show("  - {duration_s: 1, trajectory: {type: circular, r: 6}}\n",
                                         "camera: {elevation_deg: 20, dome_tilt_deg: 15}\n"),
                                    3);
-  expect_near(hole_seen(f.observer), at_front(f, 35 * kDegree));
+  expect_close(hole_seen(f.observer), at_front(f, 35 * kDegree));
 }
 
 TEST_F(FrameStates, DomeTiltLiftsWhatEulerAnglesPutInFront) {
@@ -159,7 +159,7 @@ TEST_F(FrameStates, DomeTiltLiftsWhatEulerAnglesPutInFront) {
   };
   const FrameState level = axes("0"), tilted = axes("25");
   for (const double elevation : {0.0, 0.5, 1.5})
-    expect_near(at_front(level, elevation), at_front(tilted, elevation + 25 * kDegree));
+    expect_close(at_front(level, elevation), at_front(tilted, elevation + 25 * kDegree));
 }
 
 TEST_F(FrameStates, FlatPicturesHaveTheHoleInTheMiddle) {
@@ -168,7 +168,7 @@ TEST_F(FrameStates, FlatPicturesHaveTheHoleInTheMiddle) {
         frame_state(show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n",
                          "camera: {projection: stereographic, roll_deg: 40}\n"),
                     12);
-    expect_near(hole_seen(f.observer), column(f.observer.tetrad_from_camera, 2));
+    expect_close(hole_seen(f.observer), column(f.observer.tetrad_from_camera, 2));
   }
 }
 
@@ -176,8 +176,8 @@ TEST_F(FrameStates, NorthOfTheOrbitIsUpWhereTheHoleIsLookedAt) {
   const FrameState f = frame_state(show("  - {duration_s: 1, trajectory: {type: static, r: 20}}\n",
                                         "camera: {projection: stereographic}\n"),
                                    0);
-  expect_near(column(f.observer.tetrad_from_camera, 1), V3d(0, 1, 0));  // down is Theta
-  expect_near(column(f.observer.tetrad_from_camera, 0), V3d(0, 0, 1));  // Phi to the right
+  expect_close(column(f.observer.tetrad_from_camera, 1), V3d(0, 1, 0));  // down is Theta
+  expect_close(column(f.observer.tetrad_from_camera, 0), V3d(0, 0, 1));  // Phi to the right
 }
 
 TEST_F(FrameStates, RollTurnsThePictureClockwise) {
@@ -185,7 +185,7 @@ TEST_F(FrameStates, RollTurnsThePictureClockwise) {
                                         "camera: {projection: stereographic, roll_deg: 90}\n"),
                                    0);
   // North, which was up, is now at the right edge.
-  expect_near(column(f.observer.tetrad_from_camera, 0), V3d(0, -1, 0));
+  expect_close(column(f.observer.tetrad_from_camera, 0), V3d(0, -1, 0));
 }
 
 // Without rotations (X, Y, Z) are the boosted (Theta, Phi, R): [Riazuelo] sec. sec_cam.
@@ -210,15 +210,15 @@ TEST_F(FrameStates, EulerAnglesTurnAboutCThenBThenC) {
   };
   const V3d r(1, 0, 0), theta(0, 1, 0), phi(0, 0, 1);
   // The rotation about C gives A' = A cos + B sin.
-  expect_near(column(axes("[90, 0, 0]"), 0), phi);
-  expect_near(column(axes("[90, 0, 0]"), 1), -theta);
+  expect_close(column(axes("[90, 0, 0]"), 0), phi);
+  expect_close(column(axes("[90, 0, 0]"), 1), -theta);
   // Then Z leans from C towards A'.
-  expect_near(column(axes("[0, 90, 0]"), 2), theta);
-  expect_near(column(axes("[90, 90, 0]"), 2), phi);
-  expect_near(column(axes("[0, 180, 0]"), 2), -r);
+  expect_close(column(axes("[0, 90, 0]"), 2), theta);
+  expect_close(column(axes("[90, 90, 0]"), 2), phi);
+  expect_close(column(axes("[0, 180, 0]"), 2), -r);
   // With no lean the first and last rotation have the same axis.
   for (int k = 0; k < 3; ++k)
-    expect_near(column(axes("[50, 0, 0]"), k), column(axes("[20, 0, 30]"), k));
+    expect_close(column(axes("[50, 0, 0]"), k), column(axes("[20, 0, 30]"), k));
 }
 
 // The image is found here by the renderer's own inverse, through a table, not by the root finder
@@ -234,8 +234,8 @@ TEST_F(FrameStates, AStarThatIsLookedAtStandsWhereItsPrimaryImageIs) {
       const V3d target = std::get<LookAtSky>(s.timeline[0].camera.attitude).target.v;
       const SkyImage image =
           image_of(&*optics.home_sky, apply_transposed(o.sky_from_tetrad, target), 0, 1e-9);
-      expect_near(to_observer(o.celerity, image.direction.v).direction, at_front(f, 60 * kDegree),
-                  1e-8);
+      expect_close(to_observer(o.celerity, image.direction.v).direction, at_front(f, 60 * kDegree),
+                   1e-8);
     }
 }
 
@@ -243,7 +243,7 @@ TEST_F(FrameStates, InFlatSpaceAStarAtRestStandsWhereItIs) {
   const Show s = read("camera: {look_at: Betelgeuse}\ntimeline: [{duration_s: 1}]\n");
   const FrameState f = frame_state(s, 0);
   const V3d target = std::get<LookAtSky>(s.timeline[0].camera.attitude).target.v;
-  expect_near(apply(f.observer.sky_from_tetrad, at_front(f, 45 * kDegree)), target);
+  expect_close(apply(f.observer.sky_from_tetrad, at_front(f, 45 * kDegree)), target);
 }
 
 // ---- the direction of motion ----
@@ -259,7 +259,7 @@ TEST_F(FrameStates, ACircularOrbitMovesAlongPhi) {
     const ObserverState& o = f.observer;
     const V3d phi_in_rain =
         to_tetrad(resting_celerity(o.r), V3d(0, 0, 1)).direction;  // light coming from static Phi
-    expect_near(to_observer(o.celerity, phi_in_rain).direction, at_front(f, 45 * kDegree), 1e-12);
+    expect_close(to_observer(o.celerity, phi_in_rain).direction, at_front(f, 45 * kDegree), 1e-12);
   }
 }
 
@@ -271,7 +271,7 @@ TEST_F(FrameStates, AFallMovesInwardSmoothlyThroughTheHorizon) {
   for (int n = 0; n < frame_count(s); ++n) {
     const FrameState f = frame_state(s, n);
     inside += f.observer.r < 2;
-    expect_near(at_front(f, 45 * kDegree), V3d(-1, 0, 0));
+    expect_close(at_front(f, 45 * kDegree), V3d(-1, 0, 0));
   }
   EXPECT_GT(inside, 20);
   EXPECT_LT(inside, 40);
@@ -285,7 +285,7 @@ TEST_F(FrameStates, ASidewaysMotionTurnsSmoothlyThroughTheHorizon) {
     o.r = 2 + k * 1e-4;
     o.celerity = V3d(-0.3, 0.2, 0.7);
     const V3d now = motion_direction(o).normalized();
-    if (k > -50) expect_near(now, last, 1e-4);  // the derivative by r is below 1
+    if (k > -50) expect_close(now, last, 1e-4);  // the derivative by r is below 1
     last = now;
   }
 }
@@ -299,7 +299,8 @@ TEST_F(FrameStates, MotionIsTheVelocityAgainstTheStaticFrame) {
       // The static observer sees its own motion's goal at `direction`; the mover sees it dead
       // ahead.
       const V3d goal = to_tetrad(resting_celerity(r), direction).direction;
-      expect_near(motion_direction(o).normalized(), to_observer(o.celerity, goal).direction, 1e-13);
+      expect_close(motion_direction(o).normalized(), to_observer(o.celerity, goal).direction,
+                   1e-13);
     }
   }
 }
@@ -316,8 +317,8 @@ TEST_F(FrameStates, FlyingTowardsAStarKeepsItDeadAhead) {
     const FrameState by_star = frame_state(show(orbit + flight + "Vega}}\n"), 40);
     const FrameState by_motion = frame_state(show(orbit + flight + "motion}}\n"), 40);
     for (int k = 0; k < 3; ++k)
-      expect_near(column(by_star.observer.tetrad_from_camera, k),
-                  column(by_motion.observer.tetrad_from_camera, k), 1e-12);
+      expect_close(column(by_star.observer.tetrad_from_camera, k),
+                   column(by_motion.observer.tetrad_from_camera, k), 1e-12);
   }
 }
 
@@ -340,7 +341,7 @@ TEST_F(FrameStates, TurnOfTheSkyLeadsFromFrameToFrame) {
       const V3d source = apply_transposed(here.observer.sky_from_tetrad, d);
       const V3d moved = source + turn.cross(source) * 0.5;
       // What is left is of second order, or the change of the speed within the frame.
-      expect_near(apply_transposed(later, d), moved, 0.1 * turn.length());
+      expect_close(apply_transposed(later, d), moved, 0.1 * turn.length());
     }
   }
   // A tenth of an orbit in 60 frames, by the chord over a quarter of a frame.

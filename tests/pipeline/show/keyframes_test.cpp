@@ -1,16 +1,14 @@
 // Tests of what changes during a show: cameras, exposure, skies.
 #include <cmath>
-#include <numbers>
 
 #include "pipeline/optics/aberration.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/frame_state.h"
 #include "tests/pipeline/show/show_file.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class Keyframes : public ShowFile {
  protected:

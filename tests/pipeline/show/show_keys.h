@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/pipeline/show/show_file.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 class ShowKeys : public ShowFile {
  protected:

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <vector>
 
 #include "pipeline/optics/aberration.h"
@@ -20,11 +19,11 @@
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/show/show_file.h"
 #include "tests/source_tree.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFramesPerSecond = 30;
 
 // Bounds of a step from one frame to the next, and of its change from one step to the next.
@@ -135,7 +134,7 @@ bool is_critical(const Show& show, double t) {
 }
 
 // All frames where something may begin or end, and four of each twelve in between.
-Motion motion_of(const Show& show, int first = 0, int end = 1 << 30) {
+Motion camera_motion(const Show& show, int first = 0, int end = 1 << 30) {
   Motion motion;
   std::vector<View> last;
   int segment = 0;
@@ -171,7 +170,7 @@ void expect_within(const char* what, const Worst& worst, const Bounds& bounds) {
 }
 
 TEST_P(SmoothShows, NothingLeapsOrJerks) {
-  const Motion motion = motion_of(read(text_of(GetParam())));
+  const Motion motion = camera_motion(read(text_of(GetParam())));
   expect_within("the scene on the dome", motion.dome, kOnDome);
   expect_within("the place on the sky", motion.sky, kOnSky);
   expect_within("log r", motion.log_r, kLogRadius);
@@ -205,7 +204,7 @@ TEST_F(AJumpEditedIn, IsFound) {
   const std::string text = text_of("into_the_dark");
   const auto motion = [&](const char* from, const char* to, int second) {
     const int n = second * static_cast<int>(kFramesPerSecond);
-    return motion_of(read(edited(text, from, to)), n - 60, n + 60);
+    return camera_motion(read(edited(text, from, to)), n - 60, n + 60);
   };
   const Motion clock = motion("rate_m_per_s: [4.1, 1.6]", "rate_m_per_s: [2.85, 2.85]", 57);
   EXPECT_GT(clock.dome.change_of_change, kOnDome.change_of_change);

@@ -1,13 +1,11 @@
 // Tests of segments, their clocks, and how they join.
 #include <cmath>
-#include <numbers>
 
 #include "tests/pipeline/show/timelines.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // This is a show that is asked for as "from r = 30 M to r = 6 M in 20 s".
 TEST_F(Timelines, ASegmentGoesFromOneRadiusToAnother) {

@@ -34,15 +34,15 @@ std::string spelt_out(std::string text) {
   return text;
 }
 
-std::string text_of(const json& entry, const char* key) {
+std::string entry_text(const json& entry, const char* key) {
   const auto found = entry.find(key);
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 std::string designation(const json& entry) {
-  std::string label = spelt_out(text_of(entry, "bayer"));
-  if (label.empty()) label = text_of(entry, "flam");
-  const std::string constellation = text_of(entry, "c");
+  std::string label = spelt_out(entry_text(entry, "bayer"));
+  if (label.empty()) label = entry_text(entry, "flam");
+  const std::string constellation = entry_text(entry, "c");
   return label.empty() || constellation.empty() ? "" : fmt::format("{} {}", label, constellation);
 }
 
@@ -69,7 +69,7 @@ void add_names(RawCatalogue& catalogue, const std::filesystem::path& file) {
                                    file.string(), key.substr(0, 40)));
     const auto found = places.find(hipparcos_id(hip));
     if (found == places.end()) continue;
-    for (const std::string& name : {text_of(entry, "name"), designation(entry)})
+    for (const std::string& name : {entry_text(entry, "name"), designation(entry)})
       if (!name.empty()) catalogue.names.push_back({found->second, name});
   }
 }

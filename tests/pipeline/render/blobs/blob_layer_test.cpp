@@ -19,7 +19,7 @@ std::vector<StarImage> many_images(const Projection& p, int count) {
   return images;
 }
 
-std::vector<float> drawn(const BlobLayer& layer, const Projection& p) {
+std::vector<float> drawn_layer(const BlobLayer& layer, const Projection& p) {
   const auto stride = static_cast<std::size_t>(columns(p)) * 3;
   const int bands = (rows(p) + kBandRows - 1) / kBandRows;
   std::vector<float> all(stride * static_cast<std::size_t>(kBandRows * bands) + 1);
@@ -53,16 +53,16 @@ TEST(BlobLayer, DrawsTheSameHoweverItsImagesAreListed) {
     add(alone, singles);
     for (BlobLayer* layer : {&whole, &split, &alone}) layer->sort_into_bands();
     EXPECT_EQ(whole.size(), split.size());
-    const std::vector<float> expected = drawn(whole, p);
-    EXPECT_EQ(drawn(split, p), expected);
-    EXPECT_EQ(drawn(alone, p), expected);
+    const std::vector<float> expected = drawn_layer(whole, p);
+    EXPECT_EQ(drawn_layer(split, p), expected);
+    EXPECT_EQ(drawn_layer(alone, p), expected);
     // The light of one star does not depend on the others.
     std::vector<float> sum(expected.size());
     for (const StarImage& image : images) {
       BlobLayer one(p);
       one.add(std::vector<StarImage>{image}, widths);
       one.sort_into_bands();
-      const std::vector<float> own = drawn(one, p);
+      const std::vector<float> own = drawn_layer(one, p);
       for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += own[k];
     }
     for (std::size_t k = 0; k < sum.size(); ++k)

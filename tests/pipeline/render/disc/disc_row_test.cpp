@@ -15,7 +15,7 @@ struct Drawn {
   FloatImage singly, by_rows;
 };
 
-Drawn drawn(const DiscView& view, const Projection& projection) {
+Drawn drawn_row(const DiscView& view, const Projection& projection) {
   const Show show = disc_show(view, projection);
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(view.at.r, view.at.tetrad, {});
@@ -58,7 +58,7 @@ std::vector<DiscView> views() {
 TEST(DiscRow, IsThatOfItsPixels) {
   int differ = 0;
   for (std::size_t v = 0; v < views().size(); ++v) {
-    const Drawn pictures = drawn(views()[v], Domemaster{tries(512, 256)});
+    const Drawn pictures = drawn_row(views()[v], Domemaster{tries(512, 256)});
     const std::vector<float>&singly = pictures.singly.pixels, &by_rows = pictures.by_rows.pixels;
     for (std::size_t k = 0; k < singly.size(); ++k) {
       differ += singly[k] != by_rows[k];

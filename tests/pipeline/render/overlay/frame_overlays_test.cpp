@@ -22,7 +22,9 @@ Show overlaid(OverlayKind overlay, const Projection& projection,
   return show;
 }
 
-HalfFrame drawn(const Show& show) { return Renderer(show, 1).render(frame_state(show, 0)); }
+HalfFrame drawn_overlays(const Show& show) {
+  return Renderer(show, 1).render(frame_state(show, 0));
+}
 
 float light_at(const HalfFrame& frame, const Projection& projection, const CameraDirection& n) {
   const auto pixel = pixel_of(projection, n);
@@ -40,10 +42,10 @@ CameraDirection at(double azimuth_deg, double elevation_deg) {
 
 TEST(FrameMarks, OfADomeLieAtTheirElevations) {
   const Domemaster dome{256};
-  const HalfFrame rim = drawn(overlaid(OverlayKind::kRim, dome)),
-                  safe = drawn(overlaid(OverlayKind::kSafeArea, dome)),
-                  sweet = drawn(overlaid(OverlayKind::kSweetSpot, dome)),
-                  grid = drawn(overlaid(OverlayKind::kGrid, dome));
+  const HalfFrame rim = drawn_overlays(overlaid(OverlayKind::kRim, dome)),
+                  safe = drawn_overlays(overlaid(OverlayKind::kSafeArea, dome)),
+                  sweet = drawn_overlays(overlaid(OverlayKind::kSweetSpot, dome)),
+                  grid = drawn_overlays(overlaid(OverlayKind::kGrid, dome));
   for (const double azimuth : {0., 33., 90., 180., -70.}) {
     EXPECT_GT(light_at(rim, dome, at(azimuth, 0.4)), 0.3) << azimuth;
     EXPECT_EQ(light_at(rim, dome, at(azimuth, 3)), 0) << azimuth;
@@ -66,8 +68,8 @@ TEST(FrameMarks, OfADomeLieAtTheirElevations) {
 
 TEST(FrameMarks, OfAFlatPictureAreFrames) {
   const Stereographic flat{200, 100, 90 * kDegree};
-  const HalfFrame rim = drawn(overlaid(OverlayKind::kRim, flat)),
-                  safe = drawn(overlaid(OverlayKind::kSafeArea, flat));
+  const HalfFrame rim = drawn_overlays(overlaid(OverlayKind::kRim, flat)),
+                  safe = drawn_overlays(overlaid(OverlayKind::kSafeArea, flat));
   for (const int x : {0, 100, 199}) {
     EXPECT_GT(rim.row(0)[3 * x], 0.9f);
     EXPECT_GT(rim.row(99)[3 * x], 0.9f);
@@ -91,7 +93,7 @@ TEST(FrameMarks, OfTheHoleAreDrawnWhereItIs) {
                              : einstein_circles(state.observer, state.observer.celerity);
     const ViewCircle& c = circles.at(0);
     const V3d e1 = c.axis.cross(V3d(1, 0, 0)).normalized(), e2 = c.axis.cross(e1);
-    const HalfFrame frame = drawn(show);
+    const HalfFrame frame = drawn_overlays(show);
     int seen = 0;
     for (int k = 0; k < 40; ++k) {
       const double t = k * 2 * std::numbers::pi / 40;
@@ -106,7 +108,7 @@ TEST(FrameMarks, OfTheHoleAreDrawnWhereItIs) {
     // Where light goes straight there is nothing to draw.
     Show straight = show;
     straight.effects.lensing = false;
-    for (const Imath::half value : drawn(straight).pixels) ASSERT_EQ(value, 0);
+    for (const Imath::half value : drawn_overlays(straight).pixels) ASSERT_EQ(value, 0);
   }
 }
 
@@ -133,7 +135,7 @@ TEST(FrameOverlays, EnterTheKey) {
 
 TEST(FrameOverlays, BurnInStandsInTheCorners) {
   const Show show = overlaid(OverlayKind::kBurnIn, Domemaster{256});
-  const HalfFrame frame = drawn(show);
+  const HalfFrame frame = drawn_overlays(show);
   const auto light = [&](int x0, int y0, int x1, int y1) {
     double sum = 0;
     for (int y = y0; y < y1; ++y)
@@ -197,7 +199,7 @@ TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
     const auto images = labels.images(state);
     EXPECT_GE(images.size(), 2u);
     // Both are brighter than what has no name, and each is seen where its image is.
-    const HalfFrame frame = drawn(show);
+    const HalfFrame frame = drawn_overlays(show);
     int seen = 0;
     for (const NamedImage& image : images) {
       EXPECT_TRUE(image.name.starts_with("Near") || image.name.starts_with("beta Two"))

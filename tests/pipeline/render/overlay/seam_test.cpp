@@ -28,7 +28,7 @@ std::vector<double> pixels_of(const Coverage& coverage) {
   return all;
 }
 
-std::vector<double> turned(const std::vector<double>& pixels, int columns) {
+std::vector<double> turned_show(const std::vector<double>& pixels, int columns) {
   std::vector<double> result(pixels.size());
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const std::size_t row = k / kWidth, column = (k + static_cast<std::size_t>(columns)) % kWidth;
@@ -61,7 +61,7 @@ std::vector<double> circle_at(double azimuth, double elevation, double radius) {
 TEST(Seam, ACircleGoesOnBeyondIt) {
   // A turn by columns of the picture, of which the seam is one.
   for (const int columns : {90, 128, 140})
-    expect_same(turned(circle_at(0, 0.3, 0.5), columns),
+    expect_same(turned_show(circle_at(0, 0.3, 0.5), columns),
                 circle_at(2 * pi * columns / kWidth, 0.3, 0.5));
 }
 
@@ -89,7 +89,7 @@ std::vector<double> text_at(double azimuth, double elevation) {
 
 TEST(Seam, ATextGoesOnBeyondIt) {
   for (const int columns : {100, 128, 150})
-    expect_same(turned(text_at(0, 0.2), columns), text_at(2 * pi * columns / kWidth, 0.2));
+    expect_same(turned_show(text_at(0, 0.2), columns), text_at(2 * pi * columns / kWidth, 0.2));
 }
 
 TEST(Seam, AnOutlineAroundAPoleIsFilledUpToIt) {

@@ -31,7 +31,7 @@ bool same_bytes(const HalfFrame& a, const HalfFrame& b) {
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof a.pixels[0]) == 0;
 }
 
-double largest(const HalfFrame& frame) {
+double largest_value(const HalfFrame& frame) {
   double most = 0;
   for (const Imath::half value : frame.pixels) most = std::max(most, double{value});
   return most;
@@ -57,7 +57,7 @@ TEST(AntiAliasing, EverywhereIsTheMeanOfAsManyPixelsOfALargerImage) {
   for (const int samples : {2, 3, 5, 16}) {
     const HalfFrame frame = rendered(two_skies(kSize), {samples, true}),
                     large = rendered(two_skies(kSize * samples), {1, false, true});
-    const double scale = largest(frame);
+    const double scale = largest_value(frame);
     int seen = 0;
     for (int y = kSize / 4; y < 3 * kSize / 4; ++y)
       for (int x = 3 * (kSize / 4); x < 3 * (3 * kSize / 4); ++x, ++seen) {
@@ -189,10 +189,10 @@ TEST(AntiAliasing, LeavesNoPixelThatIsNotFinite) {
       // The disc is behind the audience of the dome.
       const bool dark = r < 2.1 && r > 2 && std::holds_alternative<Domemaster>(show.projection);
       show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
-      EXPECT_NO_THROW(EXPECT_EQ(largest(rendered(show, setting)) == 0, dark)) << r;
+      EXPECT_NO_THROW(EXPECT_EQ(largest_value(rendered(show, setting)) == 0, dark)) << r;
       show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background =
           PanoramaSky{small_panorama()};
-      EXPECT_NO_THROW(EXPECT_EQ(largest(rendered(show, setting)) == 0, dark)) << r;
+      EXPECT_NO_THROW(EXPECT_EQ(largest_value(rendered(show, setting)) == 0, dark)) << r;
     }
 }
 

@@ -42,7 +42,7 @@ struct GridScene {
 
 // The error, in radians, of a direction whose components are floats: a thousandth of a texel of a
 // map 16k wide.
-constexpr double kRounding = 3e-7;
+constexpr double kGridRounding = 3e-7;
 
 struct Worst {
   double direction = 0, gain = 0;  // pixels, relative
@@ -73,7 +73,7 @@ Worst worst_of(const GridScene& g) {
           EXPECT_NEAR(interpolated.length(), 1, 0.01);
           interpolated.normalize();
           EXPECT_EQ(ray.sky, g.grid.cell(j, i).sky);
-          const double error = (interpolated - ray.sky_direction).length() - kRounding;
+          const double error = (interpolated - ray.sky_direction).length() - kGridRounding;
           worst.direction = std::max(worst.direction, error / width);
           const LightShift shift = g.scene.background[ray.sky]->shift(ray.frequency_ratio);
           if (shift.gain > 1e-9f)

@@ -50,7 +50,7 @@ Row row_of(const std::string& line) {
   return row;
 }
 
-std::vector<Row> rows() {
+std::vector<Row> reference_rows() {
   std::ifstream in(source_file("tests/reference/rays.csv"));
   std::vector<Row> found;
   for (std::string line; std::getline(in, line);)
@@ -59,7 +59,7 @@ std::vector<Row> rows() {
   return found;
 }
 
-const char* name_of(ReferenceOrigin origin) {
+const char* observer_name(ReferenceOrigin origin) {
   return std::array{"I", "III", "IV"}.at(static_cast<std::size_t>(origin));
 }
 
@@ -71,12 +71,12 @@ double relative(const Wide& value, const Wide& truth) {
 constexpr double kPhi = 1e-15;
 
 TEST(ReferenceRay, AgreesWithTheTable) {
-  const std::vector<Row> all = rows();
+  const std::vector<Row> all = reference_rows();
   ASSERT_GT(all.size(), 700U);
   for (const Row& row : all) {
     SCOPED_TRACE(row.text);
     const ReferenceRay ray = reference_ray(row.request);
-    EXPECT_EQ(name_of(ray.origin), row.origin);
+    EXPECT_EQ(observer_name(ray.origin), row.origin);
     if (!row.one_plus_z.empty()) {
       EXPECT_LT(relative(ray.one_plus_z, Wide(row.one_plus_z)), kPhi);
     }
@@ -120,7 +120,7 @@ bool is_by_the_light_circle(const Row& row) {
 
 TEST(ReferenceRay, BesideTheEdgeAtTheLightCircleAgreesWithQuadrature) {
   int checked = 0;
-  for (const Row& row : rows()) {
+  for (const Row& row : reference_rows()) {
     if (!is_by_the_light_circle(row)) continue;
     SCOPED_TRACE(row.text);
     const ReferenceRay ray = reference_ray(row.request);

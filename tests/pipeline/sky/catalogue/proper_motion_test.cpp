@@ -8,12 +8,13 @@
 #include "pipeline/sky/catalogue/star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file.h"
 #include "tests/pipeline/image/test_folder.h"
+#include "trajectories/degree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180, kArcsecond = kDegree / 3600;
+constexpr double kArcsecond = kDegree / 3600;
 
 double separation(const SkyDirection& a, const SkyDirection& b) {
   return std::atan2(a.v.cross(b.v).length(), a.v.dot(b.v));

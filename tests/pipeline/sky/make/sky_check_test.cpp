@@ -9,13 +9,13 @@
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/make/panorama.h"
 #include "tests/source_tree.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double kDegree = pi / 180;
 const std::string kAssets = source_file("shows/assets/");
 
 const StarCatalogue& stars() {
