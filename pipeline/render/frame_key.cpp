@@ -19,7 +19,7 @@ namespace {
 
 // They are raised with every change that alters a pixel, that of bodies where there are any, so
 // that older frames are made again.
-constexpr int kPixelVersion = 9, kBodiesVersion = 2;
+constexpr int kPixelVersion = 10, kBodiesVersion = 2;
 
 // What came after the first version is added only where it is in use, so that other shows keep
 // their keys.

@@ -97,7 +97,6 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
                   scene.effects.amplification != Amplification::kNone && !vantage_.measured),
       plane_(scene.projection(),
              scene.point_spread.reach() + kBlurPixels * central_pixel_angle(scene.projection())) {
-  in_batches_ = in_batches_ && plane_.usable();
   if (in_batches_) prepare_batches();
 }
 

@@ -217,7 +217,7 @@ StarPlane::StarPlane(const Projection& projection, double reach)
   if (std::holds_alternative<Domemaster>(projection)) {
     // The middle of a blob that reaches over the rim is no farther beyond it than `reach`.
     least_z_ = -std::sin(std::min(reach, pi / 2));
-    usable_ = least_z_ >= kLeastCosine;
+    fast_dome_ = least_z_ >= kLeastCosine;
   } else if (std::holds_alternative<Stereographic>(projection)) {
     // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin
     // is that angle at the scale of the projection as far beyond a corner, which grows like
@@ -234,7 +234,7 @@ StarPlane::StarPlane(const Projection& projection, double reach)
 }
 
 int StarPlane::place(StarViews& views, int count, int* listed) const {
-  if (std::holds_alternative<Domemaster>(projection_))
+  if (fast_dome_)
     onto_dome(scale_, middle_i_, count, views);
   else if (std::holds_alternative<Stereographic>(projection_))
     onto_plane(scale_, middle_i_, middle_j_, count, views);

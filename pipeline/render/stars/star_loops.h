@@ -68,22 +68,19 @@ void bend(const StarFrame& frame, const LensCurve& curve, double side, const Sta
 // Finds the images where light goes straight.
 void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
 
-// The projection of views to the frame's pixels, by SIMD code on a Domemaster and a stereographic
-// picture.
+// The projection of views to the frame's pixels, by SIMD code on a stereographic picture and,
+// unless its blobs reach farther over the rim than angle_over_sine() holds, on a Domemaster.
 class StarPlane {
  public:
   // `reach` is the radius of the largest blob in radians.
   StarPlane(const Projection& projection, double reach);
-  // Whether place() lists all views.  On a dome blobs may reach over the rim from views so far
-  // behind that angle_over_sine() does not hold.
-  bool usable() const { return usable_; }
   // Fills i and j of the views.  Lists those from which a blob may reach the frame and returns
   // their number.
   int place(StarViews& views, int count, int* listed) const;
 
  private:
   Projection projection_;
-  bool usable_ = true;
+  bool fast_dome_ = false;
   double scale_ = 1;                    // pixels per radian, or per tan(theta/2) if not a dome
   double middle_i_ = 0, middle_j_ = 0;  // pixels
   double half_i_ = 0, half_j_ = 0;      // half the frame's sides with the margin, pixels
