@@ -74,6 +74,17 @@ void spread(float* line, int count, std::ptrdiff_t step) {
   }
 }
 
+// The same for all cells of an order along the largest channel, from plane to plane as they follow
+// each other in memory.
+void spread_planes(const float* errors, float* spread_out) {
+  for (int n = 0; n < cells::kCells; ++n, errors += kPlaneCells, spread_out += kPlaneCells) {
+    const float* before = n > 0 ? errors - kPlaneCells : errors;
+    const float* after = n + 1 < cells::kCells ? errors + kPlaneCells : errors;
+    for (int k = 0; k < kPlaneCells; ++k)
+      spread_out[k] = std::max({before[k], errors[k], after[k]});
+  }
+}
+
 }  // namespace
 
 GradeTable::GradeTable(Formulas formulas)
@@ -151,10 +162,10 @@ void GradeTable::compare(int block) {
 // A kink of the formulas passes through cells next to each other, and the probes of some of them
 // miss it.  So a cell is held only if its neighbours are as good.
 void GradeTable::hold() {
-  std::vector<float> worst = errors_;
+  std::vector<float> worst(errors_.size());
   for (int order = 0; order < cells::kOrders; ++order) {
     float* errors = &worst[first_cell(order, 0)];
-    for (int k = 0; k < kPlaneCells; ++k) spread(errors + k, cells::kCells, kPlaneCells);
+    spread_planes(&errors_[first_cell(order, 0)], errors);
     for (int n = 0; n < cells::kCells; ++n, errors += kPlaneCells) {
       for (int j = 0; j < cells::kInnerHues; ++j)
         spread(errors + j, cells::kInnerGreys, cells::kInnerHues);
