@@ -127,11 +127,14 @@ bool change_coordinate(Arc& arc, double observer_star) {
 // The step of psi over which e - p or e + p changes by a tenth of itself, p' being 3 w^2 - w, so
 // that none passes the horizon where the coordinate in use is infinite.  Fehlberg's 7(8) is blind
 // to the time's error: its two formulas differ by stages at the ends of the step, of which a
-// quadrature sees no difference.
-double step_to_horizon(const Arc& arc) {
+// quadrature sees no difference.  A distance below the tolerance is what the steps have left of it,
+// and within r = 1, on the way to the singularity, no horizon is near.
+double step_to_horizon(const Arc& arc, double tolerance) {
   constexpr double kShare = 0.1;
   const double w = 1 / arc.equation.radius(arc.y), rate = std::abs(w * (3 * w - 1));
-  const double off = std::abs(arc.equation.off_horizon(arc.y, arc.equation.counted));
+  if (w > 1) return std::numeric_limits<double>::max();
+  const double off =
+      std::max(std::abs(arc.equation.off_horizon(arc.y, arc.equation.counted)), tolerance * w);
   return kShare * off / (arc.equation.kappa * rate + std::numeric_limits<double>::min());
 }
 
@@ -210,7 +213,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
       return ray;
     };
     h = std::min(h, kLargestStep / arc.equation.kappa);
-    if (stops) h = std::min(h, step_to_horizon(arc));
+    if (stops) h = std::min(h, step_to_horizon(arc, tolerance));
     if (!stepper)
       stepper.emplace(ScaledErrorChecker(arc.equation, tolerance),
                       typename Stepper::step_adjuster_type(), blank_stepper<ErrorStepper>());
