@@ -140,7 +140,7 @@ TEST(RayTimes, AreThoseOfEveryIntegrator) {
     ++compared;
   }
   EXPECT_GT(compared, tries(200, 15));
-  EXPECT_GT(far_side, tries(10, 1));
+  EXPECT_GT(far_side, tries(10, 0));
 }
 
 TEST(RayTimes, VanishAtTheObserverAndCountTheTurnsOfACircle) {
