@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/deliver/canvas.h"
+#include "pipeline/deliver/cairo_canvas.h"
 
 namespace domefall {
 namespace {
@@ -68,7 +68,7 @@ GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPictu
             down = (count + across - 1) / across;
   // Room for a title over a single picture, too.
   const int cell = std::max(width, 160) + kGap;
-  Canvas canvas(kGap + across * cell, kTitle + down * (height + kLabel + kGap));
+  CairoCanvas canvas(kGap + across * cell, kTitle + down * (height + kLabel + kGap));
   canvas.set_grey(1);
   canvas.text(title, {canvas.width() / 2.0, kTitle / 2.0}, kTitleLetters,
               canvas.width() - 2 * kGap);

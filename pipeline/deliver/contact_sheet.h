@@ -24,7 +24,7 @@ struct SheetPicture {
 };
 
 // Six in a row, with the title above and a label below each.  There is at least one.  Throws as
-// Canvas.
+// CairoCanvas.
 GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPicture>& pictures);
 
 }  // namespace domefall

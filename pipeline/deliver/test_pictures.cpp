@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/deliver/canvas.h"
+#include "pipeline/deliver/cairo_canvas.h"
 #include "trajectories/degree.h"
 
 namespace domefall {
@@ -37,7 +37,7 @@ struct Board {
     return dome ? on_dome(kAltitude, 0) : middle();
   }
 
-  Canvas canvas;
+  CairoCanvas canvas;
   const Domemaster* dome;
   double size;  // pixels of the shorter side
   double thin;  // pixels
@@ -51,7 +51,7 @@ void text_on_dome(Board& board, const std::string& text, double altitude, double
 }
 
 void draw_dome_grid(Board& board) {
-  Canvas& canvas = board.canvas;
+  CairoCanvas& canvas = board.canvas;
   const auto radius = [&](double altitude) {
     return board.on_dome(altitude, 0).y - board.middle().y;
   };
@@ -85,7 +85,7 @@ void draw_dome_grid(Board& board) {
 }
 
 void draw_flat_grid(Board& board) {
-  Canvas& canvas = board.canvas;
+  CairoCanvas& canvas = board.canvas;
   const double w = canvas.width(), h = canvas.height();
   const auto frame = [&](double part) {
     const double x = w * (1 - part) / 2 + board.thin / 2, y = h * (1 - part) / 2 + board.thin / 2;
@@ -153,7 +153,7 @@ void draw_slate(Board& board, const ShowLines& lines) {
 
 void draw_countdown(Board& board, int left, double passed) {
   constexpr double kRadius = 0.11, kNumber = 0.15;
-  Canvas& canvas = board.canvas;
+  CairoCanvas& canvas = board.canvas;
   const CanvasPoint front = board.front();
   const double radius = kRadius * board.size;
   canvas.set_grey(0.5);

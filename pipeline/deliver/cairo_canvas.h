@@ -15,10 +15,10 @@ struct CanvasPoint {
   double x, y;
 };
 
-class Canvas {
+class CairoCanvas {
  public:
   // A black picture.  Throws std::runtime_error with Cairo's reason.
-  Canvas(int width, int height);
+  CairoCanvas(int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }

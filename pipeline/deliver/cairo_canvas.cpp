@@ -1,4 +1,4 @@
-#include "pipeline/deliver/canvas.h"
+#include "pipeline/deliver/cairo_canvas.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-Canvas::Canvas(int width, int height)
+CairoCanvas::CairoCanvas(int width, int height)
     : width_(width),
       height_(height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
@@ -19,38 +19,38 @@ Canvas::Canvas(int width, int height)
   check();
 }
 
-void Canvas::check() const {
+void CairoCanvas::check() const {
   const cairo_status_t status = cairo_status(cairo_.get());
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string("Cairo: ") + cairo_status_to_string(status));
 }
 
-void Canvas::set_colour(double red, double green, double blue) {
+void CairoCanvas::set_colour(double red, double green, double blue) {
   cairo_set_source_rgb(cairo_.get(), red, green, blue);
 }
 
-void Canvas::line(CanvasPoint from, CanvasPoint to, double thickness) {
+void CairoCanvas::line(CanvasPoint from, CanvasPoint to, double thickness) {
   cairo_set_line_width(cairo_.get(), thickness);
   cairo_move_to(cairo_.get(), from.x, from.y);
   cairo_line_to(cairo_.get(), to.x, to.y);
   cairo_stroke(cairo_.get());
 }
 
-void Canvas::circle(CanvasPoint centre, double radius, double thickness) {
+void CairoCanvas::circle(CanvasPoint centre, double radius, double thickness) {
   cairo_set_line_width(cairo_.get(), thickness);
   cairo_new_sub_path(cairo_.get());
   cairo_arc(cairo_.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
   cairo_stroke(cairo_.get());
 }
 
-void Canvas::box(CanvasPoint corner, double width, double height) {
+void CairoCanvas::box(CanvasPoint corner, double width, double height) {
   cairo_rectangle(cairo_.get(), corner.x, corner.y, width, height);
   cairo_fill(cairo_.get());
 }
 
-void Canvas::text(const std::string& line, CanvasPoint middle, double size, double longest,
-                  double angle) {
+void CairoCanvas::text(const std::string& line, CanvasPoint middle, double size, double longest,
+                       double angle) {
   const LetteredText letters = lettering().letter(line, {});
   double capital = size / letters.em;
   if (2 * letters.half_width * capital > longest) capital = longest / (2 * letters.half_width);
@@ -69,7 +69,7 @@ void Canvas::text(const std::string& line, CanvasPoint middle, double size, doub
   cairo_restore(cairo);
 }
 
-void Canvas::picture(const GradedFrame& picture, int x, int y) {
+void CairoCanvas::picture(const GradedFrame& picture, int x, int y) {
   cairo_surface_flush(surface_.get());
   unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
   const int stride = cairo_image_surface_get_stride(surface_.get());
@@ -88,7 +88,7 @@ void Canvas::picture(const GradedFrame& picture, int x, int y) {
   cairo_surface_mark_dirty(surface_.get());
 }
 
-GradedFrame Canvas::finished() {
+GradedFrame CairoCanvas::finished() {
   check();
   cairo_surface_flush(surface_.get());
   const unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
