@@ -140,7 +140,7 @@ std::vector<VerbNotes> notes_of_numbers() {
        "column psi, r_there is the ray's r after sweeping that angle, followed back\n"
        "in time, and null_time the place's time v less the observer's (u for outgoing\n"
        "and T_IV; M), where v = t + r + 2 ln|r/2 - 1| and u = t - r - 2 ln|r/2 - 1|.\n"
-       "Both are empty where the ray has ended. Integrators tell no null_time.",
+       "Both are empty where the ray has ended.",
        {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
        "accuracy.md"},
       {"report",

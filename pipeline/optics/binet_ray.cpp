@@ -103,23 +103,29 @@ Arc arc_at(double r, double steepness, double energy_over_l, Form form, Counted 
           {1, inverse ? slope : -slope / 2, time}};
 }
 
-// The place's null coordinates less those of an observer at that r*.
-NullTimes passed_times(const Arc& arc, double observer_star) {
-  const double stars = 2 * (tortoise(arc.equation.radius(arc.y)) - observer_star);
-  const double time = arc.y[2];
-  return arc.equation.counted == Counted::kV ? NullTimes{time, time - stars}
-                                             : NullTimes{time + stars, time};
+// What is counted is v or u less that coordinate `began` of the observer, and beyond a change 2 r* of
+// the place more or less: an observer's own r* is infinite on the horizon.  The place's null
+// coordinates less the observer's:
+NullTimes passed_times(const Arc& arc, Counted began, double observer_star) {
+  const double there = 2 * tortoise(arc.equation.radius(arc.y)), time = arc.y[2];
+  const bool counts_v = arc.equation.counted == Counted::kV;
+  if (began == Counted::kV) {
+    const double v = counts_v ? time : time + there;
+    return {v, v - there + 2 * observer_star};
+  }
+  const double u = counts_v ? time - there : time;
+  return {u + there - 2 * observer_star, u};
 }
 
 // Counts the other coordinate from here on if that is further off its horizon, by a factor that
 // keeps a ray between the two from changing to and fro; says whether it is so.
-bool change_coordinate(Arc& arc, double observer_star) {
+bool change_coordinate(Arc& arc) {
   constexpr double kGap = 2;
   const auto off = [&arc](Counted of) { return std::abs(arc.equation.off_horizon(arc.y, of)); };
   const Counted now = arc.equation.counted, other = now == Counted::kV ? Counted::kU : Counted::kV;
   if (kGap * off(now) > off(other)) return false;
-  const NullTimes both = passed_times(arc, observer_star);
-  arc.y[2] = other == Counted::kV ? both.v : both.u;
+  const double there = 2 * tortoise(arc.equation.radius(arc.y));
+  arc.y[2] += other == Counted::kV ? there : -there;
   arc.equation.counted = other;
   return true;
 }
@@ -208,7 +214,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
       error_stepper.do_step(arc.equation, before, 0.0, at, part);
       ray.phi = until;
       ray.r = arc.equation.radius(at);
-      ray.passed = passed_times({arc.equation, at}, observer_star);
+      ray.passed = passed_times({arc.equation, at}, regular, observer_star);
       ++ray.steps;
       return ray;
     };
@@ -227,7 +233,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
       return ray;
     }
     if (phi + arc.equation.kappa * psi >= until) return stopped();
-    if (stops && change_coordinate(arc, observer_star)) stepper.reset();
+    if (stops && change_coordinate(arc)) stepper.reset();
     if (!other_form_is_due(arc.equation, arc.y)) continue;
     phi += arc.equation.kappa * psi;
     psi = 0;

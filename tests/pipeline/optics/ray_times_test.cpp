@@ -143,6 +143,28 @@ TEST(RayTimes, AreThoseOfEveryIntegrator) {
   EXPECT_GT(far_side, tries(10, 0));
 }
 
+// Rays that turn: the regular coordinate is that of the horizon on which the observer is.
+TEST(RayTimes, OfAnObserverOnTheHorizonAreThoseOfEveryIntegrator) {
+  TraceOptions fine;
+  fine.tolerance = 1e-11;
+  for (const TraceObserver observer : {TraceObserver::kRain, TraceObserver::kOutgoing})
+    for (const double delta : {0.5, 0.7, 1.3, 2.4}) {
+      const RayRequest ray = ray_at_angle(observer, 2.0, delta);
+      const double phi = trace_ray(ray, TraceMethod::kExact).phi;
+      for (const double psi : {0.3 * phi, 0.8 * phi}) {
+        const auto place = trace_place(ray, psi, TraceMethod::kTable);
+        ASSERT_TRUE(place);
+        for (const NamedTraceMethod& by : kTraceMethods) {
+          const auto found = trace_place(ray, psi, by.method, fine);
+          ASSERT_TRUE(found) << by.name;
+          EXPECT_NEAR(found->null_time, place->null_time,
+                      1e-6 * std::max(1.0, std::abs(place->null_time)))
+              << by.name << " " << static_cast<int>(observer) << " " << delta << " " << psi;
+        }
+      }
+    }
+}
+
 TEST(RayTimes, VanishAtTheObserverAndCountTheTurnsOfACircle) {
   for (const double r : {0.5, 1.9, 2.0, 2.5, 3.0, 10.0, 1e5})
     for (const double alpha : {0.1, 1.0, 2.0, 3.0})
