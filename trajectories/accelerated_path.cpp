@@ -25,10 +25,10 @@ constexpr double kEndRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
 // From key to key, of t = 0 to 1: c0 + t (c1 + t (c2 + t c3)).
-struct PathPiece {
+struct PathCubic {
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
 
-  static PathPiece hermite(double from, double to, double slope_from, double slope_to) {
+  static PathCubic hermite(double from, double to, double slope_from, double slope_to) {
     const double rise = to - from;
     return {from, slope_from, 3 * rise - 2 * slope_from - slope_to,
             slope_from + slope_to - 2 * rise};
@@ -40,7 +40,7 @@ struct PathPiece {
 
 struct Piece {
   double begin, end;  // proper time
-  PathPiece r, azimuth;
+  PathCubic r, azimuth;
 };
 
 struct Rates {
@@ -148,8 +148,8 @@ std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
     const double span = taus[k + 1] - taus[k];
     pieces.push_back(
         {taus[k], taus[k + 1],
-         PathPiece::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
-         PathPiece::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
+         PathCubic::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
+         PathCubic::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
   }
   return pieces;
 }
@@ -169,7 +169,7 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
 }
 
 // Where the cubic turns, between 0 and 1, with both ends.
-std::vector<double> turns_of(const PathPiece& c) {
+std::vector<double> turns_of(const PathCubic& c) {
   std::vector<double> cuts{0};
   const double a = 3 * c.c3, b = c.c2, under = b * b - a * c.c1;
   if (under > 0) {
@@ -192,7 +192,7 @@ void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
   for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
 }
 
-double where(const PathPiece& c, double value, double low, double high) {
+double where(const PathCubic& c, double value, double low, double high) {
   const auto f = [&](double t) { return c.at(t) - value; };
   if (f(low) == 0) return low;
   if (f(high) == 0) return high;

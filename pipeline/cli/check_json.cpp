@@ -12,12 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Twelve digits, which are those that repeat on every machine; JSON has no infinity.
-Json json_number(double value) {
+Json rounded_json(double value) {
   return std::isfinite(value) ? Json::parse(fmt::format("{:.12g}", value)) : Json();
 }
 
-Json json_number(const std::optional<double>& value) {
-  return value ? json_number(*value) : Json();
+Json rounded_json(const std::optional<double>& value) {
+  return value ? rounded_json(*value) : Json();
 }
 
 Json region_names(const std::vector<Region>& regions) {
@@ -29,8 +29,8 @@ Json region_names(const std::vector<Region>& regions) {
 // `value` is what is reached there, in the unit of the page.
 Json extreme(const std::optional<Extreme>& e, double value) {
   if (!e) return {};
-  return {{"value", json_number(value)},
-          {"time_s", json_number(e->time_s)},
+  return {{"value", rounded_json(value)},
+          {"time_s", rounded_json(e->time_s)},
           {"frame", e->frame},
           {"segment", e->segment + 1}};
 }
@@ -40,62 +40,62 @@ Json extreme(const std::optional<Extreme>& e) { return extreme(e, e ? e->value :
 Json json_of(const SegmentSurvey& s, const std::optional<double>& mass_solar) {
   const double seconds = mass_solar ? *mass_solar * kSecondsPerSolarMass : 1;
   Json json = {{"type", s.type},
-               {"begin_s", json_number(s.begin_s)},
-               {"end_s", json_number(s.end_s)},
-               {"dissolve_s", json_number(s.dissolve_s)},
-               {"from_r", json_number(s.r_begin)},
-               {"to_r", json_number(s.r_end)},
+               {"begin_s", rounded_json(s.begin_s)},
+               {"end_s", rounded_json(s.end_s)},
+               {"dissolve_s", rounded_json(s.dissolve_s)},
+               {"from_r", rounded_json(s.r_begin)},
+               {"to_r", rounded_json(s.r_end)},
                {"closest", mass_solar ? extreme(s.closest) : Json()}};
   if (mass_solar) {
     json["regions"] = region_names(s.regions);
-    json["proper_time_m"] = json_number(s.proper_time);
+    json["proper_time_m"] = rounded_json(s.proper_time);
   }
-  json["proper_time_s"] = json_number(s.proper_time * seconds);
-  json[mass_solar ? "rate_m_per_s" : "time_lapse"] = {json_number(s.rate_begin),
-                                                      json_number(s.rate_end)};
+  json["proper_time_s"] = rounded_json(s.proper_time * seconds);
+  json[mass_solar ? "rate_m_per_s" : "time_lapse"] = {rounded_json(s.rate_begin),
+                                                      rounded_json(s.rate_end)};
   return json;
 }
 
 Json json_of(const SegmentJoint& j) {
   return {{"segment", j.segment + 1},
-          {"time_s", json_number(j.time_s)},
-          {"dissolve_s", json_number(j.dissolve_s)},
-          {"r_before", json_number(j.r_before)},
-          {"r_after", json_number(j.r_after)},
+          {"time_s", rounded_json(j.time_s)},
+          {"dissolve_s", rounded_json(j.dissolve_s)},
+          {"r_before", rounded_json(j.r_before)},
+          {"r_after", rounded_json(j.r_after)},
           {"region_before", region_name(j.region_before)},
           {"region_after", region_name(j.region_after)},
-          {"velocity_jump", json_number(j.speed)},
-          {"rate_before", json_number(j.rate_before)},
-          {"rate_after", json_number(j.rate_after)}};
+          {"velocity_jump", rounded_json(j.speed)},
+          {"rate_before", rounded_json(j.rate_before)},
+          {"rate_after", rounded_json(j.rate_after)}};
 }
 
 Json json_of(const FrameLight& l) {
   return {{"frame", l.frame},
-          {"time_s", json_number(l.time_s)},
+          {"time_s", rounded_json(l.time_s)},
           {"segment", l.segment + 1},
-          {"ev", json_number(l.ev)},
-          {"mean", json_number(l.mean)},
-          {"percentile_99", json_number(l.percentile99)},
-          {"part_at_white", json_number(l.white)}};
+          {"ev", rounded_json(l.ev)},
+          {"mean", rounded_json(l.mean)},
+          {"percentile_99", rounded_json(l.percentile99)},
+          {"part_at_white", rounded_json(l.white)}};
 }
 
 Json json_of(const RenderTime& t) {
-  return {{"seconds", json_number(t.seconds)},
-          {"frame_s", json_number(t.frame_s)},
+  return {{"seconds", rounded_json(t.seconds)},
+          {"frame_s", rounded_json(t.frame_s)},
           {"threads", t.threads}};
 }
 
 Json json_of(const DiskSize& d, const std::optional<DiskRoom>& room) {
-  return {{"bytes", json_number(d.total())},
-          {"frame_linear_bytes", json_number(d.linear)},
-          {"frame_graded_bytes", json_number(d.graded)},
+  return {{"bytes", rounded_json(d.total())},
+          {"frame_linear_bytes", rounded_json(d.linear)},
+          {"frame_graded_bytes", rounded_json(d.graded)},
           {"measured", d.measured},
-          {"free_bytes", room ? json_number(room->free) : Json()}};
+          {"free_bytes", room ? rounded_json(room->free) : Json()}};
 }
 
 Json json_of(const Show& show, const Marker& m) {
   return {{"name", m.name},
-          {"time_s", json_number(m.at_s)},
+          {"time_s", rounded_json(m.at_s)},
           {"frame", nearest_frame(show, m.at_s)},
           {"segment", segment_at(show, m.at_s) + 1}};
 }
@@ -103,15 +103,15 @@ Json json_of(const Show& show, const Marker& m) {
 Json json_of(const ShowWarning& w) {
   if (w.segment == kWholeShow)
     return {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}, {"text", w.text}};
-  return {{"time_s", json_number(w.time_s)},
+  return {{"time_s", rounded_json(w.time_s)},
           {"frame", w.frame},
           {"segment", w.segment + 1},
           {"text", w.text}};
 }
 
 void add_fades(const Fades& fades, Json& json) {
-  json["fade_in_s"] = json_number(fades.in_s);
-  json["fade_out_s"] = json_number(fades.out_s);
+  json["fade_in_s"] = rounded_json(fades.in_s);
+  json["fade_out_s"] = rounded_json(fades.out_s);
 }
 
 Json json_of_head(const CheckReport& report) {
@@ -119,14 +119,14 @@ Json json_of_head(const CheckReport& report) {
   const bool graded = !report.display.empty();
   return {{"title", show.title},
           {"frames", frame_count(show)},
-          {"frames_per_second", json_number(show.frames_per_second)},
-          {"duration_s", json_number(segment_times(show).back())},
+          {"frames_per_second", rounded_json(show.frames_per_second)},
+          {"duration_s", rounded_json(segment_times(show).back())},
           {"projection", projection_name(show.projection)},
           {"width", columns(show.projection)},
           {"height", rows(show.projection)},
           {"display", graded ? Json(report.display) : Json()},
           {"view", graded ? Json(report.view) : Json()},
-          {"mass_solar", json_number(show.mass_solar)}};
+          {"mass_solar", rounded_json(show.mass_solar)}};
 }
 
 Json json_of(const CheckedSky& sky) {
@@ -135,12 +135,12 @@ Json json_of(const CheckedSky& sky) {
   for (int& segment : segments) ++segment;
   return {{"region", name_of(s.region)},
           {"segments", segments},
-          {"black_cd_m2", json_number(sky.black)},
+          {"black_cd_m2", rounded_json(sky.black)},
           {"map", s.map.empty() ? Json() : Json(s.map)},
-          {"map_fainter_than", json_number(s.map_fainter_than)},
+          {"map_fainter_than", rounded_json(s.map_fainter_than)},
           {"catalogue", s.catalogue.empty() ? Json() : Json(s.catalogue)},
           {"stars", s.stars},
-          {"faintest", s.stars > 0 ? json_number(s.faintest) : Json()}};
+          {"faintest", s.stars > 0 ? rounded_json(s.faintest) : Json()}};
 }
 
 // Of the whole show, after its segments and joints.

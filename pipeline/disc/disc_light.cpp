@@ -15,7 +15,7 @@ namespace {
 // goes on to the horizon.
 constexpr int kPerUnit = 4096;
 const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
-constexpr double kMostLight = 1e36;
+constexpr double kMostRadiance = 1e36;
 constexpr std::size_t kRadiiAtOnce = 128;
 
 double log2_above_singular(const PageThorneProfile& profile, bool plunging, double v) {
@@ -86,7 +86,7 @@ WorkingRgb DiscLight::light(double r, double g) const {
   const WorkingRgb c = blackbody_colours().per_flux(seen);
   // Beyond that temperature the light grows with its first power.
   const double beyond = t > seen ? t / seen : 1;
-  const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kMostLight);
+  const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kMostRadiance);
   const auto f = static_cast<float>(radiance);
   return {c.r * f, c.g * f, c.b * f};
 }

@@ -44,12 +44,12 @@ std::array<double, 4> boosted(const Vector3& celerity, const Vector3& m) {
   return k;
 }
 
-class IntegratedLight {
+class IntegratedGeodesic {
  public:
   using Fehlberg78 =
       odeint::runge_kutta_fehlberg78<Light, double, Light, double, odeint::array_algebra>;
 
-  IntegratedLight(const ReferenceDiscView& view, const Vector3& direction) {
+  IntegratedGeodesic(const ReferenceDiscView& view, const Vector3& direction) {
     const auto k = boosted(view.celerity, direction);
     const double s = std::sqrt(2 / view.r) * (view.outgoing ? -1 : 1);
     // d/dt = T + s R, and the frame itself moves by -s against spheres of constant r.
@@ -115,7 +115,7 @@ class IntegratedLight {
 };
 
 // The place on the plane between two ends of a step, by bisection.
-Light on_plane(const IntegratedLight& ray, const Light& from, double length,
+Light on_plane(const IntegratedGeodesic& ray, const Light& from, double length,
                const Vector3& normal) {
   double low = 0, high = length;
   const bool side = dot(ray.after(from, high).place(), normal) > 0;
@@ -156,7 +156,7 @@ double temperature(double r, bool plunging) {
   return std::pow(6 / r, 17.0 / 28) * std::pow(1 + std::pow(6 / r - 1, 1.5) / 0.01, -1.0 / 28);
 }
 
-double shift(const IntegratedLight& ray, const Light& at, const Vector3& axis) {
+double shift(const IntegratedGeodesic& ray, const Light& at, const Vector3& axis) {
   const double r = at.r(), turned = ray.momentum_about(axis);
   if (r >= 6) return (ray.energy() - turned / std::pow(r, 1.5)) / std::sqrt(1 - 3 / r);
   const double own = std::sqrt(8.0 / 9), f = 1 - 2 / r;
@@ -174,7 +174,7 @@ double azimuth_of(const Vector3& place, const Vector3& normal) {
 
 std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
                                                const Vector3& direction, int orders) {
-  IntegratedLight ray(view, direction);
+  IntegratedGeodesic ray(view, direction);
   std::vector<ReferenceDiscPlace> found;
   // Light of E < 0 comes from region III, and all that is before the past horizon from region IV.
   if (!(ray.energy() > 0) || (view.outgoing && view.r <= 2)) return found;

@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-using StarNumbers = std::vector<std::uint32_t>;
+using StarIndices = std::vector<std::uint32_t>;
 
 class Repair {
  public:
@@ -28,7 +28,7 @@ class Repair {
   }
 
  private:
-  void take_colour(const StarNumbers& places, float colour) {
+  void take_colour(const StarIndices& places, float colour) {
     if (colour == kNoColour) return;
     for (const std::uint32_t i : places) {
       const bool had_none = stars_[i].colour == kNoColour;
@@ -38,7 +38,7 @@ class Repair {
     }
   }
 
-  void take_magnitude(const StarNumbers& places, float v) {
+  void take_magnitude(const StarIndices& places, float v) {
     double flux = 0;
     for (const std::uint32_t i : places) {
       if (places.size() > 1 && !stars_[i].v_is_rough) return;
@@ -54,7 +54,7 @@ class Repair {
 
   std::vector<CatalogueStar>& stars_;
   HipparcosRepair& done_;
-  std::unordered_map<std::uint32_t, StarNumbers> with_number_;
+  std::unordered_map<std::uint32_t, StarIndices> with_number_;
 };
 
 }  // namespace

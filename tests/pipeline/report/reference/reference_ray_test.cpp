@@ -59,7 +59,7 @@ std::vector<Row> reference_rows() {
   return found;
 }
 
-const char* observer_name(ReferenceOrigin origin) {
+const char* origin_name(ReferenceOrigin origin) {
   return std::array{"I", "III", "IV"}.at(static_cast<std::size_t>(origin));
 }
 
@@ -76,7 +76,7 @@ TEST(ReferenceRay, AgreesWithTheTable) {
   for (const Row& row : all) {
     SCOPED_TRACE(row.text);
     const ReferenceRay ray = reference_ray(row.request);
-    EXPECT_EQ(observer_name(ray.origin), row.origin);
+    EXPECT_EQ(origin_name(ray.origin), row.origin);
     if (!row.one_plus_z.empty()) {
       EXPECT_LT(relative(ray.one_plus_z, Wide(row.one_plus_z)), kPhi);
     }
