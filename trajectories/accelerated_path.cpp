@@ -18,9 +18,9 @@ namespace {
 
 constexpr int kSamples = 512;  // of a piece, where it is examined
 constexpr double kTolerance = 1e-13;
-constexpr int kDepth = 40;             // halvings of a panel
+constexpr int kMostHalvings = 40;      // halvings of a panel
 constexpr std::size_t kPanels = 4000;  // of a piece
-constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
+constexpr double kIntegrandNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kEndRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
@@ -54,7 +54,7 @@ Rates rates_of(const Piece& piece, double t) {
 }
 
 // As of geodesics, (1 - E^2) + l^2 being (2/r)(1 + l^2) - u^2.
-double radial_celerity(const Rates& p, bool outgoing) {
+double path_celerity(const Rates& p, bool outgoing) {
   const double s = std::sqrt(2 / p.r), inward = outgoing ? p.radial : -p.radial;
   const double energy = std::sqrt(p.energy2), squares = 1 + p.tangential * p.tangential;
   const double w = inward >= 0 ? (2 / p.r * squares - inward * inward) / (s * energy + inward)
@@ -72,8 +72,8 @@ double null_rate(const Rates& p, bool outgoing) {
 double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
   const double inward = outgoing ? p.radial : -p.radial,
                sum = std::sqrt(p.energy2) + std::abs(inward);
-  const double place = kNoise * piece.r.size() / p.r;
-  const double rate = kNoise * piece.r.size() / (piece.end - piece.begin);
+  const double place = kIntegrandNoise * piece.r.size() / p.r;
+  const double rate = kIntegrandNoise * piece.r.size() / (piece.end - piece.begin);
   return (inward >= 0 ? place / (sum * sum) : place / std::abs(1 - 2 / p.r)) + rate / sum;
 }
 
@@ -238,8 +238,8 @@ void AcceleratedPath::Tables::append(std::size_t piece, double low, double high,
     noise = std::max(noise, null_noise(p, rates, outgoing));
   }
   const double span = p.end - p.begin;
-  if (integrate_panel(values, half * span, kTolerance + noise, panel.sum) || depth == kDepth ||
-      panels.size() >= most) {
+  if (integrate_panel(values, half * span, kTolerance + noise, panel.sum) ||
+      depth == kMostHalvings || panels.size() >= most) {
     panels.push_back(panel);
     return;
   }
@@ -273,7 +273,7 @@ OrbitPoint AcceleratedPath::Tables::state(std::size_t piece, double t) const {
           tetrad,
           p.r,
           pieces[piece].azimuth.at(t),
-          V3d(radial_celerity(p, outgoing), 0, p.tangential),
+          V3d(path_celerity(p, outgoing), 0, p.tangential),
           null_time(piece, t)};
 }
 

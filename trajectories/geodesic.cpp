@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_table.h"
 #include "trajectories/short_number.h"
 #include "trajectories/static_observer.h"
@@ -13,7 +14,6 @@ namespace {
 
 using PathKind = OrbitCurve::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kApexParameter = 1e-6;  // E = 0: 1 - r/2 = tanh^2 of it
 
 // Celerity along R of radial velocity `speed` (dr/dtau): w = (u^r + sE)/(1 - 2/r), or ((1 - E)(1 +

@@ -1,20 +1,18 @@
 #include "trajectories/hyperbolic_orbit.h"
 
 #include <cmath>
-#include <limits>
 
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
 #include "trajectories/short_number.h"
+#include "trajectories/square.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kSlowest = 1e-9;        // of c
 constexpr double kLeastOfLight = 1e-12;  // 1 - v
-
-double square(double x) { return x * x; }
 
 // E^2 - 1 = v^2/(1 - v^2).
 double excess_energy(double speed) { return square(speed) / ((1 - speed) * (1 + speed)); }
@@ -34,7 +32,8 @@ Geodesic turning_at(double periastron, double excess, double over) {
   const double w1 = product / (half + std::sqrt(half * half - product));
   const double gap = (1 - 3 * w2) * over / ((1 - 2 * w2) * l2 * w2 * (w2 - w1));
   const OrbitConstants constants{std::sqrt(1 + excess), excess, l};
-  return {OrbitCurve::scattered(constants, periastron, w1, std::max(gap, kLeastExcess)), 0, kNever};
+  return {OrbitCurve::scattered(constants, periastron, w1, std::max(gap, kLeastExcess)), 0,
+          -kInfinity};
 }
 
 // (4 - r)/(r (r - 3)), negative beyond 4: E^2 - 1 of the unstable circular orbit.
@@ -53,7 +52,7 @@ Geodesic past_capture(double speed, double l, double excess) {
   const double depth = higher * square(barrier.w) * (1 - 2 * barrier.w) -
                        2 * square(critical * off) * (barrier.w + 2 * w - 0.5);
   const double energy = excess_energy(speed);
-  return {scattered_orbit({std::sqrt(1 + energy), energy, l}, depth), 0, kNever};
+  return {scattered_orbit({std::sqrt(1 + energy), energy, l}, depth), 0, -kInfinity};
 }
 
 }  // namespace

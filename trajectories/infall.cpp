@@ -1,10 +1,10 @@
 #include "trajectories/infall.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "trajectories/hyperbolic_orbit.h"
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
 #include "trajectories/short_number.h"
@@ -14,10 +14,9 @@ namespace {
 
 using FallKind = OrbitCurve::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of gamma: an energy below it is what rounding leaves of 0.
 constexpr double kNoEnergy = 1e-14;
-const char* const kUnitsOfM = "units of M";
+const char* const kRadiusUnit = "units of M";
 
 // In rain from the throw on.
 double turn_of(const OrbitStart& start) {
@@ -43,9 +42,9 @@ void require_celerity(double radial, double tangential) {
 
 Geodesic fall_from_infinity(double angular_momentum, double from_r) {
   const double l = angular_momentum;
-  require_above("start_r", kUnitsOfM, from_r, 0, "the singularity is there");
-  require_at_least("angular_momentum", kUnitsOfM, l, 0, "it is a size");
-  require_below("angular_momentum", kUnitsOfM, l, 4,
+  require_above("start_r", kRadiusUnit, from_r, 0, "the singularity is there");
+  require_at_least("angular_momentum", kRadiusUnit, l, 0, "it is a size");
+  require_below("angular_momentum", kRadiusUnit, l, 4,
                 "what falls from rest at infinity with more comes back");
   const double w = 1 / from_r, off = w - 0.25;
   return geodesic_through({1, 0, l}, from_r,
@@ -55,9 +54,9 @@ Geodesic fall_from_infinity(double angular_momentum, double from_r) {
 Geodesic fall_with_speed(double speed, double impact_parameter, double from_r) {
   require_above("v_inf", "fraction of c", speed, 0, "from rest is fall_from_infinity");
   require_below("v_inf", "fraction of c", speed, 1, "nothing outruns light");
-  require_above("start_r", kUnitsOfM, from_r, 0, "the singularity is there");
-  require_at_least("impact_parameter", kUnitsOfM, impact_parameter, 0, "it is a size");
-  require_below("impact_parameter", kUnitsOfM, impact_parameter, capture_impact_parameter(speed),
+  require_above("start_r", kRadiusUnit, from_r, 0, "the singularity is there");
+  require_at_least("impact_parameter", kRadiusUnit, impact_parameter, 0, "it is a size");
+  require_below("impact_parameter", kRadiusUnit, impact_parameter, capture_impact_parameter(speed),
                 "at v_inf = " + short_number(speed) + " what passes farther out comes back");
   const double excess = speed * speed / ((1 - speed) * (1 + speed)), w = 1 / from_r;
   const double l = impact_parameter * std::sqrt(excess);
@@ -75,9 +74,9 @@ double fall_bound(double from_r) {
 
 Geodesic fall_from_rest(double from_r, double angular_momentum) {
   const double l = angular_momentum;
-  require_above("start_r", kUnitsOfM, from_r, 2, "nothing rests at the horizon or inside");
-  require_at_least("angular_momentum", kUnitsOfM, l, 0, "it is a size");
-  require_below("angular_momentum", kUnitsOfM, l, fall_bound(from_r),
+  require_above("start_r", kRadiusUnit, from_r, 2, "nothing rests at the horizon or inside");
+  require_at_least("angular_momentum", kRadiusUnit, l, 0, "it is a size");
+  require_below("angular_momentum", kRadiusUnit, l, fall_bound(from_r),
                 "with more, what starts at r = " + short_number(from_r) + " does not fall in");
   const double w = 1 / from_r, over_two = from_r - 2;
   const double excess = w * (l * l * w * (1 - 2 * w) - 2);
@@ -89,7 +88,7 @@ Geodesic fall_from_rest(double from_r, double angular_momentum) {
 }
 
 Geodesic thrown_outside(double r, double radial, double tangential) {
-  require_above("r", kUnitsOfM, r, 2, "nothing rests at the horizon or inside, to throw from");
+  require_above("r", kRadiusUnit, r, 2, "nothing rests at the horizon or inside, to throw from");
   require_celerity(radial, tangential);
   const double f = (r - 2) / r, u2 = radial * radial + tangential * tangential;
   const OrbitConstants constants{std::sqrt((1 + u2) * f), u2 * f - 2 / r, r * tangential};
@@ -97,7 +96,7 @@ Geodesic thrown_outside(double r, double radial, double tangential) {
 }
 
 Geodesic thrown_from_rain(double r, double radial, double tangential) {
-  require_above("r", kUnitsOfM, r, 0, "the singularity is there");
+  require_above("r", kRadiusUnit, r, 0, "the singularity is there");
   require_celerity(radial, tangential);
   const double s = std::sqrt(2 / r), gamma = std::hypot(1, std::hypot(radial, tangential));
   const double exact = gamma - s * radial;

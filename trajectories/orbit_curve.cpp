@@ -5,13 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "trajectories/infinity.h"
+#include "trajectories/square.h"
+
 namespace domefall {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

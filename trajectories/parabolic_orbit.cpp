@@ -1,19 +1,17 @@
 #include "trajectories/parabolic_orbit.h"
 
 #include <cmath>
-#include <limits>
 
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/orbit_search.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
-
 // w3 - w2 = q/2, w2 = (1 - q)/4, with q = sqrt(1 - 16/L^2).
 Geodesic parabolic(double angular_momentum, double periastron, double q) {
-  return {OrbitCurve::scattered({1, 0, angular_momentum}, periastron, 0, q / 2), 0, kNever};
+  return {OrbitCurve::scattered({1, 0, angular_momentum}, periastron, 0, q / 2), 0, -kInfinity};
 }
 
 double periastron_of(double angular_momentum, double q) {

@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-using StatusJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostSlow = 3, kMostShown = 8;
 
@@ -118,26 +118,26 @@ std::string farm_page(const FarmFrames& frames, const FarmStatus& status) {
 std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int indent) {
   const FolderFindings& found = status.found;
   const auto number = [](const std::optional<double>& value) {
-    return value ? StatusJson(*value) : StatusJson();
+    return value ? Json(*value) : Json();
   };
-  StatusJson json = {{"title", frames.show().title},
-                     {"folder", frames.folder().path().string()},
-                     {"frames", frames.frames().size()},
-                     {"done", found.good.size()},
-                     {"missing", as_ranges(found.missing)},
-                     {"damaged", as_ranges(found.damaged)},
-                     {"others", as_ranges(found.others)},
-                     {"stale", as_ranges(found.stale)},
-                     {"unreadable", as_ranges(found.unreadable)},
-                     {"invalidated", StatusJson::array()},
-                     {"foreign", status.foreign},
-                     {"being_made", StatusJson::array()},
-                     {"frames_per_second", number(status.frames_per_second)},
-                     {"seconds_left", number(seconds_left(status))},
-                     {"slowest", StatusJson::array()},
-                     {"failed_chunks", StatusJson::array()},
-                     {"conclusion", status.conclusion},
-                     {"to_make", as_ranges(found.to_make())}};
+  Json json = {{"title", frames.show().title},
+               {"folder", frames.folder().path().string()},
+               {"frames", frames.frames().size()},
+               {"done", found.good.size()},
+               {"missing", as_ranges(found.missing)},
+               {"damaged", as_ranges(found.damaged)},
+               {"others", as_ranges(found.others)},
+               {"stale", as_ranges(found.stale)},
+               {"unreadable", as_ranges(found.unreadable)},
+               {"invalidated", Json::array()},
+               {"foreign", status.foreign},
+               {"being_made", Json::array()},
+               {"frames_per_second", number(status.frames_per_second)},
+               {"seconds_left", number(seconds_left(status))},
+               {"slowest", Json::array()},
+               {"failed_chunks", Json::array()},
+               {"conclusion", status.conclusion},
+               {"to_make", as_ranges(found.to_make())}};
   const auto add_segments = [&](const std::map<int, int>& frames_of, const char* work) {
     for (const auto& [segment, count] : frames_of)
       json["invalidated"].push_back({{"segment", segment + 1}, {"frames", count}, {"work", work}});
@@ -160,7 +160,7 @@ std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int in
                                      {"frames", as_ranges(chunk.lacking)},
                                      {"log", chunk.log.string()},
                                      {"last_line", chunk.last_line}});
-  return json.dump(indent, ' ', false, StatusJson::error_handler_t::replace);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace domefall

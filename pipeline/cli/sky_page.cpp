@@ -9,13 +9,13 @@
 namespace domefall {
 namespace {
 
-using SkyJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 bool is_thermal(const SkyFile& file) { return file.map().kind() == SkyMapKind::kThermal; }
 
 const char* unit_name(const SkyFile& file) { return is_thermal(file) ? "W/m^2/sr" : "cd/m^2"; }
 
-SkyJson json_of_picture(const Orientation& o) {
+Json json_of_picture(const Orientation& o) {
   return {{"frame", o.frame == SkyFrame::kGalactic ? "galactic" : "equatorial"},
           {"longitude_grows", o.longitude_right ? "right" : "left"},
           {"up", o.south_up ? "south" : "north"},
@@ -41,20 +41,20 @@ std::string sky_page(const SkyFile& file) {
 
 std::string sky_json(const SkyFile& file, bool verified) {
   const SkyOrigin& origin = file.origin();
-  const SkyJson json = {
+  const Json json = {
       {"kind", is_thermal(file) ? "thermal" : "colour"},
       {"unit", json_number(file.map().unit())},
       {"unit_name", unit_name(file)},
       {"face_size", file.map().levels()[0].size},
       {"levels", file.map().levels().size()},
       {"bytes", file.map().bytes()},
-      {"picture", origin.panorama ? json_of_picture(*origin.panorama) : SkyJson()},
-      {"fainter_than", origin.fainter_than ? json_number(*origin.fainter_than) : SkyJson()},
+      {"picture", origin.panorama ? json_of_picture(*origin.panorama) : Json()},
+      {"fainter_than", origin.fainter_than ? json_number(*origin.fainter_than) : Json()},
       {"text", origin.text},
       {"digest", file.digest()},
-      {"verified", verified ? SkyJson(true) : SkyJson()}};
+      {"verified", verified ? Json(true) : Json()}};
   // The text of another program's file need not be UTF-8.
-  return json.dump(2, ' ', false, SkyJson::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace domefall

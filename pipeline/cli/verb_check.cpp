@@ -18,7 +18,7 @@ namespace domefall {
 namespace {
 
 // Whether a show sees the sky of a region, from there or from inside the hole.
-bool sees(const ShowSurvey& survey, Region region) {
+bool is_seen(const ShowSurvey& survey, Region region) {
   return std::any_of(survey.regions.begin(), survey.regions.end(),
                      [region](Region r) { return r == region || r == Region::kII; });
 }
@@ -26,8 +26,8 @@ bool sees(const ShowSurvey& survey, Region region) {
 // Loads all that the frames will read, since a file may be damaged and none of the frames that are
 // measured need show it.
 void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
-  if (sees(survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
-  if (sees(survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
+  if (is_seen(survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
+  if (is_seen(survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
   if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
 }
 

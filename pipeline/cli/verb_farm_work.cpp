@@ -26,7 +26,7 @@ struct WorkOptions {
   int round = 0, task = 0, threads = 0;
 };
 
-std::string host_name(const SlurmTask& task) {
+std::string node_name(const SlurmTask& task) {
   if (!task.node.empty()) return task.node;
   std::array<char, 256> name{};
   gethostname(name.data(), name.size() - 1);
@@ -89,7 +89,7 @@ void work(const WorkOptions& o) {
   SignalInbox inbox;
   const bool slurm = is_in_slurm();
   const SlurmTask task = slurm ? this_slurm_task() : SlurmTask{};
-  const std::string host = host_name(task);
+  const std::string host = node_name(task);
   std::string why;
   const auto plan = plan_if_seen(o, why);
   TaskEnd end{TaskEnd::Kind::kAgainElsewhere, why};
@@ -118,7 +118,7 @@ void conclude(const WorkOptions& o) {
     SignalInbox inbox;
     const SlurmTask task = this_slurm_task();
     end_slurm_work({TaskEnd::Kind::kAgainElsewhere, error.what()}, task, FarmPlan{}.retries,
-                   fmt::format("{}: round {}", host_name(task), o.round), inbox);
+                   fmt::format("{}: round {}", node_name(task), o.round), inbox);
   }
 }
 

@@ -56,7 +56,7 @@ Projection fitted(const Projection& projection, const MoviePreset& preset) {
                                     : with_width(projection, size.width);
 }
 
-std::vector<int> chosen_frames(const MovieOptions& o, const Show& show) {
+std::vector<int> movie_frame_numbers(const MovieOptions& o, const Show& show) {
   std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   if (frames.back() - frames.front() + 1 != static_cast<int>(frames.size()))
     throw InputError("--frames " + o.frames +
@@ -110,7 +110,7 @@ void movie(const MovieOptions& o) {
   show.projection = o.size.empty() && o.from.empty() ? fitted(show.projection, preset)
                                                      : resized(show.projection, o.size);
   const MovieSize size = size_of(show.projection), made = movie_size_of(preset, show.projection);
-  const std::vector<int> frames = chosen_frames(o, show);
+  const std::vector<int> frames = movie_frame_numbers(o, show);
   OutputFile out(chosen_out(o, show, preset));
   const Grader grader(show.grade);
   MoviePlan plan{preset,

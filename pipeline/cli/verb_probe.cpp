@@ -23,7 +23,7 @@
 namespace domefall {
 namespace {
 
-using ProbeJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr double kInDegrees = 180 / std::numbers::pi;
 
@@ -92,7 +92,7 @@ void print_text(const Probed& p) {
                 body.at.i, body.at.j);
 }
 
-ProbeJson json_of_star(const StarAtPixel& star) {
+Json json_of_star(const StarAtPixel& star) {
   return {{"names", star.names},
           {"sky", name_of(star.sky)},
           {"ra_deg", json_number(star.ra_deg)},
@@ -103,7 +103,7 @@ ProbeJson json_of_star(const StarAtPixel& star) {
           {"pixel", {json_number(star.at.i), json_number(star.at.j)}}};
 }
 
-ProbeJson json_of_body(const BodyAtPixel& body) {
+Json json_of_body(const BodyAtPixel& body) {
   return {{"name", body.name},
           {"r", json_number(body.r)},
           {"one_plus_z", json_number(1 / body.frequency_ratio)},
@@ -113,7 +113,7 @@ ProbeJson json_of_body(const BodyAtPixel& body) {
 }
 
 // Light from the singularity has no redshift, no order and no amplification.
-void add_shift(const Probed& p, ProbeJson& json) {
+void add_shift(const Probed& p, Json& json) {
   constexpr const char* kKeys[] = {"one_plus_z",    "temperature_ratio", "intensity_ratio",
                                    "amplification", "swept_azimuth_deg", "order"};
   for (const char* key : kKeys) json[key] = nullptr;
@@ -129,31 +129,30 @@ void add_shift(const Probed& p, ProbeJson& json) {
   json["order"] = static_cast<int>(p.ray.bundle.azimuth / std::numbers::pi);
 }
 
-void print_json(const Probed& p) {
+void print_probe_json(const Probed& p) {
   const ObserverState& observer = p.state.observer;
   const Equatorial at = equatorial({p.ray.sky_direction});
   const V3d& to = p.ray.sky_direction;
-  ProbeJson json = {
-      {"frame", p.state.frame},
-      {"pixel", {p.pixel.i, p.pixel.j}},
-      {"inside", p.inside()},
-      {"region", is_flat(observer) ? ProbeJson() : ProbeJson(region_name(observer.region))},
-      {"r", json_number(observer.r)},
-      {"sky", name_of(p.ray.sky)},
-      {"direction", {json_number(to.x), json_number(to.y), json_number(to.z)}},
-      {"ra_deg", json_number(at.ra_deg)},
-      {"dec_deg", json_number(at.dec_deg)},
-      {"compression_towards_hole", json_number(p.ray.radial_scale)},
-      {"compression_across", json_number(p.ray.tangential_scale)},
-      {"to_edge_deg", json_number(p.ray.to_edge * kInDegrees)}};
+  Json json = {{"frame", p.state.frame},
+               {"pixel", {p.pixel.i, p.pixel.j}},
+               {"inside", p.inside()},
+               {"region", is_flat(observer) ? Json() : Json(region_name(observer.region))},
+               {"r", json_number(observer.r)},
+               {"sky", name_of(p.ray.sky)},
+               {"direction", {json_number(to.x), json_number(to.y), json_number(to.z)}},
+               {"ra_deg", json_number(at.ra_deg)},
+               {"dec_deg", json_number(at.dec_deg)},
+               {"compression_towards_hole", json_number(p.ray.radial_scale)},
+               {"compression_across", json_number(p.ray.tangential_scale)},
+               {"to_edge_deg", json_number(p.ray.to_edge * kInDegrees)}};
   add_shift(p, json);
-  json["stars"] = ProbeJson::array();
+  json["stars"] = Json::array();
   for (const StarAtPixel& star : p.stars) json["stars"].push_back(json_of_star(star));
   // A show without bodies has no such key.
-  if (!p.show.bodies.empty()) json["bodies"] = ProbeJson::array();
+  if (!p.show.bodies.empty()) json["bodies"] = Json::array();
   for (const BodyAtPixel& body : p.bodies) json["bodies"].push_back(json_of_body(body));
   // A catalogue's names need not be UTF-8.
-  std::puts(json.dump(2, ' ', false, ProbeJson::error_handler_t::replace).c_str());
+  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
 void probe(const ProbeOptions& o) {
@@ -171,7 +170,7 @@ void probe(const ProbeOptions& o) {
                       ray,
                       stars_at_pixel(show, state, pixel),
                       bodies_at_pixel(show, state, pixel)};
-  o.json ? print_json(probed) : print_text(probed);
+  o.json ? print_probe_json(probed) : print_text(probed);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
+void make_report_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw_file_error(folder, error.value());
@@ -25,14 +25,14 @@ void make_folder(const fs::path& folder) {
 }
 
 void write_drawings(const std::vector<NamedPlot>& figures, const fs::path& folder) {
-  make_folder(folder);
+  make_report_folder(folder);
   for (const NamedPlot& figure : figures)
     write_output(folder / (figure.name + ".svg"), draw(figure.plot));
 }
 
 void report(const fs::path& out, bool quick, bool with_figures) {
   gnuplot_version();  // before minutes of work, not after
-  make_folder(out);
+  make_report_folder(out);
   std::vector<NamedPlot> figures;
   if (with_figures) {
     figures = paper_curves();

@@ -119,7 +119,7 @@ void info(const InfoOptions& o) {
   fmt::print("verified     every face is as it was written\n");
 }
 
-void add_info(CLI::App& sky) {
+void add_sky_info(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("info", "Tell what a .sky file holds");
   auto o = std::make_shared<InfoOptions>();
   verb->add_option("FILE", o->file, "a .sky file")->type_name(kFileType)->required();
@@ -230,7 +230,7 @@ void add_cmb(CLI::App& verb, ImportOptions& o) {
       ->capture_default_str();
 }
 
-void add_import(CLI::App& sky) {
+void add_sky_import(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
   auto o = std::make_shared<ImportOptions>();
   verb->add_option("IMAGE", o->image, "any picture OpenImageIO reads, or a HEALPix map in FITS")
@@ -265,10 +265,10 @@ void add_import(CLI::App& sky) {
 void add_sky(CLI::App& app) {
   CLI::App* sky = app.add_subcommand("sky", "Import, build, check and describe sky maps");
   sky->require_subcommand(1);
-  add_import(*sky);
+  add_sky_import(*sky);
   add_build(*sky);
   add_check_of_sky(*sky);
-  add_info(*sky);
+  add_sky_info(*sky);
 }
 
 }  // namespace domefall

@@ -105,7 +105,7 @@ void import(const StarOptions& o) {
   say_result(catalogue, o.out);
 }
 
-void add_import(CLI::App& stars) {
+void add_stars_import(CLI::App& stars) {
   auto* verb = stars.add_subcommand("import", "Make a .stars catalogue from one of another format");
   auto o = std::make_shared<StarOptions>();
   verb->add_option("FORMAT", o->format, "of the catalogue; auto: told by how it begins")
@@ -127,7 +127,7 @@ void add_import(CLI::App& stars) {
   verb->callback([o] { import(*o); });
 }
 
-void add_info(CLI::App& stars) {
+void add_stars_info(CLI::App& stars) {
   auto* verb = stars.add_subcommand("info", "Say what a .stars catalogue holds");
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
@@ -146,8 +146,8 @@ void add_info(CLI::App& stars) {
 void add_stars(CLI::App& app) {
   auto* stars = app.add_subcommand("stars", "Import star catalogues and look into them");
   stars->require_subcommand(1);
-  add_import(*stars);
-  add_info(*stars);
+  add_stars_import(*stars);
+  add_stars_info(*stars);
 }
 
 }  // namespace domefall

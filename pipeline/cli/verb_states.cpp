@@ -55,7 +55,7 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
 }
 
 // An array with a state in each line.
-void print_json(const Show& show, const std::vector<int>& frames) {
+void print_states_json(const Show& show, const std::vector<int>& frames) {
   std::string before = "[\n";
   for (const int n : frames) {
     const auto cells = state_cells(frame_state(show, n));
@@ -76,7 +76,7 @@ void print_states(const StatesOptions& o) {
   const Show show = read_show(o.show);
   const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   if (!o.plot.empty()) write_output(o.plot, show_page(show));
-  o.json ? print_json(show, frames) : print_csv(show, frames);
+  o.json ? print_states_json(show, frames) : print_csv(show, frames);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::optional<int> take_digits(std::string_view& text, std::size_t digits, bool 
   return value;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
   const auto begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
@@ -62,8 +62,8 @@ SubtitleFile parse_subtitles(std::string_view text) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const auto arrow = line.find(kArrow);
     if (arrow == std::string_view::npos) continue;
-    const std::string_view behind = trimmed(line.substr(arrow + kArrow.size()));
-    const auto from = srt_time(trimmed(line.substr(0, arrow)));
+    const std::string_view behind = without_blanks(line.substr(arrow + kArrow.size()));
+    const auto from = srt_time(without_blanks(line.substr(0, arrow)));
     // A place on the screen may follow.
     const auto to = srt_time(behind.substr(0, behind.find_first_of(" \t")));
     if (!from || !to)

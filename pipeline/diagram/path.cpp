@@ -9,6 +9,7 @@
 
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/placement.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr int kTicks = 1 << 30;
 constexpr int kEvenly = 2000, kLeastOfSegment = 48;
 constexpr std::size_t kMostPoints = 100'000;
-constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 // An instant of a segment.  Where segments dissolve, two ticks are the same instant of the show.
 struct Tick {

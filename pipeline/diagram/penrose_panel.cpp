@@ -112,7 +112,7 @@ const char* reason_of(Origin::Centre centre) {
   return "the crossings of both horizons lie symmetrically.";
 }
 
-std::string note_of(const Path& path) {
+std::string path_note(const Path& path) {
   const Origin& first = path.origins.front();
   for (const Origin& other : path.origins)
     if (other.time_shift != first.time_shift)
@@ -139,7 +139,7 @@ PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) 
   page.text({box.left, box.bottom + 52},
             "The whole spacetime, the future up; light runs at 45\u00b0. Grey: constant r (M).",
             {12, "#5a606c"});
-  page.text({box.left, box.bottom + 70}, note_of(path), {12, "#5a606c"});
+  page.text({box.left, box.bottom + 70}, path_note(path), {12, "#5a606c"});
   page.end_group();
   return place;
 }

@@ -36,7 +36,7 @@ constexpr std::size_t kPlacesAtOnce = 128;
   return x ^ (x >> 16);
 }
 
-[[gnu::always_inline]] inline std::uint32_t key_of(std::uint32_t a, std::uint32_t b) {
+[[gnu::always_inline]] inline std::uint32_t lattice_key(std::uint32_t a, std::uint32_t b) {
   return mixed(a ^ (b * 0x9e3779b9u + 0x7f4a7c15u));
 }
 
@@ -101,7 +101,7 @@ template <int kSize>
     const float at = b.rows[k] * static_cast<float>(1 << kSize) + kRowsApart * kSize;
     const int middle = static_cast<int>(at), row = middle + which - 1;
     rows.weight[k] = spline_weight(which, at - static_cast<float>(middle) - 0.5f);
-    const std::uint32_t key = key_of(size.seed, static_cast<std::uint32_t>(row));
+    const std::uint32_t key = lattice_key(size.seed, static_cast<std::uint32_t>(row));
     const double clock =
         b.time[k] * size.rates[row] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
     const double shifted = (clock - 0.5) + kRounding;
@@ -130,7 +130,8 @@ template <int kSize>
     // What would reach all around the ring is even.
     const float even = most / reach, inverse = 1.0f / most;
     const float turns = b.turns[k] - b.turning[k] * age;
-    std::uint32_t key = key_of(rows.key[k], rows.youngest[k] - static_cast<std::uint32_t>(older));
+    std::uint32_t key =
+        lattice_key(rows.key[k], rows.youngest[k] - static_cast<std::uint32_t>(older));
     float light = 0;
     for (int grain = 0; grain < kGrains[kSize]; ++grain) {
       const float place = static_cast<float>(static_cast<int>(key & 0xffff)) * 0x1p-16f;
@@ -180,7 +181,7 @@ Turbulence::Turbulence(const TurbulencePattern& pattern) : pattern_(pattern) {
 void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> out) const {
   const auto size = [this](std::size_t k) {
     return SizeOfGrains{spans_[k].data(), rates_[k].data(),
-                        key_of(pattern_.seed, static_cast<std::uint32_t>(k))};
+                        lattice_key(pattern_.seed, static_cast<std::uint32_t>(k))};
   };
   const auto contrast = static_cast<float>(pattern_.contrast);
   PlaceBlock block;

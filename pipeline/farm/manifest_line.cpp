@@ -5,11 +5,11 @@
 namespace domefall {
 namespace {
 
-using ManifestJson = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
-std::string line_of(const ManifestJson& json) {
+std::string line_of(const Json& json) {
   // A file's name need not be UTF-8; a name that is not is not found again, and its file is read.
-  return json.dump(-1, ' ', false, ManifestJson::error_handler_t::replace) + "\n";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 MadeFile made_of(const nlohmann::json& json) {

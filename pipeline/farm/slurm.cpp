@@ -30,7 +30,7 @@ int number_or(const std::string& text, int otherwise) {
   return number > 0 ? number : otherwise;
 }
 
-std::string trimmed(std::string text) {
+std::string without_line_end(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   return text;
 }
@@ -92,7 +92,7 @@ int most_array_tasks(int patience_s) {
   const WorkerEnd end = run_program(command, said);
   if (end.code == kNoSuchProgram)
     throw InputError("scontrol: no such program; Slurm is not installed here");
-  if (end.code != 0 || end.signal != 0) throw TemporaryError("scontrol: " + trimmed(said));
+  if (end.code != 0 || end.signal != 0) throw TemporaryError("scontrol: " + without_line_end(said));
   const std::size_t at = said.find("MaxArraySize");
   const std::size_t value = at == std::string::npos ? at : said.find('=', at);
   return value == std::string::npos ? kDefaultArrayTasks
@@ -142,11 +142,11 @@ std::string submit_to_slurm(const std::vector<std::string>& command) {
   if (end.code != 0 || end.signal != 0) {
     const bool away =
         said.find("contact") != std::string::npos || said.find("timed out") != std::string::npos;
-    if (away) throw TemporaryError(trimmed(said));
-    throw InputError(trimmed(said));
+    if (away) throw TemporaryError(without_line_end(said));
+    throw InputError(without_line_end(said));
   }
   // A plugin may say something first; --parsable prints ID, or ID;CLUSTER, last.
-  const std::string text = trimmed(said);
+  const std::string text = without_line_end(said);
   const std::string line = text.substr(text.find_last_of('\n') + 1);
   return line.substr(0, line.find(';'));
 }
@@ -159,7 +159,7 @@ void cancel_slurm_job(const std::string& job) {
 bool slurm_job_is_over(const std::string& job) {
   std::string said;
   const WorkerEnd end = run_program({"squeue", "-h", "-j", job, "-o", "%i"}, said);
-  if (end.code == 0 && end.signal == 0) return trimmed(said).empty();
+  if (end.code == 0 && end.signal == 0) return without_line_end(said).empty();
   return said.find("Invalid job id") != std::string::npos;  // Slurm has forgotten it
 }
 

@@ -38,8 +38,8 @@ template <class Vector, class Value>
   for (int k = 0; k < kLanes; ++k) values[k] = __builtin_sqrtf(values[k]);
 }
 
-[[gnu::always_inline]] inline void locate_loop(const float* red, const float* green,
-                                               const float* blue, int count, Places& places) {
+[[gnu::always_inline]] inline void locate_cells_loop(const float* red, const float* green,
+                                                     const float* blue, int count, Places& places) {
   // Halves are 2^-24 apart below 2^-14; above, a float has 13 bits more than a half.
   constexpr float kNormal = 0x1p-14f, kSubnormalSteps = 0x1p24f / kNodeStep;
   constexpr std::int32_t kLeastExponent = 112 << 23, kStepBits = 13 + 5;
@@ -85,7 +85,7 @@ template <class Vector, class Value>
     store(above, &places.largest[k]);
   }
 }
-Dispatched<locate_loop> locate_all;
+Dispatched<locate_cells_loop> locate_all;
 
 // Two nodes that follow each other in the largest channel.
 [[gnu::always_inline]] inline void load_pair(const float* nodes, Lanes& pair) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "pipeline/optics/exact_azimuth.h"
+#include "trajectories/square.h"
 
 namespace domefall {
 namespace {
@@ -17,7 +18,7 @@ const double kSqrt3 = std::sqrt(3.0);
 // Above this 1/b the form b (phi - K) is used; below it, where that is a difference of large
 // numbers, the one with the pole at the horizon taken out.
 constexpr double kLargeInverseB = 0.1;
-constexpr double kHorizonDepth = -1e-20;
+constexpr double kJustBelowHorizon = -1e-20;
 
 // A ray of E >= 0 from the singularity.
 struct Path {
@@ -38,8 +39,6 @@ double integral(double from, double to, F f) {
   const auto unit = [&](double t) { return f(from + width * t); };
   return width * rule.integrate(unit, 0.0, 1.0, 1e-13);
 }
-
-double square(double x) { return x * x; }
 
 // ---- K where the path passes every radius, eps >= 0 ----
 
@@ -160,7 +159,7 @@ double tortoise(const Radius& at) { return at.r + 2 * std::log(std::abs(at.above
 double exact_emission_time(const NullRay& ray) {
   const RayInvariants k = invariants(ray);
   Radius at = ray.at;
-  if (at.above_horizon == 0) at.above_horizon = kHorizonDepth;
+  if (at.above_horizon == 0) at.above_horizon = kJustBelowHorizon;
   const double l = k.angular_momentum, sign = k.energy < 0 ? -1 : 1;
   if (circles_for_ever(ray)) return -sign * std::numeric_limits<double>::infinity();
   const bool inside = at.above_horizon < 0;

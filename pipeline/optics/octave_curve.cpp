@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "trajectories/square.h"
+
 namespace domefall {
 namespace {
 
@@ -15,7 +17,6 @@ struct Derivatives {
   double value, first, second, third;
 };
 
-double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
 using Series = std::array<double, kDegree + 1>;

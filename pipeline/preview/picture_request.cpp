@@ -79,7 +79,7 @@ std::optional<ScreenLook> look_of(const Query& query) {
   return ScreenLook{angles[0], angles[1], angles[2]};
 }
 
-std::optional<Effects> effects_of(const Query& query, const Effects& shows) {
+std::optional<Effects> chosen_effects(const Query& query, const Effects& shows) {
   if (!query.text("effects") && !query.text("amplification")) return std::nullopt;
   Effects effects = shows;
   if (query.text("effects")) {
@@ -133,7 +133,7 @@ PictureRequest read_request(const Parameters& parameters, const Show& show) {
   request.ev = query.number("ev", -40.0, 40.0, 0.0);
   request.display = query.text("display").value_or("");
   request.view = query.text("view").value_or("");
-  request.effects = effects_of(query, show.effects);
+  request.effects = chosen_effects(query, show.effects);
   request.skies = skies_of(query);
   request.stars = query.number("stars", 0, 1, 1) != 0;
   if (const auto names = query.text("overlays"); names && !names->empty())

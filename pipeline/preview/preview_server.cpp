@@ -53,7 +53,7 @@ bool same_secret(std::string_view a, std::string_view b) {
   return differences == 0;
 }
 
-long whole_number(const httplib::Request& request, const char* name) {
+long whole_parameter(const httplib::Request& request, const char* name) {
   const std::string text = request.get_param_value(name);
   long value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -95,7 +95,7 @@ void answer_json(httplib::Response& response, const std::string& json) {
 }
 
 // What the page needs to know of a picture to turn it, in a header.
-std::string described(const LiveShow::Made& made) {
+std::string made_json(const LiveShow::Made& made) {
   const FrameState& state = made.picture.state;
   nlohmann::ordered_json camera = nlohmann::ordered_json::array();
   for (int row = 0; row < 3; ++row)
@@ -238,19 +238,20 @@ struct PreviewServer::Inside {
     std::string name = request.get_param_value("client").substr(0, 40);
     name = name.empty() ? fmt::format("nobody {}", ++nobodies)
                         : "client " + name + ' ' + request.get_param_value("kind").substr(0, 10);
-    auto made = show.picture(parameters_of(request), {name, whole_number(request, "n"), can_stop});
+    auto made =
+        show.picture(parameters_of(request), {name, whole_parameter(request, "n"), can_stop});
     if (!made) {
       response.status = 204;
       return;
     }
-    response.set_header("X-Domefall", described(*made));
+    response.set_header("X-Domefall", made_json(*made));
     response.set_content(made->picture.jpeg, "image/jpeg");
   }
 
   void changes(const httplib::Request& request, httplib::Response& response) {
     const CountedIn waiting(waiting_for_news);
     const LiveShow::Version version =
-        show.changed_since(static_cast<int>(whole_number(request, "since")),
+        show.changed_since(static_cast<int>(whole_parameter(request, "since")),
                            waiting.number() > kMostWaitingForNews ? 0 : kNewsSeconds);
     nlohmann::ordered_json json{
         {"revision", version.revision}, {"readings", version.readings}, {"mistake", nullptr}};

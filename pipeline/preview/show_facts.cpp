@@ -157,7 +157,7 @@ Json overlays_as_json() {
   return names;
 }
 
-Json json_of(const ShowWarning& warning) {
+Json warning_json(const ShowWarning& warning) {
   Json json = {{"time_s", nullptr}, {"frame", nullptr}, {"segment", nullptr}};
   if (warning.segment != kWholeShow)
     json = {{"time_s", rounded_number(warning.time_s)},
@@ -167,7 +167,7 @@ Json json_of(const ShowWarning& warning) {
   return json;
 }
 
-ShowWarning note_of(const FrameLight& light, const char* text) {
+ShowWarning light_warning(const FrameLight& light, const char* text) {
   return {light.time_s, light.frame, light.segment, text};
 }
 
@@ -221,15 +221,15 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   renderer.stop_when(&stop);
   try {
     const LightSurvey light = survey_light(show, renderer, nullptr);
-    warnings.push_back(note_of(light.brightest, "here the show is brightest"));
-    warnings.push_back(note_of(light.darkest, "here the show is darkest"));
+    warnings.push_back(light_warning(light.brightest, "here the show is brightest"));
+    warnings.push_back(light_warning(light.darkest, "here the show is darkest"));
   } catch (const RenderStopped&) {
     return {};
   }
   std::stable_sort(warnings.begin(), warnings.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   Json list = Json::array();
-  for (const ShowWarning& warning : warnings) list.push_back(json_of(warning));
+  for (const ShowWarning& warning : warnings) list.push_back(warning_json(warning));
   return page_json({{"done", true}, {"warnings", list}});
 }
 

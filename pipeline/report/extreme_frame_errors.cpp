@@ -41,7 +41,7 @@ GivenVelocity moving_fast(double slowness) {
 }
 
 // The Milky Way in an intensity that grows like the square of the frequency.
-Show show_of(const Series& series) {
+Show show_of_series(const Series& series) {
   Show show = extreme_show(StaticObserver{10}, Domemaster{kExtremeSize + 1}, series.attitude);
   show.sky[SkyRegion::kI] = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
   show.sky[SkyRegion::kIII] = show.sky[SkyRegion::kI];
@@ -58,7 +58,7 @@ Show show_of(const Series& series) {
 }
 
 // The sum of all values of each frame.
-std::array<double, kSteps> light_of(const Show& show) {
+std::array<double, kSteps> light_of_frames(const Show& show) {
   Renderer renderer(show, 0);
   std::array<double, kSteps> light{};
   for (int k = 0; k < kSteps; ++k)
@@ -79,7 +79,7 @@ ExtremeResult crowded_skies() {
   double worst = 0;
   std::string outcome;
   for (const Series& series : all) {
-    const std::array<double, kSteps> light = light_of(show_of(series));
+    const std::array<double, kSteps> light = light_of_frames(show_of_series(series));
     for (const double each : light)
       worst = std::max(worst, light.back() > 0 ? std::abs(each / light.back() - 1) : 1e9);
     outcome += fmt::format("{}{}: light {:.4g} to {:.4g}", outcome.empty() ? "" : "; ", series.name,

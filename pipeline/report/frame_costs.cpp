@@ -105,8 +105,8 @@ FrameState starless(FrameState state) {
   return state;
 }
 
-FrameCostRow measured(const std::string& scene, Renderer& renderer, const FrameState& state,
-                      double stars, Repeats repeats) {
+FrameCostRow measured_cost(const std::string& scene, Renderer& renderer, const FrameState& state,
+                           double stars, Repeats repeats) {
   const TimedFrame timed = time_frame(renderer, state, repeats);
   return {scene,
           columns(state.projection),
@@ -122,7 +122,7 @@ std::vector<FrameCostRow> against_stars(const Shows& shows, const Sizes& sizes) 
     for (const double stars : sizes.stars) {
       const Show show = shows.show(place, Background::kBlack, stars, Domemaster{sizes.dome});
       Renderer renderer(show, kThreads);
-      rows.push_back(measured(
+      rows.push_back(measured_cost(
           place == Place::kFlat ? "stars alone, flat space" : "stars alone, falling at 7 M",
           renderer, frame_state(show, 0), shows.count(stars), sizes.repeats));
     }
@@ -140,10 +140,11 @@ std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes)
       FrameState state = frame_state(show, 0);
       state.projection = Domemaster{dome};
       if (with_stars)
-        rows.push_back(measured(fmt::format("Milky Way and {:.0f} stars", stars), renderer, state,
-                                stars, sizes.repeats));
+        rows.push_back(measured_cost(fmt::format("Milky Way and {:.0f} stars", stars), renderer,
+                                     state, stars, sizes.repeats));
       else
-        rows.push_back(measured("Milky Way alone", renderer, starless(state), 0, sizes.repeats));
+        rows.push_back(
+            measured_cost("Milky Way alone", renderer, starless(state), 0, sizes.repeats));
     }
   return rows;
 }

@@ -54,7 +54,7 @@ std::vector<Setting> settings(bool quick) {
   return all;
 }
 
-Show show_of(const View& view, int size) {
+Show show_of_view(const View& view, int size) {
   // The silhouette has 18.4 degrees across.
   constexpr double kFlatView = 24 * kDegree;
   Show show;
@@ -83,7 +83,7 @@ Show show_of(const View& view, int size) {
 
 void append_rows(const View& view, bool quick, std::vector<FrameErrorRow>& rows) {
   const int size = quick ? kQuickSize : kFullSize;
-  const Show show = show_of(view, size);
+  const Show show = show_of_view(view, size);
   const Grader grader(show.grade);
   const HalfFrame reference = time_frame(show, kReferenceAntiAliasing, 0, {1}).frame;
   const GradedFrame graded_reference = grader.grade(reference);

@@ -8,24 +8,24 @@
 namespace domefall {
 namespace {
 
-struct Count {
+struct StarCount {
   double magnitude, stars;
 };
-constexpr std::array<Count, 8> kCounts{{{-1.5, 1},
-                                        {6.5, 8805},
-                                        {8, 45630},
-                                        {9, 130720},
-                                        {10, 357145},
-                                        {11, 945959},
-                                        {12, 2083385},
-                                        {13, kMostMadeUpStars}}};
+constexpr std::array<StarCount, 8> kCounts{{{-1.5, 1},
+                                            {6.5, 8805},
+                                            {8, 45630},
+                                            {9, 130720},
+                                            {10, 357145},
+                                            {11, 945959},
+                                            {12, 2083385},
+                                            {13, kMostMadeUpStars}}};
 
 }  // namespace
 
 double magnitude_of_rank(double rank) {
   std::size_t k = 1;
   while (k + 1 < kCounts.size() && kCounts[k].stars < rank) ++k;
-  const Count &a = kCounts[k - 1], &b = kCounts[k];
+  const StarCount &a = kCounts[k - 1], &b = kCounts[k];
   return a.magnitude +
          (b.magnitude - a.magnitude) * std::log(rank / a.stars) / std::log(b.stars / a.stars);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Real = Real50;
 
-constexpr double kFallEnd = 1e-3;  // M
+constexpr double kLastRadius = 1e-3;  // M
 
 // ---- orbits with a closed form ----
 
@@ -63,8 +63,8 @@ std::vector<double> evenly(double end, int states) {
 std::vector<double> evenly_in_log_r(const RadialInfall& fall, int states) {
   std::vector<double> taus;
   for (int k = 1; k <= states; ++k)
-    taus.push_back(double(
-        proper_time_to(fall, fall.from_r * std::pow(kFallEnd / fall.from_r, double(k) / states))));
+    taus.push_back(double(proper_time_to(
+        fall, fall.from_r * std::pow(kLastRadius / fall.from_r, double(k) / states))));
   return taus;
 }
 
@@ -172,8 +172,8 @@ OrbitCase whirl(int states) {
 OrbitCase plunge(int states) {
   const ReferenceOrbit reference{0, 3.9};
   return geodesic_case("fall with L = 3.9 M from 30 M to 0.001 M", fall_from_infinity(3.9, 30),
-                       reference, reference_leg(reference, 30, radii_to(30, kFallEnd, states)), -1,
-                       true);
+                       reference, reference_leg(reference, 30, radii_to(30, kLastRadius, states)),
+                       -1, true);
 }
 
 // The orbit is not integrated: integrate_fall works in the rain tetrad, which region IV does not

@@ -31,8 +31,8 @@ void raise(double& largest, const Real& value) {
 }
 
 // own_gamma says whether the method emits gamma itself.
-void compare(const OrbitCase& orbit, const std::vector<FallState>& states, bool own_gamma,
-             OrbitErrorRow& row) {
+void raise_errors(const OrbitCase& orbit, const std::vector<FallState>& states, bool own_gamma,
+                  OrbitErrorRow& row) {
   for (std::size_t k = 0; k < states.size(); ++k) {
     const ExactPlace& exact = orbit.places[k];
     const Real r = states[k].r, w = states[k].radial, v = states[k].tangential;
@@ -69,10 +69,10 @@ double seconds_of(const Function& function) {
 }
 
 template <class Method>
-OrbitErrorRow row_of(const OrbitCase& orbit, const char* name, double tolerance,
-                     const Method& method) {
+OrbitErrorRow orbit_row(const OrbitCase& orbit, const char* name, double tolerance,
+                        const Method& method) {
   OrbitErrorRow row{orbit.name, name, tolerance, 0, 0, 0, 0, 0, 0};
-  compare(orbit, method(), tolerance > 0, row);
+  raise_errors(orbit, method(), tolerance > 0, row);
   row.seconds = seconds_of(method) * 1000 / static_cast<double>(orbit.taus.size());
   return row;
 }
@@ -81,7 +81,7 @@ void append_integrations(const OrbitCase& orbit, double tolerance,
                          std::vector<OrbitErrorRow>& rows) {
   const FallState start = fall_state(point_at(orbit.trajectory, 0));
   const auto append = [&](const char* name, FallMethod method) {
-    rows.push_back(row_of(orbit, name, tolerance, [&orbit, &start, method, tolerance] {
+    rows.push_back(orbit_row(orbit, name, tolerance, [&orbit, &start, method, tolerance] {
       return integrate_fall(start, orbit.taus, method, tolerance);
     }));
   };
@@ -97,8 +97,8 @@ std::vector<OrbitErrorRow> measure_orbits(bool quick) {
   std::vector<OrbitErrorRow> rows;
   for (const OrbitCase& orbit : orbit_cases(quick ? 100 : 1000)) {
     const bool summed = std::holds_alternative<Geodesic>(orbit.trajectory);
-    rows.push_back(row_of(orbit, summed ? "quadrature" : "closed form", 0,
-                          [&orbit] { return emitted(orbit); }));
+    rows.push_back(orbit_row(orbit, summed ? "quadrature" : "closed form", 0,
+                             [&orbit] { return emitted(orbit); }));
     if (!orbit.integrated) continue;
     for (const double tolerance : tolerances) append_integrations(orbit, tolerance, rows);
   }

@@ -101,7 +101,7 @@ Plot rain_plot(const std::string& title, double r, const Regions& seen) {
   return plot;
 }
 
-Plot far_away() {
+Plot deviation_far_away() {
   Plot plot = rain_plot("Deviation function, free fall at r = 30 M", 30, {});
   plot.curves.front().name = "φ_∞(δ)";
   plot.curves.push_back({"δ − π: neither bent nor aberrated",
@@ -173,7 +173,7 @@ Plot what_is_seen() {
 
 std::vector<NamedPlot> paper_curves() {
   return {
-      {"fig_dev", far_away()},
+      {"fig_dev", deviation_far_away()},
       {"dev_III", rain_plot("Free fall at r = M: regions I and III", 1, {true, true, false})},
       {"dev_wh_0", rain_plot("Free fall at r = 20 M: regions I and IV", 20, {true, false, true})},
       {"dev_wh", rain_plot("Free fall at r = M: regions I, III and IV", 1, {true, true, true})},

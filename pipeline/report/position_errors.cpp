@@ -48,8 +48,8 @@ PositionErrorRow::Errors summary(std::vector<double> errors) {
   return {errors.back(), errors[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1]};
 }
 
-PositionErrorRow measured(bool at_edge, const std::vector<SamplePlace>& places,
-                          const NamedTraceMethod& by, double tolerance) {
+PositionErrorRow measured_errors(bool at_edge, const std::vector<SamplePlace>& places,
+                                 const NamedTraceMethod& by, double tolerance) {
   TraceOptions options;
   if (tolerance > 0) options.tolerance = tolerance;
   std::vector<std::optional<TracedPlace>> found;
@@ -98,11 +98,11 @@ std::vector<PositionErrorRow> measure_positions(bool quick) {
     const std::vector<SamplePlace> places = sample_places(quick, at_edge);
     for (const NamedTraceMethod& by : kTraceMethods) {
       if (!is_integrator(by.method)) {
-        rows.push_back(measured(at_edge, places, by, 0));
+        rows.push_back(measured_errors(at_edge, places, by, 0));
         continue;
       }
       for (const double tolerance : {1e-6, 1e-9, 1e-12})
-        rows.push_back(measured(at_edge, places, by, tolerance));
+        rows.push_back(measured_errors(at_edge, places, by, tolerance));
     }
   }
   return rows;

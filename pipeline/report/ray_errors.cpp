@@ -8,10 +8,10 @@
 namespace domefall {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
-double nanoseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+double nanoseconds_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
 }
 
 struct Pass {
@@ -22,7 +22,7 @@ struct Pass {
 Pass trace_group(const RayGroup& group, const RayMethod& method, double setting) {
   Pass pass;
   pass.rays.reserve(group.size());
-  const Clock::time_point start = Clock::now();
+  const SteadyClock::time_point start = SteadyClock::now();
   for (const SampleRay& ray : group) pass.rays.push_back(method.follow(ray.request, setting));
   pass.ns = nanoseconds_since(start);
   return pass;

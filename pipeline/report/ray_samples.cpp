@@ -12,15 +12,15 @@
 namespace domefall {
 namespace {
 
-struct Observer {
+struct SampleObserver {
   const char* region;
   TraceObserver observer;
 };
-constexpr std::array kObservers{
-    Observer{"I", TraceObserver::kRain},     Observer{"I", TraceObserver::kStatic},
-    Observer{"I", TraceObserver::kOutgoing}, Observer{"II", TraceObserver::kRain},
-    Observer{"II", TraceObserver::kTwo},     Observer{"IV", TraceObserver::kOutgoing},
-    Observer{"IV", TraceObserver::kFour},
+constexpr std::array kSampleObservers{
+    SampleObserver{"I", TraceObserver::kRain},     SampleObserver{"I", TraceObserver::kStatic},
+    SampleObserver{"I", TraceObserver::kOutgoing}, SampleObserver{"II", TraceObserver::kRain},
+    SampleObserver{"II", TraceObserver::kTwo},     SampleObserver{"IV", TraceObserver::kOutgoing},
+    SampleObserver{"IV", TraceObserver::kFour},
 };
 
 constexpr std::array kClasses{
@@ -36,7 +36,7 @@ constexpr std::array kClasses{
 
 std::vector<TraceObserver> observers_in(std::string_view region) {
   std::vector<TraceObserver> found;
-  for (const Observer& o : kObservers)
+  for (const SampleObserver& o : kSampleObservers)
     if (o.region == region) found.push_back(o.observer);
   return found;
 }

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-std::string joined(const std::vector<std::string>& cells) {
+std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_cell(cell);
   return line + "\n";
@@ -45,9 +45,9 @@ std::string csv_of(const std::vector<RayErrorRow>& rows) {
       "region,difficulty,method,setting,is_default,rays,undecided,phi_worst,phi_99,sky_worst,"
       "sky_99,ns_per_ray,build_us\n";
   for (const RayErrorRow& r : rows)
-    csv += joined({r.region, r.difficulty, r.method, n(r.setting), r.is_default ? "1" : "0",
-                   fmt::to_string(r.rays), fmt::to_string(r.undecided), n(r.phi_worst), n(r.phi_99),
-                   n(r.sky_worst), n(r.sky_99), n(r.ns_per_ray), n(r.build_us)});
+    csv += csv_line({r.region, r.difficulty, r.method, n(r.setting), r.is_default ? "1" : "0",
+                     fmt::to_string(r.rays), fmt::to_string(r.undecided), n(r.phi_worst),
+                     n(r.phi_99), n(r.sky_worst), n(r.sky_99), n(r.ns_per_ray), n(r.build_us)});
   return csv;
 }
 
@@ -55,17 +55,17 @@ std::string csv_of(const std::vector<PositionErrorRow>& rows) {
   std::string csv =
       "rays,method,tolerance,places,missing,r_worst,r_99,time_worst,time_99,ns_per_place\n";
   for (const PositionErrorRow& r : rows)
-    csv += joined({r.at_edge ? "edge" : "others", r.method, n(r.tolerance),
-                   fmt::to_string(r.places), fmt::to_string(r.missing), n(r.r.worst), n(r.r.most),
-                   n(r.time.worst), n(r.time.most), n(r.ns_per_place)});
+    csv += csv_line({r.at_edge ? "edge" : "others", r.method, n(r.tolerance),
+                     fmt::to_string(r.places), fmt::to_string(r.missing), n(r.r.worst), n(r.r.most),
+                     n(r.time.worst), n(r.time.most), n(r.ns_per_place)});
   return csv;
 }
 
 std::string csv_of(const std::vector<FrameErrorRow>& rows) {
   std::string csv = "scene,setting,size,rms,worst,seconds,copies\n";
   for (const FrameErrorRow& r : rows)
-    csv += joined({r.scene, r.setting, fmt::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
-                   n(r.copies)});
+    csv += csv_line({r.scene, r.setting, fmt::to_string(r.size), n(r.rms), n(r.worst), n(r.seconds),
+                     n(r.copies)});
   return csv;
 }
 
@@ -73,8 +73,8 @@ std::string csv_of(const FrameCosts& costs) {
   std::string csv = "against,scene,size,pixels,stars,seconds,copies\n";
   const auto add = [&](const char* against, const std::vector<FrameCostRow>& rows) {
     for (const FrameCostRow& r : rows)
-      csv += joined({against, r.scene, fmt::to_string(r.size), fmt::format("{:.0f}", r.pixels),
-                     fmt::format("{:.0f}", r.stars), n(r.seconds), n(r.copies)});
+      csv += csv_line({against, r.scene, fmt::to_string(r.size), fmt::format("{:.0f}", r.pixels),
+                       fmt::format("{:.0f}", r.stars), n(r.seconds), n(r.copies)});
   };
   add("stars", costs.stars), add("pixels", costs.pixels);
   return csv;
@@ -86,8 +86,8 @@ std::string csv_of(const std::vector<OrbitErrorRow>& rows) {
       "seconds\n";
   for (const OrbitErrorRow& r : rows)
     csv +=
-        joined({r.orbit, r.method, n(r.tolerance), n(r.energy_drift), n(r.angular_momentum_drift),
-                n(r.norm_drift), n(r.r_error), n(r.phi_error), n(r.seconds)});
+        csv_line({r.orbit, r.method, n(r.tolerance), n(r.energy_drift), n(r.angular_momentum_drift),
+                  n(r.norm_drift), n(r.r_error), n(r.phi_error), n(r.seconds)});
   return csv;
 }
 

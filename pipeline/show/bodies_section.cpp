@@ -18,8 +18,8 @@ constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9, kLargestBody = 1e6;
 constexpr double kBrightestMagnitude = -100, kFaintestMagnitude = 100;
 
 // What a body does by itself.  The others need a segment, or an engine.
-constexpr std::array<std::string_view, 7> kTypes{"static", "circular", "parabolic", "hyperbolic",
-                                                 "bound",  "infall",   "thrown"};
+constexpr std::array<std::string_view, 7> kOrbitTypes{
+    "static", "circular", "parabolic", "hyperbolic", "bound", "infall", "thrown"};
 
 // Reads where it moves, and from where on.  Returns whether there was no mistake.
 bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
@@ -34,7 +34,7 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
   }
-  if (const auto type = peek(*way, "type"); type && !read_choice(*type, kTypes)) return false;
+  if (const auto type = peek(*way, "type"); type && !read_choice(*type, kOrbitTypes)) return false;
   // A body shows no part of its way and has no clock to run, and it is in region I, or comes from
   // it.
   for (const std::string_view key :
@@ -58,7 +58,7 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
 }
 
 // Reads the plane of an orbit that is given by the first one, and when it begins.
-void read_plane(const Section& s, const Show& to, Body& body) {
+void read_orbit_plane(const Section& s, const Show& to, Body& body) {
   const double inclination = radians(s.number("inclination_deg", kDegrees.within(0, 180), 0));
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), 0));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
@@ -132,7 +132,7 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
     read_elements(*elements, to, year, body);
   } else {
     read_way(s, to, lookup, body);
-    read_plane(s, to, body);
+    read_orbit_plane(s, to, body);
   }
   read_light(s, to, body);
   return body;

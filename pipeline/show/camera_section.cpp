@@ -59,8 +59,8 @@ std::optional<double> read_angle(const Section& camera, std::string_view key, co
   return degrees ? std::optional(radians(*degrees)) : std::nullopt;
 }
 
-CameraKeys read_keys(const Section& camera, const Projection& projection, const NamedCameras& named,
-                     Lookup& lookup) {
+CameraKeys read_camera_keys(const Section& camera, const Projection& projection,
+                            const NamedCameras& named, Lookup& lookup) {
   CameraKeys keys;
   keys.attitude = read_attitude(camera, named, lookup);
   keys.values[Channel::kRoll] = read_angle(camera, "roll_deg", kDegrees.within(-3600, 3600));
@@ -90,7 +90,7 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
   for (const std::string_view key : {"projection", "cut"})
     if (const Item* fixed = camera.find(key))
       fixed->fail("holds for the whole show; it belongs in the show's own camera section");
-  CameraKeys own = read_keys(camera, show.projection, show.named, lookup);
+  CameraKeys own = read_camera_keys(camera, show.projection, show.named, lookup);
   if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
       if (const Item* given = camera.find(key))
@@ -115,7 +115,7 @@ ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies
   for (const Body& body : bodies)
     result.named.bodies.emplace(body.name, std::make_shared<const Body>(body));
   result.projection = read_projection(show, camera);
-  result.keys = read_keys(camera, result.projection, result.named, lookup);
+  result.keys = read_camera_keys(camera, result.projection, result.named, lookup);
   if (const auto fov = result.keys.values[Channel::kFov])
     result.projection = with_field_of_view(result.projection, *fov);
   if (const Item* cameras = show.find("cameras")) read_named_cameras(*cameras, result, lookup);

@@ -40,7 +40,7 @@ void read_radii(const Section& s, Disc& disc) {
 
 // The elements of celestial mechanics: the angle between the two planes, and the place where matter
 // rises to the north of the orbit's.
-void read_plane(const Section& s, const Show& to, Disc& disc) {
+void read_disc_plane(const Section& s, const Show& to, Disc& disc) {
   const double inclination =
       radians(s.number("inclination_deg", kDegrees.within(0, 180), kInclinationDeg));
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), kNodeDeg));
@@ -118,7 +118,7 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   Disc disc;
   disc.plunging = read_switch_of(s, "plunging", disc.plunging);
   read_radii(s, disc);
-  read_plane(s, to, disc);
+  read_disc_plane(s, to, disc);
   disc.t_max_k =
       s.number("t_max_k", Range{"kelvin"}.within(kCoolestDiscK, kHottestDiscK), disc.t_max_k);
   disc.luminance =

@@ -23,8 +23,8 @@ int whole_number(std::string_view text) {
 
 bool is_frame_size(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
-Projection with_sides(const Projection& projection, const std::string& size,
-                      const std::string& asked) {
+Projection with_stated_sides(const Projection& projection, const std::string& size,
+                             const std::string& asked) {
   const std::size_t cross = std::min(size.find('x'), size.size());
   const int width = whole_number(std::string_view(size).substr(0, cross));
   const int height = whole_number(std::string_view(size).substr(std::min(cross + 1, size.size())));
@@ -43,7 +43,7 @@ Projection resized(const Projection& projection, const std::string& size, const 
   const std::string asked = name + " ";
   const bool fisheye = std::holds_alternative<Fisheye>(projection);
   if (has_free_shape(projection) && (!fisheye || size.find('x') != std::string::npos))
-    return with_sides(projection, size, asked);
+    return with_stated_sides(projection, size, asked);
   const bool sphere = std::holds_alternative<Equirectangular>(projection);
   const bool cube = std::holds_alternative<Cubemap>(projection);
   int pixels = whole_number(size);

@@ -13,7 +13,6 @@
 namespace domefall {
 namespace {
 
-constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr Range kMomentum = Range{"units of M"}.within(0, 1e9);
 constexpr Range kExcess = kPureNumber.within(1e-20, 1e9);
 constexpr Range kSpeed = Range{"speed of light = 1"}.above(0).below(1);

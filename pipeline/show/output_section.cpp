@@ -5,7 +5,7 @@
 namespace domefall {
 namespace {
 
-std::optional<GradedFormat> read_graded(const Section& s) {
+std::optional<GradedFormat> read_graded_format(const Section& s) {
   enum class Word { kNone, kPng16, kPng8, kJpeg, kTiff16, kTiff8 };
   using enum Word;
   // Without their bits, which earlier versions did not know, they are of 16.
@@ -99,7 +99,7 @@ Output read_output(const Section& show) {
                                 "digits", "per_folder", "owner"});
   Output output;
   output.linear = read_linear(s);
-  output.graded = read_graded(s);
+  output.graded = read_graded_format(s);
   read_quality(s, output.graded);
   output.names = read_names(s);
   if (const Item* item = s.find("owner")) output.owner = read_text(*item).value_or("");

@@ -11,7 +11,6 @@
 namespace domefall {
 namespace {
 
-constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetrad::kRainOfThree,
                                          Tetrad::kOutgoingToThree};
 
@@ -44,8 +43,8 @@ void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup
   key.azimuth_rate = own->z / key.r;
 }
 
-std::optional<std::vector<PathKey>> read_keys(const Item& list, const Stage& stage,
-                                              Lookup& lookup) {
+std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage& stage,
+                                                   Lookup& lookup) {
   const auto items = read_list(list);
   if (!items) return std::nullopt;
   std::vector<PathKey> keys;
@@ -115,7 +114,7 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
   Table table;
   try {
     if (s.find("keyframes")) {
-      const auto keys = read_keys(*by, stage, lookup);
+      const auto keys = read_path_keys(*by, stage, lookup);
       if (!keys) return std::nullopt;
       table.keys = *keys;
     } else {

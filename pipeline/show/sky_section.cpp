@@ -57,7 +57,7 @@ void suit_milky_way(const Item& item, const Lookup& lookup, const std::optional<
 constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
 constexpr Range kLuminance = Range{"cd/m^2, or auto, or none"}.within(0, 1e6);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
-constexpr Range kWhite = Range{"cd/m^2"}.above(0).at_most(1e12);
+constexpr Range kWhiteLuminance = Range{"cd/m^2"}.above(0).at_most(1e12);
 // What the white of a show's own image is unless the show says otherwise: pixel value 1 at 0 EV.
 constexpr double kShownWhite = 1e-3;
 
@@ -104,7 +104,7 @@ void read_white(const Item* white, SkyBackground& background) {
     if (white) white->fail("is the white of an image; this background has its own light, see gain");
     return;
   }
-  const auto luminance = white ? read_number(*white, kWhite) : std::nullopt;
+  const auto luminance = white ? read_number(*white, kWhiteLuminance) : std::nullopt;
   std::get<PanoramaSky>(background).brightness = luminance.value_or(kShownWhite) / kPanoramaUnit;
 }
 
@@ -168,7 +168,7 @@ std::optional<StarField> read_catalogue(const Item& item, const Lookup& lookup) 
   return std::nullopt;
 }
 
-void read_stars(const Item& item, const Lookup& lookup, RegionSky& sky) {
+void read_catalogue(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (item.node.IsScalar()) {
     if (item.node.Scalar() == "none") {
       sky.stars.reset();
@@ -195,7 +195,7 @@ void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
       {section.find("background"), section.find("white_cd_m2"), section.find("black_cd_m2")},
       lookup, sky.background);
   sky.background_gain = section.number("gain", kGain, sky.background_gain);
-  if (const Item* stars = section.find("stars")) read_stars(*stars, lookup, sky);
+  if (const Item* stars = section.find("stars")) read_catalogue(*stars, lookup, sky);
 }
 
 // Reads the sky of the past singularity, which is a background alone: a word, or a map.

@@ -16,7 +16,7 @@ namespace domefall {
 namespace {
 
 constexpr Range kSeconds{"seconds"};
-constexpr double kRounding = 1e-9;
+constexpr double kTimeRounding = 1e-9;
 constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
 
 // Whether the observer rests in the static frame, to rounding.
@@ -264,7 +264,7 @@ Fades read_fades(const Section& section) {
 }
 
 void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
-  if (!(fades.in_s + fades.out_s > duration * (1 + kRounding))) return;
+  if (!(fades.in_s + fades.out_s > duration * (1 + kTimeRounding))) return;
   const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
   last->fail(fmt::format("makes {} s of fades, but {} lasts {} s",
                          short_number(fades.in_s + fades.out_s), of, short_number(duration)));

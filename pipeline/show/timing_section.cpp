@@ -9,9 +9,8 @@
 namespace domefall {
 namespace {
 
-constexpr double kMostRate = 1e12, kMostOrbits = 1e6;
+constexpr double kMostRate = 1e12;
 constexpr double kDefaultRate = 1;  // M per second
-constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
 constexpr Range kRateRange = Range{"units of M per second of show"}.within(0, kMostRate);
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 

@@ -25,6 +25,8 @@ struct Stage {
 double proper_time_in(const Stage& stage, double seconds);
 
 inline constexpr double kNearest = 1e-6, kFarthest = 1e9;  // the radii of shows, units of M
+inline constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
+inline constexpr double kMostOrbits = 1e6;  // in a segment
 
 // How proper time runs in the segment.
 struct Rate {

@@ -12,7 +12,7 @@ namespace {
 constexpr Range kTitleSeconds{"seconds"};
 constexpr double kHeightDeg = 2, kMostHeightDeg = 60;
 // Where the audience of a dome looks without leaning back.
-constexpr double kDomeElevationDeg = 30;
+constexpr double kTitleElevationDeg = 30;
 constexpr double kBrightest = 1e4;
 constexpr std::size_t kLongestText = 2000;
 
@@ -33,7 +33,7 @@ void read_title_place(const Section& s, const Projection& projection, Title& tit
   const bool dome = has_zenith(projection);
   title.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-360, 360), 0));
   title.elevation =
-      radians(s.number("elevation_deg", kDegrees.within(-90, 90), dome ? kDomeElevationDeg : 0));
+      radians(s.number("elevation_deg", kDegrees.within(-90, 90), dome ? kTitleElevationDeg : 0));
   title.height =
       radians(s.number("height_deg", kDegrees.above(0).at_most(kMostHeightDeg), kHeightDeg));
 }

@@ -16,9 +16,8 @@ namespace {
 
 constexpr double kDefaultEnd = 0.05;
 // The azimuth of this many orbits still has nine digits behind the point.
-constexpr double kMostOrbits = 1e6;
 
-std::optional<TimedTrajectory> timed(const Section& s, const Trajectory& trajectory, Timing timing,
+std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& trajectory, Timing timing,
                                      bool mirrored) {
   if (!read_pace(s, trajectory, timing)) return std::nullopt;
   return TimedTrajectory{trajectory, timing, {mirrored}};
@@ -71,10 +70,10 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   }
   Timing timing = timing_of(*rate);
   if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
-  return timed(s, CircularOrbit{*r}, timing, mirrored);
+  return paced(s, CircularOrbit{*r}, timing, mirrored);
 }
 
-// Reads the rate of a fall that is timed by one.  The segment must end before the singularity.
+// Reads the rate of a fall that is paced by one.  The segment must end before the singularity.
 std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
   const auto rate = read_rate(s, stage);
   if (!rate || rate->span <= proper_time_to(fall, kNearest)) return rate;
@@ -104,7 +103,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
       return std::nullopt;
     }
     const auto rate = read_fall_time(s, stage, fall);
-    return rate ? timed(s, fall, timing_of(*rate), mirrored) : std::nullopt;
+    return rate ? paced(s, fall, timing_of(*rate), mirrored) : std::nullopt;
   }
   const double end = to_r.value_or(kDefaultEnd);
   if (end >= *from_r) {
@@ -119,7 +118,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   }
   Timing timing{0, proper_time_to(fall, end)};
   if (!read_end_rates(s, stage, timing)) return std::nullopt;
-  return timed(s, fall, timing, mirrored);
+  return paced(s, fall, timing, mirrored);
 }
 
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
@@ -137,7 +136,7 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
   }
   const auto trajectory = read_velocity_trajectory(s, stage, observer, lookup);
   if (!trajectory) return std::nullopt;
-  return timed(s, *trajectory, {0, proper_time_in(stage, stage.duration_s)}, false);
+  return paced(s, *trajectory, {0, proper_time_in(stage, stage.duration_s)}, false);
 }
 
 // Reads a trajectory that goes on with that of the segment before.

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kSurveyWidth = 48, kMostInstants = 60;
+constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
 constexpr double kFadeStops = 3;
 // From this part of white's code value on the steps to white are not seen.
 constexpr double kNearWhite = 0.99;
@@ -78,7 +78,7 @@ class LightMeter {
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
   const int count = frame_count(show);
   const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
-  const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostInstants));
+  const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostCostInstants));
   LightMeter meter(grader);
   std::vector<FrameLight> lights;
   for (int k = 0; k < samples; ++k) {

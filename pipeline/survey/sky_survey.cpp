@@ -26,8 +26,8 @@ struct ShownSky {
   double max_magnitude;  // the deepest that any of them reaches
 };
 
-// A segment inside the hole sees both skies.
-bool sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
+// A segment inside the hole segment_sees both skies.
+bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
   if (region == SkyRegion::kIV) return show.mass_solar.has_value();
   const Region home = region == SkyRegion::kI ? Region::kI : Region::kIII;
   return std::any_of(segment.regions.begin(), segment.regions.end(),
@@ -53,7 +53,7 @@ std::vector<ShownSky> shown_skies(const Show& show, const ShowSurvey& survey) {
   std::vector<ShownSky> shown;
   for (const SkyRegion region : kEverySky)
     for (std::size_t k = 0; k < survey.segments.size(); ++k) {
-      if (!sees(show, survey.segments[k], region)) continue;
+      if (!segment_sees(show, survey.segments[k], region)) continue;
       const int segment = static_cast<int>(k);
       const SkyBackground& background = background_of(show, segment, region);
       const double limit = deepest_limit(show, segment, region);

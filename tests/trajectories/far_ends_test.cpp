@@ -16,17 +16,17 @@ namespace domefall {
 namespace {
 
 // Relative.  Specified: 1e-12 for r; measured: 7e-15 for r, 1.4e-14 for times.
-constexpr double kBound = 1e-13;
+constexpr double kFarBound = 1e-13;
 
-struct Row {
+struct FarRow {
   std::string orbit, end, label;  // orbit: its factory and arguments
   std::string kind;
   double a = 0, b = 0, c = 0, since = 0, r = 0, null_gain = 0;
 };
 
-std::vector<Row> rows() {
+std::vector<FarRow> far_rows() {
   std::ifstream file(source_file("tests/reference/far_ends.csv"));
-  std::vector<Row> all;
+  std::vector<FarRow> all;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#' || line.rfind("kind", 0) == 0) continue;
     std::vector<std::string> cells;
@@ -43,49 +43,49 @@ std::vector<Row> rows() {
   return all;
 }
 
-Geodesic orbit_of(const Row& row) { return orbit_named(row.kind, row.a, row.b, row.c); }
+Geodesic far_orbit(const FarRow& row) { return orbit_named(row.kind, row.a, row.b, row.c); }
 
-ProperTime end_of(const Row& row, const Geodesic& orbit) {
+ProperTime end_of(const FarRow& row, const Geodesic& orbit) {
   if (row.end == "past") return orbit.birth();
   if (row.end == "future") return orbit.death();
   if (row.end == "periastron") return orbit.time_at(orbit.innermost(), Leg::kOutward).value();
   return orbit.time_at(orbit.outermost(), Leg::kInward).value();
 }
 
-TEST(FarEnds, HaveTheRowsThatTheTestsCountOn) { EXPECT_GE(rows().size(), 300U); }
+TEST(FarEnds, HaveTheRowsThatTheTestsCountOn) { EXPECT_GE(far_rows().size(), 300U); }
 
 TEST(FarEnds, TheRadiusIsRightToTwelveDigits) {
-  for (const Row& row : rows()) {
-    const Geodesic orbit = orbit_of(row);
-    EXPECT_NEAR(orbit.at(end_of(row, orbit) + row.since).r / row.r, 1, kBound) << row.label;
+  for (const FarRow& row : far_rows()) {
+    const Geodesic orbit = far_orbit(row);
+    EXPECT_NEAR(orbit.at(end_of(row, orbit) + row.since).r / row.r, 1, kFarBound) << row.label;
   }
 }
 
 TEST(FarEnds, TheTimeOfARadiusIsRightToTwelveDigitsOfTheTimeToTheEnd) {
-  for (const Row& row : rows()) {
-    const Geodesic orbit = orbit_of(row);
+  for (const FarRow& row : far_rows()) {
+    const Geodesic orbit = far_orbit(row);
     const ProperTime end = end_of(row, orbit);
     const bool rises = row.end == "past" || row.end == "periastron";
     const auto tau = orbit.time_at(row.r, rises ? Leg::kOutward : Leg::kInward);
     ASSERT_TRUE(tau.has_value()) << row.label;
     // A rounding of r next to a turning point moves the time by a root of it.
     const bool turns = row.end == "periastron" || row.end == "apoastron";
-    EXPECT_NEAR(double(*tau - end) / row.since, 1, turns ? 1e-6 : kBound) << row.label;
+    EXPECT_NEAR(double(*tau - end) / row.since, 1, turns ? 1e-6 : kFarBound) << row.label;
   }
 }
 
 // Between one row and the next of the same end.
 TEST(FarEnds, TheNullTimeGainedIsRight) {
-  const std::vector<Row> all = rows();
+  const std::vector<FarRow> all = far_rows();
   int checked = 0;
   for (std::size_t k = 1; k < all.size(); ++k) {
-    const Row &from = all[k - 1], &to = all[k];
+    const FarRow &from = all[k - 1], &to = all[k];
     if (from.orbit != to.orbit || from.end != to.end || to.null_gain == 0) continue;
-    const Geodesic orbit = orbit_of(to);
+    const Geodesic orbit = far_orbit(to);
     const ProperTime end = end_of(to, orbit);
     const DoubleDouble gain =
         orbit.at(end + to.since).null_time - orbit.at(end + from.since).null_time;
-    EXPECT_NEAR(double(gain) / (to.null_gain - from.null_gain), 1, kBound) << to.label;
+    EXPECT_NEAR(double(gain) / (to.null_gain - from.null_gain), 1, kFarBound) << to.label;
     ++checked;
   }
   EXPECT_GE(checked, 200);
@@ -130,9 +130,9 @@ TEST(FarEnds, ABoundOrbitsPeriastronIsTheSameAfterManyPeriods) {
   for (const double periods : {1.0, 3.0, 1e3, 1e5}) {
     const ProperTime later = exact_product(periods, orbit.radial_period());
     const ProperTime tau = orbit.time_at(11, Leg::kOutward, later).value();
-    EXPECT_NEAR(orbit.at(tau).r / 11, 1, kBound) << periods;
-    EXPECT_NEAR(double(tau - later) / first, 1, kBound) << periods;
-    EXPECT_NEAR(orbit.at(later + first).r / 11, 1, kBound) << periods;
+    EXPECT_NEAR(orbit.at(tau).r / 11, 1, kFarBound) << periods;
+    EXPECT_NEAR(double(tau - later) / first, 1, kFarBound) << periods;
+    EXPECT_NEAR(orbit.at(later + first).r / 11, 1, kFarBound) << periods;
   }
 }
 

@@ -8,14 +8,16 @@
 namespace domefall {
 namespace {
 
-double gamma_of(const V3d& celerity) { return std::sqrt(1 + celerity.dot(celerity)); }
+double celerity_gamma(const V3d& celerity) { return std::sqrt(1 + celerity.dot(celerity)); }
 
 // gamma between two observers given by their celerities against the same tetrad.
-double relative_gamma(const V3d& a, const V3d& b) { return gamma_of(a) * gamma_of(b) - a.dot(b); }
+double relative_gamma(const V3d& a, const V3d& b) {
+  return celerity_gamma(a) * celerity_gamma(b) - a.dot(b);
+}
 
 // Killing energy u.xi, with xi = T + sqrt(2/r) R in the rain tetrad.
 double energy(const OrbitPoint& p) {
-  return gamma_of(p.celerity) - std::sqrt(2 / p.r) * p.celerity.x;
+  return celerity_gamma(p.celerity) - std::sqrt(2 / p.r) * p.celerity.x;
 }
 
 TEST(CircularOrbit, AtSixMTheSpeedIsHalfThatOfLight) {
@@ -47,8 +49,8 @@ TEST(CircularOrbit, OnePeriodIsOneTurn) {
 TEST(StaticObserver, HasNoRadialVelocityAgainstInfinity) {
   for (double r : {2 + 1e-9, 2.5, 30.0}) {
     const OrbitPoint p = point_at(StaticObserver{r}, 5);
-    const double dr_dtau = p.celerity.x - std::sqrt(2 / r) * gamma_of(p.celerity);
-    EXPECT_NEAR(dr_dtau / gamma_of(p.celerity), 0, 1e-9);
+    const double dr_dtau = p.celerity.x - std::sqrt(2 / r) * celerity_gamma(p.celerity);
+    EXPECT_NEAR(dr_dtau / celerity_gamma(p.celerity), 0, 1e-9);
     EXPECT_EQ(p.region, Region::kI);
   }
 }

@@ -18,7 +18,7 @@ struct CapBox {
   double left, right, up, down;
 };
 
-CapBox square(double half) { return {half, half, half, half}; }
+CapBox square_box(double half) { return {half, half, half, half}; }
 
 // A plane z = x/X touches the cone of half angle `reach` about n where
 // (n.x - X n.z)^2 = sin^2(reach) (1 + X^2).
@@ -32,7 +32,7 @@ void find_edges(double along, double z, double reach, double& least, double& mos
 
 CapBox rectilinear_box(const Projection& p, const CameraDirection& n, double reach) {
   const double theta = std::acos(std::clamp(n.v.z, -1.0, 1.0));
-  if (theta + reach > pi / 2 - 1e-3) return square(kAll);
+  if (theta + reach > pi / 2 - 1e-3) return square_box(kAll);
   const double per_tangent = 1 / central_pixel_angle(p);
   double left = 0, right = 0, top = 0, bottom = 0;
   find_edges(n.v.x, n.v.z, reach, left, right);
@@ -58,9 +58,10 @@ double farthest_pixels(const Projection& p, const CameraDirection& n, double rea
   return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
 }
 
-CapBox box_of(const Projection& p, const CameraDirection& n, double reach) {
+CapBox cap_box(const Projection& p, const CameraDirection& n, double reach) {
   if (std::holds_alternative<Rectilinear>(p)) return rectilinear_box(p, n, reach);
-  if (!std::holds_alternative<Equirectangular>(p)) return square(farthest_pixels(p, n, reach) + 1);
+  if (!std::holds_alternative<Equirectangular>(p))
+    return square_box(farthest_pixels(p, n, reach) + 1);
   // A circle's meridians touch it at asin(sin(reach)/cos(latitude)) from its middle.
   const double ratio = std::sin(std::min(reach, pi / 2)) / std::hypot(n.v.x, n.v.y);
   const double per_radian = columns(p) / (2 * pi), down = reach * per_radian + 1;
@@ -79,7 +80,7 @@ bool is_beyond_circle(const Projection& p, const CameraDirection& n, double reac
 }
 
 // Adds the columns from one place of a row to another, as far as they are within `inside`.
-void add_span(double from, double to, const ColumnRange& inside, CapSpans& spans) {
+void add_columns(double from, double to, const ColumnRange& inside, CapSpans& spans) {
   const int first = static_cast<int>(std::max(std::floor(from), double(inside.first)));
   const int last = static_cast<int>(std::min(std::ceil(to), double(inside.last)));
   if (first <= last) spans.span[spans.count++] = {first, last};
@@ -107,12 +108,12 @@ CapSpans spans_on_sphere(const CapBlob& b, const Projection& p, double reach, in
       half_width_at(latitude(row), latitude(b.y), std::min(reach + rim, pi), per_radian) + 1;
   if (half < 1) return spans;
   if (2 * half >= width) {
-    add_span(0, width - 1, inside, spans);
+    add_columns(0, width - 1, inside, spans);
     return spans;
   }
   // The middle is within the picture, so that one copy of it on each side suffices.
   for (const double shift : {-width, 0.0, width})
-    add_span(b.x + shift - half, b.x + shift + half, inside, spans);
+    add_columns(b.x + shift - half, b.x + shift + half, inside, spans);
   return spans;
 }
 
@@ -129,11 +130,11 @@ CapSpans spans_on_ring(const CapBlob& b, const Projection& p, double reach, int 
   const auto along_row = [y](double r) { return r > std::abs(y) ? std::sqrt(r * r - y * y) : 0; };
   const double outer = along_row(from_middle + half), inner = along_row(from_middle - half);
   if (inner < kNarrow) {
-    add_span(std::max(left, x - outer - 1), std::min(right, x + outer + 1), inside, spans);
+    add_columns(std::max(left, x - outer - 1), std::min(right, x + outer + 1), inside, spans);
     return spans;
   }
-  add_span(std::max(left, x - outer - 1), std::min(right, x - inner + 1), inside, spans);
-  add_span(std::max(left, x + inner - 1), std::min(right, x + outer + 1), inside, spans);
+  add_columns(std::max(left, x - outer - 1), std::min(right, x - inner + 1), inside, spans);
+  add_columns(std::max(left, x + inner - 1), std::min(right, x + outer + 1), inside, spans);
   return spans;
 }
 
@@ -148,7 +149,7 @@ bool bound_cap(const Projection& projection, const CameraDirection& n, CapBlob& 
   const double width = columns(projection), height = rows(projection);
   const double reach = angular_reach(blob);
   if (is_beyond_circle(projection, n, reach)) return false;
-  const CapBox box = box_of(projection, n, reach);
+  const CapBox box = cap_box(projection, n, reach);
   if (!(blob.x + box.right >= 0 && blob.y + box.down >= 0 && blob.x - box.left <= width - 1 &&
         blob.y - box.up <= height - 1))
     return false;
@@ -175,7 +176,7 @@ CapSpans spans_of(const CapBlob& b, const Projection& p, double reach, int row,
   const double right = std::min(b.x + std::sqrt(half2), double(b.last_column));
   if (std::holds_alternative<Fisheye>(p))
     return spans_on_ring(b, p, reach, row, left, right, inside);
-  add_span(left, right, inside, spans);
+  add_columns(left, right, inside, spans);
   return spans;
 }
 

@@ -31,7 +31,7 @@ double integral_of_weight(double sigma, double cut) {
 
 // ---- drawing ----
 
-constexpr int kChunk = 32, kMostPoints = 2;
+constexpr int kPixelsAtOnce = 32, kMostPoints = 2;
 
 // Gauss' points along a side of a pixel, from its middle.  Their mean of a Gaussian of width s
 // (pixels) errs by 3/(4320 s^4) of its peak along each axis; with one point, by 1/(24 s^2).
@@ -111,9 +111,9 @@ class ExactCap {
 
   // Adds the pixels from `first` to `last` of a row.
   void add(int row, int first, int last, float* out) const {
-    for (int from = first; from <= last; from += kChunk) {
-      const int count = std::min(kChunk, last - from + 1);
-      const std::array<float, kChunk> weight = weights(row, from, count);
+    for (int from = first; from <= last; from += kPixelsAtOnce) {
+      const int count = std::min(kPixelsAtOnce, last - from + 1);
+      const std::array<float, kPixelsAtOnce> weight = weights(row, from, count);
       for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k, out += 3)
         add_light(weight[k], out);
     }
@@ -122,8 +122,9 @@ class ExactCap {
  private:
   // The mean weights of some pixels of a row, by the area for which each point stands, which
   // changes within a pixel beside a pole.
-  std::array<float, kChunk> weights(int row, int from, int count) const {
-    constexpr std::size_t kMost = static_cast<std::size_t>(kChunk) * kMostPoints * kMostPoints;
+  std::array<float, kPixelsAtOnce> weights(int row, int from, int count) const {
+    constexpr std::size_t kMost =
+        static_cast<std::size_t>(kPixelsAtOnce) * kMostPoints * kMostPoints;
     std::array<double, kMost> i, j, angle;
     std::array<CameraDirection, kMost> n;
     std::array<float, kMost> of_point, area;
@@ -145,7 +146,7 @@ class ExactCap {
                  number, area.data());
     else
       std::fill_n(area.begin(), all, 1.0f);
-    std::array<float, kChunk> light{}, whole{};
+    std::array<float, kPixelsAtOnce> light{}, whole{};
     for (std::size_t point = 0; point < all; point += pixels)
       for (std::size_t k = 0; k < pixels; ++k) {
         light[k] += area[point + k] * of_point[point + k];

@@ -13,9 +13,9 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kSplatBatch = 64;
-constexpr int kFloats = 8, kBlocks = 8;
-static_assert(kBlocks * kFloats == kSplatFloatsBeyond);
-using Block = float __attribute__((vector_size(4 * kFloats)));
+constexpr int kRowFloats = 8, kRowBlocks = 8;
+static_assert(kRowBlocks * kRowFloats == kSplatFloatsBeyond);
+using Block = float __attribute__((vector_size(4 * kRowFloats)));
 using SplatPixel = float __attribute__((vector_size(4 * kSplatChannels)));
 using Pair = float __attribute__((vector_size(8 * kSplatChannels)));
 
@@ -76,22 +76,23 @@ constexpr Rule plane_rule(float missing) {
 // ---- dropping ----
 
 // A batch of splats, column by column.
-using Column = std::array<float, kSplatBatch>;
+using SplatColumn = std::array<float, kSplatBatch>;
 struct Splats {
-  alignas(64) Column x, y;
-  alignas(64) Column along_x, along_y, across_x, across_y;  // the missing widths as vectors, pixels
-  alignas(64) Column density;                               // 1 / solid angle of the pixel, 1 / sr
+  alignas(64) SplatColumn x, y;
+  alignas(64) SplatColumn along_x, along_y;    // the missing widths as vectors,
+  alignas(64) SplatColumn across_x, across_y;  // pixels
+  alignas(64) SplatColumn density;             // 1 / solid angle of the pixel, 1 / sr
 };
 // The cubic B-splines of a batch about one point of each star: their weights along both axes, those
 // of y times the point's light, and the first of their four columns and rows.
 struct Splines {
-  alignas(64) Column x0, x1, x2, x3, y0, y1, y2, y3;
+  alignas(64) SplatColumn x0, x1, x2, x3, y0, y1, y2, y3;
   alignas(64) std::array<int, kSplatBatch> column, row;
 };
 
 // The series of u = (1 - sinc theta)/theta^2 in theta^2; the next term is below 2e-9 at 1.9.
-constexpr std::array<float, 6> kSinc{1.0f / 6,       -1.0f / 120,     1.0f / 5040,
-                                     -1.0f / 362880, 1.0f / 39916800, -1.0f / 6227020800.0f};
+constexpr std::array<float, 6> kSincSeries{1.0f / 6,       -1.0f / 120,     1.0f / 5040,
+                                           -1.0f / 362880, 1.0f / 39916800, -1.0f / 6227020800.0f};
 
 // Sets the missing widths and the densities, and returns the largest part of a blob's variance that
 // is missing.  blob_shape.h derives the variances: with the middle's as v they are v and v/sinc^2
@@ -105,8 +106,8 @@ template <bool kDome>
     const float cx = d.x[k] - f.middle_x, cy = d.y[k] - f.middle_y;
     const float t = f.unit2 * (cx * cx + cy * cy);
     if constexpr (kDome) {
-      float u = kSinc[5];
-      for (std::size_t n = 5; n-- > 0;) u = u * t + kSinc[n];
+      float u = kSincSeries[5];
+      for (std::size_t n = 5; n-- > 0;) u = u * t + kSincSeries[n];
       const float sinc = 1 - t * u, inverse = 1 / sinc, missing = 1 - sinc * sinc;
       const auto bits = std::bit_cast<std::int32_t>(missing);
       most = bits > most ? bits : most;
@@ -219,33 +220,34 @@ Dispatched<drop_on_flat> to_flat;
 
 // ---- blurring ----
 
-// Sets kBlocks blocks of `out` from float k on: sums over the rows, of which the n-th is read n *
-// step floats on from the middle one.
+// Sets kRowBlocks blocks of `out` from float k on: sums over the rows, of which the n-th is read
+// n * step floats on from the middle one.
 [[gnu::always_inline]] inline void blur_blocks(const SplatBlur& blur, const float* const* rows,
                                                std::ptrdiff_t step, std::ptrdiff_t k, float* out) {
-  Block sum[kBlocks];
-  for (int b = 0; b < kBlocks; ++b) {
-    std::memcpy(&sum[b], rows[blur.taps] + k + b * kFloats, sizeof sum[b]);
+  Block sum[kRowBlocks];
+  for (int b = 0; b < kRowBlocks; ++b) {
+    std::memcpy(&sum[b], rows[blur.taps] + k + b * kRowFloats, sizeof sum[b]);
     sum[b] *= blur.tap[0];
   }
   for (int n = 1; n <= blur.taps; ++n) {
     const float* before = rows[blur.taps - n] + k - n * step;
     const float* after = rows[blur.taps + n] + k + n * step;
-    for (int b = 0; b < kBlocks; ++b) {
+    for (int b = 0; b < kRowBlocks; ++b) {
       Block p, q;
-      std::memcpy(&p, before + b * kFloats, sizeof p);
-      std::memcpy(&q, after + b * kFloats, sizeof q);
+      std::memcpy(&p, before + b * kRowFloats, sizeof p);
+      std::memcpy(&q, after + b * kRowFloats, sizeof q);
       sum[b] += blur.tap[n] * (p + q);
     }
   }
-  for (int b = 0; b < kBlocks; ++b) std::memcpy(out + k + b * kFloats, &sum[b], sizeof sum[b]);
+  for (int b = 0; b < kRowBlocks; ++b)
+    std::memcpy(out + k + b * kRowFloats, &sum[b], sizeof sum[b]);
 }
 
 // Goes on beyond `count` to a whole number of blocks.
 [[gnu::always_inline]] inline void blur_down_loop(const SplatBlur& blur, const float* const* rows,
                                                   int lines, int count, float* out,
                                                   std::ptrdiff_t stride) {
-  for (int k = 0; k < count; k += kBlocks * kFloats)
+  for (int k = 0; k < count; k += kRowBlocks * kRowFloats)
     for (int line = 0; line < lines; ++line)
       blur_blocks(blur, rows + line, 0, k, out + line * stride);
 }
@@ -257,7 +259,7 @@ Dispatched<blur_down_loop> down;
                                                    float* __restrict out) {
   const float* rows[2 * kMostSplatTaps + 1];
   for (int n = 0; n <= 2 * blur.taps; ++n) rows[n] = row;
-  for (int k = 0; k < kSplatChannels * count; k += kBlocks * kFloats)
+  for (int k = 0; k < kSplatChannels * count; k += kRowBlocks * kRowFloats)
     blur_blocks(blur, rows, kSplatChannels, k, between);
   for (int k = 0; k < count; ++k)
     for (int c = 0; c < 3; ++c) out[3 * k + c] += between[kSplatChannels * k + c];

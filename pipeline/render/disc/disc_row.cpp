@@ -27,9 +27,9 @@ constexpr std::size_t kJudges = 5;
 
 // The weights of four nodes, at -1, 0, 1 and 2, for the pixels from 0 to 1; of the cell before the
 // middle one, and of the one after it.
-using Weights = std::array<std::array<float, 4>, 8>;
-Weights cubic_weights(double first_cell) {
-  Weights weights;
+using CellWeights = std::array<std::array<float, 4>, 8>;
+CellWeights cell_weights(double first_cell) {
+  CellWeights weights;
   for (std::size_t x = 0; x < weights.size(); ++x) {
     const double t = first_cell + static_cast<double>(x) / static_cast<double>(weights.size());
     const double a = t, b = t - 1, c = t - 2, d = t - 3;
@@ -183,8 +183,8 @@ void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
 // Draws a cell of a run by a cubic if it is right there, and returns whether it is.
 bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t last,
                               float* rgb) const {
-  static const std::array<Weights, 3> kWeights{cubic_weights(0), cubic_weights(1),
-                                               cubic_weights(2)};
+  static const std::array<CellWeights, 3> kWeights{cell_weights(0), cell_weights(1),
+                                                   cell_weights(2)};
   const std::size_t judge = std::clamp(cell, first + 2, last - 2) - 2;
   std::array<std::array<float, 3>, kJudges> judges;
   for (std::size_t k = 0; k < kJudges; ++k) {
@@ -202,7 +202,7 @@ bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t l
       return false;
   }
   const std::size_t from = std::clamp(cell, first + 1, last - 2) - 1;
-  const Weights& weights = kWeights[cell - from];
+  const CellWeights& weights = kWeights[cell - from];
   std::array<std::array<float, 3>, 4> values;
   for (std::size_t k = 0; k < values.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) values[k][c] = exposure_ * judges[from - judge + k][c];

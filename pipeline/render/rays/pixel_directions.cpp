@@ -56,7 +56,8 @@ struct Positions {
 };
 
 template <class View>
-[[gnu::always_inline]] inline void find_loop(const View& view, const Positions& positions) {
+[[gnu::always_inline]] inline void find_directions_loop(const View& view,
+                                                        const Positions& positions) {
   const View v = view;
   const Positions p = positions;
   for (int k = 0; k < p.count; ++k) {
@@ -65,11 +66,11 @@ template <class View>
     p.angle[k] = v.pixel_angle(x, y);
   }
 }
-Dispatched<find_loop<DomemasterView>> find_on_dome;
-Dispatched<find_loop<StereographicView>> find_on_flat;
-Dispatched<find_loop<RectilinearView>> find_on_rectilinear;
-Dispatched<find_loop<FisheyeView>> find_on_fisheye;
-Dispatched<find_loop<EquirectangularView>> find_on_sphere;
+Dispatched<find_directions_loop<DomemasterView>> find_on_dome;
+Dispatched<find_directions_loop<StereographicView>> find_on_flat;
+Dispatched<find_directions_loop<RectilinearView>> find_on_rectilinear;
+Dispatched<find_directions_loop<FisheyeView>> find_on_fisheye;
+Dispatched<find_directions_loop<EquirectangularView>> find_on_sphere;
 
 // Finds directions in the one picture or another.
 struct Finder {

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kSize = SampleBatch::kSize;
+constexpr int kSamples = SampleBatch::kSize;
 // A footprint up to this many times as long as wide, or as a texel, has one tap as wide as it is
 // long.
 constexpr float kRound = 1.25f;
@@ -23,8 +23,8 @@ constexpr int kPrefetchedSamples = 80;
 
 // Where plain samples fall on the finest level.
 struct FinestTaps {
-  alignas(64) std::array<std::int32_t, kSize> texel;
-  alignas(64) std::array<TexelWeights, kSize> weights;
+  alignas(64) std::array<std::int32_t, kSamples> texel;
+  alignas(64) std::array<TexelWeights, kSamples> weights;
 };
 
 [[gnu::always_inline]] inline void locate_plain_loop(const SampleBatch& batch, int count, int size,
@@ -120,9 +120,10 @@ struct TapLimits {
   std::array<float, kTaps.size()> longest;
 };
 
-[[gnu::always_inline]] inline void choose_loop(const float* wide, const float* narrow, int count,
-                                               float texel, const TapLimits& limits,
-                                               float longest_line, std::uint8_t* codes) {
+[[gnu::always_inline]] inline void choose_texels_loop(const float* wide, const float* narrow,
+                                                      int count, float texel,
+                                                      const TapLimits& limits, float longest_line,
+                                                      std::uint8_t* codes) {
   const TapLimits l = limits;
   for (int k = 0; k < count; ++k) {
     const float elongation = wide[k] / (narrow[k] > texel ? narrow[k] : texel);
@@ -135,11 +136,11 @@ struct TapLimits {
     codes[k] = static_cast<std::uint8_t>(2 * taps + (tap_width > texel ? 1 : 0));
   }
 }
-Dispatched<choose_loop> choose;
+Dispatched<choose_texels_loop> choose_texels;
 
-constexpr std::array<std::uint16_t, kSize + 1> kNumbers = [] {
-  std::array<std::uint16_t, kSize + 1> numbers{};
-  for (int k = 0; k <= kSize; ++k) numbers[k] = static_cast<std::uint16_t>(k);
+constexpr std::array<std::uint16_t, kSamples + 1> kNumbers = [] {
+  std::array<std::uint16_t, kSamples + 1> numbers{};
+  for (int k = 0; k <= kSamples; ++k) numbers[k] = static_cast<std::uint16_t>(k);
   return numbers;
 }();
 
@@ -185,7 +186,7 @@ class SortedByFilter {
     }
   }
 
-  std::array<std::uint16_t, kSize> indices_;
+  std::array<std::uint16_t, kSamples> indices_;
   std::array<int, 2 * SkySampler::kMostTaps + 2> ends_;  // in indices_, by the filter's code
 };
 
@@ -241,13 +242,13 @@ void SkySampler::choose_filters(const float* wide, const float* narrow, int coun
     if (kTaps[j] >= most_taps) limits.longest[j] = HUGE_VALF;
   }
   static_assert(sizeof(SampleFilter) == 1);
-  choose(wide, narrow, count, texel_, limits, longest_line,
-         reinterpret_cast<std::uint8_t*>(filters));
+  choose_texels(wide, narrow, count, texel_, limits, longest_line,
+                reinterpret_cast<std::uint8_t*>(filters));
 }
 
 void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) const {
   if (map_.kind() == SkyMapKind::kThermal) {
-    std::array<SampleFilter, kSize> filters;
+    std::array<SampleFilter, kSamples> filters;
     filters.fill(SampleFilter(1, false));
     return sample(batch, count, filters.data(), rgb);
   }
@@ -264,7 +265,7 @@ void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) c
 void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter* filters,
                         float* rgb) const {
   const SortedByFilter sorted(filters, count);
-  alignas(64) std::array<ChannelPair, kSize> sums;
+  alignas(64) std::array<ChannelPair, kSamples> sums;
   std::fill_n(sums.begin(), count, ChannelPair{});
   TapQueue queue(map_, kSpacing);
   SampleBatch gathered;
@@ -281,7 +282,7 @@ void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter*
       queue_taps(members == count ? batch : gathered, filter, indices, members, queue, sums.data());
     }
   queue.flush(sums.data());
-  std::array<float, 3 * kSize + 1> lines;
+  std::array<float, 3 * kSamples + 1> lines;
   float* light = sorted.all_have_taps() ? rgb : lines.data();
   if (map_.kind() == SkyMapKind::kThermal)
     thermal_to_colours(sums.data(), black_, batch.gain.data(), batch.tone.data(), count, light);

@@ -22,8 +22,9 @@ struct Input {
 
 // Copies of what is passed by reference are for the compiler, which then knows that no store of the
 // loop alters them.
-[[gnu::always_inline]] inline void into_tetrad_loop(const StarFrame& frame, const Input& input,
-                                                    int count, StarSources& s) {
+[[gnu::always_inline]] inline void stars_into_tetrad_loop(const StarFrame& frame,
+                                                          const Input& input, int count,
+                                                          StarSources& s) {
   const M33d matrix = frame.sky_from_tetrad;
   const double gain = frame.gain, limit = frame.limit, inverse_fade = frame.inverse_fade;
   const Input in = input;
@@ -39,7 +40,7 @@ struct Input {
     s.temperature[k] = in.temperature[k];
   }
 }
-Dispatched<into_tetrad_loop> into_tetrad;
+Dispatched<stars_into_tetrad_loop> stars_into_tetrad;
 
 // Fills the columns sine and v.  With c and s the cosine and sine of half the angle from +R,
 // v = tan(pi/4 - angle/4) is (1 - t)/(1 + t) for t = tan(angle/4) = s/(1 + c).
@@ -190,10 +191,10 @@ double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p
 
 void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
                   StarSources& sources) {
-  into_tetrad(frame,
-              {stars.x() + first, stars.y() + first, stars.z() + first, stars.magnitude() + first,
-               stars.flux() + first, stars.temperature() + first},
-              count, sources);
+  stars_into_tetrad(frame,
+                    {stars.x() + first, stars.y() + first, stars.z() + first,
+                     stars.magnitude() + first, stars.flux() + first, stars.temperature() + first},
+                    count, sources);
   to_lens(count, sources);
 }
 

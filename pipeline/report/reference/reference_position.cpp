@@ -9,13 +9,13 @@ namespace {
 
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
 
-constexpr int kOrder = 32;
-using TaylorSeries = std::array<Digits50, kOrder + 1>;
+constexpr int kTaylorOrder = 32;
+using TaylorSeries = std::array<Digits50, kTaylorOrder + 1>;
 
 // (n + 1)(n + 2) a_(n+2) = 3 sum a_k a_(n-k) - a_n.
 TaylorSeries orbit_series(const Digits50& w, const Digits50& slope) {
   TaylorSeries a{w, slope};
-  for (int n = 0; n + 2 <= kOrder; ++n) {
+  for (int n = 0; n + 2 <= kTaylorOrder; ++n) {
     Digits50 square = 0;
     for (int k = 0; k <= n; ++k) square += a[k] * a[n - k];
     a[n + 2] = (3 * square - a[n]) / ((n + 1) * (n + 2));
@@ -30,26 +30,26 @@ double step_of(const TaylorSeries& a) {
     const double term = static_cast<double>(abs(a[n]));
     return term > 0 ? std::exp((size - 40 * std::log(10.0) - std::log(term)) / n) : 1.0;
   };
-  return std::min(allowed(kOrder), allowed(kOrder - 1));
+  return std::min(allowed(kTaylorOrder), allowed(kTaylorOrder - 1));
 }
 
 Digits50 sum_at(const TaylorSeries& a, const Digits50& h) {
-  Digits50 sum = a[kOrder];
-  for (int n = kOrder - 1; n >= 0; --n) sum = sum * h + a[n];
+  Digits50 sum = a[kTaylorOrder];
+  for (int n = kTaylorOrder - 1; n >= 0; --n) sum = sum * h + a[n];
   return sum;
 }
 
 // The last term is 0: it would take one more of w.
 TaylorSeries derivative(const TaylorSeries& a) {
   TaylorSeries d{};
-  for (int n = 0; n < kOrder; ++n) d[n] = (n + 1) * a[n + 1];
+  for (int n = 0; n < kTaylorOrder; ++n) d[n] = (n + 1) * a[n + 1];
   return d;
 }
 
 // 1/a: sum a_k q_(n-k) = 0.
 TaylorSeries reciprocal(const TaylorSeries& a) {
   TaylorSeries q{1 / a[0]};
-  for (int n = 1; n <= kOrder; ++n) {
+  for (int n = 1; n <= kTaylorOrder; ++n) {
     Digits50 sum = 0;
     for (int k = 1; k <= n; ++k) sum += a[k] * q[n - k];
     q[n] = -sum / a[0];
@@ -69,7 +69,7 @@ struct Clock {
 Clock clock_at(const Digits50& e, const TaylorSeries& slope) {
   const bool counts_v = e * slope[0] <= 0;
   TaylorSeries off{};
-  for (int n = 0; n <= kOrder; ++n) off[n] = counts_v ? Digits50(-slope[n]) : slope[n];
+  for (int n = 0; n <= kTaylorOrder; ++n) off[n] = counts_v ? Digits50(-slope[n]) : slope[n];
   off[0] += e;
   return {counts_v, reciprocal(off)};
 }
@@ -90,7 +90,7 @@ ReferenceRayPlace reference_position(const ReferenceRequest& q, double psi) {
     w = sum_at(orbit, h);
     slope = sum_at(slopes, h);
     TaylorSeries passed{};
-    for (int n = 0; n < kOrder; ++n) passed[n + 1] = clock.rate[n] / (n + 1);
+    for (int n = 0; n < kTaylorOrder; ++n) passed[n + 1] = clock.rate[n] / (n + 1);
     time -= sum_at(passed, h);
     if (clock.counts_v != wants_v) time += (wants_v ? 2 : -2) * (star(1 / w) - star_before);
     left -= h;

@@ -9,7 +9,7 @@ namespace {
 
 using boost::math::ellint_rf;
 
-Wide pi() { return boost::math::constants::pi<Wide>(); }
+Wide wide_pi() { return boost::math::constants::pi<Wide>(); }
 Wide square(const Wide& x) { return x * x; }
 
 using Invariants = ReferenceInvariants;
@@ -125,7 +125,7 @@ Wide swept_azimuth(const Invariants& k, const Wide& r, OrbitPath path) {
   const Wide q = 1 - 54 * inverse_b2;
   const auto root = [](const Wide& t) -> Wide { return t / 3 + Wide(1) / 6; };
   if (q >= -1) {
-    const Wide psi = acos(q) / 3, third = 2 * pi() / 3;
+    const Wide psi = acos(q) / 3, third = 2 * wide_pi() / 3;
     return ThreeRealRoots{root(cos(psi)), root(cos(psi - third)), root(cos(psi + third))}.swept(
         w, path);
   }
@@ -144,7 +144,7 @@ Wide half_angle_edge(const Wide& numerator, const Wide& r) {
   return 2 * atan(numerator / (sqrt(Wide(27)) * (1 + sqrt(2 / r))));
 }
 
-void check(ReferenceObserver observer, const Wide& r) {
+void check_radius(ReferenceObserver observer, const Wide& r) {
   const bool inside = observer == ReferenceObserver::kTwo || observer == ReferenceObserver::kFour;
   if (r <= 0 || (inside && r >= 2) || (observer == ReferenceObserver::kStatic && r <= 2))
     throw std::domain_error("reference_ray: no such observer at this r");
@@ -157,7 +157,7 @@ Wide delta_of(const ReferenceRequest& q) {
 }  // namespace
 
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge) {
-  check(observer, r);
+  check_radius(observer, r);
   const bool third = edge == ReferenceEdge::kRegionThree;
   const Wide reach = (r - 3) * sqrt(1 + 6 / r);
   switch (observer) {
@@ -166,13 +166,13 @@ Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edg
       return third ? half_angle_edge(-r - reach, r) : half_angle_edge(r - reach, r);
     case ReferenceObserver::kOutgoing:  // the formula holds for pi - delta, with the other root
       if (third || r <= 2) break;
-      return pi() - half_angle_edge(r + reach, r);
+      return wide_pi() - half_angle_edge(r + reach, r);
     case ReferenceObserver::kStatic:
       if (third) break;
       return atan2(sqrt(27 * (1 - 2 / r)), reach);
     case ReferenceObserver::kTwo: {
       const Wide angle = atan(sqrt(27 * (2 / r - 1)) / r);
-      return third ? angle : pi() - angle;
+      return third ? angle : wide_pi() - angle;
     }
     case ReferenceObserver::kFour:
       break;
@@ -185,7 +185,7 @@ ReferenceInvariants reference_invariants(const ReferenceRequest& q) {
 }
 
 ReferenceRay reference_ray(const ReferenceRequest& q) {
-  check(q.observer, q.r);
+  check_radius(q.observer, q.r);
   const Wide delta = delta_of(q);
   const Invariants k = plain_invariants(q.observer, q.r, delta);
   const Course course = course_of(q.observer, q.r, k);

@@ -8,15 +8,17 @@
 namespace domefall {
 namespace {
 
-enum Kind : std::uint32_t { kNone = 0, kHip = 1, kHd = 2, kTycho = 3 };
+enum class Kind : std::uint32_t { kHip = 1, kHd = 2, kTycho = 3 };  // 0: none
 
 // Kind, region and number begin at these of the 32 bits; region and number are those of a Tycho
 // star, whose component less 1 is in the two lowest bits.
 constexpr int kKindBit = 30, kRegionBit = 16, kNumberBit = 2;
-constexpr StarId kLargest = (1u << kKindBit) - 1;
-constexpr std::uint32_t kRegions = 9537, kNumbers = 12121, kComponents = 4;
+constexpr StarId kLargestNumber = (1u << kKindBit) - 1;
+constexpr std::uint32_t kRegions = 9537, kNumbersInRegion = 12121, kComponents = 4;
 
-constexpr StarId of_kind(Kind kind, std::uint32_t number) { return (kind << kKindBit) | number; }
+constexpr StarId of_kind(Kind kind, std::uint32_t number) {
+  return (static_cast<std::uint32_t>(kind) << kKindBit) | number;
+}
 
 // Returns the numbers of a text such as "5949-2777-1", or nothing if there is anything else in it.
 std::vector<std::uint32_t> numbers_of(std::string_view text) {
@@ -24,7 +26,7 @@ std::vector<std::uint32_t> numbers_of(std::string_view text) {
   for (;;) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || value == 0 || value > kLargest) return {};
+    if (error != std::errc() || value == 0 || value > kLargestNumber) return {};
     numbers.push_back(value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     if (text.empty()) return numbers;
@@ -35,20 +37,20 @@ std::vector<std::uint32_t> numbers_of(std::string_view text) {
 
 }  // namespace
 
-StarId hipparcos_id(std::uint32_t number) { return of_kind(kHip, number); }
-StarId henry_draper_id(std::uint32_t number) { return of_kind(kHd, number); }
+StarId hipparcos_id(std::uint32_t number) { return of_kind(Kind::kHip, number); }
+StarId henry_draper_id(std::uint32_t number) { return of_kind(Kind::kHd, number); }
 StarId tycho_id(std::uint32_t region, std::uint32_t number, std::uint32_t component) {
-  return of_kind(kTycho, region << kRegionBit | number << kNumberBit | (component - 1));
+  return of_kind(Kind::kTycho, region << kRegionBit | number << kNumberBit | (component - 1));
 }
 
 std::string star_id_name(StarId id) {
-  const StarId number = id & kLargest;
-  switch (id >> kKindBit) {
-    case kHip:
+  const StarId number = id & kLargestNumber;
+  switch (Kind(id >> kKindBit)) {
+    case Kind::kHip:
       return fmt::format("HIP {}", number);
-    case kHd:
+    case Kind::kHd:
       return fmt::format("HD {}", number);
-    case kTycho:
+    case Kind::kTycho:
       return fmt::format("TYC {}-{}-{}", number >> kRegionBit,
                          (number >> kNumberBit) & ((1u << (kRegionBit - kNumberBit)) - 1),
                          (number & (kComponents - 1)) + 1);
@@ -61,13 +63,14 @@ std::optional<StarId> parse_star_id(std::string_view text) {
   std::string folded;
   for (const char c : text)
     if (c != ' ') folded.push_back(static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c));
-  for (const auto& [prefix, kind] :
-       {std::pair<std::string_view, Kind>{"HIP", kHip}, {"HD", kHd}, {"TYC", kTycho}}) {
+  for (const auto& [prefix, kind] : {std::pair<std::string_view, Kind>{"HIP", Kind::kHip},
+                                     {"HD", Kind::kHd},
+                                     {"TYC", Kind::kTycho}}) {
     if (!folded.starts_with(prefix)) continue;
     const auto numbers = numbers_of(std::string_view(folded).substr(prefix.size()));
-    if (kind != kTycho && numbers.size() == 1) return of_kind(kind, numbers[0]);
-    if (kind == kTycho && numbers.size() == 3 && numbers[0] <= kRegions && numbers[1] <= kNumbers &&
-        numbers[2] <= kComponents)
+    if (kind != Kind::kTycho && numbers.size() == 1) return of_kind(kind, numbers[0]);
+    if (kind == Kind::kTycho && numbers.size() == 3 && numbers[0] <= kRegions &&
+        numbers[1] <= kNumbersInRegion && numbers[2] <= kComponents)
       return tycho_id(numbers[0], numbers[1], numbers[2]);
   }
   return std::nullopt;

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 // The angle from the hole at which an observer at rest at `at` sees light of impact parameter b.
 double angle_of(double at, double b) { return std::asin(b * std::sqrt(1 - 2 / at) / at); }
@@ -37,8 +37,8 @@ TEST(DiscShift, EdgeOnLimbsApproachAndRecede) {
     const double b = r / std::sqrt(1 - 2 / r), still = 1 / std::sqrt(1 - 3 / r);
     const double delta = angle_of(at, b);
     const double turned = b * std::pow(r, -1.5);
-    const double left = shift_at_rest(at, delta, kPi / 2, normal_at(kPi / 2), r);
-    const double right = shift_at_rest(at, delta, -kPi / 2, normal_at(kPi / 2), r);
+    const double left = shift_at_rest(at, delta, kHalfTurn / 2, normal_at(kHalfTurn / 2), r);
+    const double right = shift_at_rest(at, delta, -kHalfTurn / 2, normal_at(kHalfTurn / 2), r);
     EXPECT_NEAR(std::min(left, right), still * (1 - turned) * blue, 1e-8);
     EXPECT_NEAR(std::max(left, right), still * (1 + turned) * blue, 1e-8);
     // The normal n = -Theta: gas at chi = 90 degrees, at +Phi, moves along n x Phi = -R, away.
@@ -78,14 +78,15 @@ TEST(DiscShift, IsTheProductOfRayAndMotion) {
   };
   for (int k = 0; k < 2000; ++k) {
     const double r = uniform(2.001, 12), at = uniform(0.5, 30);
-    const NullRay view = ray_at(at, uniform(0, kPi));
-    const V3d tangent = tangent_at(uniform(0, 2 * kPi)), normal = normal_at(uniform(0, kPi));
+    const NullRay view = ray_at(at, uniform(0, kHalfTurn));
+    const V3d tangent = tangent_at(uniform(0, 2 * kHalfTurn)),
+              normal = normal_at(uniform(0, kHalfTurn));
     const DiscRay ray = disc_ray(invariants(view), kPlace, tangent, normal);
     const double f = 1 - 2 / r;
     // Only light with E > 0 that can be at r at all comes from there.
     if (!(ray.energy * ray.energy > f * std::pow(ray.angular_momentum / r, 2)) || ray.energy < 0)
       continue;
-    const double psi = first_crossing(kPlace, tangent, normal) + (k % 3) * kPi;
+    const double psi = first_crossing(kPlace, tangent, normal) + (k % 3) * kHalfTurn;
     const bool outward = k % 2 == 0;
     Four gas{};
     if (r >= 6) {

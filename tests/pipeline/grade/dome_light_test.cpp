@@ -209,7 +209,7 @@ TEST(DomeCodes, AreTheSameForAnySplitIntoRows) {
 
 // ---- the displays of configurations ----
 
-GradeSettings shipped(Light light, const std::string& display, const std::string& view = "") {
+GradeSettings shipped_for(Light light, const std::string& display, const std::string& view = "") {
   GradeSettings settings;
   settings.config = source_file("shows/assets/dome.ocio");
   settings.shipped = true;
@@ -227,7 +227,7 @@ TEST(DomeLight, FollowsThePowerOfTheDisplay) {
                                        {"Dome G2.4 Rec.709", 2.4},
                                        {"Dome G2.6 P3-D65", 2.6},
                                        {"Dome G2.6 DCI-P3", 2.6}}) {
-    const Grader grader(shipped(Light::kSimulate, display));
+    const Grader grader(shipped_for(Light::kSimulate, display));
     GradedFrame even(16, 16);
     std::fill(even.pixels.begin(), even.pixels.end(), static_cast<unsigned short>(20000));
     ASSERT_TRUE(grader.dome_light());
@@ -239,12 +239,12 @@ TEST(DomeLight, FollowsThePowerOfTheDisplay) {
 
 TEST(DomeLight, CanBeHadWithAllDisplaysThatAreShipped) {
   for (const char* display : {"Dome G2.4 Rec.2020", "sRGB - Display", "Rec.1886 Rec.709 - Display"})
-    EXPECT_TRUE(Grader(shipped(Light::kCompensate, display)).dome_light()) << display;
+    EXPECT_TRUE(Grader(shipped_for(Light::kCompensate, display)).dome_light()) << display;
 }
 
 TEST(DomeLight, IsAPartOfTheGradesName) {
   const auto id = [](Light light, double reflectance) {
-    GradeSettings settings = shipped(light, "Dome G2.2 Rec.709");
+    GradeSettings settings = shipped_for(light, "Dome G2.2 Rec.709");
     settings.dome.reflectance = reflectance;
     return Grader(settings).transform_id();
   };
@@ -256,7 +256,7 @@ TEST(DomeLight, IsAPartOfTheGradesName) {
 
 TEST(DomeLight, NeedsAViewWhoseCodesAreADisplays) {
   try {
-    Grader grader(shipped(Light::kSimulate, "Dome G2.2 Rec.709", "Raw"));
+    Grader grader(shipped_for(Light::kSimulate, "Dome G2.2 Rec.709", "Raw"));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what())

@@ -20,11 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr int kWidth = 5, kHeight = 3;
+constexpr int kFrameWidth = 5, kFrameHeight = 3;
 constexpr std::array kNames{"f.exr", "f.png", "f.tif", "f.jpg"};
 
 WantedFrame wanted_frame() {
-  return {"0123456789abcdef0123456789abcdef", "A fall", "domemaster", kWidth, kHeight};
+  return {"0123456789abcdef0123456789abcdef", "A fall", "domemaster", kFrameWidth, kFrameHeight};
 }
 
 class FrameConditions : public TestFolder {

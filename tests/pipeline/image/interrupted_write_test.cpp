@@ -23,10 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCannotTry = 77;
+constexpr int kNotTried = 77;
 
 // Runs `body` in a process of its own and returns its exit code.
-int in_a_child(const std::function<int()>& body) {
+int exit_code_of_child(const std::function<int()>& body) {
   const pid_t child = fork();
   if (child == 0) _exit(body());
   int status = 0;
@@ -36,7 +36,7 @@ int in_a_child(const std::function<int()>& body) {
 
 // Nobody's pixels: noise that no compression makes to fit.
 template <class Frame>
-Frame noise(int side) {
+Frame noise_frame(int side) {
   Frame frame(side, side);
   unsigned state = 1;
   for (auto& value : frame.pixels) {
@@ -75,11 +75,12 @@ TEST_F(InterruptedWrite, OnAFullDiskLeavesTheOldFileAndMayBeTriedAgain) {
     fails_on_a_full_disk(file(".txt"), [](const fs::path& path) {
       write_atomically(path, std::string(1 << 20, 'n'));
     });
-    fails_on_a_full_disk(
-        file(".exr"), [](const fs::path& path) { write_frame(path, noise<HalfFrame>(400), {}); });
+    fails_on_a_full_disk(file(".exr"), [](const fs::path& path) {
+      write_frame(path, noise_frame<HalfFrame>(400), {});
+    });
     for (const char* kind : {".png", ".tif", ".jpg"})
       fails_on_a_full_disk(file(kind), [](const fs::path& path) {
-        write_graded(path, noise<GradedFrame>(600), {}, format_by_name(path));
+        write_graded(path, noise_frame<GradedFrame>(600), {}, format_by_name(path));
       });
   }).join();
   if (!mounted) GTEST_SKIP() << "no file system can be mounted here";
@@ -88,8 +89,8 @@ TEST_F(InterruptedWrite, OnAFullDiskLeavesTheOldFileAndMayBeTriedAgain) {
 
 TEST_F(InterruptedWrite, WithoutPermissionMayBeTriedElsewhere) {
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
-  const int result = in_a_child([this] {
-    if (geteuid() == 0 && setuid(65534) != 0) return kCannotTry;  // root may write anywhere
+  const int result = exit_code_of_child([this] {
+    if (geteuid() == 0 && setuid(65534) != 0) return kNotTried;  // root may write anywhere
     try {
       write_atomically(file(".exr"), "contents");
       return 1;
@@ -98,7 +99,7 @@ TEST_F(InterruptedWrite, WithoutPermissionMayBeTriedElsewhere) {
     }
   });
   fs::permissions(folder_, fs::perms::owner_all);
-  if (result == kCannotTry) GTEST_SKIP() << "root, and cannot become another user";
+  if (result == kNotTried) GTEST_SKIP() << "root, and cannot become another user";
   EXPECT_EQ(result, 0);
 }
 
@@ -133,7 +134,7 @@ TEST_F(InterruptedWrite, KilledLeavesAWholeFileAndATemporaryThatIsSwept) {
 
 TEST_F(InterruptedWrite, SweepingNeverLooksIntoFoldersBelow) {
   fs::create_directory(folder_ / "below");
-  in_a_child([this] {
+  exit_code_of_child([this] {
     const TemporaryFile file(folder_ / "below" / "a.exr");
     _exit(0);  // as a kill: nothing is cleaned up
     return 0;

@@ -14,13 +14,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kWidth = 300, kHeight = 200;
+constexpr int kPictureWidth = 300, kPictureHeight = 200;
 
 class OtherProgram : public TestFolder {
  protected:
   template <class Frame>
   static Frame gradient() {
-    Frame frame(kWidth, kHeight);
+    Frame frame(kPictureWidth, kPictureHeight);
     for (std::size_t k = 0; k < frame.pixels.size(); ++k)
       frame.pixels[k] = static_cast<unsigned short>(k * 7 % 60000);
     return frame;
@@ -30,7 +30,8 @@ class OtherProgram : public TestFolder {
   std::filesystem::path theirs(const char* name, OIIO::TypeDesc type, const void* pixels) const {
     const auto file = folder_ / name;
     const auto out = OIIO::ImageOutput::create(file.string());
-    EXPECT_TRUE(out && out->open(file.string(), OIIO::ImageSpec(kWidth, kHeight, 3, type)) &&
+    EXPECT_TRUE(out &&
+                out->open(file.string(), OIIO::ImageSpec(kPictureWidth, kPictureHeight, 3, type)) &&
                 out->write_image(type, pixels) && out->close());
     return file;
   }
@@ -88,7 +89,7 @@ TEST_F(OtherProgram, SeesNoTraceOfOurThreadsOrOurClock) {
 TEST_F(OtherProgram, WritesNoFrameThatWeWouldKeepOrReplace) {
   const auto half = gradient<HalfFrame>();
   const auto exr = theirs("f.exr", OIIO::TypeDesc::HALF, half.pixels.data());
-  const WantedFrame wanted{"", "", "", kWidth, kHeight};
+  const WantedFrame wanted{"", "", "", kPictureWidth, kPictureHeight};
   EXPECT_EQ(examine_frame(exr, wanted), FrameCondition::kOther);
   EXPECT_THAT([&] { read_frame(exr); },
               testing::ThrowsMessage<InputError>(HasSubstr(exr.string())));
@@ -105,7 +106,7 @@ TEST_F(OtherProgram, SeesOnlyTheKeyWeMeantWhateverTheTitle) {
   info.title = "x\nkey: 00\rkey: 11";
   info.key = "22";
   write_graded(folder_ / "g.tif", gradient<GradedFrame>(), info, {GradedKind::kTiff16});
-  WantedFrame wanted{"22", info.title, "", kWidth, kHeight};
+  WantedFrame wanted{"22", info.title, "", kPictureWidth, kPictureHeight};
   EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kGood);
   wanted.key = "00";
   EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kOlder);

@@ -52,7 +52,7 @@ std::string card(const std::string& key, const std::string& value) {
   return padded + "= " + value;
 }
 
-std::string big_endian(float value) {
+std::string fits_bytes(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   std::string out;
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(bits >> shift & 0xff);
@@ -80,7 +80,7 @@ std::string healpix_file(const std::string& ordering, const std::vector<std::str
     for (int sign : {1, -1})
       for (int k = 0; k < 16; ++k) {
         const int pixel = 16 * row + k;
-        data += big_endian(pixel == 3 ? -1.6375e30f : static_cast<float>(sign * pixel));
+        data += fits_bytes(pixel == 3 ? -1.6375e30f : static_cast<float>(sign * pixel));
       }
   data.resize(kBlock, 0);
   return block(

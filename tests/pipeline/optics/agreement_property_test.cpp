@@ -75,7 +75,7 @@ rc::Gen<Aim> aims() {
                       });
 }
 
-RayRequest request_of(const Place& place, const Aim& aim) {
+RayRequest request_for(const Place& place, const Aim& aim) {
   RayRequest q;
   q.observer = place.observer;
   q.at = Radius(place.r);
@@ -163,7 +163,7 @@ TEST(Agreement, OfTableIntegralAndIntegratorForAHundredThousandRandomRays) {
   EXPECT_TRUE(rc::check([&compared] {
     const Place place = *places();
     const auto fan = *rc::gen::container<std::vector<Aim>>(kRaysEach, aims());
-    for (const Aim& aim : fan) expect_agreement(request_of(place, aim), compared);
+    for (const Aim& aim : fan) expect_agreement(request_for(place, aim), compared);
   }));
   EXPECT_GE(compared.by_table, 99 * kRaysEach);
   EXPECT_GE(compared.by_integrator, 100 * kRaysEach * 2 / 3);

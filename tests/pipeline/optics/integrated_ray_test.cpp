@@ -43,7 +43,7 @@ std::string origin_name(std::optional<SkyRegion> origin) {
   return origin ? name_of(*origin) : "undecided";
 }
 
-std::string place(const ReferenceRay& row) {
+std::string row_text(const ReferenceRay& row) {
   return row.observer + " r=" + std::to_string(row.r) + " delta=" + std::to_string(row.delta) +
          " " + row.edge + " " + std::to_string(row.offset);
 }
@@ -82,8 +82,8 @@ TEST_P(EachIntegrator, FindsOriginAndAzimuthOfEveryReferenceRay) {
     ASSERT_GT(rows.size(), 400u);
     for (const ReferenceRay& row : rows) {
       const IntegratedRay ray = follow(photon_of(row.observer, row.r, row.delta), tolerance);
-      ASSERT_EQ(origin_name(ray.origin), row.origin) << place(row);
-      EXPECT_NEAR(ray.phi, row.phi, allowed_error(row, tolerance)) << place(row);
+      ASSERT_EQ(origin_name(ray.origin), row.origin) << row_text(row);
+      EXPECT_NEAR(ray.phi, row.phi, allowed_error(row, tolerance)) << row_text(row);
     }
   }
 }

@@ -13,14 +13,14 @@ namespace {
 constexpr double kRadii[] = {1e-6, 1e-3, 0.05, 0.5, 1,   1.5, 1.999, 2 - 1e-9, 2,   2 + 1e-12,
                              2.5,  2.9,  3,    3.1, 6.0, 10,  30.0,  1e3,      1e5, 1e8};
 
-struct Case {
+struct TableCase {
   double r;
   Critical edge;
   bool outgoing = false;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<TableCase> table_cases() {
+  std::vector<TableCase> all;
   for (double r : kRadii) {
     all.push_back({r, Critical::kFirst});
     if (r < 2) all.push_back({r, Critical::kSecond});
@@ -29,14 +29,14 @@ std::vector<Case> cases() {
   return all;
 }
 
-double exact_at(const Case& c, double x) {
+double exact_at(const TableCase& c, double x) {
   const double sign = c.edge == Critical::kFirst ? 1 : -1;
   return exact_azimuth(ray_off_edge(c.r, c.edge, sign * 4 * std::atan(x / 2), {c.outgoing, false}));
 }
 
 TEST(SkyTable, AgreesWithTheExactIntegralFromTheEdgeToTheFarEnd) {
   std::mt19937_64 random(7);
-  for (const Case& c : cases()) {
+  for (const TableCase& c : table_cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
     EXPECT_LE(table.node_count(), 1024u);
     std::uniform_real_distribution<double> decade(-13, 0);
@@ -59,7 +59,7 @@ TEST(SkyTable, ContinuesLogarithmicallyBelowItsRange) {
 }
 
 TEST(SkyTable, SlopeIsTheDerivativeOfTheExactIntegral) {
-  for (const Case& c : cases()) {
+  for (const TableCase& c : table_cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
     for (double part : {1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9}) {
       const double x = part * table.x_max(), h = 1e-3 * x;
@@ -74,7 +74,7 @@ TEST(SkyTable, SlopeIsTheDerivativeOfTheExactIntegral) {
 
 TEST(SkyTable, InverseReturnsToTheSameRay) {
   std::mt19937_64 random(8);
-  for (const Case& c : cases()) {
+  for (const TableCase& c : table_cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
     std::uniform_real_distribution<double> turns(0, 25);
     for (int k = 0; k < 500; ++k) {
@@ -86,7 +86,7 @@ TEST(SkyTable, InverseReturnsToTheSameRay) {
 }
 
 TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
-  for (const Case& c : cases()) {
+  for (const TableCase& c : table_cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
     EXPECT_TRUE(table.curve().is_monotone(table.x_max())) << "r=" << c.r;
     double previous = 1e300;
@@ -99,7 +99,7 @@ TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
 }
 
 TEST(SkyTable, TheFarEndIsUndeflected) {
-  for (const Case& c : cases()) {
+  for (const TableCase& c : table_cases()) {
     const SkyTable table(c.r, c.edge, c.outgoing);
     EXPECT_NEAR(table.azimuth(table.x_max()), 0, 1e-9) << c.r;
   }

@@ -20,14 +20,15 @@ double alpha_of_image(const TetradDirection& d, bool outgoing) {
   return std::atan2(std::hypot(d.v.y, d.v.z), outgoing ? d.v.x : -d.v.x);
 }
 
-struct Place {
+struct StarPlace {
   double r;
   bool outgoing;
 };
 
 TEST(WhiteHoleImages, StandWhereTheExactIntegralSaysWithItsAmplification) {
-  for (const Place& p : {Place{0.5, false}, Place{1.9, false}, Place{2.5, false}, Place{20, false},
-                         Place{0.5, true}, Place{1.9, true}, Place{2.5, true}, Place{20, true}}) {
+  for (const StarPlace& p :
+       {StarPlace{0.5, false}, StarPlace{1.9, false}, StarPlace{2.5, false}, StarPlace{20, false},
+        StarPlace{0.5, true}, StarPlace{1.9, true}, StarPlace{2.5, true}, StarPlace{20, true}}) {
     const WhiteHoleTable table(p.r, p.outgoing);
     for (const double phi_star : {0.3, 1.2, 2.5})
       for (int order = 0; order < 5; ++order) {

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-std::vector<Case> cases() {
+std::vector<Case> white_hole_cases() {
   std::vector<Case> all;
   for (const long double r :
        {1e-6L,     1e-3L,      0.05L,      0.5L,       1.0L,       1.7L,      1.999L,
@@ -26,7 +26,7 @@ std::vector<Case> cases() {
 }
 
 TEST(WhiteHoleTable, AgreesWithTheExactIntegral) {
-  for (const Case& c : cases()) {
+  for (const Case& c : white_hole_cases()) {
     const WhiteHoleTable table(c.at, c.outgoing);
     EXPECT_LE(table.node_count(), 1024u) << name(c);
     Rays rays(c, 5);
@@ -47,7 +47,7 @@ TEST(WhiteHoleTable, AgreesWithTheExactIntegral) {
 }
 
 TEST(WhiteHoleTable, SlopeIsThatOfTheExactIntegral) {
-  for (const Case& c : cases()) {
+  for (const Case& c : white_hole_cases()) {
     const WhiteHoleTable table(c.at, c.outgoing);
     Rays rays(c, 6);
     for (int k = 0; k < 300; ++k) {
@@ -63,7 +63,7 @@ TEST(WhiteHoleTable, SlopeIsThatOfTheExactIntegral) {
 }
 
 TEST(WhiteHoleTable, EveryRayIsAmongThoseOfItsAzimuth) {
-  for (const Case& c : cases()) {
+  for (const Case& c : white_hole_cases()) {
     const WhiteHoleTable table(c.at, c.outgoing);
     Rays rays(c, 7);
     for (int k = 0; k < 300; ++k) {
@@ -117,7 +117,7 @@ std::vector<NullRay> fan(const Case& c) {
 }
 
 TEST(WhiteHoleTable, BranchesAreMonotone) {
-  for (const Case& c : cases()) {
+  for (const Case& c : white_hole_cases()) {
     if (c.at.above_horizon == 0) continue;  // E = 0 is on the axis
     const WhiteHoleTable table(c.at, c.outgoing);
     // Proven interval by interval, but for those next to E = 0, where the slope vanishes.
@@ -138,7 +138,7 @@ TEST(WhiteHoleTable, BranchesAreMonotone) {
 }
 
 TEST(WhiteHoleTable, GoesOnByItsLawsBelowItsRange) {
-  for (const Case& c : cases()) {
+  for (const Case& c : white_hole_cases()) {
     if (std::abs(c.at.above_horizon) < 1e-12) continue;  // the edges themselves are below 1e-12
     const WhiteHoleTable table(c.at, c.outgoing);
     const auto check = [&](const NullRay& ray) {

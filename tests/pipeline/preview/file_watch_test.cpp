@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kLong = 60'000, kShort = 20;  // milliseconds
+constexpr int kLongWait = 60'000, kShort = 20;  // milliseconds
 
 void write(const std::filesystem::path& file, const char* text) { std::ofstream(file) << text; }
 
@@ -20,11 +20,11 @@ TEST(FileWatch, SeesAFileThatIsWrittenAndOneThatTakesItsPlace) {
   FileWatch watch(folder / "show.yaml");
   EXPECT_FALSE(watch.wait(kShort));
   write(folder / "show.yaml", "two");
-  EXPECT_TRUE(watch.wait(kLong));
+  EXPECT_TRUE(watch.wait(kLongWait));
   write(folder / "show.yaml~", "three");
   EXPECT_FALSE(watch.wait(kShort)) << "another file";
   std::filesystem::rename(folder / "show.yaml~", folder / "show.yaml");
-  EXPECT_TRUE(watch.wait(kLong));
+  EXPECT_TRUE(watch.wait(kLongWait));
   EXPECT_FALSE(watch.wait(kShort));
 }
 
@@ -34,7 +34,7 @@ TEST(FileWatch, SeesWhatALinkLeadsTo) {
   std::filesystem::create_symlink(other / "target.yaml", folder / "show.yaml");
   FileWatch watch(folder / "show.yaml");
   write(other / "target.yaml", "two");
-  EXPECT_TRUE(watch.wait(kLong));
+  EXPECT_TRUE(watch.wait(kLongWait));
 }
 
 TEST(FileWatch, SaysWhereItCannotWatch) {

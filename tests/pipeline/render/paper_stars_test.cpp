@@ -11,13 +11,13 @@ constexpr double kMilliarcsecond = kOneDegree / 3.6e6;
 double edge_from_rest(double r) { return std::asin(3 * std::sqrt(3) / r * std::sqrt(1 - 2 / r)); }
 
 // The side of the middle on which a star is: +1 right or below, -1 left or above, 0 for any.
-struct Place {
+struct StarInPanel {
   const char* star;
   int x, y;
 };
 
-void expect_quadrants(const Panel& panel, std::initializer_list<Place> places) {
-  for (const Place& p : places) {
+void expect_quadrants(const Panel& panel, std::initializer_list<StarInPanel> places) {
+  for (const StarInPanel& p : places) {
     const V3d n = panel.image(star(p.star), 0);
     EXPECT_TRUE(panel.shows(n)) << p.star << n;
     if (p.x) {

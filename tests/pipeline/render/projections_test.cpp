@@ -71,7 +71,8 @@ struct Compared {
   double different = 0, mean = 0;
 };
 
-Compared compare(const WholeSphere& sphere, const FloatImage& image, const Projection& p) {
+Compared compare_with_sphere(const WholeSphere& sphere, const FloatImage& image,
+                             const Projection& p) {
   Compared found;
   int count = 0;
   for (int row = 0; row < rows(p); ++row) {
@@ -133,7 +134,7 @@ TEST(PicturesInEveryProjection, AreThoseOfDomes) {
     state.projection = p;
     FloatImage image;
     Renderer(own, 2).render(state, image);
-    const Compared found = compare(sphere, image, p);
+    const Compared found = compare_with_sphere(sphere, image, p);
     EXPECT_LT(found.mean, 0.01) << projection_name(p);
     EXPECT_LT(found.different, 0.03) << projection_name(p);
   }

@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-bool same_bytes(const HalfFrame& a, const HalfFrame& b) {
+bool equal_bytes(const HalfFrame& a, const HalfFrame& b) {
   return a.pixels.size() == b.pixels.size() &&
          std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof a.pixels[0]) == 0;
 }
@@ -27,7 +27,7 @@ TEST(Renderer, AFrameIsTheSameBytesForAnyNumberOfThreadsAloneOrInARun) {
   for (const int frame : {3, 14, 15, 29}) {
     const HalfFrame in_run = run.render(frame_state(show, frame));
     for (const int threads : {1, 2, 5}) {
-      EXPECT_TRUE(same_bytes(in_run, Renderer(show, threads).render(frame_state(show, frame))))
+      EXPECT_TRUE(equal_bytes(in_run, Renderer(show, threads).render(frame_state(show, frame))))
           << "frame " << frame << ", " << threads << " threads";
     }
   }
@@ -47,7 +47,7 @@ TEST(Renderer, AFrameOfFloatsIsTheOneOfHalvesBeforeItIsRounded) {
     EXPECT_GT(*std::max_element(full.pixels.begin(), full.pixels.end()), 1e5f);
     const HalfFrame halves = renderer.render(state), rounded = half_frame(full);
     if (shutter == 0) {
-      EXPECT_TRUE(same_bytes(halves, rounded));
+      EXPECT_TRUE(equal_bytes(halves, rounded));
       continue;
     }
     ASSERT_EQ(halves.pixels.size(), rounded.pixels.size());

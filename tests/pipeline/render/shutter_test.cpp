@@ -18,7 +18,7 @@ Show turning(double degrees, const Projection& projection) {
   return show;
 }
 
-double light(const HalfFrame& frame, const Projection& p) {
+double light_of_frame(const HalfFrame& frame, const Projection& p) {
   double sum = 0;
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x)
@@ -30,21 +30,21 @@ double brightest(const HalfFrame& frame) {
   return *std::max_element(frame.pixels.begin(), frame.pixels.end());
 }
 
-HalfFrame frame_of(const Show& show, int frame, StageTimes* times = nullptr) {
+HalfFrame frame_numbered(const Show& show, int frame, StageTimes* times = nullptr) {
   return Renderer(show, 2).render(frame_state(show, frame), times);
 }
 
 TEST(Shutter, StreaksWithoutLosingLight) {
   const Projection p = Domemaster{512};
   Show show = turning(8, p);
-  const HalfFrame still = frame_of(show, 10);
+  const HalfFrame still = frame_numbered(show, 10);
   show.exposure.shutter = 0.5;
   StageTimes times;
-  const HalfFrame streaked = frame_of(show, 10, &times);
+  const HalfFrame streaked = frame_numbered(show, 10, &times);
   // The rim is 256 pixels from the zenith, and a turn by 4 degrees moves it by 17.9 pixels.
   EXPECT_NEAR(times.instants, 17.9 / kPixelsPerInstant, 2);
   // A blob on the rim is cut off by its staircase of pixels, elsewhere at each instant.
-  EXPECT_NEAR(light(streaked, p) / light(still, p), 1, 6e-3);
+  EXPECT_NEAR(light_of_frame(streaked, p) / light_of_frame(still, p), 1, 6e-3);
   EXPECT_LT(brightest(streaked), 0.6 * brightest(still));
 }
 
@@ -53,7 +53,7 @@ TEST(Shutter, TakesAsManyInstantsAsTheMotionNeeds) {
   const Projection p = Domemaster{256};
   Show show = turning(6, p);
   show.exposure.shutter = 1;
-  const HalfFrame streaked = frame_of(show, 10);
+  const HalfFrame streaked = frame_numbered(show, 10);
   Show instant = show;
   instant.exposure.shutter = 0;
   Renderer renderer(instant, 2);
@@ -69,10 +69,10 @@ TEST(Shutter, TakesAsManyInstantsAsTheMotionNeeds) {
 
 TEST(Shutter, OfAStillViewTakesOneInstant) {
   Show show = turning(0, Domemaster{256});
-  const HalfFrame closed = frame_of(show, 3);
+  const HalfFrame closed = frame_numbered(show, 3);
   show.exposure.shutter = 1;
   StageTimes times;
-  const HalfFrame open = frame_of(show, 3, &times);
+  const HalfFrame open = frame_numbered(show, 3, &times);
   EXPECT_EQ(times.instants, 1);
   EXPECT_TRUE(std::equal(open.pixels.begin(), open.pixels.end(), closed.pixels.begin()));
 }
@@ -87,9 +87,9 @@ TEST(Shutter, OfADissolveTakesWhatTheFasterPartNeeds) {
   show.timeline.push_back(still);
   show.exposure.shutter = 0.5;
   StageTimes times;
-  frame_of(show, 20, &times);  // in the middle of the dissolve
+  frame_numbered(show, 20, &times);  // in the middle of the dissolve
   EXPECT_GT(times.instants, 5);
-  frame_of(show, 40, &times);  // after the dissolve
+  frame_numbered(show, 40, &times);  // after the dissolve
   EXPECT_EQ(times.instants, 1);
 }
 

@@ -122,7 +122,7 @@ TEST_P(SimdLoops, SamplesTheSameInSkyMaps) {
   }
 }
 
-std::vector<Trajectory> observers() {
+std::vector<Trajectory> loop_trajectories() {
   return {StaticObserver{3},
           StaticObserver{1e7},
           StaticObserver{},
@@ -156,7 +156,7 @@ Bytes rays_of(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
 
 TEST_P(SimdLoops, TracesTheSameRays) {
   std::mt19937 random(4);
-  for (const Trajectory& trajectory : observers()) {
+  for (const Trajectory& trajectory : loop_trajectories()) {
     const Show show = show_of(trajectory, Domemaster{64});
     const FrameState state = frame_state(show, 0);
     const HoleOptics optics =
@@ -209,7 +209,7 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
 TEST_P(SimdLoops, FindsTheSameImagesOfStars) {
   const SceneStars stars = random_stars(2000);
   std::size_t bytes = 0;
-  for (const Trajectory& trajectory : observers())
+  for (const Trajectory& trajectory : loop_trajectories())
     bytes += compare("observer " + std::to_string(trajectory.index()),
                      [&] { return images_at(trajectory, stars); });
   EXPECT_GT(bytes, 10000 * sizeof(StarImage));
@@ -248,7 +248,7 @@ Bytes views_of(const StarFrame& frame, const SkyTable* lens, const SceneStars& s
 
 TEST_P(SimdLoops, BendsTheSameLight) {
   const SceneStars stars = random_stars(3 * kStarBatch);
-  for (const Trajectory& trajectory : observers()) {
+  for (const Trajectory& trajectory : loop_trajectories()) {
     const FrameState state = frame_state(show_of(trajectory, Domemaster{64}), 0);
     const ObserverState& o = state.observer;
     const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});

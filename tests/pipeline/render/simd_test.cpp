@@ -128,7 +128,7 @@ std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
                                 grid, grid, RingsSky{})}};
 }
 
-Bytes frame_of(const Show& show) {
+Bytes bytes_of_frame(const Show& show) {
   const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
   Bytes bytes;
   bytes.add(frame.pixels.data(), frame.pixels.size());
@@ -137,12 +137,12 @@ Bytes frame_of(const Show& show) {
 
 TEST_P(SimdFrames, MakesTheSameDomes) {
   for (const auto& [name, show] : scenes(Domemaster{200}))
-    compare(name, [&show = show] { return frame_of(show); });
+    compare(name, [&show = show] { return bytes_of_frame(show); });
 }
 
 TEST_P(SimdFrames, MakesTheSameFlatImages) {
   for (const auto& [name, show] : scenes(Stereographic{250, 141, 100 * kDegree}))
-    compare(name, [&show = show] { return frame_of(show); });
+    compare(name, [&show = show] { return bytes_of_frame(show); });
 }
 
 // Which have loops of their own for directions and caps, so that one scene is enough.
@@ -152,7 +152,7 @@ TEST_P(SimdFrames, MakesTheSamePicturesInOtherProjections) {
         Projection(Rectilinear{96, 64, 120 * kDegree})}) {
     Show show = scenes(p).front().second;
     show.sky[SkyRegion::kI].stars->max_magnitude = 4;
-    compare(std::string(projection_name(p)), [&show] { return frame_of(show); });
+    compare(std::string(projection_name(p)), [&show] { return bytes_of_frame(show); });
   }
 }
 

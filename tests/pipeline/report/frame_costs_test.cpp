@@ -13,7 +13,8 @@ const FrameCosts& quick_costs() {
   return costs;
 }
 
-std::vector<FrameCostRow> rows(const std::vector<double>& stars, const std::vector<double>& ms) {
+std::vector<FrameCostRow> cost_rows(const std::vector<double>& stars,
+                                    const std::vector<double>& ms) {
   std::vector<FrameCostRow> made;
   for (std::size_t k = 0; k < stars.size(); ++k)
     made.push_back({"a sky", 1, 1, stars[k], 1e-3 * ms[k], 1});
@@ -21,8 +22,8 @@ std::vector<FrameCostRow> rows(const std::vector<double>& stars, const std::vect
 }
 
 TEST(CostSlopes, AreBetweenNeighbouringRowsOfAScene) {
-  std::vector<FrameCostRow> both = rows({1000, 2000, 4000}, {1, 2, 6});
-  for (FrameCostRow row : rows({10, 20}, {5, 6})) row.scene = "another", both.push_back(row);
+  std::vector<FrameCostRow> both = cost_rows({1000, 2000, 4000}, {1, 2, 6});
+  for (FrameCostRow row : cost_rows({10, 20}, {5, 6})) row.scene = "another", both.push_back(row);
   const std::vector<CostSlope> found = slopes(both, &FrameCostRow::stars);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_NEAR(found[0].ns, 1e3, 1e-9);
@@ -36,8 +37,8 @@ TEST(CostSlopes, AreBetweenNeighbouringRowsOfAScene) {
 
 // A rise is measured within a scene, never from one scene to the next.
 TEST(CostSlopes, RiseMostAtACliff) {
-  std::vector<FrameCostRow> both = rows({1, 2, 3, 4, 5}, {1, 2, 3, 13, 14});
-  for (FrameCostRow row : rows({1, 2}, {1, 1000})) row.scene = "another", both.push_back(row);
+  std::vector<FrameCostRow> both = cost_rows({1, 2, 3, 4, 5}, {1, 2, 3, 13, 14});
+  for (FrameCostRow row : cost_rows({1, 2}, {1, 1000})) row.scene = "another", both.push_back(row);
   const auto rise = steepest_rise(slopes(both, &FrameCostRow::stars));
   ASSERT_TRUE(rise);
   EXPECT_NEAR(rise->ratio, 10, 1e-9);
@@ -46,8 +47,8 @@ TEST(CostSlopes, RiseMostAtACliff) {
 }
 
 TEST(CostSlopes, ThatAreNotPositiveHaveNoRatio) {
-  EXPECT_FALSE(steepest_rise(slopes(rows({1, 2, 3}, {1, 1, 2}), &FrameCostRow::stars)));
-  EXPECT_FALSE(steepest_rise(slopes(rows({1, 2}, {1, 2}), &FrameCostRow::stars)));
+  EXPECT_FALSE(steepest_rise(slopes(cost_rows({1, 2, 3}, {1, 1, 2}), &FrameCostRow::stars)));
+  EXPECT_FALSE(steepest_rise(slopes(cost_rows({1, 2}, {1, 2}), &FrameCostRow::stars)));
 }
 
 TEST(FrameCosts, AscendInOneThingAlone) {

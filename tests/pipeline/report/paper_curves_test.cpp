@@ -12,9 +12,9 @@
 namespace domefall {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
-const Plot& plot_of(const std::vector<NamedPlot>& figures, const std::string& name) {
+const Plot& curves_of(const std::vector<NamedPlot>& figures, const std::string& name) {
   return std::find_if(figures.begin(), figures.end(),
                       [&](const NamedPlot& f) { return f.name == name; })
       ->plot;
@@ -48,27 +48,30 @@ TEST(Figures, AreThoseOfThePaperAndEveryPointIsFinite) {
 
 TEST(Figures, TheDeviationVanishesBehindAndPassesFiveHalfTurns) {
   const auto figures = paper_curves();
-  const PlotCurve& curve = curve_of(plot_of(figures, "fig_dev"), "φ_∞(δ)");
-  EXPECT_NEAR(near(curve, kPi), 0, 1e-8);
-  EXPECT_LT(curve.points.front().y, -5.25 * kPi);
+  const PlotCurve& curve = curve_of(curves_of(figures, "fig_dev"), "φ_∞(δ)");
+  EXPECT_NEAR(near(curve, kHalfTurn), 0, 1e-8);
+  EXPECT_LT(curve.points.front().y, -5.25 * kHalfTurn);
   // Far from the hole the curve differs from delta - pi by little more than aberration.
   EXPECT_NEAR(near(curve, 3),
-              (3 - kPi) * std::sqrt((1 - std::sqrt(2 / 30.)) / (1 + std::sqrt(2 / 30.))), 0.02);
+              (3 - kHalfTurn) * std::sqrt((1 - std::sqrt(2 / 30.)) / (1 + std::sqrt(2 / 30.))),
+              0.02);
 }
 
 TEST(Figures, RegionFourAtOneMTurnsWhereTheEnergyVanishes) {
   const auto figures = paper_curves();
-  const PlotCurve& curve = curve_of(plot_of(figures, "dev_wh"), "region IV");
+  const PlotCurve& curve = curve_of(curves_of(figures, "dev_wh"), "region IV");
   double most = -1e300;
   for (const PlotPoint& p : curve.points) most = std::max(most, p.y);
-  EXPECT_NEAR(most, -(2 * kPi - kPi / 2), 1e-4);  // a turn less arcsin(0) + pi/2
+  EXPECT_NEAR(most, -(2 * kHalfTurn - kHalfTurn / 2), 1e-4);  // a turn less arcsin(0) + pi/2
 }
 
 TEST(Figures, RegionFourFromWithinReachesTheArcsine) {
   const auto figures = paper_curves();
-  const Plot& plot = plot_of(figures, "fig_IV_dev");
-  EXPECT_NEAR(near(curve_of(plot, "r = 0.2 M"), kPi / 2), std::asin(-0.8) + kPi / 2, 1e-6);
-  EXPECT_NEAR(near(curve_of(plot, "r = 1.998 M"), kPi / 2), std::asin(0.998) + kPi / 2, 1e-6);
+  const Plot& plot = curves_of(figures, "fig_IV_dev");
+  EXPECT_NEAR(near(curve_of(plot, "r = 0.2 M"), kHalfTurn / 2), std::asin(-0.8) + kHalfTurn / 2,
+              1e-6);
+  EXPECT_NEAR(near(curve_of(plot, "r = 1.998 M"), kHalfTurn / 2), std::asin(0.998) + kHalfTurn / 2,
+              1e-6);
 }
 
 TEST(Plots, AreDrawnAsSvg) {

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 // The catalogue has Sirius and two stars besides.
 class AxisStarWarnings : public ShowFile {

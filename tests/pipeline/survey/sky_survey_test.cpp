@@ -10,8 +10,8 @@
 namespace domefall {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 // Skies of one texel, and a catalogue of a star for each half magnitude from 1 to 12.
 class SkySurveys : public ShowFile {

@@ -22,7 +22,7 @@ constexpr std::array kFormats{
     CatalogueFormat{"csv", "Domefall's CSV", import_csv},
 };
 
-const CatalogueFormat* named(std::string_view name) {
+const CatalogueFormat* format_named(std::string_view name) {
   const auto found = std::find_if(kFormats.begin(), kFormats.end(),
                                   [&](const CatalogueFormat& each) { return each.name == name; });
   return found == kFormats.end() ? nullptr : &*found;
@@ -30,10 +30,10 @@ const CatalogueFormat* named(std::string_view name) {
 
 const CatalogueFormat* guess_folder(const fs::path& folder) {
   std::error_code ignored;
-  if (fs::exists(folder / "tyc2.dat.00", ignored)) return named("tycho2");
+  if (fs::exists(folder / "tyc2.dat.00", ignored)) return format_named("tycho2");
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
        entry.increment(ignored))
-    if (entry->path().extension() == ".cat") return named("stellarium");
+    if (entry->path().extension() == ".cat") return format_named("stellarium");
   return nullptr;
 }
 
@@ -42,20 +42,21 @@ bool is_bar(std::string_view line, std::size_t byte) { return line[byte - 1] == 
 // Tables with fixed columns differ in the lengths of their lines and in what separates columns.
 const CatalogueFormat* guess_table(std::string_view line) {
   constexpr std::size_t kTycho = 206, kSupplement = 122, kAscc = 210, kDraper = 48;
-  if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
-  if (line.size() == kSupplement && is_bar(line, 13) && is_bar(line, 15)) return named("tycho2");
-  if (line.size() == kAscc && line[2] == '.') return named("ascc");
-  if (line.size() == kDraper) return named("hd");
+  if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return format_named("tycho2");
+  if (line.size() == kSupplement && is_bar(line, 13) && is_bar(line, 15))
+    return format_named("tycho2");
+  if (line.size() == kAscc && line[2] == '.') return format_named("ascc");
+  if (line.size() == kDraper) return format_named("hd");
   return nullptr;
 }
 
 const CatalogueFormat* guess_csv(std::string_view line) {
   std::string plain(line);
   std::erase(plain, '"');
-  if (plain.starts_with("id,hip,hd,hr,gl,bf,proper,ra,dec")) return named("hyg");
+  if (plain.starts_with("id,hip,hd,hr,gl,bf,proper,ra,dec")) return format_named("hyg");
   if (plain.starts_with("star,")) return nullptr;  // corrections
   if (plain.find("ra_deg") != std::string::npos && plain.find("v_mag") != std::string::npos)
-    return named("csv");
+    return format_named("csv");
   return nullptr;
 }
 
@@ -69,10 +70,10 @@ const CatalogueFormat* guess_format(const Paths& inputs) {
   if (fs::is_directory(inputs.front(), ignored)) return guess_folder(inputs.front());
   const MappedFile file(require_file(inputs.front()));
   std::string_view bytes = file.bytes();
-  if (bytes.starts_with("\x0a\x04\x5f\x83")) return named("stellarium");
+  if (bytes.starts_with("\x0a\x04\x5f\x83")) return format_named("stellarium");
   while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos)
     bytes.remove_prefix(bytes.find('\n') + 1);
-  if (bytes.starts_with('{')) return named("d3-celestial");
+  if (bytes.starts_with('{')) return format_named("d3-celestial");
   std::string_view line = bytes.substr(0, bytes.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
   const CatalogueFormat* csv = guess_csv(line);

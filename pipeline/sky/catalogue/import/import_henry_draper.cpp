@@ -17,7 +17,7 @@ namespace {
 
 // A line may have lost its trailing blanks; each has something up to the column before the type.
 constexpr std::size_t kShortestLine = 41, kLongestLine = 48;
-constexpr NumberColumn kHd{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 23},
+constexpr NumberColumn kHdNumber{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 23},
     kRaTenths{21, 23, "RAdm", 0, 599}, kDecDegrees{25, 26, "DEd", 0, 90},
     kDecMinutes{27, 28, "DEm", 0, 59}, kVisual{30, 34, "Ptm", -2, 50},
     kPhotographic{37, 41, "Ptg", -2, 50};
@@ -102,9 +102,9 @@ ImportedCatalogue import_henry_draper(const Paths& inputs) {
   for (const std::filesystem::path& input : inputs) {
     FixedColumns line(input, kShortestLine, kLongestLine);
     while (line.next()) {
-      line.required(kHd);
+      line.required(kHdNumber);
       CatalogueStar star;
-      const std::uint32_t hd = line.whole(kHd);
+      const std::uint32_t hd = line.whole(kHdNumber);
       star.id = henry_draper_id(hd);
       star.direction = position(line);
       star.colour = colour_of_spectral_type(line.text(kType));

@@ -22,7 +22,7 @@ std::map<std::string, std::string> chunks_of(const DisplayColour& colour) {
   return chunks;
 }
 
-unsigned number(const std::string& bytes, std::size_t k = 0) {
+unsigned number_at(const std::string& bytes, std::size_t k = 0) {
   unsigned value = 0;
   for (std::size_t at = 4 * k; at < 4 * k + 4; ++at)
     value = value << 8 | static_cast<unsigned char>(bytes[at]);
@@ -31,17 +31,17 @@ unsigned number(const std::string& bytes, std::size_t k = 0) {
 
 TEST(DisplayColourChunks, SayThePowerOfADomeAndNotSrgb) {
   auto chunks = chunks_of(kDome22);
-  EXPECT_EQ(number(chunks["gAMA"]), 45455U);
-  EXPECT_EQ(number(chunks["cHRM"], 0), 31270U);  // the white comes first
-  EXPECT_EQ(number(chunks["cHRM"], 2), 64000U);
+  EXPECT_EQ(number_at(chunks["gAMA"]), 45455U);
+  EXPECT_EQ(number_at(chunks["cHRM"], 0), 31270U);  // the white comes first
+  EXPECT_EQ(number_at(chunks["cHRM"], 2), 64000U);
   EXPECT_FALSE(chunks.contains("sRGB"));
 }
 
 TEST(DisplayColourChunks, SayThePowerAndThePrimariesOfACinema) {
   auto chunks = chunks_of(kCinema);
   EXPECT_FALSE(chunks.contains("sRGB"));
-  EXPECT_EQ(number(chunks["gAMA"]), 38462U);
-  EXPECT_EQ(number(chunks["cHRM"], 2), 68000U);
+  EXPECT_EQ(number_at(chunks["gAMA"]), 38462U);
+  EXPECT_EQ(number_at(chunks["cHRM"], 2), 68000U);
 }
 
 TEST(DisplayColourChunks, SaySrgbOfSrgbAlone) {

@@ -62,7 +62,7 @@ GradedFrame random_frame(int width, int height) {
 }
 
 // Ridges of colour on a gradient, by whole numbers, which are the same on every processor.
-GradedFrame sample(int width, int height) {
+GradedFrame gradient_frame(int width, int height) {
   GradedFrame frame(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -72,7 +72,7 @@ GradedFrame sample(int width, int height) {
   return frame;
 }
 
-GradedFrame read(const std::filesystem::path& path, OIIO::TypeDesc type) {
+GradedFrame read_back(const std::filesystem::path& path, OIIO::TypeDesc type) {
   const auto in = OIIO::ImageInput::open(path.string());
   EXPECT_TRUE(in) << OIIO::geterror();
   const OIIO::ImageSpec& spec = in->spec();
@@ -89,16 +89,16 @@ constexpr std::pair<int, int> kSizes[] = {{1, 1}, {3, 5}, {500, 300}, {20'000, 9
 TEST_F(PictureWriters, KeepSixteenBits) {
   for (const auto& [width, height] : kSizes) {
     const GradedFrame frame = random_frame(width, height);
-    EXPECT_EQ(read(png(frame, false), OIIO::TypeDesc::UINT16).pixels, frame.pixels) << width;
-    EXPECT_EQ(read(tiff(frame, false), OIIO::TypeDesc::UINT16).pixels, frame.pixels) << width;
+    EXPECT_EQ(read_back(png(frame, false), OIIO::TypeDesc::UINT16).pixels, frame.pixels) << width;
+    EXPECT_EQ(read_back(tiff(frame, false), OIIO::TypeDesc::UINT16).pixels, frame.pixels) << width;
   }
 }
 
 TEST_F(PictureWriters, RoundToEightBitsAlike) {
   for (const auto& [width, height] : kSizes) {
     const GradedFrame frame = random_frame(width, height);
-    const auto of_png = read(png(frame, true), OIIO::TypeDesc::UINT8),
-               of_tiff = read(tiff(frame, true), OIIO::TypeDesc::UINT8);
+    const auto of_png = read_back(png(frame, true), OIIO::TypeDesc::UINT8),
+               of_tiff = read_back(tiff(frame, true), OIIO::TypeDesc::UINT8);
     EXPECT_EQ(of_png.pixels, of_tiff.pixels);
     for (std::size_t k = 0; k < frame.pixels.size(); ++k)
       ASSERT_LE(std::abs(of_png.pixels[k] - frame.pixels[k]), 1.5 * 257) << k;
@@ -107,9 +107,9 @@ TEST_F(PictureWriters, RoundToEightBitsAlike) {
 
 // The worst of JPEG's rounding, of the dithering and of quality 95 and 60, in steps of 8 bits.
 TEST_F(PictureWriters, KeepAPhotographAsJpeg) {
-  const GradedFrame frame = sample(300, 200);
+  const GradedFrame frame = gradient_frame(300, 200);
   const auto error = [&](int quality) {
-    const GradedFrame back = read(jpeg(frame, quality), OIIO::TypeDesc::UINT8);
+    const GradedFrame back = read_back(jpeg(frame, quality), OIIO::TypeDesc::UINT8);
     double sum = 0;
     for (std::size_t k = 0; k < frame.pixels.size(); ++k)
       sum += std::pow((back.pixels[k] - frame.pixels[k]) / 257.0, 2);
@@ -124,7 +124,7 @@ TEST_F(PictureWriters, KeepFineColoursAsJpeg) {
   GradedFrame frame(64, 64);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) frame.row(y)[3 * x + (x % 2 ? 0 : 2)] = 50'000;
-  const GradedFrame back = read(jpeg(frame, 95), OIIO::TypeDesc::UINT8);
+  const GradedFrame back = read_back(jpeg(frame, 95), OIIO::TypeDesc::UINT8);
   for (int x = 0; x < 64; ++x) {
     EXPECT_NEAR(back.row(30)[3 * x], x % 2 ? 50'000 : 0, 6000) << x;
     EXPECT_NEAR(back.row(30)[3 * x + 2], x % 2 ? 0 : 50'000, 6000) << x;
@@ -133,7 +133,7 @@ TEST_F(PictureWriters, KeepFineColoursAsJpeg) {
 
 // cli/packed_bytes.sh runs this for other processors.
 TEST_F(PictureWriters, GivesTheBytesThatItGivesElsewhere) {
-  const GradedFrame frame = sample(300, 200);
+  const GradedFrame frame = gradient_frame(300, 200);
   set_encoder_threads(2);
   Digest digest;
   for (const bool eight_bits : {false, true})

@@ -21,7 +21,7 @@ const std::vector<Projection>& other_projections() {
   return all;
 }
 
-PointSpread widths_of(const Projection& p, double sigma) {
+PointSpread cap_widths(const Projection& p, double sigma) {
   PointSpreadLaw law;
   law.min_sigma = law.max_sigma = sigma;
   if (!has_zenith(p)) law.min_sigma = law.max_sigma = sigma * pi / *field_of_view(p);
@@ -36,8 +36,8 @@ StarImage image_on(const PixelPosition& at, double flux) {
 
 // The mean over a pixel's solid angle of a Gaussian that is round in angle, of that peak and with
 // the cut, by 4 points of Gauss-Legendre quadrature along each axis.
-double mean_over_pixel(const Projection& p, const CameraDirection& star, double sigma, double peak,
-                       int column, int row) {
+double mean_of_cap(const Projection& p, const CameraDirection& star, double sigma, double peak,
+                   int column, int row) {
   constexpr double kAt[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                             0.8611363115940526};
   constexpr double kShare[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
@@ -68,7 +68,7 @@ TEST(BlobsInEveryProjection, AreRoundInAngle) {
                                                                     : k % 3 == 1 ? 2.5
                                                                                  : 9);
       const double peak = k % 4 == 0 ? 0.02 : 5;
-      const PointSpread widths = widths_of(p, sigma);
+      const PointSpread widths = cap_widths(p, sigma);
       const StarImage image = image_on(at, flux_of_peak(widths, peak));
       const CameraDirection star = direction_at(p, {image.x + 1.0, image.y + 1.0});
       const DrawnBlobs drawn_image = drawn({image}, p, widths);
@@ -84,7 +84,7 @@ TEST(BlobsInEveryProjection, AreRoundInAngle) {
           // Of a wide blob a part of the pixels is enough.
           if (sigma > 5 * pixel && (row + column) % 5 != 0) continue;
           if (value == 0 && chord > 7 * sigma + pixel) continue;
-          const double expected = mean_over_pixel(p, star, sigma, peak, column, row);
+          const double expected = mean_of_cap(p, star, sigma, peak, column, row);
           worst = std::max(worst, std::abs(value - expected));
         }
       }
@@ -99,7 +99,7 @@ TEST(BlobsInEveryProjection, BringTheirLightWhereverTheyLie) {
   std::mt19937 random(2);
   for (const Projection& p :
        {Projection(Equirectangular{400}), Projection(Fisheye{400, 400, 2 * pi, 0})}) {
-    const PointSpread widths = widths_of(p, 1.2 * central_pixel_angle(p));
+    const PointSpread widths = cap_widths(p, 1.2 * central_pixel_angle(p));
     for (int k = 0; k < tries(80, 10); ++k) {
       V3d n = random_direction(random);
       if (k % 8 == 0) n = V3d(1e-3 * n.x, 1e-3 * n.y, k % 16 == 0 ? 1 : -1).normalized();
@@ -117,7 +117,7 @@ TEST(BlobsInEveryProjection, BringTheirLightWhereverTheyLie) {
 // A point of a pixel there has no distance from the middle.
 TEST(BlobsInEveryProjection, AreFiniteInTheVeryMiddleOfAFisheye) {
   const Projection p = Fisheye{65, 65, 0.1, 0};
-  const PointSpread widths = widths_of(p, 17 * central_pixel_angle(p));
+  const PointSpread widths = cap_widths(p, 17 * central_pixel_angle(p));
   const DrawnBlobs image = drawn({image_on({33, 33}, flux_of_peak(widths, 1))}, p, widths);
   EXPECT_NEAR(image.at(32, 32), 1, 3e-3);
   EXPECT_NEAR(image.at(32, 33), image.at(32, 32), 3e-3);

@@ -23,7 +23,7 @@ StarImage image_of_star(const Show& show, const V3d& camera_direction, double m)
   return images.at(0);
 }
 
-PointSpread widths_of(const Show& show) {
+PointSpread blob_widths(const Show& show) {
   return {show.point_spread, frame_state(show, 0).projection, exposure_scale(FrameSettings{})};
 }
 
@@ -46,7 +46,8 @@ TEST(StarBlobs, BringTheSameFluxWhereverTheyLieBetweenPixels) {
           dome_direction((dome ? 86 : 25) * kDegree * u(random), 2 * std::numbers::pi * u(random));
       const double m = 6 - 7 * u(random);
       const StarImage image = image_of_star(show, n, m);
-      EXPECT_NEAR(brought(image, p, widths_of(show)).flux / image.rgb[0], 1, 1e-3) << n << " " << m;
+      EXPECT_NEAR(brought(image, p, blob_widths(show)).flux / image.rgb[0], 1, 1e-3)
+          << n << " " << m;
     }
   }
 }
@@ -61,7 +62,7 @@ TEST(StarBlobs, AtTheRimAreCutNotDimmed) {
       double sum = 0;
       for (double theta : {90 * kDegree - off, 90 * kDegree + off}) {
         const StarImage image = image_of_star(show, dome_direction(theta, azimuth), m);
-        sum += brought(image, p, widths_of(show)).flux / image.rgb[0];
+        sum += brought(image, p, blob_widths(show)).flux / image.rgb[0];
       }
       // The rim's pixels are in or out as a whole: a staircase across the blob.
       EXPECT_NEAR(sum, 1, 0.1) << azimuth << " " << m;
@@ -75,7 +76,7 @@ TEST(StarBlobs, AreRoundOnTheDome) {
   for (const double m : {10.0, 0.0}) {
     const StarImage image = image_of_star(show, dome_direction(80 * kDegree, 0), m);
     const V3d centre = direction_at(p, {image.x + 1.0, image.y + 1.0}).v;
-    const DrawnBlobs blob = drawn({image}, p, widths_of(show));
+    const DrawnBlobs blob = drawn({image}, p, blob_widths(show));
     double along = 0, across = 0, sum = 0;
     for (int y = 924; y < 1124; ++y)
       for (int x = 1800; x < 2048; ++x) {
@@ -93,7 +94,7 @@ TEST(StarBlobs, AreRoundOnTheDome) {
     across -= sum * pixel * pixel * 0.705 * 0.705 / 12;
     EXPECT_NEAR(std::sqrt(along / across), 1, 2e-3) << m;
     // Cut at 3.5 sigma and lowered to 0 there, the Gaussian is 1 % narrower.
-    const double sigma = widths_of(show).sigma_of(image);
+    const double sigma = blob_widths(show).sigma_of(image);
     EXPECT_NEAR(std::sqrt(across / sum) / sigma, 1, 0.03) << m;
   }
 }
@@ -101,7 +102,7 @@ TEST(StarBlobs, AreRoundOnTheDome) {
 TEST(StarBlobs, GrowWithBrightnessByTheLawOfTheShow) {
   const Show show = show_of(StaticObserver{}, Domemaster{8192});
   const auto sigma = [&show](double m) {
-    return widths_of(show).sigma_of(image_of_star(show, dome_direction(0.5, 1), m));
+    return blob_widths(show).sigma_of(image_of_star(show, dome_direction(0.5, 1), m));
   };
   EXPECT_NEAR(sigma(6), 0.05 * kDegree, 1e-12);
   EXPECT_NEAR(sigma(1) / sigma(2), std::pow(10, 0.4 * show.point_spread.growth), 1e-3);
@@ -117,9 +118,9 @@ TEST(StarBlobs, WithAHaloKeepTheirLight) {
   double before = 0;
   for (double m = 12; m > -6; m -= 0.25) {
     const StarImage image = image_of_star(show, dome_direction(0.5, 1), m);
-    const PointSpreadParts parts = widths_of(show).parts(image);
-    EXPECT_EQ(parts.sigma, widths_of(show).least());
-    EXPECT_NEAR(brought(image, p, widths_of(show), 120).flux / image.rgb[0], 1, 1e-3) << m;
+    const PointSpreadParts parts = blob_widths(show).parts(image);
+    EXPECT_EQ(parts.sigma, blob_widths(show).least());
+    EXPECT_NEAR(brought(image, p, blob_widths(show), 120).flux / image.rgb[0], 1, 1e-3) << m;
     const double share = parts.halo[0].share + parts.halo[1].share + parts.halo[2].share;
     EXPECT_NEAR(parts.image.rgb[0] / image.rgb[0], 1 - share, 1e-6);
     EXPECT_GE(share, before) << m;

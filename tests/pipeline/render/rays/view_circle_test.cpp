@@ -13,13 +13,13 @@
 namespace domefall {
 namespace {
 
-struct Place {
+struct CirclePlace {
   const char* name;
   GivenVelocity observer;
   std::size_t skies;
 };
 
-const Place kPlaces[] = {
+const CirclePlace kPlaces[] = {
     {"at rest outside", {Region::kI, Tetrad::kRain, 8, resting_celerity(8)}, 1},
     {"in motion", {Region::kI, Tetrad::kRain, 5, V3d(0.4, -0.9, 0.6)}, 1},
     {"within the light circle", {Region::kI, Tetrad::kRain, 2.4, V3d(0.1, 0, 0.3)}, 1},
@@ -38,7 +38,7 @@ double angle_from(const ViewCircle& circle, const CameraDirection& n) {
 // Every pixel of a frame is lit beyond the silhouette and dark within it, but for those that the
 // curve passes at less than a pixel.
 TEST(SilhouetteCircles, AreTheEdgesOfWhatIsDarkInAFrame) {
-  for (const Place& place : kPlaces) {
+  for (const CirclePlace& place : kPlaces) {
     Show show = show_of(place.observer, Domemaster{80});
     show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
     const FrameState state = frame_state(show, 0);
@@ -70,7 +70,7 @@ TEST(SilhouetteCircles, AreTheEdgesOfWhatIsDarkInAFrame) {
 // ring, as far from it as the star is from the axis, or nearer.
 TEST(EinsteinCircles, HoldTheImagesOfAStarBehindTheHole) {
   constexpr double kOff = 1e-4;
-  for (const Place& place : kPlaces) {
+  for (const CirclePlace& place : kPlaces) {
     const Show show = show_of(place.observer, Domemaster{64});
     const ObserverState o = frame_state(show, 0).observer;
     const auto circles = einstein_circles(o, o.celerity);

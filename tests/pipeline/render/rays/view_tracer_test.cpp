@@ -8,7 +8,7 @@ namespace domefall {
 namespace {
 
 // Observers of every kind in all four regions, from no aberration to a Lorentz factor of 1000.
-std::vector<Show> observers() {
+std::vector<Show> tracing_observers() {
   const Projection dome = Domemaster{64};
   return {show_of(StaticObserver{3}, dome),
           show_of(StaticObserver{1e7}, dome),
@@ -32,7 +32,7 @@ std::vector<Show> observers() {
 TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
-  for (const Show& show : observers()) {
+  for (const Show& show : tracing_observers()) {
     const FrameState state = frame_state(show, 0);
     const HoleOptics optics =
         make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});

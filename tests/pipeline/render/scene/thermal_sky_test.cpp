@@ -12,11 +12,11 @@ namespace domefall {
 namespace {
 
 // Half of every patch of this sky shines like the surface of a star of 4000 K.
-constexpr double kTemperature = 4000, kPart = 0.5;
+constexpr double kSkyTemperature = 4000, kPart = 0.5;
 
 Sky even_sky() {
-  const double radiance = kPart * blackbody_radiance(kTemperature);
-  const double theta = std::log2(kTemperature / kThermalBase);
+  const double radiance = kPart * blackbody_radiance(kSkyTemperature);
+  const double theta = std::log2(kSkyTemperature / kThermalBase);
   const SkyPyramid pyramid(SkyMapKind::kThermal, sky_unit(radiance * theta), 4);
   paint(pyramid.levels[0], [&](const V3d&, float* channel) {
     channel[0] = static_cast<float>(radiance / pyramid.unit);
@@ -39,11 +39,11 @@ TEST(ThermalSky, IsSeenAtGTimesItsTemperature) {
   const Show show;
   for (const double g : {0.3, 0.7, 1.0, 1.6, 5.0, 40.0}) {
     const WorkingRgb light = seen(show, g);
-    const Xyz surface = blackbody_xyz(g * kTemperature);
+    const Xyz surface = blackbody_xyz(g * kSkyTemperature);
     const WorkingRgb expected = to_working(surface);
     // The map stores the temperature as half floats, to 0.3 %.  In Wien's tail a relative error of
     // T enters the light multiplied by about 25000 K/(g T).
-    const double steep = 0.003 * (4 + 25000 / (g * kTemperature));
+    const double steep = 0.003 * (4 + 25000 / (g * kSkyTemperature));
     EXPECT_NEAR(luminance(light), kPart * surface.y, steep * kPart * surface.y) << g;
     EXPECT_NEAR(light.b / light.r, expected.b / expected.r, 2 * steep * expected.b / expected.r)
         << g;

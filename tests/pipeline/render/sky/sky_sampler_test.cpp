@@ -13,7 +13,7 @@
 namespace domefall {
 namespace {
 
-FloatImage noise(int width) {
+FloatImage noise_image(int width) {
   FloatImage image(width, width / 2);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> u(0.2f, 1.0f);
@@ -21,7 +21,7 @@ FloatImage noise(int width) {
   return image;
 }
 
-SampleBatch random_samples(std::mt19937& random, double unit) {
+SampleBatch random_batch(std::mt19937& random, double unit) {
   std::uniform_real_distribution<double> octave(-14, 1);
   SampleBatch batch{};
   for (std::size_t k = 0; k < SampleBatch::kSize; ++k) {
@@ -45,12 +45,12 @@ void sample_all(const SkySampler& sampler, const SampleBatch& batch, SampleFilte
 }
 
 TEST(SkySampler, TakesTheSampleThatTheMapTakes) {
-  const SkyMap map = map_of_panorama(noise(512));
+  const SkyMap map = map_of_panorama(noise_image(512));
   const SkySampler sampler(map);
   std::mt19937 random(1);
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (int round = 0; round < 20; ++round) {
-    const SampleBatch batch = random_samples(random, map.unit());
+    const SampleBatch batch = random_batch(random, map.unit());
     for (const bool minified : {true, false}) {
       if (minified)
         sample_all(sampler, batch, SampleFilter(1, true), rgb.data());
@@ -71,7 +71,7 @@ TEST(SkySampler, TakesTheSampleThatTheMapTakes) {
 // Where faces meet, one of the four texels is a neighbour's.  Halves are exact in floats, so that
 // sampler and map choose the same face.  The number of directions is odd.
 TEST(SkySampler, TakesTheSampleThatTheMapTakesAtEdgesAndCornersOfTheCube) {
-  const SkyMap map = map_of_panorama(noise(512));
+  const SkyMap map = map_of_panorama(noise_image(512));
   SampleBatch batch{};
   int count = 0;
   for (int code = 1; code < 124; ++code) {  // 62 is no direction
@@ -96,12 +96,12 @@ TEST(SkySampler, TakesTheSampleThatTheMapTakesAtEdgesAndCornersOfTheCube) {
 // From four taps on, each is taken on one level instead of on two, so that their mean is only right
 // on average.
 TEST(SkySampler, ALineOfTapsIsTheMeanOfItsTaps) {
-  const SkyMap map = map_of_panorama(noise(512));
+  const SkyMap map = map_of_panorama(noise_image(512));
   const SkySampler sampler(map);
   std::mt19937 random(2);
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (const int taps : {2, 4, 8, 32}) {
-    SampleBatch batch = random_samples(random, map.unit());
+    SampleBatch batch = random_batch(random, map.unit());
     for (float& narrow : batch.narrow) narrow *= 0.01f;
     sample_all(sampler, batch, SampleFilter(taps, true), rgb.data());
     double worst = 0;
@@ -129,7 +129,7 @@ SampleFilter filter_of(const SkySampler& sampler, double wide, double narrow,
 }
 
 TEST(SkySampler, TakesSoManyTapsThatTheyStandNoFartherApartThanTheyReach) {
-  const SkyMap map = map_of_panorama(noise(512));  // texels of pi/2/256
+  const SkyMap map = map_of_panorama(noise_image(512));  // texels of pi/2/256
   const SkySampler sampler(map);
   const double texel = 1.5708 / 256;
   EXPECT_EQ(filter_of(sampler, 0.9 * texel, texel / 100), SampleFilter(1, false));
@@ -146,10 +146,10 @@ TEST(SkySampler, TakesSoManyTapsThatTheyStandNoFartherApartThanTheyReach) {
 // Samples with the filters that they need, and some without taps, against all samples with each
 // filter.
 TEST(SkySampler, SamplesOfManyFiltersAreThoseOfEachFilter) {
-  const SkyMap map = map_of_panorama(noise(512));
+  const SkyMap map = map_of_panorama(noise_image(512));
   const SkySampler sampler(map);
   std::mt19937 random(6);
-  SampleBatch batch = random_samples(random, map.unit());
+  SampleBatch batch = random_batch(random, map.unit());
   std::uniform_real_distribution<float> octaves(-6, 0);
   for (float& narrow : batch.narrow) narrow *= std::exp2(octaves(random));
   std::array<SampleFilter, SampleBatch::kSize> filters;
@@ -175,14 +175,14 @@ TEST(SkySampler, SamplesOfManyFiltersAreThoseOfEachFilter) {
 
 // What has less luminance than the black level is black, and the rest keeps its hue.
 TEST(SkySampler, TakesTheBlackLevelFromTheLuminanceAndKeepsTheHue) {
-  const SkyMap map = map_of_panorama(noise(512));
+  const SkyMap map = map_of_panorama(noise_image(512));
   const double black = map.sample({1, 0, 0}, 2).g / map.unit();
   const SkySampler all(map), above(map, black);
   std::mt19937 random(5);
   std::array<float, 3 * SampleBatch::kSize + 1> with{}, without{};
   int dark = 0;
   for (const int taps : {0, 1, 4}) {  // 0 stands for the plain loop
-    const SampleBatch batch = random_samples(random, map.unit());
+    const SampleBatch batch = random_batch(random, map.unit());
     const auto sample = [&](const SkySampler& sampler, float* rgb) {
       if (taps == 0) return sampler.sample_plain(batch, SampleBatch::kSize, rgb);
       sample_all(sampler, batch, SampleFilter(taps, true), rgb);
@@ -211,7 +211,7 @@ TEST(SkySampler, TakesTheBlackLevelFromTheRadianceOfAThermalMap) {
   pyramid.finish();
   const SkyMap map = pyramid.map();
   std::mt19937 random(7);
-  const SampleBatch batch = random_samples(random, map.unit());
+  const SampleBatch batch = random_batch(random, map.unit());
   std::array<float, 3 * SampleBatch::kSize + 1> all, quarter, none;
   sample_all(SkySampler(map), batch, SampleFilter(1, true), all.data());
   sample_all(SkySampler(map, 0.75 * radiance / map.unit()), batch, SampleFilter(1, true),
@@ -240,7 +240,7 @@ TEST(SkySampler, ShiftsThermalLightByItsTemperature) {
   std::mt19937 random(4);
   std::array<float, 3 * SampleBatch::kSize + 1> rgb;
   for (const double g : {0.005, 0.02, 0.3, 1.0, 5.0, 1e3, 1e6}) {
-    SampleBatch batch = random_samples(random, unit * g * g * g * g);
+    SampleBatch batch = random_batch(random, unit * g * g * g * g);
     batch.tone.fill(static_cast<float>(std::log2(g)));
     sample_all(sampler, batch, SampleFilter(1, true), rgb.data());
     const WorkingRgb c = blackbody_colours().per_flux(t * g);

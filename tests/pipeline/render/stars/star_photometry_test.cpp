@@ -39,7 +39,9 @@ struct Bins {
   double total = 0;
 };
 
-double angle_between(const V3d& a, const V3d& b) { return 2 * std::asin((a - b).length() / 2); }
+double angle_between_stars(const V3d& a, const V3d& b) {
+  return 2 * std::asin((a - b).length() / 2);
+}
 
 V3d hole_of(const FrameState& state) {
   return apply_transposed(state.observer.tetrad_from_camera,
@@ -47,8 +49,8 @@ V3d hole_of(const FrameState& state) {
 }
 
 // The light of a sky of this bolometric radiance and temperature everywhere, ray by ray.
-Bins even_sky(const StarScene& scene, double radiance, double temperature,
-              const std::vector<double>& limits) {
+Bins even_sky_bins(const StarScene& scene, double radiance, double temperature,
+                   const std::vector<double>& limits) {
   constexpr int kFine = 3;  // rays along each side of a pixel
   const Projection fine = refined(scene.state.projection, kFine);
   const ViewTracer tracer(scene.state, scene.optics);
@@ -71,14 +73,14 @@ Bins even_sky(const StarScene& scene, double radiance, double temperature,
         const double shine =
             luminance(blackbody_colours().per_flux(temperature * g)) * g * g * g * g;
         const double angle = pixel_solid_angle(fine, {first + k + 1.0, row + 1.0});
-        bins.add(angle_between(at[k].v, hole), radiance * shine * angle * scale);
+        bins.add(angle_between_stars(at[k].v, hole), radiance * shine * angle * scale);
       }
     }
   }
   return bins;
 }
 
-void compare(const Bins& stars, const Bins& sky) {
+void compare_bins(const Bins& stars, const Bins& sky) {
   EXPECT_NEAR(stars.total / sky.total, 1, kTolerance);
   for (std::size_t k = 0; k < sky.sum.size(); ++k) {
     SCOPED_TRACE("bin " + std::to_string(k));
@@ -120,10 +122,11 @@ TEST(StarPhotometry, StarsAreAsBrightAsTheSkyTheyMakeUp) {
       for (const StarImage& image : all_images(scene.images(far), stars)) {
         const PixelPosition at{image.x + 1.0, image.y + 1.0};
         if (is_inside(scene.state.projection, at))
-          bins.add(angle_between(direction_at(scene.state.projection, at).v, hole), light(image));
+          bins.add(angle_between_stars(direction_at(scene.state.projection, at).v, hole),
+                   light(image));
       }
     }
-    compare(bins, even_sky(scene, radiance_of(flux, kStars), temperature, place.limits));
+    compare_bins(bins, even_sky_bins(scene, radiance_of(flux, kStars), temperature, place.limits));
   }
 }
 
@@ -152,7 +155,7 @@ std::vector<double> kept_parts(const StarScene& scene, const std::vector<Star>& 
     const CameraDirection n = direction_at(scene.state.projection, at);
     ViewRayBatch ray;
     tracer.trace(&n, 1, ray);
-    const double angle = angle_between(n.v, hole);
+    const double angle = angle_between_stars(n.v, hole);
     all.add(angle, light(image));
     cut.add(angle, light(image) * part_beyond_edge(point_spread.parts(image), ray.to_edge[0]));
   }
@@ -189,7 +192,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
 
   const std::vector<double> limits{50, 75, 100};
   const double flux = std::pow(10, -0.4 * kMagnitude) * bolometric_flux_at_v_zero(temperature);
-  const Bins sky = even_sky(scene, radiance_of(flux, kDrawn), temperature, limits);
+  const Bins sky = even_sky_bins(scene, radiance_of(flux, kDrawn), temperature, limits);
   const V3d hole = hole_of(scene.state);
   Bins drawn(limits);
   for (int row = 0; row < kSize; ++row)
@@ -197,7 +200,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
       const PixelPosition at{column + 1.0, row + 1.0};
       if (!is_inside(scene.state.projection, at)) continue;
       const Imath::half* p = frame.row(row) + 3 * column;
-      drawn.add(angle_between(direction_at(scene.state.projection, at).v, hole),
+      drawn.add(angle_between_stars(direction_at(scene.state.projection, at).v, hole),
                 luminance({float{p[0]}, float{p[1]}, float{p[2]}}) *
                     pixel_solid_angle(scene.state.projection, at));
     }

@@ -14,11 +14,11 @@ namespace {
 constexpr double kRadius = 1e-6;
 
 // Sources behind the hole, or above the observer, and their way in half a window.
-struct Case {
+struct TrailCase {
   double r;
   V3d source, way;
 };
-const std::vector<Case> kCases{
+const std::vector<TrailCase> kCases{
     {10, V3d(-1, 0.003, 0.001), V3d(0, -0.004, 0.002)},  // at a moderate distance
     {10, V3d(-1, 1e-5, 0), V3d(0, 0, 0.005)},            // through the middle of the ring
     {10, V3d(-1, 0, 0), V3d(0, 0.003, 0.003)},           // straight through the axis
@@ -43,7 +43,7 @@ std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage
 
 // The mean over many instants has the light of the trail, and its middle.
 TEST(StarTrail, IsTheMeanOverManyInstants) {
-  for (const Case& c : kCases)
+  for (const TrailCase& c : kCases)
     for (int order = 0; order < 4; ++order) {
       if (!on_caustic(c.source, order)) continue;
       const SkyTable table = table_at(c.r);
@@ -89,7 +89,7 @@ TEST(StarTrail, HasTheLightOfTheInstantFarFromTheAxis) {
 
 // The pieces lie where the lens has the images of their instants: to a hundredth of a pixel of 4k.
 TEST(StarTrail, LiesWhereItsInstantsDo) {
-  for (const Case& c : kCases)
+  for (const TrailCase& c : kCases)
     for (int order = 0; order < 3; ++order) {
       const SkyTable table = table_at(c.r);
       const AxisPassage passage(c.source.normalized(), c.way, kRadius);
@@ -121,7 +121,7 @@ TEST(StarTrail, IsSeenAtOnceAsPieceByPiece) {
   const FrameState state = frame_state(show_of(StaticObserver{}, Domemaster{64}), 0);
   const M33d& camera = state.observer.tetrad_from_camera;
   for (const V3d& celerity : {V3d(0, 0, 0), V3d(-0.2, 0.6, 0.1), V3d(1, 3, -2)})
-    for (const Case& c : kCases)
+    for (const TrailCase& c : kCases)
       for (int order = 0; order < 3; ++order) {
         const Aberration boost(celerity);
         const SkyTable table = table_at(c.r);
@@ -147,7 +147,7 @@ TEST(StarTrail, IsSeenAtOnceAsPieceByPiece) {
 }
 
 TEST(StarTrail, HasNoGaps) {
-  for (const Case& c : kCases) {
+  for (const TrailCase& c : kCases) {
     const SkyTable table = table_at(c.r);
     const double spacing = 2e-3;
     V3d before(0, 0, 0);

@@ -16,14 +16,14 @@ namespace {
 
 using std::numbers::pi;
 
-const std::string kAssets = source_file("shows/assets/");
+const std::string kMapFolder = source_file("shows/assets/");
 
 const StarCatalogue& stars() {
-  static const StarCatalogue catalogue = read_star_catalogue(kAssets + "stars_to_9.stars", 6.5);
+  static const StarCatalogue catalogue = read_star_catalogue(kMapFolder + "stars_to_9.stars", 6.5);
   return catalogue;
 }
 
-V3d at(double longitude, double latitude) {
+V3d direction_at(double longitude, double latitude) {
   const double a = longitude * kDegree, b = latitude * kDegree;
   return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
 }
@@ -55,16 +55,16 @@ TEST(Orientations, TurnTheSkyIntoThePicture) {
   const V3d middle(1, 0, 0), left(0, 1, 0), top(0, 0, 1);
   Orientation o;
   o.centre_deg = 270;
-  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(270, 0)), middle));
-  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(0, 0)), left));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), direction_at(270, 0)), middle));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), direction_at(0, 0)), left));
   o.longitude_right = true;
-  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(180, 0)), left));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), direction_at(180, 0)), left));
   o.south_up = true;
-  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), at(0, -90)), top));
+  EXPECT_TRUE(near(apply(panorama_from_equatorial(o), direction_at(0, -90)), top));
   const M33d galactic = panorama_from_equatorial({SkyFrame::kGalactic, false, false, 0});
   // The galactic centre and the north galactic pole (J2000).
-  EXPECT_TRUE((apply(galactic, at(266.40500, -28.93617)) - middle).length() < 1e-5);
-  EXPECT_TRUE((apply(galactic, at(192.85948, 27.12825)) - top).length() < 1e-5);
+  EXPECT_TRUE((apply(galactic, direction_at(266.40500, -28.93617)) - middle).length() < 1e-5);
+  EXPECT_TRUE((apply(galactic, direction_at(192.85948, 27.12825)) - top).length() < 1e-5);
 }
 
 TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
@@ -83,7 +83,7 @@ TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
 
 // The shipped sky has no stars: its Milky Way has to tell.
 TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
-  const FloatImage whole = read_image(kAssets + "milky_way_deep.exr");
+  const FloatImage whole = read_image(kMapFolder + "milky_way_deep.exr");
   LightImage image{{whole.width / 4, whole.height / 4}, 1};
   for (int y = 0; y < image.pixels.height; ++y)
     for (int x = 0; x < 3 * image.pixels.width; ++x)
@@ -105,14 +105,14 @@ TEST(SkyChecks, AStarlessMilkyWayTellsItsOrientation) {
 // A band along the middle row is much the same mirrored or upside down: what differs are its
 // clouds.
 TEST(SkyChecks, AMilkyWayAlongTheEquatorTellsItsOrientationToo) {
-  const SkyMap sky = map_of_panorama(read_image(kAssets + "milky_way_deep.exr"));
+  const SkyMap sky = map_of_panorama(read_image(kMapFolder + "milky_way_deep.exr"));
   const Orientation truth{SkyFrame::kGalactic, false, false, 0};
   const M33d panorama = panorama_from_equatorial(truth);
   LightImage image{{512, 256}, kPanoramaUnit};
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 512; ++x) {
-      const V3d d =
-          apply_transposed(panorama, at(180 - (x + 0.5) * 360 / 512, 90 - (y + 0.5) * 180 / 256));
+      const V3d d = apply_transposed(
+          panorama, direction_at(180 - (x + 0.5) * 360 / 512, 90 - (y + 0.5) * 180 / 256));
       const double light = luminance(sky.sample(d, 0.01)) / kPanoramaUnit;
       for (int c = 0; c < 3; ++c) image.pixels.row(y)[3 * x + c] = static_cast<float>(light);
     }
@@ -151,7 +151,7 @@ TEST(PanoramaImport, ACoarserMapIsTheMeanOfFinerLooks) {
     for (int x = 0; x < 256; ++x)
       for (int c = 0; c < 3; ++c) image.pixels.row(y)[3 * x + c] = (x + y) % 2 ? 1.0f : 0.0f;
   const SkyMap coarse = import_as(image, {}, 16);
-  for (const V3d& d : {at(10, 5), at(100, -20), at(201, 33)})
+  for (const V3d& d : {direction_at(10, 5), direction_at(100, -20), direction_at(201, 33)})
     EXPECT_NEAR(luminance(coarse.sample(d, 0)), 1e-4, 4e-6) << "half of 2 x 1e-4";
 }
 
