@@ -123,7 +123,7 @@ write_panorama(pathlib.Path('panorama.png'))
 subprocess.run([DOMEFALL, 'stars', 'import', 'csv', STARS, '--faintest', '6', '--out', 'few.stars'], check=True,
                stderr=subprocess.DEVNULL)
 cases = [
-    Case('states', 11, 'states', 'tiny.yaml', '--plot', 'OUT/plot.svg'),
+    Case('states', 15, 'states', 'tiny.yaml', '--plot', 'OUT/plot.svg'),
     Case('stars', 11, 'stars', 'import', 'csv', STARS, '--out', 'OUT/many.stars'),
     Case('sky_build', 13, 'sky', 'build', '--stars', 'few.stars', '--fainter-than', '5', '--blur', '3', '--size',
          '64', '--out', 'OUT/starlight.sky'),
@@ -133,7 +133,7 @@ cases = [
     Case('render', 13, 'render', 'tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
     Case('grade', 11, 'grade', 'tiff8/tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
     Case('check', 9, 'check', 'tiny.yaml'),
-    Report('report', 8, 'report', '--quick', '--figures', '--out', 'OUT'),
+    Report('report', 4, 'report', '--quick', '--figures', '--out', 'OUT'),
 ]
 grade = cases[-3]
 grade.prepare = lambda: shutil.copytree('render/linear', grade.out / 'linear')

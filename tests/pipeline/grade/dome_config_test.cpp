@@ -28,6 +28,7 @@ constexpr const char* kViews[] = {"Dome",           "ACES SDR", "Star field",
 GradeSettings settings(const std::string& view, const std::string& display = kDisplays[0]) {
   GradeSettings s;
   s.config = kConfig;
+  s.shipped = true;
   s.display = display;
   s.view = view;
   return s;

@@ -12,31 +12,32 @@ namespace {
 
 using std::numbers::pi;
 
-struct Law {
+struct SplatLaw {
   const char* name;
   Projection projection;
   double min_sigma_deg, most_theta;
   double misshapen;  // at most, parts of the peak
 };
 
-const Law kLaws[] = {{"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
-                     {"dome at the floor", Domemaster{1024}, 0.05, 85 * kDegree, 0.05},
-                     {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
-                     {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
-                     {"wider dome", Domemaster{1024}, 0.65, 75 * kDegree, 0.05},
-                     {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.05},
-                     {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
+const SplatLaw kSplatLaws[] = {
+    {"small dome", Domemaster{512}, 0.05, 80 * kDegree, 0.05},
+    {"dome at the floor", Domemaster{1024}, 0.05, 85 * kDegree, 0.05},
+    {"dome as 4k", Domemaster{1024}, 0.2, 85 * kDegree, 0.03},
+    {"wide dome", Domemaster{1024}, 0.35, 80 * kDegree, 0.04},
+    {"wider dome", Domemaster{1024}, 0.65, 75 * kDegree, 0.05},
+    {"flat", Stereographic{1280, 720, 1.2}, 0.05, 18 * kDegree, 0.05},
+    {"wide flat", Stereographic{900, 900, 1.6}, 0.2, 44 * kDegree, 0.04}};
 
-PointSpread widths_of(const Law& law) {
+PointSpread splat_widths(const SplatLaw& law) {
   PointSpreadLaw point_spread;
   point_spread.min_sigma = law.min_sigma_deg * kDegree, point_spread.max_sigma = 2 * kDegree;
   point_spread.reference_magnitude = -30;
   return {point_spread, law.projection, 1e3};
 }
 
-BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool splats) {
+BlobLayer layer_of(std::vector<StarImage> images, const SplatLaw& law, bool splats) {
   BlobLayer layer(law.projection);
-  const PointSpread widths = widths_of(law);
+  const PointSpread widths = splat_widths(law);
   if (splats) layer.use_splats(widths);
   EXPECT_EQ(layer.has_splats(), splats);
   layer.place(layer.new_tasks(1), images, widths);
@@ -44,11 +45,11 @@ BlobLayer layer_of(std::vector<StarImage> images, const Law& law, bool splats) {
   return layer;
 }
 
-StarImage star_at(const Law& law, double theta, double azimuth, double peak) {
-  return image_at(law.projection, theta, azimuth, flux_of_peak(widths_of(law), peak));
+StarImage star_at(const SplatLaw& law, double theta, double azimuth, double peak) {
+  return image_at(law.projection, theta, azimuth, flux_of_peak(splat_widths(law), peak));
 }
 
-std::vector<StarImage> scattered(const Law& law, int count, double peak) {
+std::vector<StarImage> scattered(const SplatLaw& law, int count, double peak) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(0, 1);
   std::vector<StarImage> images;
@@ -71,7 +72,7 @@ double flux_of(const DrawnBlobs& image) {
 }
 
 TEST(Splats, BringTheirLightWhereverTheyLie) {
-  for (const Law& law : kLaws)
+  for (const SplatLaw& law : kSplatLaws)
     for (const StarImage& image : scattered(law, tries(60, 12), 0.3)) {
       const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
       EXPECT_NEAR(flux_of(splat) / image.rgb[0], 1, 1e-3)
@@ -82,10 +83,10 @@ TEST(Splats, BringTheirLightWhereverTheyLie) {
 // The rim of a dome and the edges of a flat image cut splats as they cut ellipses, and splats from
 // beyond them reach in.
 TEST(Splats, LookLikeEllipses) {
-  for (const Law& law : kLaws) {
+  for (const SplatLaw& law : kSplatLaws) {
     const double rim =
         std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : law.most_theta + 0.1;
-    for (double theta = 0.004; theta < rim; theta += kSanitized ? 0.23 : 0.043) {
+    for (double theta = 0.004; theta < rim; theta += kSanitized ? 0.7 : 0.043) {
       const StarImage image = star_at(law, theta, 2.3 * theta, 0.5);
       const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
       const DrawnBlobs ellipse = drawn(layer_of({image}, law, false), law.projection);
@@ -100,10 +101,10 @@ TEST(Splats, LookLikeEllipses) {
 }
 
 TEST(Splats, KeepTheirLightAndTheirPeakWhileTheyDrift) {
-  const Law& law = kLaws[1];
+  const SplatLaw& law = kSplatLaws[1];
   for (const double start : {500.3, 60.2}) {
     double low = 1e9, high = 0;
-    for (int k = 0; k < tries(40, 10); ++k) {
+    for (int k = 0; k < tries(40, 5); ++k) {
       StarImage image = star_at(law, 0, 0, 0.1);
       image.x = static_cast<float>(start + 0.0717 * k);
       image.y = static_cast<float>(511.3 + 0.0793 * k);
@@ -120,9 +121,9 @@ TEST(Splats, KeepTheirLightAndTheirPeakWhileTheyDrift) {
 // Bands may be drawn one by one, in any order and with several buffers, and tasks may divide the
 // stars in any way.
 TEST(Splats, AreTheSameHoweverTheyAreDrawn) {
-  for (const Law& law : kLaws) {
+  for (const SplatLaw& law : kSplatLaws) {
     const Projection& p = law.projection;
-    const PointSpread widths = widths_of(law);
+    const PointSpread widths = splat_widths(law);
     const std::vector<StarImage> images = scattered(law, 3000, 0.01);
     const BlobLayer whole = layer_of(images, law, true);
     EXPECT_GT(whole.size(), 2000u);
@@ -151,15 +152,17 @@ TEST(Splats, AreForManyFaintStars) {
   EXPECT_FALSE(BlobLayer::are_many(300000, Domemaster{4096}));
   EXPECT_TRUE(BlobLayer::are_many(600000, Domemaster{4096}));
   // Bright stars, and blobs too wide to blur, are no splats.
-  const PointSpread widths = widths_of(kLaws[1]);
-  BlobLayer layer(kLaws[1].projection);
+  const PointSpread widths = splat_widths(kSplatLaws[1]);
+  BlobLayer layer(kSplatLaws[1].projection);
   layer.use_splats(widths);
-  std::vector<StarImage> images = scattered(kLaws[1], 50, 20);
+  std::vector<StarImage> images = scattered(kSplatLaws[1], 50, 20);
   layer.place(layer.new_tasks(1), images, widths);
   layer.sort_into_bands();
   EXPECT_EQ(layer.size(), 50u);
-  EXPECT_EQ(drawn(layer, kLaws[1].projection).rgb,
-            drawn(layer_of(scattered(kLaws[1], 50, 20), kLaws[1], false), kLaws[1].projection).rgb);
+  EXPECT_EQ(drawn(layer, kSplatLaws[1].projection).rgb,
+            drawn(layer_of(scattered(kSplatLaws[1], 50, 20), kSplatLaws[1], false),
+                  kSplatLaws[1].projection)
+                .rgb);
   EXPECT_TRUE(SplatKernel(Domemaster{1024}, 0.65 * kDegree).usable());
   EXPECT_FALSE(SplatKernel(Domemaster{4096}, 0.2).usable());
   EXPECT_FALSE(SplatKernel(Domemaster{32}, 0.1).usable());
