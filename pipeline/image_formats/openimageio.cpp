@@ -16,8 +16,8 @@
 namespace domefall {
 namespace {
 
-constexpr int kBand = 64;                // rows read at once of a file without tiles
-constexpr std::size_t kStart = 1 << 20;  // bytes in which a header states the size
+constexpr int kBand = 64;                      // rows read at once of a file without tiles
+constexpr std::size_t kHeaderBytes = 1 << 20;  // within which a header states the size
 
 SampleType sample_type(const OIIO::TypeDesc& type) {
   if (type == OIIO::TypeDesc::UINT16) return SampleType::kUint16;
@@ -74,7 +74,7 @@ class LoadedFormats : public ImageFormats {
  public:
   std::unique_ptr<ImageReader> open(const std::filesystem::path& file) const override {
     RegularFile opened(file);
-    std::string start(kStart, '\0');
+    std::string start(kHeaderBytes, '\0');
     start.resize(opened.read(start.data(), start.size()));
     const std::string format(picture_format(start));
     if (format.empty())

@@ -1,0 +1,14 @@
+// The manual pages and the bash completion of domefall, as files.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace domefall {
+
+// Writes man1/*.1, which bear this date, and completions/domefall into a folder, which is made if it is
+// not there.  Throws std::runtime_error, whose text begins with the file, where one cannot be written.
+void make_manual(const std::string& date, const std::filesystem::path& folder);
+
+}  // namespace domefall
