@@ -4,7 +4,7 @@
 source "$(dirname "$0")/common.bash"
 cd "$folder"
 milky_way=$DOMEFALL_SOURCE/shows/assets/milky_way.exr
-oiiotool "$milky_way" --resize 256x128 -o day.exr
+oiiotool "$milky_way" --resize:filter=box 256x128 -o day.exr
 oiiotool day.exr --flop -o night.exr
 for sky in day night; do
   "$DOMEFALL" sky import $sky.exr --size 64 --out $sky.sky 2>/dev/null
