@@ -77,9 +77,13 @@ TEST_F(CameraTurns, APictureThatVanishesGoesOnTurningAsItsOwnObserverSees) {
       const FrameState state = frame_state(s, n);
       return (state.vanishing ? state.vanishing->observer : state.observer).tetrad_from_camera;
     };
-    for (int n = 1; n < 400; ++n)
+    M33d before = axes(0);
+    for (int n = 1; n < 400; ++n) {
+      const M33d now = axes(n);
       for (int k = 0; k < 3; ++k)
-        EXPECT_LE((column(axes(n), k) - column(axes(n - 1), k)).length(), 0.05) << ra << " " << n;
+        EXPECT_LE((column(now, k) - column(before, k)).length(), 0.05) << ra << " " << n;
+      before = now;
+    }
   }
 }
 

@@ -22,10 +22,12 @@ double angle_between(const M33d& a, const M33d& b) {
 
 double largest_turn_per_frame(const Show& s) {
   double largest_turn = 0;
-  for (int frame = 1; frame < frame_count(s); ++frame)
-    largest_turn =
-        std::max(largest_turn, angle_between(frame_state(s, frame - 1).observer.tetrad_from_camera,
-                                             frame_state(s, frame).observer.tetrad_from_camera));
+  M33d before = frame_state(s, 0).observer.tetrad_from_camera;
+  for (int frame = 1; frame < frame_count(s); ++frame) {
+    const M33d now = frame_state(s, frame).observer.tetrad_from_camera;
+    largest_turn = std::max(largest_turn, angle_between(before, now));
+    before = now;
+  }
   return largest_turn;
 }
 

@@ -86,7 +86,7 @@ TEST(Splats, LookLikeEllipses) {
   for (const SplatLaw& law : kSplatLaws) {
     const double rim =
         std::holds_alternative<Domemaster>(law.projection) ? 92 * kDegree : law.most_theta + 0.1;
-    for (double theta = 0.004; theta < rim; theta += kSanitized ? 0.7 : 0.093) {
+    for (double theta = 0.004; theta < rim; theta += kSanitized ? 1.3 : 0.093) {
       const StarImage image = star_at(law, theta, 2.3 * theta, 0.5);
       const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
       const DrawnBlobs ellipse = drawn(layer_of({image}, law, false), law.projection);
