@@ -7,9 +7,9 @@
 #include "pipeline/sky/catalogue/import/catalogue_formats.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
-
+namespace domefall::fuzz {
 namespace {
 
 void check(const RawCatalogue& catalogue) {
@@ -29,8 +29,8 @@ RawCatalogue sirius() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
+void catalogue(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
   const auto file = input_file(text_of(data + 1, size - 1));
   const auto formats = catalogue_formats();
   const std::size_t choice = (data[0] - std::size_t{'0'}) % (formats.size() + 4);
@@ -49,5 +49,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(catalogue);
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -2,10 +2,11 @@
 #include "pipeline/grade/grader.h"
 #include "pipeline/image/errors.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void colour_config(const std::uint8_t* data, std::size_t size) {
   GradeSettings settings;
   settings.config = input_file(text_of(data, size), "config.ocio");
   try {
@@ -13,5 +14,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const InputError&) {
   } catch (const TemporaryError&) {  // it names a file that is not there
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

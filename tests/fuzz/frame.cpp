@@ -3,10 +3,11 @@
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void frame(const std::uint8_t* data, std::size_t size) {
   const auto file = input_file(text_of(data, size), "input.exr");
   const WantedFrame wanted{"key", "title", "domemaster", 16, 16};
   try {
@@ -15,5 +16,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_frame(file);
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -2,14 +2,16 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/read_healpix.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void healpix(const std::uint8_t* data, std::size_t size) {
   const auto file = input_file(text_of(data, size));
   for (const int column : {1, 2}) try {
       read_healpix(file, column);
     } catch (const InputError&) {
     }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -36,7 +36,3 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 }
 
 }  // namespace domefall
-
-// What libFuzzer calls.  An exception that is not caught, a report of a sanitizer, an input that takes
-// too long or too much memory end it; its value is always 0.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

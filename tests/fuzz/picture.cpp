@@ -3,17 +3,19 @@
 #include "pipeline/image/input_image.h"
 #include "pipeline/image/light_image.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void picture(const std::uint8_t* data, std::size_t size) {
   constexpr int kMostPixels = 1 << 20;  // larger ones would take the time of many others
   const auto file = input_file(text_of(data, size));
   try {
     const ImageLayout layout = InputImage(file).layout();
-    if (layout.width > kMostPixels / layout.height) return 0;
+    if (layout.width > kMostPixels / layout.height) return;
     read_light_image(file, PixelEncoding::kOfFile);
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -3,10 +3,11 @@
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void show(const std::uint8_t* data, std::size_t size) {
   try {
     const Show show = read_show(input_file(text_of(data, size), "show.yaml"));
     frame_state(show, 0);
@@ -14,5 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const InputError&) {
   } catch (const TemporaryError&) {  // it names a file that is not there
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -8,14 +8,14 @@
 #include "pipeline/image/digest.h"
 #include "pipeline/image/errors.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
-
+namespace domefall::fuzz {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 12, kChecksum = 16, kFileBytes = 24;  // places in the header
 
-std::string repaired(std::string bytes) {
+std::string repaired_sky(std::string bytes) {
   std::uint32_t header = 0;
   if (bytes.size() < kFileBytes + sizeof(std::uint64_t)) return bytes;
   std::memcpy(&header, bytes.data() + kHeaderBytes, sizeof header);
@@ -30,12 +30,13 @@ std::string repaired(std::string bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto path = input_file(repaired(std::string(text_of(data, size))), "input.sky");
+void sky_file(const std::uint8_t* data, std::size_t size) {
+  const auto path = input_file(repaired_sky(std::string(text_of(data, size))), "input.sky");
   try {
-    if (!is_sky_file(path)) return 0;
+    if (!is_sky_file(path)) return;
     SkyFile(path).verify();
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

@@ -9,16 +9,16 @@
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/catalogue/star_file_layout.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
-
+namespace domefall::fuzz {
 namespace {
 
 std::string_view part(std::string_view bytes, std::uint64_t at, std::uint64_t size) {
   return at > bytes.size() ? std::string_view() : bytes.substr(at, size);
 }
 
-std::string repaired(std::string bytes) {
+std::string repaired_stars(std::string bytes) {
   StarFileHeader head;
   if (bytes.size() < sizeof head) return bytes;
   std::memcpy(&head, bytes.data(), sizeof head);
@@ -44,8 +44,8 @@ std::string repaired(std::string bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto file = input_file(repaired(std::string(text_of(data, size))), "input.stars");
+void star_file(const std::uint8_t* data, std::size_t size) {
+  const auto file = input_file(repaired_stars(std::string(text_of(data, size))), "input.stars");
   try {
     const StarCatalogue catalogue =
         read_star_catalogue(file, std::numeric_limits<double>::infinity(), 2100);
@@ -53,5 +53,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!std::isfinite(star.direction.v.x) || !std::isfinite(star.v_magnitude)) std::abort();
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz

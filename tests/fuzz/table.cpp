@@ -2,10 +2,11 @@
 #include "pipeline/image/csv_file.h"
 #include "pipeline/image/errors.h"
 #include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
 
-using namespace domefall;
+namespace domefall::fuzz {
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void table(const std::uint8_t* data, std::size_t size) {
   const auto file = input_file(text_of(data, size));
   try {
     CsvFile table(file, {"a"});
@@ -22,5 +23,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     while (table.next()) table.number("b");
   } catch (const InputError&) {
   }
-  return 0;
 }
+
+}  // namespace domefall::fuzz
