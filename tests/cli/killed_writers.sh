@@ -123,17 +123,17 @@ write_panorama(pathlib.Path('panorama.png'))
 subprocess.run([DOMEFALL, 'stars', 'import', 'csv', STARS, '--faintest', '6', '--out', 'few.stars'], check=True,
                stderr=subprocess.DEVNULL)
 cases = [
-    Case('states', 17, 'states', 'tiny.yaml', '--plot', 'OUT/plot.svg'),
-    Case('stars', 13, 'stars', 'import', 'csv', STARS, '--out', 'OUT/many.stars'),
+    Case('states', 11, 'states', 'tiny.yaml', '--plot', 'OUT/plot.svg'),
+    Case('stars', 11, 'stars', 'import', 'csv', STARS, '--out', 'OUT/many.stars'),
     Case('sky_build', 13, 'sky', 'build', '--stars', 'few.stars', '--fainter-than', '5', '--blur', '3', '--size',
          '64', '--out', 'OUT/starlight.sky'),
-    Case('sky_import', 7, 'sky', 'import', 'panorama.png', '--size', '128', '--stars', 'few.stars', '--out',
+    Case('sky_import', 13, 'sky', 'import', 'panorama.png', '--size', '128', '--stars', 'few.stars', '--out',
          'OUT/panorama.sky'),
     Case('preview', 11, 'preview', 'tiny.yaml', '--frame', '3', '--size', '160x90', '--out', 'OUT/still.jpg'),
-    Case('render', 15, 'render', 'tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
+    Case('render', 13, 'render', 'tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
     Case('grade', 11, 'grade', 'tiff8/tiny.yaml', '--frames', '0-4', '--out', 'OUT'),
-    Case('check', 10, 'check', 'tiny.yaml'),
-    Report('report', 3, 'report', '--quick', '--figures', '--out', 'OUT'),
+    Case('check', 9, 'check', 'tiny.yaml'),
+    Report('report', 8, 'report', '--quick', '--figures', '--out', 'OUT'),
 ]
 grade = cases[-3]
 grade.prepare = lambda: shutil.copytree('render/linear', grade.out / 'linear')

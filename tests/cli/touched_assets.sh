@@ -14,7 +14,6 @@ show() { # show SKY: 40 frames that look all around it
 title: A turn
 frames_per_second: 20
 size: 160
-output: {graded: none}
 sky: {region_I: {background: ./$1, stars: none}}
 timeline: [{duration_s: 2, trajectory: {type: static}, camera: {look_at: {ra_deg: 266, dec_deg: -29}}}]
 END

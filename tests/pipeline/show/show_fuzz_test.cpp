@@ -211,7 +211,7 @@ TEST_F(ShowFuzz, BadlyDamagedShowsAreReadOrRefused) { run(tries(2000, 1000), 5);
 
 TEST_F(ShowFuzz, ShowsCutAnywhereAreReadOrRefused) {
   for (const std::string show : kGoodShows)
-    for (std::size_t length = 0; length < show.size(); length += tries(1, 3)) {
+    for (std::size_t length = 0; length < show.size(); ++length) {
       survives(show.substr(0, length));
       ASSERT_FALSE(HasFailure()) << show.substr(0, length);
     }

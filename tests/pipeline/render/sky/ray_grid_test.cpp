@@ -119,7 +119,6 @@ TEST(RayGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
   for (const double celerity : {0.1, 1.0, 3.1, 30.0, 1e3, 1e6})
     for (const double r : {kFlatSpace, 10.0, 1.0})
       for (const Projection& p : projections()) {
-        if (kSanitized && celerity != 3.1 && celerity < 1e6) continue;
         const V3d along = V3d(0.3, 1, -0.5).normalized() * celerity;
         expect_close(
             show_of(GivenVelocity{r < 2 ? Region::kII : Region::kI, Tetrad::kRain, r, along}, p),
