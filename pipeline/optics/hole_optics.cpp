@@ -64,6 +64,18 @@ void add_tables(HoleOptics& optics, WantedSkies wanted) {
     optics.emission_times.emplace(*optics.white_hole, optics.table_bits);
 }
 
+int table_count(const HoleOptics& optics) {
+  return int{optics.home_sky.has_value()} + int{optics.far_sky.has_value()} +
+         int{optics.white_hole.has_value()} + int{optics.emission_times.has_value()};
+}
+
+std::size_t node_count(const HoleOptics& optics) {
+  return (optics.home_sky ? optics.home_sky->node_count() : 0) +
+         (optics.far_sky ? optics.far_sky->node_count() : 0) +
+         (optics.white_hole ? optics.white_hole->node_count() : 0) +
+         (optics.emission_times ? optics.emission_times->node_count() : 0);
+}
+
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur) {
   if (table == nullptr) return {{source}, 1, 1};
   const double sine = sine_of(source);

@@ -45,6 +45,10 @@ HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted)
 // Makes the wanted tables that `optics` does not have yet.
 void add_tables(HoleOptics& optics, WantedSkies wanted);
 
+// How many tables there are, and how many nodes these have together.
+int table_count(const HoleOptics& optics);
+std::size_t node_count(const HoleOptics& optics);
+
 // One image of a point of a sky, in the frame of the reference tetrad.
 struct SkyImage {
   TetradDirection direction;

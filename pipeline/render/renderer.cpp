@@ -200,11 +200,11 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
   for (const SkyRegion sky : kEverySky)
     if (skies[sky]) times.black[sky] = skies[sky]->black.luminance;
   times.load_s = watch.lap();
+  SkyMotion motion;
+  if (plan.gravity) motion = {sky_turn(show_, state), gap};
   const HoleOptics& optics = optics_.optics_for(state.observer, plan);
   times.tables_made = optics_.tables_made();
   times.table_nodes = node_count(optics);
-  SkyMotion motion;
-  if (plan.gravity) motion = {sky_turn(show_, state), gap};
   if (plan.disc && !disc_light_) disc_light_.emplace(*show_.disc);
   const FrameScene scene(show_, state, plan, optics, skies, motion, &whole,
                          plan.disc ? &*disc_light_ : nullptr);

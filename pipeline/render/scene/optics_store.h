@@ -22,7 +22,4 @@ class OpticsStore {
   int tables_made_ = 0;
 };
 
-// The number of nodes of all tables.
-std::size_t node_count(const HoleOptics& optics);
-
 }  // namespace domefall
