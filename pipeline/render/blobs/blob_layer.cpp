@@ -13,23 +13,26 @@
 namespace domefall {
 namespace {
 
-// The images that one task places, whatever the number of threads, and the parts of images that it
-// places at once.
+// One task places this many images, whatever the number of threads.  Within a task, this many parts
+// of images are placed at once.
 constexpr std::size_t kTask = 32768, kPartsAtOnce = 256;
 
-// Splats are quicker where a frame has more than one image for so many pixels: measured at 4k.
+// Splats are quicker where a frame has more than one image for this many pixels, as measured at 4k.
 constexpr double kPixelsPerSplat = 32;
-// The brightest peak of a splat, where blobs are at their smallest.  A brighter one would visibly
-// end.
+// The brightest peak of a splat, as a pixel value, where blobs are smallest.  The blur of splats
+// ends at e^-10 of its peak (kTapSigmas), which for this peak is about kUnseen.  A brighter splat
+// would end visibly.
 constexpr double kBrightestSplat = 1;
 
+// Returns the most light that the brightest channel of a splat may have.  A Gaussian of width sigma
+// has the peak light/(2 pi sigma^2).
 float brightest_splat(const PointSpread& widths) {
   const double peak = std::min(kBrightestSplat, most_coloured_peak(widths.paling()));
   return static_cast<float>(std::min(
       widths.single_blob_light(), peak * 2 * std::numbers::pi * widths.least() * widths.least()));
 }
 
-// The parts of one image.
+// An image has one middle and at most this many parts in all.
 constexpr std::size_t kMostParts = 1 + std::tuple_size_v<decltype(PointSpreadParts::halo)>;
 
 StarImage with_share(const StarImage& image, double share) {
@@ -37,10 +40,11 @@ StarImage with_share(const StarImage& image, double share) {
   return {image.x, image.y, {image.rgb[0] * part, image.rgb[1] * part, image.rgb[2] * part}};
 }
 
-// The most bands that an ellipse touches.
+// An ellipse touches at most this many bands: n rows touch (n + 2 b - 2)/b bands of b rows if they
+// begin with the last row of a band.
 constexpr int kMostBands = (kMostEllipsePixels + 2 * kBandRows - 2) / kBandRows;
 
-// The columns of each row of a band that the image covers.
+// Returns the columns that the image covers in each row of a band.
 std::array<ColumnRange, kBandRows> columns_inside(const Projection& projection, int first,
                                                   int count) {
   std::array<ColumnRange, kBandRows> inside;
@@ -100,7 +104,8 @@ void BlobLayer::place(std::size_t number, std::vector<StarImage>& images,
   place_blobs(images.data(), others, widths, task);
 }
 
-// The parts of images that are placed at once: their middles, and the Gaussians of their halos.
+// The parts of images that are placed at once are the middles of the images and the Gaussians of
+// their halos.
 struct BlobLayer::Parts {
   std::array<StarImage, kPartsAtOnce> image;
   std::array<double, kPartsAtOnce> sigma;
@@ -113,7 +118,7 @@ struct BlobLayer::Parts {
   }
 };
 
-// Places an image as a cap; false if the frame has nothing of it.
+// Places an image as a cap.  Returns false if nothing of it is in the frame.
 bool BlobLayer::place_one_cap(const StarImage& image, double sigma, float paling,
                               Task& task) const {
   CapBlob cap{image.x,
@@ -130,13 +135,14 @@ void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Tas
   task.ellipses.push_back(ellipse);
   const int band = std::max(first_row, 0) / kBandRows;
   task.band.push_back(static_cast<std::uint16_t>(band));
-  // The ellipse reaches as far below its middle as above; two more rows make up for rounding.
+  // The ellipse reaches as far below its middle as above.  Two more rows make up for rounding.
   const auto last_row = static_cast<int>(2 * ellipse.y) - first_row + 2;
   int& last = task.last_band[static_cast<std::size_t>(band)];
   last = std::max(last, last_row / kBandRows);
 }
 
-// On a picture of the whole sphere an ellipse goes on beyond the seam.
+// On a picture of the whole sphere an ellipse continues beyond the seam at the left and right edge.
+// A copy that is shifted by the picture's width draws the part on the other side.
 void BlobLayer::place_with_copies(const EllipseBlob& ellipse, int first_row, Task& task) const {
   place_one_ellipse(ellipse, first_row, task);
   if (!std::holds_alternative<Equirectangular>(projection_)) return;
@@ -162,6 +168,7 @@ void BlobLayer::place_parts(const Parts& parts, const PointSpread& widths, Task&
       place_with_copies(ellipses[k], first_row[k], task);
     else if (kind[k] == BlobKind::kCap)
       seen = place_one_cap(parts.image[k], parts.sigma[k], widths.paling(), task);
+    // Only middles are counted, so that an image with a halo counts once.
     task.size += seen && parts.is_middle[k] ? 1 : 0;
   }
 }
@@ -174,6 +181,7 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
   task.last_band.resize(bands_, 0);
   for (std::size_t k = 0; k < count; ++k) {
     const StarImage& image = images[k];
+    // An image this faint, as nearly all are, is a single blob of the least width.
     if (std::max({image.rgb[0], image.rgb[1], image.rgb[2]}) <= widths.single_blob_light()) {
       parts.add(image, widths.least(), true);
     } else {
@@ -192,6 +200,7 @@ void BlobLayer::place_blobs(const StarImage* images, std::size_t count, const Po
 void BlobLayer::add(const std::vector<StarImage>& images, const PointSpread& widths) {
   const std::size_t count = (images.size() + kTask - 1) / kTask, before = new_tasks(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
+    // place() rearranges its list, so each task works on a copy.
     const auto first = images.begin() + static_cast<std::ptrdiff_t>(t * kTask);
     const auto left = static_cast<std::size_t>(images.end() - first);
     std::vector<StarImage> own(first, first + static_cast<std::ptrdiff_t>(std::min(kTask, left)));
@@ -211,6 +220,8 @@ void BlobLayer::draw_splats(int band, SplatBuffer& buffer, float* rgb) const {
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
   const int end_bucket = kernel_->last_bucket(first + count - 1) + 1;
   const auto before = [this](int bucket) { return first_splat_[static_cast<std::size_t>(bucket)]; };
+  // Where no splat reaches the band, nothing is dropped or blurred, and the buffer starts anew
+  // behind the gap.
   if (before(kernel_->first_bucket(first)) == before(end_bucket)) {
     buffer.start(*kernel_);
     return;
@@ -241,13 +252,15 @@ void BlobLayer::draw_wide(const std::vector<std::uint32_t>& numbers, const Canva
   }
 }
 
-// rgb is drawn on by way of the canvas.  NOLINTNEXTLINE(readability-non-const-parameter)
+// The canvas writes to rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
   if (kernel_) draw_splats(band, buffer, rgb);
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
   const auto inside = columns_inside(projection_, first, count);
   const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};
   const auto own = static_cast<std::size_t>(band);
+  // Ellipses are sorted by their first band, so those that reach this band lie in one stretch of
+  // memory.  Earlier bands none of whose ellipses reach this one are skipped.
   auto begin = static_cast<std::size_t>(std::max(0, band - kMostBands + 1));
   while (begin < own && last_band_[begin] < band) ++begin;
   const std::size_t from = first_ellipse_[begin], end = first_ellipse_[own + 1];

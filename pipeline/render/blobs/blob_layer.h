@@ -1,5 +1,5 @@
-// The blobs of all stars of a frame, sorted into bands of rows, so that several threads can draw
-// them.
+// A BlobLayer holds the blobs of all stars of a frame, sorted into bands of rows, so that several
+// threads can draw them.
 #pragma once
 
 #include <cstdint>
@@ -14,37 +14,38 @@
 
 namespace domefall {
 
-// Places images as splats, ellipses and caps, and draws these in that order, with wide ellipses
-// before the caps of which they were made.  Splats and ellipses are drawn by the band in which they
-// begin, and blobs of a kind in the order of the tasks that placed them, so that the sums are the
-// same for any number of threads.  Sorting is blob_layer_sorting.cpp.
+// A layer places each image as a splat, an ellipse or a cap.  A band is drawn in the order splats,
+// ellipses, wide ellipses (which were made of caps), caps.  Splats and ellipses are sorted by the
+// band in which they begin, and blobs of one kind follow the order of the tasks that placed them.
+// The sums are therefore the same for any number of threads.  The sorting is in
+// blob_layer_sorting.cpp.
 class BlobLayer {
  public:
   explicit BlobLayer(const Projection& projection) { start(projection); }
-  // Empties the layer for another frame.  Its memory is kept, because new memory costs as much as
-  // what is done in it.
+  // Empties the layer for another frame.  It keeps its memory, because allocating memory costs as
+  // much as the work that is done in it.
   void start(const Projection& projection);
-  // From now on draws faint images as splats, if the blobs are of a width at which that is
-  // possible.
+  // Makes the layer draw faint images as splats from now on, if splats can have this width in this
+  // projection.
   void use_splats(const PointSpread& widths);
-  // Whether a frame has so many images that splats are quicker than ellipses.
+  // Says whether a frame has so many images that splats are quicker than ellipses.
   static bool are_many(double images, const Projection& projection);
   bool has_splats() const { return kernel_.has_value(); }
 
   // Adds `count` tasks and returns the first one's number.
   std::size_t new_tasks(std::size_t count);
-  // Places the images of task `number`, once, in whatever thread.  It leaves no meaningful images
-  // in the list.
+  // Places the images of task `number`.  It is called once for each task, by any thread.
+  // Afterwards the contents of `images` are unspecified.
   void place(std::size_t number, std::vector<StarImage>& images, const PointSpread& widths);
 
-  // Adds images, or caps that are placed already, as tasks of its own.
+  // Adds images, or caps that are placed already, as tasks of the layer's own.
   void add(const std::vector<StarImage>& images, const PointSpread& widths);
   void add(const std::vector<CapBlob>& caps);
-  // Ends the placing.  Bands can be drawn afterwards.
+  // Ends the placing.  Bands can be drawn after this call.
   void sort_into_bands();
 
-  // The number of images of which something is in the frame.  Splats that just miss it are counted
-  // too.
+  // Returns the number of images that are at least partly in the frame.  Splats that just miss the
+  // frame are counted too.
   std::size_t size() const { return size_; }
 
   // Prepares a thread's buffer for drawing bands of this layer, in rising order.
@@ -52,16 +53,16 @@ class BlobLayer {
     if (kernel_) buffer.start(*kernel_);
   }
   // Adds the blobs' light on the rows of a band to rgb[rows][3 * columns].  The buffer belongs to
-  // one thread; bands that follow one another in it cost less.
+  // one thread.  Consecutive bands cost less when the same buffer draws them.
   void draw_band(int band, SplatBuffer& buffer, float* rgb) const;
 
  private:
-  // What one task places.
+  // A Task holds the blobs that one task has placed.
   struct Task {
     SplatList splats;
     std::vector<EllipseBlob> ellipses;
-    std::vector<std::uint16_t> band;  // in which ellipses[k] begins
-    std::vector<int> last_band;       // by band: the last one that ellipses beginning there reach
+    std::vector<std::uint16_t> band;  // the band in which ellipses[k] begins
+    std::vector<int> last_band;       // by band: the last band that ellipses beginning there reach
     std::vector<CapBlob> caps;
     std::size_t size = 0;
 
@@ -83,22 +84,22 @@ class BlobLayer {
 
   Projection projection_;
   std::size_t bands_ = 0;
-  std::vector<Task> tasks_;  // of which `used_` are this frame's
+  std::vector<Task> tasks_;  // the first `used_` belong to this frame
   std::size_t used_ = 0, size_ = 0;
 
   std::optional<SplatKernel> kernel_;
-  std::vector<std::size_t>
-      first_splat_;  // by bucket: the splats of all tasks in the buckets before
+  std::vector<std::size_t> first_splat_;  // by bucket: splats of all tasks in earlier buckets
 
-  std::unique_ptr<EllipseBlob[]> ellipses_;  // by the band in which they begin
+  std::unique_ptr<EllipseBlob[]> ellipses_;  // sorted by the band in which they begin
   std::size_t ellipse_capacity_ = 0;
-  std::vector<std::size_t> first_ellipse_;  // by band, and the end
-  std::vector<int> last_band_;              // by band, as a task's
+  std::vector<std::size_t> first_ellipse_;  // by band, then the end
+  std::vector<int> last_band_;              // by band, over all tasks; see Task::last_band
 
-  // Caps become wide ellipses where these are accurate enough.
+  // Caps become wide ellipses where such an ellipse is accurate enough.  The lists hold, for each
+  // band, the numbers of those that reach into it.
   std::vector<CapBlob> caps_;
   std::vector<EllipseBlob> wide_;
-  std::vector<std::vector<std::uint32_t>> caps_of_band_, wide_of_band_;  // that reach into it
+  std::vector<std::vector<std::uint32_t>> caps_of_band_, wide_of_band_;
 };
 
 }  // namespace domefall

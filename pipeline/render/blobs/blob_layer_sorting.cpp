@@ -1,4 +1,4 @@
-// The part of the class BlobLayer that sorts what was placed into the bands of rows.
+// The functions of BlobLayer that sort the placed blobs into bands of rows.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,12 +12,13 @@ namespace domefall {
 void BlobLayer::sort_splats() {
   first_splat_.assign(static_cast<std::size_t>(kernel_->buckets()) + 1, 0);
   for (std::size_t t = 0; t < used_; ++t)
+    // Summing each task's first[k] gives the number of splats of all tasks in the buckets before k.
     for (std::size_t k = 0; k < tasks_[t].splats.first.size(); ++k)
       first_splat_[k] += tasks_[t].splats.first[k];
 }
 
-// A counting sort by band.  Within a band the tasks' ellipses follow one another in the tasks'
-// order.
+// Sorts by counting: first the ellipses of each band and task are counted, then the sums of these
+// counts say where each task writes.  Within a band the ellipses follow the order of the tasks.
 void BlobLayer::sort_ellipses() {
   std::vector<std::vector<std::size_t>> next(used_, std::vector<std::size_t>(bands_));
   tbb::parallel_for(std::size_t{0}, used_, [&](std::size_t t) {
@@ -28,6 +29,7 @@ void BlobLayer::sort_ellipses() {
   for (const Task& task : tasks_)
     for (std::size_t band = 0; band < task.last_band.size(); ++band)
       last_band_[band] = std::max(last_band_[band], task.last_band[band]);
+  // The counts in `next` become places: next[t][band] says where task t writes its next ellipse.
   std::size_t sum = 0;
   for (std::size_t band = 0; band < bands_; ++band) {
     first_ellipse_[band] = sum;
@@ -49,8 +51,8 @@ void BlobLayer::sort_ellipses() {
   });
 }
 
-// The caps of a band lie side by side in memory.  Only caps of one place and light compare as
-// equal, so that the order does not depend on the tasks.
+// Caps of one band become neighbours in memory.  Caps compare as equal only if they have the same
+// place, width and light, so the order does not depend on the tasks.
 void BlobLayer::sort_caps() {
   for (const Task& task : tasks_) caps_.insert(caps_.end(), task.caps.begin(), task.caps.end());
   merge_crowds(projection_, caps_);
@@ -62,7 +64,7 @@ void BlobLayer::sort_caps() {
   part_wide_ellipses();
 }
 
-// Makes wide ellipses of the caps that these can stand for, and lists both by band.
+// Replaces caps by wide ellipses where these are accurate enough, and lists both kinds by band.
 void BlobLayer::part_wide_ellipses() {
   caps_of_band_.assign(bands_, {});
   wide_of_band_.assign(bands_, {});

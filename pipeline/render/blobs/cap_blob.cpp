@@ -17,9 +17,9 @@ namespace {
 
 using std::numbers::pi;
 
-// The most pixels per radian up to an angle `reach` from a direction that is `theta` off the
-// middle.  On a dome they are theta/sin(theta) times those of the middle, along the tangent; on a
-// flat image 1/cos^2(theta/2) times.
+// Returns the most pixels per radian up to an angle `reach` from a direction that is `theta` off
+// the middle.  On a dome the density along the tangent is theta/sin(theta) times that in the
+// middle.  On a flat image the density is 1/cos^2(theta/2) times that in the middle.
 double densest(const Projection& p, double theta, double reach) {
   const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
   if (std::holds_alternative<Domemaster>(p)) return centre * std::max(1.0, far / std::sin(far));
@@ -29,11 +29,11 @@ double densest(const Projection& p, double theta, double reach) {
 
 bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
 
-// As blob_shape() has it.
+// Returns the argument `unit` of blob_shape().
 double unit_of(const Projection& p) { return central_pixel_angle(p) / (is_dome(p) ? 1 : 2); }
 
-// Far beyond the half sphere the shape is taken from near its edge, since blob_shape() holds to
-// theta < 1.9 only.  A cap depends on it for its scale and for the pixel's blur.
+// Far beyond the half sphere the shape is that of a place near its edge, since blob_shape() holds
+// for theta < 1.9 only.  A cap needs the shape only for its scale and for the pixel's blur.
 BlobShape shape_of(const Projection& p, double cx, double cy, double sigma) {
   const double unit = unit_of(p);
   if (!is_dome(p)) return blob_shape<false>(unit, cx, cy, sigma);
@@ -47,25 +47,25 @@ double brightest(const CapBlob& b) { return std::max({b.rgb[0], b.rgb[1], b.rgb[
 
 // On a dome a pixel at c, in pixels from the middle, has the direction (sinc(theta) unit c, cos
 // theta) with theta = unit |c|.  The chord between two close pixels is a small difference of such
-// directions.  So that nothing cancels and floats suffice, sinc and cos are series about the blob's
-// centre in the growth of t = theta^2 from there, and the growth itself is taken from the offset d
-// between the pixels: unit^2 (2 c + d).d.
+// directions.  To avoid cancellation, so that floats suffice, sinc and cos are power series in the
+// growth of t = theta^2 from the blob's centre.  The growth itself follows from the offset d
+// between the pixels as unit^2 (2 c + d).d.
 
-// The terms of these series, and those that suffice for a blob that reaches less than kNear
-// (radians); what follows is below 1e-9.
+// The series have kTerms terms.  For a blob that reaches less than kNear (radians), kNearTerms are
+// enough.  The terms that follow are below 1e-9.
 constexpr int kTerms = 7, kNearTerms = 4;
 constexpr double kNear = 0.1;
 
-// The coefficients of powers of the growth.  sinc[0] is the value at the centre; cosine[0] is not
-// needed.
+// These are the coefficients of the powers of the growth.  sinc[0] is the value at the centre.
+// cosine[0] is not needed, because only the difference from the centre counts.
 struct Series {
   std::array<float, kTerms> sinc, cosine;
 };
 
-// sinc(sqrt t) is the sum of (-t)^n/(2n + 1)! over n.  kSinc[k] holds the coefficients of powers of
-// t of its k-th derivative over k!, which by Taylor's theorem is the k-th coefficient about t.
-// There are powers for t up to 3.4 (a star beyond a dome's rim), where what is left out is below
-// 1e-9 of the value.
+// sinc(sqrt t) is the sum of (-t)^n/(2n + 1)! over n.  By Taylor's theorem, its k-th coefficient
+// about t is its k-th derivative at t over k!, and kSinc[k] holds the coefficients of the powers of
+// t in that.  There are enough powers for t up to 3.4 (a star beyond a dome's rim), where the
+// omitted rest is below 1e-9 of the value.
 constexpr int kPowers = 15, kNearPowers = 10;
 constexpr auto kSinc = [] {
   std::array<std::array<double, kPowers>, kTerms> table{};
@@ -87,6 +87,7 @@ constexpr auto kSinc = [] {
 template <std::size_t kCount, std::size_t kPowersUsed>
 Series series_about(double t) {
   std::array<double, kCount> sinc{};
+  // Horner's scheme in t evaluates the polynomials of all coefficients side by side.
   for (std::size_t m = kPowersUsed; m-- > 0;)
     for (std::size_t k = 0; k < kCount; ++k) sinc[k] = sinc[k] * t + kSinc[k][m];
   Series s{};
@@ -99,21 +100,21 @@ Series series_about(double t) {
 
 // ---- drawing ----
 
-// What drawing needs of a blob.
+// A PreparedCap holds what drawing needs to know about a blob.
 struct PreparedCap {
   bool dome;
-  bool near;  // whether it reaches less than kNear
+  bool near;  // says whether it reaches less than kNear
   Series series;
   float cx, cy;                 // the centre, in pixels from the image's middle
   float unit, unit2;            // unit_of() and its square
   float one_plus_t;             // flat image: 1 + tan^2(theta/2) at the centre
-  float chord;                  // q per chord2()
+  float chord;                  // the factor from chord2() to q
   float xx, xy, yy;             // what the pixel's blur adds to q, per pixel^2
   float slope, dent, end;       // of FlattenedGaussian, and its value at the cut
   float paling;                 // the colour is half way to white where this times the weight is 1
   std::array<float, 3> colour;  // at the peak
-  std::array<float, 3> pale;    // grey of the same luminance, less `colour`
-  std::array<float, 24> colours, pales;  // the same for eight pixels
+  std::array<float, 3> pale;    // grey of the same luminance, minus `colour`
+  std::array<float, 24> colours, pales;  // both, repeated for eight pixels
 };
 
 PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float middle_y) {
@@ -133,6 +134,8 @@ PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float
   cap.unit = static_cast<float>(unit);
   cap.unit2 = static_cast<float>(unit * unit);
   cap.one_plus_t = static_cast<float>(1 + t);
+  // The exponent q is the squared chord over 2 sigma^2.  chord2() leaves out a factor of unit^2,
+  // and on a flat image one of 4/(1 + t).
   cap.chord = static_cast<float>((cap.dome ? 0.5 : 2 / (1 + t)) * unit * unit / (sigma * sigma));
   cap.xx = static_cast<float>((s.xx - s.bare_xx) / 2);
   cap.xy = static_cast<float>(s.xy - s.bare_xy);
@@ -141,7 +144,7 @@ PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float
   cap.dent = static_cast<float>(flattened.dent);
   cap.end = static_cast<float>(flattened(scale.cut));
   const double light = luminance({b.rgb[0], b.rgb[1], b.rgb[2]});
-  // The bound keeps its square finite.
+  // The bound keeps the square of this value finite.
   cap.paling = static_cast<float>(std::min(1e9, light * scale.peak_per_flux * b.paling));
   for (std::size_t c = 0; c < 3; ++c) {
     cap.colour[c] = static_cast<float>(b.rgb[c] * scale.peak_per_flux);
@@ -155,9 +158,10 @@ PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float
   return cap;
 }
 
-// The squared chord to the pixel at (dx, dy) from the centre over unit^2, on a flat image times
-// (1 + t)/4, t that of the centre: stereographic points with w = unit c have the chord
-// 2 |w - w'|/sqrt((1 + w^2)(1 + w'^2)).
+// Returns the squared chord to the pixel at (dx, dy) from the centre, divided by unit^2.  On a flat
+// image it is also multiplied by (1 + t)/4 with the t of the centre.  There the chord between the
+// stereographic points w = unit c and w' is 2 |w - w'|/sqrt((1 + w^2)(1 + w'^2)), the chordal
+// metric.
 template <bool kDome, int kCount>
 [[gnu::always_inline]] inline float chord2(const PreparedCap& b, float dx, float dy) {
   const float growth = b.unit2 * ((dx + 2 * b.cx) * dx + (dy + 2 * b.cy) * dy);
@@ -169,6 +173,8 @@ template <bool kDome, int kCount>
   }
   sinc *= growth;
   cosine *= growth;
+  // With t' = t + growth the two directions, over unit, differ by
+  //     sinc(t') (c + d) - sinc(t) c = sinc(t) d + (sinc(t') - sinc(t)) (c + d).
   const float x = b.series.sinc[0] * dx + sinc * (b.cx + dx);
   const float y = b.series.sinc[0] * dy + sinc * (b.cy + dy);
   const float z = cosine / b.unit;
@@ -178,7 +184,7 @@ template <bool kDome, int kCount>
 constexpr int kChunk = 16;
 
 // Adds `count` <= kChunk pixels of a row, of which the first lies at (dx0, dy) from the centre.
-// kPale tells whether the blob turns white where it is bright.
+// kPale says whether the blob turns white where it is bright.
 template <bool kDome, int kCount, bool kPale>
 [[gnu::always_inline]] inline void add_chunk(const PreparedCap& b, float dx0, float dy, int count,
                                              float* __restrict out) {
@@ -221,8 +227,8 @@ template <bool kDome, int kCount, bool kPale>
   }
 }
 
-// Adds `count` pixels of a row.  `room` is the number of pixels from `out` on that may be touched;
-// those beyond the blob get 0.
+// Adds `count` pixels of a row.  The function may touch `room` pixels from `out` on, and adds 0 to
+// those beyond the blob.
 template <bool kPale>
 [[gnu::always_inline]] inline void add_span_loop(const PreparedCap& b, float dx, float dy,
                                                  int count, int room, float* out) {
@@ -256,6 +262,7 @@ bool place_cap(const Projection& projection, CapBlob& blob) {
   if (theta - reach > (dome ? pi / 2 + 2 * unit_of(projection) : 0.999 * pi) ||
       (!dome && theta + reach > 0.999 * pi))
     return false;
+  // The blur by the pixel has the variance 1/12.  It extends the blob by less than q of its sigmas.
   const double half = reach * densest(projection, theta, reach) + q * std::sqrt(1.0 / 12) + 1;
   if (!(blob.x + half >= 0 && blob.y + half >= 0 && blob.x - half <= width - 1 &&
         blob.y - half <= height - 1))

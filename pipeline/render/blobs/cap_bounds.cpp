@@ -13,15 +13,18 @@ using std::numbers::pi;
 
 constexpr double kAll = 1e9;  // more pixels than any picture has
 
-// The distances in pixels, from the middle of a cap, of the box that holds it.
+// A CapBox says how far, in pixels, the box around a cap reaches from the middle of the cap.
 struct CapBox {
   double left, right, up, down;
 };
 
 CapBox square_box(double half) { return {half, half, half, half}; }
 
-// A plane z = x/X touches the cone of half angle `reach` about n where
-// (n.x - X n.z)^2 = sin^2(reach) (1 + X^2).
+// Finds the edges of a cap on a flat picture, in units of tan(theta).  Column X of the picture is
+// the plane x = X z.  The sine of its angle to n is |n.x - X n.z|/sqrt(1 + X^2), so that the plane
+// touches the cone of half angle `reach` about n where
+//     (n.x - X n.z)^2 = sin^2(reach) (1 + X^2).
+// The two solutions of this quadratic equation are the least and the most X.
 void find_edges(double along, double z, double reach, double& least, double& most) {
   const double s2 = std::sin(reach) * std::sin(reach);
   const double a = z * z - s2, b = along * z,
@@ -42,8 +45,8 @@ CapBox rectilinear_box(const Projection& p, const CameraDirection& n, double rea
           (bottom - y) * per_tangent + 1};
 }
 
-// The most pixels that an angle `reach` from a direction may be away, on a picture about Z; so many
-// that they are the whole picture where it might go around or to infinity.
+// Returns the most pixels by which an angle `reach` may lead away from a direction, on a picture
+// about Z.  It returns kAll where the cap might surround the middle or reach infinity.
 double farthest_pixels(const Projection& p, const CameraDirection& n, double reach) {
   const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), far = theta + reach;
   const double centre = 1 / central_pixel_angle(p);
@@ -51,8 +54,12 @@ double farthest_pixels(const Projection& p, const CameraDirection& n, double rea
     const double c = std::cos(std::min(far, pi) / 2);
     return c > 1e-4 ? reach * centre / (c * c) : kAll;
   }
+  // On an equidistant fisheye the pixels per radian along the tangent are theta/sin(theta) times
+  // those in the middle.
   if (far < pi / 2) return reach * centre * far / std::sin(far);
-  // Far out the circle lies between two meridians, and between theta - reach and theta + reach.
+  // Farther out the cap lies between two meridians, and between theta - reach and theta + reach.
+  // Its farthest point is nearer than the sum of a radial step and the chord across to such a
+  // meridian.
   const double ratio = std::sin(std::min(reach, pi / 2)) / std::sin(theta);
   if (far >= pi || reach >= theta || ratio >= 1) return kAll;
   return (reach + far * 2 * std::sin(std::asin(ratio) / 2)) * centre;
@@ -62,15 +69,16 @@ CapBox cap_box(const Projection& p, const CameraDirection& n, double reach) {
   if (std::holds_alternative<Rectilinear>(p)) return rectilinear_box(p, n, reach);
   if (!std::holds_alternative<Equirectangular>(p))
     return square_box(farthest_pixels(p, n, reach) + 1);
-  // A circle's meridians touch it at asin(sin(reach)/cos(latitude)) from its middle.
+  // The meridians that touch a circle of radius `reach` are asin(sin(reach)/cos(latitude)) from its
+  // middle.
   const double ratio = std::sin(std::min(reach, pi / 2)) / std::hypot(n.v.x, n.v.y);
   const double per_radian = columns(p) / (2 * pi), down = reach * per_radian + 1;
   const double across = ratio < 1 ? std::asin(ratio) * per_radian + 1 : columns(p);
   return {across, across, down, down};
 }
 
-// Whether a blob lies outside the circle about Z that holds the whole picture.  Far beyond it a
-// picture is stretched so much that its pixels would not tell.
+// Says whether a blob lies outside the circle about Z that holds the whole picture.  Far beyond the
+// circle the projection is stretched so much that bounds in pixels would not tell.
 bool is_beyond_circle(const Projection& p, const CameraDirection& n, double reach) {
   double circle = pi;
   if (const auto* fisheye = std::get_if<Fisheye>(&p)) circle = fisheye->fov / 2;
@@ -79,15 +87,16 @@ bool is_beyond_circle(const Projection& p, const CameraDirection& n, double reac
   return theta - reach > circle + central_pixel_angle(p);
 }
 
-// Adds the columns from one place of a row to another, as far as they are within `inside`.
+// Adds the columns between two positions in a row that are within `inside`.
 void add_columns(double from, double to, const ColumnRange& inside, CapSpans& spans) {
   const int first = static_cast<int>(std::max(std::floor(from), double(inside.first)));
   const int last = static_cast<int>(std::min(std::ceil(to), double(inside.last)));
   if (first <= last) spans.span[spans.count++] = {first, last};
 }
 
-// Half of the columns that a blob covers on a row of the whole sphere: all points at the latitude
-// within `reach` of the middle.  Their distance c has
+// Returns half the number of columns that a blob covers on a row of a picture of the whole sphere.
+// These are all points of the row's latitude within `reach` of the blob's middle.  Their distance c
+// is given by the haversine formula,
 //     sin^2(c/2) = sin^2((latitude - middle)/2) + cos(latitude) cos(middle) sin^2(longitude/2).
 double half_width_at(double latitude, double middle, double reach, double per_radian) {
   const double up = std::sin((latitude - middle) / 2), most = std::sin(reach / 2);
@@ -102,7 +111,7 @@ CapSpans spans_on_sphere(const CapBlob& b, const Projection& p, double reach, in
   CapSpans spans;
   const double width = columns(p), per_radian = width / (2 * pi);
   const auto latitude = [&](double y) { return (rows(p) - 1 - 2 * y) / (2 * per_radian); };
-  // Half a pixel more on each side, of which parts may be covered.
+  // A pixel may be covered in part if its corner is, so half the diagonal of a pixel is added.
   const double rim = 0.71 / per_radian;
   const double half =
       half_width_at(latitude(row), latitude(b.y), std::min(reach + rim, pi), per_radian) + 1;
@@ -111,14 +120,14 @@ CapSpans spans_on_sphere(const CapBlob& b, const Projection& p, double reach, in
     add_columns(0, width - 1, inside, spans);
     return spans;
   }
-  // The middle is within the picture, so that one copy of it on each side suffices.
+  // The middle is within the picture, so that one copy on each side suffices.
   for (const double shift : {-width, 0.0, width})
     add_columns(b.x + shift - half, b.x + shift + half, inside, spans);
   return spans;
 }
 
-// Far out on a fisheye a blob is long and bent, and covers little of the square about it: only what
-// is about as far from the middle of the circle as its own.
+// Far out on a fisheye a blob is long and bent, and covers little of the square around it.  It
+// covers only pixels that are about as far from the middle of the circle as the blob's own middle.
 CapSpans spans_on_ring(const CapBlob& b, const Projection& p, double reach, int row, double left,
                        double right, const ColumnRange& inside) {
   constexpr double kNarrow = 2;
@@ -129,6 +138,7 @@ CapSpans spans_on_ring(const CapBlob& b, const Projection& p, double reach, int 
   const double half = reach / central_pixel_angle(p) + 1;
   const auto along_row = [y](double r) { return r > std::abs(y) ? std::sqrt(r * r - y * y) : 0; };
   const double outer = along_row(from_middle + half), inner = along_row(from_middle - half);
+  // A gap of few columns is not worth two spans.
   if (inner < kNarrow) {
     add_columns(std::max(left, x - outer - 1), std::min(right, x + outer + 1), inside, spans);
     return spans;

@@ -1,4 +1,5 @@
-// Which pixels a cap may cover in a projection that has no formulas for caps.
+// These functions find the pixels that a cap may cover in a projection that has no formulas for
+// caps.
 #pragma once
 
 #include <array>
@@ -7,15 +8,16 @@
 
 namespace domefall {
 
-// The angle from the middle of a cap, whose cut is set, at which it ends.
+// Returns the angle (radians) from its middle at which a cap ends.  Its cut must be set.
 double angular_reach(const CapBlob& blob);
 
-// Sets what the cap may cover, all of which lies within `reach` pixels of its middle, at n.  Returns
-// false if that is nothing.
+// Sets the rows and columns that the cap with its middle at n may cover, and the distance `reach`
+// in pixels from its middle within which all of it lies.  Returns false if it covers nothing.
 bool bound_cap(const Projection& projection, const CameraDirection& n, CapBlob& blob);
 
-// The columns that it may cover on a row, within those of the picture: several on a ring about the
-// middle of a fisheye, and on both sides of a seam.
+// CapSpans are the columns, within those of the picture, that a cap may cover on one row.  There
+// are several spans where the cap lies on a ring about the middle of a fisheye, or on both sides of
+// a seam.
 struct CapSpans {
   std::array<ColumnRange, 3> span;
   std::size_t count = 0;

@@ -13,28 +13,31 @@
 namespace domefall {
 namespace {
 
-// A blob is drawn in strips of so many columns, which are six vectors of eight floats.  Vectors of
-// sixteen are no quicker with AVX-512, and without it GCC takes them apart float by float.
+// A blob is drawn in strips of kPixels columns, each of which is six vectors of eight floats.
+// Vectors of sixteen floats are no quicker with AVX-512, and without AVX-512 GCC splits them into
+// single floats.
 constexpr int kPixels = 16, kFloats = 3 * kPixels;
 using LaneBits = std::int32_t __attribute__((vector_size(4 * kLanes)));
 constexpr std::size_t kBatch = 32;
-// Makes columns and rows positive, so that truncation rounds down.
+// Added to columns and rows, this makes them positive, so that truncation rounds down.
 constexpr int kEllipseMargin = 2 * kMostWideEllipsePixels;
 static_assert(kBandRows <= kPixels);
 
 // ---- what drawing needs of each blob ----
 
-// -ln x for x > 0, or up to 0.06 more.  As an integer, the bits of a float are about
-// 2^23 (127 + log2 x): its mantissa stands for its own logarithm.
+// Returns -ln x for x > 0, or up to 0.06 more.  Read as an integer, the bits of a float are about
+// 2^23 (127 + log2 x): for a mantissa 1 <= m < 2 they hold m - 1, which is below log2 m by at most
+// 0.086 = 0.06/ln 2.
 [[gnu::always_inline]] inline float about_minus_log(float x) {
   const auto bits = static_cast<float>(std::bit_cast<std::int32_t>(x)) * 0x1p-23f;
   return (127.0f - bits) * 0.69314718f;
 }
 
-// A batch of blobs, column by column, computed for all at once.  Pixels count from 0.
+// A batch of blobs is stored column by column, so that a loop computes all blobs at once.  Pixels
+// count from 0.
 //
-// The value is that of FlattenedGaussian less the one at the cut.  With u = part W and
-// part = dent/slope, W (slope - dent W) = gain (u - u^2), gain = slope/part.
+// A pixel's value is that of FlattenedGaussian minus the value at the cut.  With u = part W and
+// part = dent/slope it is W (slope - dent W) = gain (u - u^2), where gain = slope/part.
 struct PreparedEllipses {
   alignas(64) std::array<float, kBatch> dx, dy;      // from the centre to the first pixel drawn
   alignas(64) std::array<float, kBatch> xx, xy, yy;  // of -q: -P_xx/2, -P_xy and -P_yy/2
@@ -47,9 +50,11 @@ struct PreparedEllipses {
 // Narrows the columns of a blob down to those that the ellipse covers on the canvas.  `spread`,
 // half_x and half_y are those of prepare().
 //
-// The ellipse d P d = 2 q reaches farthest to the right where y = -half_x P_xy/P_yy.  At another y
-// it reaches to x = (-P_xy y + sqrt(2 q P_xx - det P y^2))/P_xx, which falls towards both sides, so
-// that of the canvas' rows the nearest counts.  To the left all signs are changed.
+// The ellipse d P d = 2 q reaches farthest to the right at y = -half_x P_xy/P_yy, where d P d has
+// no slope along y.  At another y it reaches to the larger root x of the quadratic equation,
+//     x = (-P_xy y + sqrt(2 q P_xx - det P y^2))/P_xx.
+// This decreases on both sides of the farthest point, so the row of the canvas nearest to that
+// point decides.  To the left all signs are changed.
 [[gnu::always_inline]] inline void narrow_columns(const EllipseBlob& b, float spread, float half_x,
                                                   float half_y, std::size_t k,
                                                   PreparedEllipses& prepared) {
@@ -73,8 +78,8 @@ struct PreparedEllipses {
   prepared.dx[k] = static_cast<float>(prepared.column[k]) - b.x;
 }
 
-// The ellipse q = -ln(cut) has the half width sqrt(2 q C_xx), where the covariance's
-// C_xx = P_yy/det P.
+// Prepares a batch.  The ellipse q = -ln(cut) has the half width sqrt(2 q C_xx) along x, where C_xx
+// = P_yy/det P belongs to the covariance, the inverse of P.
 template <bool kWide>
 [[gnu::always_inline]] inline void prepare(const EllipseBlob* blobs, std::size_t count,
                                            const Canvas& canvas, PreparedEllipses& prepared) {
@@ -83,6 +88,7 @@ template <bool kWide>
     const EllipseBlob& b = blobs[k];
     const float warm = b.rgb[0] > b.rgb[1] ? b.rgb[0] : b.rgb[1];
     const float peak = warm > b.rgb[2] ? warm : b.rgb[2];
+    // The cut is that of cut_of() for this peak.
     const float low = static_cast<float>(kUnseen) / peak;
     const auto highest = static_cast<float>(kHighestCut), lowest = static_cast<float>(kLowestCut);
     const float high = low < highest ? low : highest, cut = high > lowest ? high : lowest;
@@ -113,30 +119,32 @@ template <bool kWide>
 
 // ---- strips ----
 
-// The columns of a blob from column `first` of the blob on.
+// A Strip is the part of a blob from the blob's column `first` on.
 struct Strip {
   int blob, first;
 };
 
-// Lists the strips of the batch's blobs that touch the canvas and begin with column `first` of the
-// blob.  Returns their number.
+// Lists the strips that begin with column `first` of their blobs and touch the canvas.  Returns
+// their number.
 [[gnu::always_inline]] inline int list_strips(const PreparedEllipses& prepared, std::size_t count,
                                               int first, Strip* strips) {
   int listed = 0;
   for (std::size_t k = 0; k < count; ++k) {
+    // Each round writes a strip, and the next round overwrites it if it does not count.  This needs
+    // no branch.
     strips[listed] = {static_cast<int>(k), first};
     listed += prepared.first[k] <= prepared.last[k] && prepared.columns[k] > first ? 1 : 0;
   }
   return listed;
 }
 
-// The exponentials of which the weights of a strip are made.  With (x, y) the offset of a pixel
-// from the centre and y0 that of the first row,
+// The weights of a strip are products of these exponentials.  With (x, y) the offset of a pixel
+// from the centre, and y0 that of the first row,
 //     W = exp(-P_xx x^2/2 - P_xy x y0) exp(-P_xy x)^(y - y0) exp(-P_yy y^2/2).
 struct StripExponentials {
-  alignas(64) float weight[kPixels];  // of the first row, without its factor
+  alignas(64) float weight[kPixels];  // of the first row, without the row's factor
   alignas(64) float step[kPixels];    // from row to row
-  alignas(64) float rows[kPixels];    // each row's factor, times `part`
+  alignas(64) float rows[kPixels];    // the factor of each row, times `part`
 };
 
 [[gnu::always_inline]] inline void find_exponentials(const PreparedEllipses& prepared,
@@ -157,7 +165,8 @@ struct StripExponentials {
   }
 }
 
-// Replaces negative values by 0, on the bits: as an integer, those of a negative float are below 0.
+// Replaces negative values by 0.  It compares the bits: read as an integer, the bits of a negative
+// float are negative.
 [[gnu::always_inline]] inline void keep_positive(Lanes& v) {
   LaneBits bits;
   std::memcpy(&bits, &v, sizeof v);
@@ -165,8 +174,8 @@ struct StripExponentials {
   std::memcpy(&v, &bits, sizeof v);
 }
 
-// Adds the rows of a strip to `out`, which begins with the strip's first pixel.  kCount vectors of
-// each row are drawn.
+// Adds the rows of a strip to `out`, which begins with the strip's first pixel.  Of each row kCount
+// vectors are drawn.
 template <int kCount>
 [[gnu::always_inline]] inline void add_rows(const EllipseBlob& blob,
                                             const PreparedEllipses& prepared, std::size_t k,
@@ -177,6 +186,8 @@ template <int kCount>
   repeat_for_channels<kCount>(strip.step, step);
   const float gain = prepared.gain[k], r = gain * blob.rgb[0], g = gain * blob.rgb[1],
               b = gain * blob.rgb[2], end = prepared.end[k];
+  // Three vectors hold the colours of eight pixels, so the channels begin anew with every third
+  // vector.
   const Lanes scale[3] = {
       {r, g, b, r, g, b, r, g}, {b, r, g, b, r, g, b, r}, {g, b, r, g, b, r, g, b}};
   for (int j = 0; j <= prepared.last[k] - prepared.first[k]; ++j, out += stride) {
@@ -194,7 +205,7 @@ template <int kCount>
   }
 }
 
-// Adds a strip to `out`, which begins with its first pixel.  Narrow blobs do with fewer vectors.
+// Adds a strip to `out`, which begins with its first pixel.  Narrow blobs need fewer vectors.
 [[gnu::always_inline]] inline void add_strip(const EllipseBlob& blob,
                                              const PreparedEllipses& prepared, const Strip& at,
                                              const StripExponentials& strip, float* out,
@@ -209,7 +220,8 @@ template <int kCount>
     add_rows<6>(blob, prepared, k, strip, out, stride);
 }
 
-// Adds a strip of which some is outside the image: it is drawn aside, and what is inside is copied.
+// Adds a strip that is partly outside the image.  It is drawn into a buffer, and the part inside is
+// copied.
 [[gnu::always_inline]] inline void add_clipped(const EllipseBlob& blob,
                                                const PreparedEllipses& prepared, const Strip& at,
                                                const StripExponentials& strip,
@@ -229,12 +241,13 @@ template <int kCount>
   }
 }
 
-// Strips of a batch that begin with the same column of their blobs are drawn one after another:
-// first all that begin with the first one, and then those of blobs that are wider than one strip.
+// Draws blobs batch by batch.  First come the strips that begin with the first column of their
+// blobs, then the next strips of blobs that are wider than one strip, and so on.
 template <bool kWide>
 [[gnu::always_inline]] inline void draw_loop(const EllipseBlob* blobs, std::size_t count,
                                              const Canvas& canvas) {
-  // A strip between these columns is inside on every row, with the padding to whole blocks.
+  // A strip between these columns is inside the image on every row, including its padding to
+  // kPixels columns.
   int least = 0, most = canvas.width - 1;
   for (int row = 0; row < canvas.rows; ++row) {
     least = std::max(least, canvas.columns[row].first);

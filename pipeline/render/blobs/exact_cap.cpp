@@ -22,8 +22,9 @@ CameraDirection middle_of(const CapBlob& b, const Projection& p) {
   return direction_at(p, {b.x + 1.0, b.y + 1.0});
 }
 
-// On the sphere c^2/(2 sigma^2) = q covers 2 pi sigma^2 per unit, up to the point opposite.
-// Returns the integral of exp(-q) - cut.
+// Returns the integral over the sphere of exp(-q) - cut, where q = c^2/(2 sigma^2) and c is the
+// chord.  A cap out to the chord c = 2 sin(theta/2) has the solid angle 2 pi (1 - cos theta) = pi
+// c^2, which is 2 pi sigma^2 per unit of q.  The sphere ends at the opposite point, where c = 2.
 double integral_of_weight(double sigma, double cut) {
   const double last = std::min(-logarithm(cut), 2 / (sigma * sigma));
   return 2 * pi * sigma * sigma * (1 - exponential(-last) - cut * last);
@@ -33,19 +34,22 @@ double integral_of_weight(double sigma, double cut) {
 
 constexpr int kPixelsAtOnce = 32, kMostPoints = 2;
 
-// Gauss' points along a side of a pixel, from its middle.  Their mean of a Gaussian of width s
-// (pixels) errs by 3/(4320 s^4) of its peak along each axis; with one point, by 1/(24 s^2).
+// Gauss' quadrature along a side of a pixel has these points, counted from the pixel's middle.  Two
+// points average a function f with the error f''''/4320, and one point with the error f''/24.  For
+// a Gaussian of width s (pixels) these errors are at most 3/(4320 s^4) and 1/(24 s^2) of its peak
+// along each axis.
 struct Points {
   std::size_t count;
   std::array<double, kMostPoints> at;
 };
-constexpr double kGauss = 0.28867513459481287;
+constexpr double kGauss = 0.28867513459481287;  // 1 / (2 sqrt 3)
 constexpr Points kOnePoint{1, {0}}, kTwoPoints{2, {-kGauss, kGauss}};
-constexpr double kWide = 6;  // pixels, of a Gaussian for which one point is enough
+constexpr double kWide = 6;  // pixels; for a Gaussian as wide as this, one point is enough
 
-// Whether the area of a row's pixels may grow notably from one side to the other: of the k-th row
-// from a pole the mean lies 1/(12 (k + 1/2)) rows from the middle, and the direction opposite to a
-// fisheye's middle is the whole rim.
+// Says whether the area of a row's pixels may vary notably within a pixel.  Near a pole a row's
+// width grows in proportion to the distance from the pole.  In the k-th row the centre of the area
+// therefore lies 1/(12 (k + 1/2)) rows from the middle.  A fisheye of nearly the whole sphere
+// stretches the direction opposite to its middle into the whole rim.
 bool has_slanted_areas(const Projection& p, int row) {
   constexpr int kRows = 2;
   constexpr double kNearlyWhole = 5;  // radians
@@ -53,13 +57,14 @@ bool has_slanted_areas(const Projection& p, int row) {
   return std::holds_alternative<Equirectangular>(p) && (row < kRows || row >= rows(p) - kRows);
 }
 
+// A Weighing says about which middle and with which width directions are weighted.
 struct Weighing {
   V3d middle;
   double per_chord2;  // 1/(2 sigma^2)
   float cut;
 };
 
-// Sets the weights of directions, less the cut.
+// Sets the weights of directions, minus the cut.
 [[gnu::always_inline]] inline void weigh_loop(const Weighing& weighing, const CameraDirection* n,
                                               int count, float* __restrict weight) {
   const Weighing w = weighing;
@@ -72,8 +77,9 @@ struct Weighing {
 }
 Dispatched<weigh_loop> weigh;
 
-// Sets the solid angles of pixels at these directions and places, in some unit, on a whole sphere
-// or, if `fisheye`, about the middle of a circle, where they are `central`.
+// Sets the solid angles, in some unit, of pixels in these directions and at these positions.  On a
+// picture of the whole sphere they go like cos(latitude).  If `fisheye`, they go like sin(theta)/r
+// at the distance r from the middle of the circle, where they are `central`.
 [[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* i,
                                                    const double* j, const PixelPosition& middle,
                                                    bool fisheye, double central, int count,
@@ -101,7 +107,7 @@ class ExactCap {
                       std::holds_alternative<Fisheye>(projection)) {
     const auto light =
         static_cast<float>(luminance({blob.rgb[0], blob.rgb[1], blob.rgb[2]})) * blob.peak_per_flux;
-    // The bound keeps its square finite.
+    // The bound keeps the square of this value finite.
     paling_ = std::min(1e9f, light * blob.paling);
     for (std::size_t c = 0; c < 3; ++c) {
       colour_[c] = blob.rgb[c] * blob.peak_per_flux;
@@ -120,8 +126,8 @@ class ExactCap {
   }
 
  private:
-  // The mean weights of some pixels of a row, by the area for which each point stands, which
-  // changes within a pixel beside a pole.
+  // Returns the mean weights of some pixels of a row.  Each point counts by the area for which it
+  // stands, since beside a pole this area changes within a pixel.
   std::array<float, kPixelsAtOnce> weights(int row, int from, int count) const {
     constexpr std::size_t kMost =
         static_cast<std::size_t>(kPixelsAtOnce) * kMostPoints * kMostPoints;
@@ -167,10 +173,10 @@ class ExactCap {
   bool wide_;
   Weighing weighing_;
   PixelPosition middle_;         // of a fisheye's circle
-  bool areas_differ_;            // notably within a pixel, somewhere in the picture
-  float paling_ = 0;             // half white where this times the weight is 1
+  bool areas_differ_;            // areas vary notably within a pixel, somewhere in the picture
+  float paling_ = 0;             // the colour is half white where this times the weight is 1
   std::array<float, 3> colour_;  // at the peak
-  std::array<float, 3> pale_;    // grey of the same luminance, less the colour
+  std::array<float, 3> pale_;    // grey of the same luminance, minus the colour
 };
 
 }  // namespace
@@ -179,6 +185,8 @@ bool place_exact_cap(const Projection& projection, CapBlob& blob) {
   blob.first_row = blob.first_column = 0;
   blob.last_row = blob.last_column = -1;
   const double sigma = blob.sigma, light = std::max({blob.rgb[0], blob.rgb[1], blob.rgb[2]});
+  // The cut follows from the peak, and the peak from the integral that the cut leaves.  The first
+  // integral has practically no cut, and one more round suffices, as in blob_scale().
   const double whole = light / integral_of_weight(sigma, 0x1p-1000);
   const double first = light / integral_of_weight(sigma, cut_of(whole));
   blob.cut = static_cast<float>(cut_of(first));

@@ -11,15 +11,17 @@ namespace {
 constexpr std::size_t kCrowd = 16;  // the fewest caps of a crowd
 constexpr double kSide = 0.25;      // the side of a crowd's square, in sigmas
 
-// A cap and the square that it lies in.
+// A Member is a cap with the number of the square in which it lies.
 struct Member {
   std::uint64_t square;
   std::uint32_t blob;
 };
 
-// The number of the square holds the width, so that caps of different widths never share a square.
+// Returns the number of a cap's square.  The number contains the width, so caps of different widths
+// never share a square.
 std::uint64_t square_of(const CapBlob& b, double pixels_per_radian) {
-  // With a side of half a pixel at least, 16 bits suffice for a frame of 32k.
+  // The sides are at least half a pixel, so 16 bits suffice for 32,000 pixels, twice the largest
+  // frame.
   const double side = std::max(kSide * b.sigma * pixels_per_radian, 0.5);
   const auto place = [side](double at) {
     return static_cast<std::uint64_t>(std::clamp(at / side + 1024, 0.0, 65535.0));
@@ -28,9 +30,9 @@ std::uint64_t square_of(const CapBlob& b, double pixels_per_radian) {
          place(b.y);
 }
 
-// Merges a crowd into its first cap and marks the others by an empty range of rows.  Together they
-// are brighter and so reach farther; where a cap so large cannot be placed, at the end of a very
-// wide flat image, the crowd stays as it is.
+// Merges a crowd into its first cap and marks the others by an empty range of rows.  The merged cap
+// is brighter and therefore reaches farther.  If it cannot be placed, as happens at the end of a
+// very wide flat image, the crowd stays as it is.
 void merge(const Projection& projection, const Member* first, const Member* end,
            std::vector<CapBlob>& blobs) {
   double x = 0, y = 0, light = 0, rgb[3] = {0, 0, 0};

@@ -11,43 +11,44 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kPlacedAtOnce = 32;
-// The most that a wide ellipse may err where its relative error is larger than that of others, as a
-// pixel value.
+// A wide ellipse may err by this pixel value where its relative error exceeds that of other
+// ellipses.
 constexpr double kMostWideError = 5e-4;
 constexpr int kNowhere = static_cast<int>(BlobKind::kNowhere),
               kEllipse = static_cast<int>(BlobKind::kEllipse),
               kCap = static_cast<int>(BlobKind::kCap);
 
-// What the loop needs of the frame.
+// An ImagePlane holds what the loop needs to know about the frame.
 struct ImagePlane {
-  double unit;  // as blob_shape() has it
+  double unit;  // the argument of blob_shape()
   double middle_x, middle_y, width, height;
   double most_peak;
 };
 
-// The largest scale_change of an ellipse that is placed by the metric.  Its error, up to 3.6e-3 of
-// the peak, is three times that of others, because the caps that it saves cost more.
+// An ellipse that is placed by the metric has at most this scale_change.  Its error, up to 3.6e-3
+// of the peak, is three times that of other ellipses, because the caps that it replaces cost more.
 constexpr double kMostScaleChangeByMetric = 0.006;
-// The largest scale_change with which a faint ellipse keeps its light, to 1e-3.
+// Up to this scale_change a faint ellipse keeps its light, to 1e-3.
 constexpr double kMostFaintScaleChange = 0.03;
-// Farther from the picture than this, in pixels, no ellipse is tried.
+// Farther from the picture than this (pixels) no ellipse is tried.
 constexpr double kFarBeside = 1e5;
 
-// A batch of images, column by column, with what becomes of them.
+// A Placing is a batch of images, stored column by column, with what becomes of them.
 struct Placing {
   alignas(64) std::array<double, kPlacedAtOnce> x, y, red, green, blue, sigma;
   alignas(64) std::array<float, kPlacedAtOnce> xx, xy, yy, peak_per_flux;
   alignas(64) std::array<int, kPlacedAtOnce> kind, first_row;
 };
 
-// Sets what becomes of the k-th image, whose blob has this shape, or is a cap if it is `far`.  The
-// choices are selections and not branches, so that loops over it become SIMD code.
+// Sets what becomes of the k-th image.  Its blob has the shape s, or is a cap if it is `far`.  The
+// choices are selections and not branches, so that loops over this function become SIMD code.
 [[gnu::always_inline]] inline void place_one(const ImagePlane& plane, const BlobShape& s, bool far,
                                              double most_scale_change, std::size_t k, Placing& p) {
   const double warm = p.red[k] > p.green[k] ? p.red[k] : p.green[k];
   const double brightest = warm > p.blue[k] ? warm : p.blue[k];
   const BlobScale scale = blob_scale(s, brightest);
-  // The factor is 2, and 1 % more because drawing takes a logarithm that is up to 1 % larger.
+  // The ellipse ends where d P d = -2 ln(cut).  The factor is 1 % larger, because drawing takes a
+  // logarithm that is up to 1 % larger.
   const double q = -2.02 * logarithm(scale.cut);
   const double half_x = std::sqrt(q * s.spread_x), half_y = std::sqrt(q * s.spread_y);
   const double half = half_x > half_y ? half_x : half_y;
@@ -81,13 +82,14 @@ template <bool kDome>
 Dispatched<place_loop<true>> place_on_dome;
 Dispatched<place_loop<false>> place_on_flat;
 
-// Whether an ellipse is so long and so slanted that the factors exp(-P_xy x y) by which it is drawn
-// leave the range of floats: of a bright one they reach exp(40 c/(1 - c^2)), c^2 = P_xy^2/(P_xx
-// P_yy).
+// Says whether an ellipse is so long and so slanted that the factors exp(-P_xy x y) by which it is
+// drawn might leave the range of floats.  The brightest ellipses end at q = 20, so that x reaches
+// sqrt(40 P_yy/det P), and y the same with P_xx.  With c^2 = P_xy^2/(P_xx P_yy) the exponent is
+// then at most 40 c/(1 - c^2).  The limit c = 1/2 keeps it below 27.
 bool is_slanted(const BlobShape& s) { return s.xy * s.xy > 0.25 * s.xx * s.yy; }
 
-// The same by the projection's metric.  Where the scale changes quickly an ellipse may stand for a
-// blob that is so faint that nobody sees the error.
+// Places a batch by the projection's metric.  Where the scale changes quickly, an ellipse may
+// replace a blob that is so faint that nobody sees the error.
 void place_by_metric(const Projection& projection, const ImagePlane& plane, Placing& p) {
   for (std::size_t k = 0; k < kPlacedAtOnce; ++k) {
     p.kind[k] = kCap;
@@ -105,7 +107,7 @@ void place_by_metric(const Projection& projection, const ImagePlane& plane, Plac
   }
 }
 
-// A batch of fewer than kBatch images is filled up with its last one.
+// Places a batch.  If it has fewer than kPlacedAtOnce images, its last image fills the rest.
 void place_batch(const Projection& projection, const ImagePlane& plane, const StarImage* images,
                  const double* sigma, std::size_t count, EllipseBlob* blobs, int* first_row,
                  BlobKind* kind) {
@@ -136,12 +138,13 @@ void place_batch(const Projection& projection, const ImagePlane& plane, const St
   }
 }
 
-// The shape of an ellipse that may stand for a cap, if any may.
+// Returns the shape of an ellipse that may replace a cap, or nothing if no ellipse may.
 std::optional<BlobShape> wide_shape(const Projection& projection, const CapBlob& cap) {
   const double sigma = cap.sigma, width = columns(projection);
   if (!has_blob_loops(projection)) {
     const PixelPosition at{cap.x + 1.0, cap.y + 1.0};
     const CameraDirection n = direction_at(projection, at);
+    // Only the smaller ellipses are copied to the other side of a seam (BlobLayer).
     const bool on_seam = std::holds_alternative<Equirectangular>(projection) &&
                          !(cap.x > cap.reach && cap.x + cap.reach < width - 1);
     if (on_seam || !(scale_change_per_radian(projection, n) * sigma < kMostFaintScaleChange))

@@ -9,14 +9,15 @@ void SplatBuffer::start(const SplatKernel& kernel) {
   kernel_ = &kernel;
   fresh_ = true;
   stride_ = kSplatChannels * (kernel.width_ + 2 * kernel.margin_) + kSplatFloatsBeyond;
-  // There are the rows that a band's blur takes in and those of the last bucket that touches them.
-  // One more receives what the splats drop on rows that no band needs any longer.
+  // The ring holds the rows that a band's blur reads and those of the last bucket that touches
+  // these.  One more row receives what splats drop on rows that no band needs any longer.
   ring_ = 2 * kBandRows + 2 * (kernel.taps_ + kernel.reach_);
   memory_.resize(static_cast<std::size_t>(stride_ * (ring_ + 1)));
   blurred_.resize(static_cast<std::size_t>((kBandRows + 1) * stride_));
 }
 
 float* SplatBuffer::row_at(int row) {
+  // The remainder of a negative row is made positive.
   const int at = ((row % ring_) + ring_) % ring_;
   return memory_.data() + stride_ * at + kSplatChannels * kernel_->margin_;
 }
@@ -29,8 +30,11 @@ void SplatBuffer::advance(int first_row) {
     first_ = first;
     fresh_ = false;
   }
+  // Rows above the band are not needed any more.  They become empty rows below it.
   for (; first_ < first; ++first_)
     std::fill_n(row_at(first_) - kSplatChannels * kernel_->margin_, stride_, 0.0f);
+  // Splats may fall on up to this many rows above the first row of the ring.  All these rows are
+  // the one unused row.
   const int above = 2 * kernel_->reach_ + 2 * kBandRows;
   table_first_ = first_ - above;
   rows_.resize(static_cast<std::size_t>(above + ring_));
@@ -39,7 +43,8 @@ void SplatBuffer::advance(int first_row) {
     rows_[static_cast<std::size_t>(k)] = k < above ? unused : row_at(table_first_ + k);
 }
 
-// Splats are dropped tile by tile, so that the pixels on which they fall are in the cache.
+// Drops splats tile by tile, so that the pixels on which they fall are in the cache.  The tiles are
+// sorted by counting.
 void SplatBuffer::drop(const std::vector<Splats>& lists) {
   constexpr int kColumns = 32;
   const auto offset = static_cast<float>(kernel_->margin_);
@@ -72,6 +77,8 @@ void SplatBuffer::add_band(int first, int count, const ColumnRange* inside, floa
   std::array<const float*, 2 * kMostSplatTaps + kBandRows> rows{};
   for (int n = 0; n < count + 2 * taps; ++n)
     rows[static_cast<std::size_t>(n)] = row_at(first - taps + n) + kSplatChannels * (left - taps);
+  // All rows are blurred downwards from the first to the last column of the whole band, and `taps`
+  // more on both sides, which the second blur reads.
   blur_down({kernel_->tap_, taps}, rows.data(), count,
             kSplatChannels * (right - left + 1 + 2 * taps), blurred_.data(), stride_);
   float* between = blurred_.data() + kBandRows * stride_;

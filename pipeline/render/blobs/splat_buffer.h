@@ -1,5 +1,5 @@
-// The rows of pixels on which one thread accumulates splats (splat_kernel.h) before they are
-// blurred.
+// A SplatBuffer holds the rows of pixels on which one thread accumulates splats (splat_kernel.h)
+// before they are blurred.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace domefall {
 
-// A ring of rows, wide enough for the splats of a few bands.  Bands that follow one another
-// downwards share rows, so that each splat is dropped once for all of them.
+// The rows form a ring, large enough for the splats of a few bands.  Successive bands share rows,
+// so that each splat is dropped once for all of them.
 class SplatBuffer {
  public:
-  // Forgets what was dropped before.  The kernel must outlive the bands that are drawn.
+  // Forgets what was dropped before.  The kernel must outlive the drawing of the bands.
   void start(const SplatKernel& kernel);
   // Makes room for the splats of the band that begins at first_row, a multiple of kBandRows.
   void advance(int first_row);
-  // The bucket that drop() takes next.
+  // Returns the bucket that drop() takes next.
   int next_bucket() const { return next_bucket_; }
   struct Splats {
     const StarImage* first;
@@ -35,7 +35,7 @@ class SplatBuffer {
   const SplatKernel* kernel_ = nullptr;
   std::vector<float> memory_;   // `ring_` rows, and one more that is never read
   std::vector<float> blurred_;  // the rows of a band, blurred downwards, and one more
-  std::vector<float*> rows_;    // the first pixel of each row from table_first_ on
+  std::vector<float*> rows_;    // pointers to the first pixel of each row from table_first_ on
   std::vector<StarImage> sorted_;
   std::vector<std::size_t> next_of_tile_;
   std::ptrdiff_t stride_ = 0;  // floats of a row

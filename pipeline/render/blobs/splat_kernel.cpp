@@ -8,25 +8,27 @@
 namespace domefall {
 namespace {
 
-// Variances along an axis, pixel^2, of a cubic B-spline and of the square of a pixel.
+// These are the variances along an axis, pixel^2, of a cubic B-spline and of the square of a pixel.
 constexpr double kSplineVariance = 1.0 / 3, kPixelVariance = 1.0 / 12;
-// Their fourth cumulants.  The box of a pixel has -1/120, and the spline is four boxes convolved.
+// These are their fourth cumulants.  The box of a pixel has -1/120.  The spline is four boxes
+// convolved, and cumulants add up.
 constexpr double kSplineFourth = -4.0 / 120, kPixelFourth = -1.0 / 120;
-// The blur ends where its Gaussian has fallen to e^-10.
+// The blur ends this many sigmas from its middle, where its Gaussian has fallen to e^-10.
 constexpr double kTapSigmas = 4.5;
-// A blur narrower than this is not worth sampling, pixel^2.
+// A blur of a smaller variance (pixel^2) is too narrow to be sampled.
 constexpr double kLeastVariance = 0.4;
 
-// Splats on a flat image may be wider than in its middle by so much of the variance there.
+// On a flat image a splat's variance may exceed that in the middle by this part of it.
 constexpr double kMostMissing = 0.45;
-// Splats on a dome may lie so far from its middle, radians: the loops' series hold up to 1.9.
+// On a dome a splat may lie this far from the middle (radians).  The loops' series hold up to 1.9.
 constexpr double kFarthestAngle = 1.85;
 
-// Samples a Gaussian of this variance and gives it the fourth cumulant `fourth`.  The sum over all
-// k of taps[|k|] is 1.  Returns the number of taps on either side; none is set if that exceeds
-// `most`.
+// Samples a Gaussian of this variance and gives it the fourth cumulant `fourth`.  The sum of
+// taps[|k|] over all k is 1.  The function returns the number of taps on either side.  It sets none
+// if that exceeds `most`.
 //
-// The fourth difference of a sequence adds 24 to its fourth moment and leaves the lower ones alone.
+// Adding the fourth difference of a sequence, whose weights are 1, -4, 6, -4, 1, adds 2 (2^4 - 4) =
+// 24 to its fourth moment and leaves the lower moments alone.
 int find_taps(double variance, double fourth, int most, float* taps) {
   const int last = static_cast<int>(std::ceil(kTapSigmas * std::sqrt(variance)));
   if (last > most) return last;
@@ -66,13 +68,16 @@ SplatKernel::SplatKernel(const Projection& projection, double sigma)
   if (!(wanted > kLeastVariance)) return;
   taps_ = find_taps(wanted, kPixelFourth - kSplineFourth, kMostSplatTaps, tap_);
   if (taps_ > kMostSplatTaps) return;
-  // The farthest splat lies a blob beyond a dome's rim, or where the variance of a flat image's
-  // blobs, which grows like (1 + t)^2, exceeds that in the middle by kMostMissing.
+  // On a dome the farthest splat lies a blob beyond the rim.  On a flat image the variance grows
+  // like (1 + t)^2, and the farthest splat lies where it exceeds that in the middle by
+  // kMostMissing.
   const double beyond = taps_ + 8;
   const double t = dome_ ? unit * unit * (width_ / 2.0 + beyond) * (width_ / 2.0 + beyond)
                          : std::sqrt(1 + kMostMissing) - 1;
   if (dome_ && t > kFarthestAngle * kFarthestAngle) return;
   const double theta = std::sqrt(t), sinc = sin_cos(theta).sine / theta;
+  // This is the variance that the points have to supply at the farthest place, as in
+  // find_missing().
   const double missing = variance * (dome_ ? 1 / (sinc * sinc) - 1 : t * (2 + t));
   reach_ = static_cast<int>(std::ceil(double{kFarthestPoint} * std::sqrt(missing))) + 3;
   farthest_ = static_cast<float>(t / (unit * unit));
@@ -82,7 +87,8 @@ SplatKernel::SplatKernel(const Projection& projection, double sigma)
   usable_ = true;
 }
 
-// An image that is not taken may still lie out of sight; who places it finds that out.
+// Says whether an image can be a splat.  An image that cannot may still lie out of sight, which
+// will be found when it is placed.
 bool SplatKernel::takes(const StarImage& image, float most_light) const {
   const float cx = image.x - frame_.middle_x, cy = image.y - frame_.middle_y;
   const auto beyond = static_cast<float>(taps_ + reach_);
@@ -93,7 +99,7 @@ bool SplatKernel::takes(const StarImage& image, float most_light) const {
   return near & (cx * cx + cy * cy < farthest_) & faint;
 }
 
-// A counting sort.
+// Sorts by counting.
 std::size_t SplatKernel::sort(std::vector<StarImage>& images, float most_light,
                               SplatList& splats) const {
   splats.first.assign(static_cast<std::size_t>(buckets_) + 1, 0);
@@ -101,7 +107,8 @@ std::size_t SplatKernel::sort(std::vector<StarImage>& images, float most_light,
     return static_cast<std::size_t>(
         static_cast<int>(image.y + static_cast<float>(lead_ * kBandRows)) / kBandRows);
   };
-  // Each thread keeps its own list: asking the system for memory would take longer than the sort.
+  // Each thread keeps its own list, since asking the system for memory would take longer than the
+  // sort.
   thread_local std::vector<std::uint16_t> bucket;
   bucket.resize(images.size());
   constexpr std::uint16_t kNone = 0xffff;
@@ -123,7 +130,7 @@ std::size_t SplatKernel::sort(std::vector<StarImage>& images, float most_light,
       images[others++] = images[k];
     else
       splats.images[splats.first[bucket[k]]++] = images[k];
-  // By now the start of each bucket has moved on to that of the next one.
+  // By now the start of each bucket has moved to that of the next bucket.
   for (std::size_t k = splats.first.size() - 1; k > 0; --k) splats.first[k] = splats.first[k - 1];
   splats.first[0] = 0;
   return others;

@@ -21,14 +21,15 @@ using Pair = float __attribute__((vector_size(8 * kSplatChannels)));
 
 // ---- the points at which a star is dropped ----
 
-// The offset of a point, in units of the missing width along two axes, and its share of the light.
-// The missing width is the square root of the variance that neither spline nor blur supplies.
+// A Point is one of the points at which a star is dropped.  Its offset along two axes is in units
+// of the missing width, which is the square root of the variance that neither spline nor blur
+// supplies.  Its share is the part of the light.
 struct Point {
   float along, across, share;
 };
 // On a line the points are those of Gauss-Hermite quadrature, whose n points have the moments of a
-// Gaussian up to order 2 n - 1.  In the plane they are a triangle, a cross and a cross with its
-// middle, each of variance 1 along both axes.
+// Gaussian up to order 2 n - 1.  In the plane they are a triangle, a cross, and a cross with its
+// middle.  All have the variance 1 along both axes.
 constexpr Point kOne[] = {{0, 0, 1}};
 constexpr Point kTwo[] = {{-1, 0, 0.5f}, {1, 0, 0.5f}};
 constexpr Point kThree[] = {
@@ -52,9 +53,9 @@ constexpr Point kCross[] = {{1.4142136f, 0, 0.25f},
 constexpr Point kCrossWithMiddle[] = {
     {0, 0, 0.5f}, {2, 0, 0.125f}, {-2, 0, 0.125f}, {0, 2, 0.125f}, {0, -2, 0.125f}};
 
-// The rules pick the fewest points that err by less than 1e-2 of the peak, or 2e-2 at the outskirts
-// of a flat image.  `missing` is the missing variance over the blob's; on a dome it is missing
-// along one axis only.
+// A Rule is a set of points.  The functions choose the fewest points that err by less than 1e-2 of
+// the peak, or 2e-2 at the outskirts of a flat image.  `missing` is the missing variance over the
+// blob's.  On a dome it is missing along one axis only.
 struct Rule {
   const Point* points;
   int count;
@@ -75,7 +76,7 @@ constexpr Rule plane_rule(float missing) {
 
 // ---- dropping ----
 
-// A batch of splats, column by column.
+// The splats of a batch are stored column by column.
 using SplatColumn = std::array<float, kSplatBatch>;
 struct Splats {
   alignas(64) SplatColumn x, y;
@@ -83,21 +84,23 @@ struct Splats {
   alignas(64) SplatColumn across_x, across_y;  // pixels
   alignas(64) SplatColumn density;             // 1 / solid angle of the pixel, 1 / sr
 };
-// The cubic B-splines of a batch about one point of each star: their weights along both axes, those
-// of y times the point's light, and the first of their four columns and rows.
+// These are the cubic B-splines of a batch, each about one point of its star: their weights along
+// x, their weights along y times the point's light, and the first of their four columns and rows.
 struct Splines {
   alignas(64) SplatColumn x0, x1, x2, x3, y0, y1, y2, y3;
   alignas(64) std::array<int, kSplatBatch> column, row;
 };
 
-// The series of u = (1 - sinc theta)/theta^2 in theta^2; the next term is below 2e-9 at 1.9.
+// The series is that of u = (1 - sinc theta)/theta^2 in theta^2, as in blob_shape.h.  The next term
+// is below 2e-9 at 1.9.
 constexpr std::array<float, 6> kSincSeries{1.0f / 6,       -1.0f / 120,     1.0f / 5040,
                                            -1.0f / 362880, 1.0f / 39916800, -1.0f / 6227020800.0f};
 
-// Sets the missing widths and the densities, and returns the largest part of a blob's variance that
-// is missing.  blob_shape.h derives the variances: with the middle's as v they are v and v/sinc^2
-// along the meridian and the tangent of a dome, and v (1 + t)^2 in all directions of a flat image.
-// Positive floats are ordered as their bits are, whose maximum becomes SIMD code.
+// Sets the missing widths and the densities, and returns the largest missing part of a blob's
+// variance.  blob_shape.h derives the variances.  With v the variance in the middle, they are v
+// along the meridian and v/sinc^2 along the tangent of a dome, and v (1 + t)^2 in all directions of
+// a flat image.  Positive floats have the same order as their bits, and the maximum of the bits
+// becomes SIMD code.
 template <bool kDome>
 [[gnu::always_inline]] inline float find_missing(const SplatFrame& frame, Splats& d) {
   const SplatFrame f = frame;
@@ -136,8 +139,9 @@ template <bool kDome>
 
 constexpr int kPositive = 256;  // makes numbers positive, so that truncation rounds down
 
-// At a fraction f beyond a pixel the cubic B-spline has the weights (1 - f)^3/6,
-// 2/3 + f^2 (3 f - 6)/6, the same of 1 - f, and f^3/6.
+// Finds the splines about one point of each star.  At a fraction f beyond a pixel the four weights
+// of the cubic B-spline are (1 - f)^3/6, 2/3 + f^2 (3 f - 6)/6, the same as the second with 1 - f
+// for f, and f^3/6.
 [[gnu::always_inline]] inline void find_splines(const Point& point, const Splats& d, Splines& at) {
   const Point p = point;
   for (std::size_t k = 0; k < kSplatBatch; ++k) {
@@ -168,6 +172,7 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
   std::memcpy(out, &sum, sizeof sum);
 }
 
+// Adds the splines to four rows each, with two pixels in each register.
 [[gnu::always_inline]] inline void add_splines(const SplatPixel* light, std::size_t count,
                                                const Splines& at, const SplatRows& rows) {
   for (std::size_t k = 0; k < count; ++k) {
@@ -186,7 +191,8 @@ constexpr int kPositive = 256;  // makes numbers positive, so that truncation ro
   }
 }
 
-// A batch of fewer than kBatch stars is filled up with its last one, which is added once.
+// Drops a batch.  If it has fewer than kSplatBatch stars, the last star fills the rest, but only
+// `count` stars are added.
 template <bool kDome>
 [[gnu::always_inline]] inline void drop_batch(const SplatFrame& frame, const StarImage* images,
                                               std::size_t count, const SplatRows& rows) {
@@ -220,8 +226,8 @@ Dispatched<drop_on_flat> to_flat;
 
 // ---- blurring ----
 
-// Sets kRowBlocks blocks of `out` from float k on: sums over the rows, of which the n-th is read
-// n * step floats on from the middle one.
+// Sets kRowBlocks blocks of `out` from float k on to sums over the rows.  The n-th row from the
+// middle one is read n * step floats farther on.
 [[gnu::always_inline]] inline void blur_blocks(const SplatBlur& blur, const float* const* rows,
                                                std::ptrdiff_t step, std::ptrdiff_t k, float* out) {
   Block sum[kRowBlocks];
@@ -243,7 +249,7 @@ Dispatched<drop_on_flat> to_flat;
     std::memcpy(out + k + b * kRowFloats, &sum[b], sizeof sum[b]);
 }
 
-// Goes on beyond `count` to a whole number of blocks.
+// The loop runs on beyond `count` to a whole number of blocks.
 [[gnu::always_inline]] inline void blur_down_loop(const SplatBlur& blur, const float* const* rows,
                                                   int lines, int count, float* out,
                                                   std::ptrdiff_t stride) {
@@ -253,7 +259,7 @@ Dispatched<drop_on_flat> to_flat;
 }
 Dispatched<blur_down_loop> down;
 
-// Here all the rows are the same one.
+// The blur along a row reads the same row for every tap, each time a pixel farther on.
 [[gnu::always_inline]] inline void blur_along_loop(const SplatBlur& blur, const float* row,
                                                    int count, float* between,
                                                    float* __restrict out) {

@@ -1,5 +1,5 @@
-// The inner loops of splats (splat_kernel.h): one drops them onto rows of pixels, the others blur
-// the rows.
+// These are the inner loops of splats (splat_kernel.h).  One drops splats onto rows of pixels, and
+// the others blur the rows.
 #pragma once
 
 #include <cstddef>
@@ -8,45 +8,46 @@
 
 namespace domefall {
 
-// What the loops need of the frame.
+// A SplatFrame holds what the loops need to know about the frame.
 struct SplatFrame {
   float middle_x, middle_y;
   float unit2;     // square of the radians (dome) or of tan(theta/2) (flat image) per pixel
-  float variance;  // of the blob in the image's middle, pixel^2
+  float variance;  // of the blob in the middle of the image, pixel^2
   float density;   // 1 / solid angle of the pixel in the middle, 1 / sr
 };
 
-// A pixel has red, green, blue and a fourth channel that stays unused, so that one load and one
-// store, which seldom straddle cache lines, move two pixels.  Moving all four of a spline's columns
-// at once, or one by one, measured slower.
+// A pixel has red, green, blue and an unused fourth channel.  One load and one store then move two
+// pixels and seldom straddle cache lines.  It measured slower to move all four columns of a spline
+// at once, or one by one.
 inline constexpr int kSplatChannels = 4;
-// The floats beyond a row's end that the loops may touch.
+// The loops may touch this many floats beyond the end of a row.
 inline constexpr int kSplatFloatsBeyond = 64;
 
-// The first pixel of each row, from row `first` on.
+// SplatRows has a pointer to the first pixel of each row, from row `first` on.
 struct SplatRows {
   float* const* row;
   int first;
 };
 
-// The distance between a star and the farthest of the points at which it is dropped, in units of
-// the width (square root of the variance) that the spline and the blur leave to the points.  From
-// each point a splat touches two pixels more.
+// This is the distance between a star and the farthest of the points at which it is dropped.  It is
+// in units of the width (square root of the variance) that the spline and the blur leave to the
+// points.  From each point a splat touches two more pixels.
 inline constexpr float kFarthestPoint = 2.8569700f;
 
-// Drops `count` stars onto the rows.  `dome` tells the two projections apart.
+// Drops `count` stars onto the rows of a dome or of a flat image.
 void drop_splats(bool dome, const SplatFrame& frame, const StarImage* images, std::size_t count,
                  const SplatRows& rows);
 
-// A blur with a kernel that is even: the sum of tap[|n|] times the pixel n places on, |n| <= taps.
+// A SplatBlur is a blur with an even kernel: the sum of tap[|n|] times the n-th pixel from here,
+// for |n| <= taps.
 struct SplatBlur {
   const float* tap;
   int taps;  // at most kMostSplatTaps
 };
 inline constexpr int kMostSplatTaps = 64;
 
-// Blurs downwards and writes `lines` rows of `count` floats to `out`, which are `stride` apart.
-// `rows` holds lines + 2 taps rows, since most of what they read the lines have in common.
+// Blurs downwards and writes `lines` rows of `count` floats to `out`, which are `stride` floats
+// apart.  `rows` holds lines + 2 taps rows, because successive lines read mostly the same rows.
 void blur_down(const SplatBlur& blur, const float* const* rows, int lines, int count, float* out,
                std::ptrdiff_t stride);
 
