@@ -1,6 +1,6 @@
-// One tap of a sky map: the light between the four texels about a direction, weighted bilinearly.
-// A sample of the map is the mean of one or more taps (SkySampler).  Everything here is inlined
-// into dispatched loops, and has no branch.
+// A tap of a sky map is the light of the four texels around a direction, weighted bilinearly.  A
+// sample of the map is the mean of one or more taps (SkySampler).  All functions here are inlined
+// into dispatched loops and have no branches.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,14 @@
 
 namespace domefall {
 
-// The four channels of a texel.
+// Channels are the four channels of a texel.
 using Channels __attribute__((vector_size(16))) = float;
-// The channels of two texels in one register, or in two where registers are narrower.
+// A ChannelPair holds the channels of two texels in one register, or in two where registers are
+// narrower.
 using ChannelPair __attribute__((vector_size(32))) = float;
 
-// A map's levels from the finest on.  The coarsest is repeated up to the end.
+// MipLevels lists a map's levels, beginning with the finest.  The coarsest is repeated up to the
+// end.
 struct MipLevels {
   static constexpr int kMost = 16;
   std::array<const SkyTexel*, kMost> texels;
@@ -36,7 +38,7 @@ inline MipLevels mip_levels(const SkyMap& map) {
   return mip;
 }
 
-// cube_face.h explains this mapping; here it is in single precision.
+// This is the mapping of cube_face.h in single precision.
 struct FloatFacePoint {
   std::int32_t face;
   float u, v;
@@ -50,9 +52,9 @@ struct FloatFacePoint {
   return {(is_x ? 0 : is_y ? 2 : 4) + (major < 0 ? 1 : 0), u, v};
 }
 
-// Sets the index of the first of the four texels about a point, and how far the point lies from the
-// first towards the others (0 to 1).  Texel i of n has its centre at u = (2 i + 1)/n - 1, so a
-// point lies (u + 1) n/2 - 1/2 texels from the first centre; the border adds one texel.
+// Sets the index of the first of the four texels around a point, and how far the point lies from
+// the first towards the others (0 to 1).  Texel i of n has its centre at u = (2 i + 1)/n - 1, so a
+// point lies (u + 1) n/2 - 1/2 texels from the first centre.  The border adds one texel.
 // `half_size` is n/2.
 [[gnu::always_inline]] inline void locate_texels(const FloatFacePoint& point, float half_size,
                                                  std::int32_t stride, std::int32_t& first,
@@ -64,17 +66,17 @@ struct FloatFacePoint {
   fy = y - static_cast<float>(j);
 }
 
-// The weights of the four texels about a point: of the first, of the one behind it in its row, and of
-// the two in the next row.  All of them carry a factor of their own.
+// TexelWeights are the weights of the four texels around a point: the first one, its right
+// neighbour in the row, and the same two in the next row.  All of them contain a common factor.
 struct TexelWeights {
   float channel[4];
 };
 
-// The bits of a half float, shifted left by 13, are those of a float whose exponent is 127 - 15 =
-// 112 too small.  The weights make up for it.
+// The bits of a half float, shifted left by 13, are those of a float whose exponent is too small by
+// the difference of the biases, 127 - 15 = 112.  The weights contain the missing factor.
 inline constexpr float kTapScale = 0x1p112f;
 
-// `fx` and `fy` are those of locate_texels, and `factor` is that of the light.
+// Sets the weights.  `fx` and `fy` are those of locate_texels, and `factor` applies to the light.
 [[gnu::always_inline]] inline void weigh_texels(float fx, float fy, float factor,
                                                 TexelWeights& weights) {
   const float lower = fy * (factor * kTapScale), upper = (1 - fy) * (factor * kTapScale);
@@ -84,7 +86,7 @@ inline constexpr float kTapScale = 0x1p112f;
   weights.channel[3] = fx * lower;
 }
 
-// Asks for the four texels from `first` on, each row of which mostly lies in one cache line.
+// Prefetches the four texels from `first` on.  Each row of them mostly lies in one cache line.
 [[gnu::always_inline]] inline void prefetch_texels(const SkyTexel* first, int stride) {
   __builtin_prefetch(first);
   __builtin_prefetch(first + 1);
@@ -92,7 +94,8 @@ inline constexpr float kTapScale = 0x1p112f;
   __builtin_prefetch(first + stride + 1);
 }
 
-// Turns two neighbours into floats that are 1/kTapScale of their channels.
+// Turns two neighbours into floats that are 1/kTapScale of their channels.  A half float is placed
+// into the lower half of a zero word, which is shifted left by 13.
 [[gnu::always_inline]] inline void decode(const SkyTexel* texels, ChannelPair& both) {
   using Halves __attribute__((vector_size(16))) = std::uint16_t;
   using WideHalves __attribute__((vector_size(32))) = std::uint16_t;
@@ -124,8 +127,8 @@ inline constexpr float kTapScale = 0x1p112f;
   std::memcpy(&right, &bits[1], sizeof right);
 }
 
-// Gives the weighted light of the left texels and of the right ones, which have yet to be added.
-// kWide computes in one register, which pays from AVX2 on; both give the same bits.
+// Sets the weighted light of the left and of the right texels, whose sum is still to be formed.
+// kWide computes in one register, which is faster from AVX2 on.  Both ways give the same bits.
 template <bool kWide>
 [[gnu::always_inline]] inline void take_texels(const SkyTexel* first, int stride,
                                                const TexelWeights& weights, ChannelPair& light) {

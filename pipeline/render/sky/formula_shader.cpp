@@ -12,12 +12,13 @@ namespace {
 
 constexpr int kSize = SampleBatch::kSize;
 
-// Columns of doubles, as the formulas take them.
+// The formulas take columns of doubles.
 using Doubles = std::array<double, kSize>;
 
 }  // namespace
 
-// The luminance of pixels on the grid, in both of its colours.
+// Squares holds the luminance of pixels on the grid, in both of its colours.  `even` is 0 where a
+// border may cross the pixel.
 struct FormulaShader::Squares {
   alignas(64) std::array<float, kSize> squares, discs, even;
   GridLights columns() { return {squares.data(), discs.data(), even.data()}; }
@@ -29,6 +30,8 @@ FormulaShader::FormulaShader(const SkyLight& light, double null_time, int sample
   if (rings == nullptr) return;
   per_time_ = 1 / rings->period;
   const double phase = null_time * per_time_;
+  // Rings repeat with every period.  Without the whole periods a float holds the phase more
+  // precisely.
   phase_ = phase - std::round(phase);
 }
 
@@ -51,13 +54,14 @@ void FormulaShader::look(const SampleBatch& pixels, int count, Squares& seen) co
               seen.columns());
 }
 
-// The directions of samples within pixels.  A direction is linear within its pixel: where it bends
-// by more, it is not interpolated.
+// BorderSamples holds the directions of samples within pixels.  Within a pixel the direction is
+// taken to be linear, since pixels in which it bends more are not interpolated.
 struct FormulaShader::BorderSamples {
   alignas(64) Doubles x, y, z, footprint, reach{};
   int count = 0;
 
-  // Adds samples^2 samples of pixel k, of its square of kSide by kSide pixels.
+  // Adds samples^2 samples of pixel k.  The slopes of the direction are differences between
+  // neighbours in the same square of kSide by kSide pixels.
   void add(const SampleBatch& pixels, int k, int samples) {
     const int column = k % kSide, row = k / kSide % kSide;
     const int left = column > 0 ? k - 1 : k, right = column < kSide - 1 ? k + 1 : k;
@@ -65,6 +69,7 @@ struct FormulaShader::BorderSamples {
     const auto at = [&](int pixel) {
       return V3d(pixels.x[pixel], pixels.y[pixel], pixels.z[pixel]);
     };
+    // Differences span two pixels, or one pixel at the rim of the square.
     const V3d to_right = (at(right) - at(left)) / (right - left),
               down = (at(below) - at(above)) / ((below - above) / double{kSide});
     for (int j = 0; j < samples; ++j)
@@ -79,7 +84,7 @@ struct FormulaShader::BorderSamples {
   }
 };
 
-// Makes pixels that a border may cross the mean of samples.
+// Replaces the light of pixels that a border may cross by the mean of samples.
 void FormulaShader::sample_borders(const SampleBatch& pixels, int count, Squares& seen) const {
   const int per_pixel = samples_ * samples_, at_once = kSize / per_pixel;
   Squares light;
@@ -87,6 +92,7 @@ void FormulaShader::sample_borders(const SampleBatch& pixels, int count, Squares
     BorderSamples samples;
     std::array<int, kSize> members;
     int some = 0;
+    // Pixels are collected until their samples fill the columns.
     for (; next < count && some < at_once; ++next)
       if (seen.even[next] == 0) {
         samples.add(pixels, next, samples_);

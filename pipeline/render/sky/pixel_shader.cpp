@@ -14,15 +14,15 @@ namespace {
 
 static_assert(kMostSamples <= SampleBatch::kSize);  // a batch holds at least one line of samples
 static_assert(ViewRayBatch::kSize <= SkyLight::kMostShifts);
-// A pixel nearer than this to the edge of a sky, in pixels, is supersampled.
+// A pixel is supersampled if it is nearer than this to the edge of a sky, in pixels.
 constexpr double kEdgePixels = 4;
-// So is one whose footprint is that elongated, where backgrounds are amplified.
+// It is also supersampled if its footprint is this elongated, where backgrounds are amplified.
 constexpr double kElongation = 3;
-// The most taps along the footprint of one of many samples in a pixel, which do most of the
-// blurring.
+// One of many samples in a pixel has at most this many taps along its footprint, because the
+// samples do most of the blurring.
 constexpr int kTapsOfSample = 4;
-// A footprint on a map that is longer than this (radians) is no straight line any more, and is
-// blurred to its length.
+// A footprint on a map that is longer than this (radians) is no longer a straight line.  It is
+// blurred as widely as it is long.
 constexpr float kLongestSampleLine = 0.7f;
 
 }  // namespace
@@ -40,9 +40,9 @@ PixelShader::PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing,
   }
 }
 
-// What rays see that end on grids.
+// GridSamples holds what those rays see that end on grids.
 struct PixelShader::GridSamples {
-  std::array<std::uint8_t, ViewRayBatch::kSize> places;  // of a ray, its place among the others
+  std::array<std::uint8_t, ViewRayBatch::kSize> places;  // by ray: its place in the columns
   ViewRayBatch::Column<float> squares, discs, even;
 };
 
@@ -65,8 +65,9 @@ void PixelShader::look_at_grids(const ViewRayBatch& rays, const double* angle, i
     x[places] = rays.sky_x[k];
     y[places] = rays.sky_y[k];
     z[places] = rays.sky_z[k];
-    // Many samples do the blurring themselves.  A box as long as each of them would also smear the
-    // lines of a grid across it, which an Einstein ring stretches without bound.
+    // Many samples do the blurring themselves.  A box as long as the longer side of their
+    // footprints would also smear the lines of a grid along the shorter side, and on an Einstein
+    // ring the longer side grows without bound.
     footprint[places] = angle[k] * (fine ? shorter : longer);
     reach[places] = kGridReach * longer * angle[k];
     ++places;
@@ -75,7 +76,8 @@ void PixelShader::look_at_grids(const ViewRayBatch& rays, const double* angle, i
               {grid.squares.data(), grid.discs.data(), grid.even.data()});
 }
 
-// The light of a ray that is on no map.  It stands for `sample_angle` radians of the view.
+// Returns the light of a ray that ends on no map.  The ray stands for `sample_angle` radians of the
+// view.
 WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_angle,
                               const GridSamples& grid) const {
   const auto& background = scene_.background[rays.sky[k]];
@@ -89,8 +91,8 @@ WorkingRgb PixelShader::light(const ViewRayBatch& rays, int k, double sample_ang
   return background->grid_at({grid.squares[place], grid.discs[place]}, rays.frequency_ratio[k]);
 }
 
-// The amplification is that of a whole pixel, so that caustics are as bright however finely the
-// pixel is sampled.
+// Returns the amplification of a whole pixel, so that caustics have the same brightness however
+// finely the pixel is sampled.
 double PixelShader::amplification(const CameraDirection& n, double pixel_angle) const {
   const ViewRay ray = scene_.tracer.trace(n);
   const bool sky = ray.known && ray.sky != SkyRegion::kIV;
@@ -108,7 +110,8 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
   if (anti_aliasing_.samples == 1) return false;
   if (anti_aliasing_.everywhere || rays.to_edge[k] < kEdgePixels * pixel_angle) return true;
   const auto& background = scene_.background[rays.sky[k]];
-  // The light of rings is averaged over footprints exactly.
+  // A formula averages the light of rings over footprints (ring_glow), so they need no more
+  // samples.
   if (!background || background->rings() != nullptr) return false;
   const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
   const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
@@ -116,12 +119,12 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
   return is_grid(rays.sky[k]) && grid.even[grid.places[k]] == 0;
 }
 
-// Positions in the image that are sampled, and the light found there.
+// Samples are positions in the image, and the light found there.
 struct PixelShader::Samples {
   static constexpr int kSize = SampleBatch::kSize;
   int count = 0;
   alignas(64) std::array<double, kSize> i, j;   // pixels, counted from 1
-  alignas(64) std::array<double, kSize> angle;  // of the view, radians, that a sample stands for
+  alignas(64) std::array<double, kSize> angle;  // radians of the view that a sample stands for
   std::array<CameraDirection, kSize> n;
   std::array<bool, kSize> difficult;  // see needs_more_samples
   std::array<float, 3 * kSize + 1> rgb;
@@ -133,7 +136,8 @@ struct PixelShader::Samples {
   }
 };
 
-// The same samples as those of maps.  A sample that is not of a sky's map has no taps on it.
+// MapSamples holds the same samples as the maps see them.  A sample that does not end on the map of
+// a sky has no taps on it.
 struct PixelShader::MapSamples {
   SampleBatch batch;
   PerSky<std::array<SampleFilter, SampleBatch::kSize>> filters{};
@@ -146,6 +150,8 @@ void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int
   set_footprints(rays, &samples.angle[first], count,
                  {&batch.x[first], &batch.y[first], &batch.z[first], &batch.wide[first],
                   &batch.narrow[first], &batch.ax[first], &batch.ay[first], &batch.az[first]});
+  // In a reference image, where all pixels have many samples, each sample may have as many taps as
+  // a pixel elsewhere.
   const bool few = fine && !anti_aliasing_.everywhere;
   const int most = few ? kTapsOfSample : SkySampler::kMostTaps;
   for (const SkyRegion sky : kEverySky) {
@@ -164,6 +170,7 @@ void PixelShader::put_maps(const ViewRayBatch& rays, const Samples& samples, int
         batch.gain[at] = gain[k];
         batch.tone[at] = tone[k];
       }
+      // A sample without taps is not taken.  Difficult pixels get their samples later.
       if (rays.sky[k] != sky || samples.difficult[at] || is_darkened(sky, samples.n[at]))
         filters[k] = SampleFilter();
     }
@@ -180,9 +187,11 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
   float* rgb = &samples.rgb[3 * first];
   for (int k = 0; k < count; ++k, rgb += 3) {
     const int at = first + k;
+    // Fine samples are not divided any further.
     samples.difficult[at] = !fine && needs_more_samples(rays, k, samples.angle[at], grid);
     const bool map = sampler(rays.sky[k]) != nullptr;
     maps_seen |= map;
+    // Samples of maps are taken later, many at a time (put_maps).
     WorkingRgb c{0, 0, 0};
     if (!map && !samples.difficult[at] && !is_darkened(rays.sky[k], samples.n[at]))
       c = light(rays, k, samples.angle[at], grid);
@@ -196,12 +205,14 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
 void PixelShader::shade(Samples& samples, bool fine) const {
   find_directions(scene_.projection(), samples.i.data(), samples.j.data(), samples.count,
                   samples.n.data(), samples.angle.data());
+  // amplification() needs the angle of the whole pixel, which is per_side times that of a sample.
   const int per_side = fine ? anti_aliasing_.samples : 1;
   if (fine)
     for (int k = 0; k < samples.count; ++k) samples.angle[k] /= per_side;
   MapSamples maps;
   for (int first = 0; first < samples.count; first += ViewRayBatch::kSize)
     shade_batch(samples, first, std::min(ViewRayBatch::kSize, samples.count - first), fine, maps);
+  // The call for a sky writes only the samples that have taps on its map.
   for (const SkyRegion sky : kEverySky)
     if (maps.any[sky])
       sampler(sky)->sample(maps.batch, samples.count, maps.filters[sky].data(), samples.rgb.data());
@@ -212,11 +223,13 @@ void PixelShader::shade(Samples& samples, bool fine) const {
   }
 }
 
-// Makes each of these pixels the mean of a square of samples.  The lines of all squares follow one
-// another, as many at a time as there is room for, since a square may exceed the room.
+// Makes each of these pixels the mean of a square of samples.  A square may have more samples than
+// fit into one batch.  The lines of all squares therefore form one sequence, which is shaded in
+// batches, and `sum` carries over from one batch to the next.
 void PixelShader::supersample(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
   const int per_side = anti_aliasing_.samples, at_once = Samples::kSize / per_side;
   const int lines = static_cast<int>(pixels.size()) * per_side;
+  // The samples are the middles of per_side^2 equal parts of the pixel.
   const double step = 1.0 / per_side, start = step / 2 - 0.5;
   Samples samples;
   float sum[3] = {0, 0, 0};
@@ -245,6 +258,7 @@ void PixelShader::supersample(const std::vector<Pixel>& pixels, int first_row, f
 
 void PixelShader::fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const {
   Samples samples;
+  // A first pass with one sample for each pixel also finds the difficult pixels.
   std::vector<Pixel> difficult;
   for (std::size_t first = 0; first < pixels.size(); first += Samples::kSize) {
     const std::size_t end = std::min(pixels.size(), first + Samples::kSize);

@@ -1,4 +1,5 @@
-// The light of the skies in pixels all of whose view rays are traced, which is exact but slow.
+// A PixelShader computes the light of the skies in pixels all of whose view rays are traced, which
+// is exact but slow.
 #pragma once
 
 #include <optional>
@@ -11,35 +12,37 @@
 
 namespace domefall {
 
-// A cap of the view in which one sky is drawn by other means, so that its rays there stay dark.
+// A DarkenedCap is a cap of the view in which one sky is drawn by other means, so that its rays
+// there stay dark.
 struct DarkenedCap {
   SkyRegion sky;
   CameraDirection centre;
   double chord2;  // squared chord from the centre to the rim
 };
 
-// Column and row, counted from 0.
+// The column and row of a Pixel count from 0.
 struct Pixel {
   int column, row;
 };
 
 class PixelShader {
  public:
-  // The scene must outlive this.
+  // The scene must outlive this object.
   explicit PixelShader(const FrameScene& scene, AntiAliasing anti_aliasing = {},
                        std::vector<DarkenedCap> darkened = {});
 
-  // Writes scene-linear working-space values of `pixels`, all of which lie in the image, into rows
-  // of 3 columns() floats, of which the first, `first_row`, begins at `rgb`.  It is faster if
-  // neighbours follow one another, since they share cache lines of the sky.
+  // Writes scene-linear working-space values of `pixels`, all of which must lie in the image.  They
+  // are written into rows of 3 columns() floats, of which the row `first_row` begins at `rgb`.  The
+  // function is faster if neighbouring pixels follow one another, since they share cache lines of
+  // the sky.
   void fill(const std::vector<Pixel>& pixels, int first_row, float* rgb) const;
 
   const FrameScene& scene() const { return scene_; }
-  // Null for a sky that is no map.
+  // Returns null for a sky that is no map.
   const SkySampler* sampler(SkyRegion sky) const {
     return samplers_[sky] ? &*samplers_[sky] : nullptr;
   }
-  // Null for a sky that is no formula.
+  // Returns null for a sky that is no formula.
   const FormulaShader* formula(SkyRegion sky) const {
     return formulas_[sky] ? &*formulas_[sky] : nullptr;
   }

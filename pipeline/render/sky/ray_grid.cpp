@@ -10,27 +10,29 @@
 namespace domefall {
 namespace {
 
-// At x pixels from an edge, where the azimuth goes like -ln x, the cubic through nodes 8 pixels
-// apart errs by 570/x^3 pixels: 0.009 at 5 cells.
+// A cubic through four nodes at a distance h errs by at most 3/128 h^4 f'''' between the middle
+// two.  Towards an edge the azimuth goes like -ln x.  With h = 8 pixels the cubic then errs, at x
+// pixels from the edge, by 576/x^4 in azimuth, which is 576/x^3 pixels: 0.009 at 5 cells.
 constexpr float kEdgeCells = 5;
 // A cell whose corners are dark is dark throughout if no edge is nearer than the diagonal of a
-// cell.
+// cell, which is sqrt 2 cells.
 constexpr float kDarkCells = 1.5f;
 // Within this many cells of a special direction all pixels are traced.  At x pixels from the motion
-// of a fast observer the sky lies like 1/x, and the cubic errs by 2300/x^3 pixels: 0.006 at 9
-// cells.
+// of a fast observer the position on the sky goes like 1/x.  By the same formula the cubic errs by
+// 2304/x^3 pixels: 0.006 at 9 cells.
 constexpr double kSpecialCells = 9;
-// The errors of interpolated shifts: relative for gains, in octaves of temperature for tones.
+// The errors of interpolated shifts are relative for gains, and in octaves of temperature for
+// tones.
 constexpr float kGainTolerance = 1e-3f, kToneTolerance = 2e-3f;
-// The pixel value per unit of a map below which nothing shows: texels are below 2^15 units, which
-// makes a pixel value of 3e-8.
+// Nothing shows where a unit of the map gives less than this pixel value.  Texels are below 2^15
+// units, so their pixel values are then at most about 3e-8.
 constexpr float kFaintGain = 1e-12f;
-// How many tolerances the coarser cubic may err by.  It errs 16 times as much as the finer one, but
-// the largest error need not be at a node, so that less than 16 is allowed.
+// The coarser cubic may err by this many tolerances.  It errs 16 times as much as the finer one,
+// but the largest error need not be at a node.  The limit is therefore less than 16.
 constexpr float kCoarser = 6;
 
-// The error, at p, of the cubic through p's neighbours 1 and 3 strides away on both sides: in the
-// middle its weights are -1/16, 9/16, 9/16 and -1/16.
+// Returns the error, at p, of the cubic through p's neighbours 1 and 3 strides away on both sides.
+// In the middle of these nodes Lagrange's weights are -1/16, 9/16, 9/16 and -1/16.
 inline float coarse_error(const float* p, std::ptrdiff_t stride) {
   const float between =
       (9 * (p[-stride] + p[stride]) - (p[-3 * stride] + p[3 * stride])) * (1.0f / 16);
@@ -43,7 +45,7 @@ struct NodeColumns {
 };
 
 // Clears the marks of nodes at which a cubic errs too much, along a row of nodes (stride 1) or
-// across it.  Directions may be of any length, so only errors at right angles to them count: those
+// across it.  Directions may have any length, so only errors at right angles to them count.  These
 // have the length of the cross product.  Comparisons with NaN are false, which clears the mark.
 [[gnu::always_inline]] inline void check_loop(const NodeColumns& nodes, std::ptrdiff_t stride,
                                               int count, std::uint8_t* marks) {
@@ -95,12 +97,13 @@ void RayGrid::make(const PixelShader& shader, const std::vector<CameraDirection>
   tone_floor_ = kToneTolerance;
   for (const SkyRegion sky : kEverySky)
     if (shader.sampler(sky) && shader.sampler(sky)->map().kind() == SkyMapKind::kColour)
-      tone_floor_ = kFaintGain;  // kTone holds gains then
+      tone_floor_ = kFaintGain;  // kTone then holds gains
   special_ = special;
   special_pixels_.clear();
   for (const CameraDirection& n : special)
     if (const auto pixel = pixel_of(projection_, n))
       special_pixels_.push_back({pixel->i - 1, pixel->j - 1});
+  // Each step needs what the step before has found in neighbouring rows.
   tbb::parallel_for(0, node_rows_, [this](int row) { trace_row(row); });
   tbb::parallel_for(kMargin, node_rows_ - kMargin, [this](int row) { check_row(row); });
   tbb::parallel_for(0, cell_rows_, [this](int row) { classify_row(row); });
@@ -116,6 +119,9 @@ void RayGrid::check_row(int row) {
   check(nodes, node_columns_, count, &cubic_[first]);
 }
 
+// Says whether a cell can be interpolated.  All nodes on which its cubics and their check depend
+// must see one sky, and the cubics must be right at its corners.  No edge or special direction may
+// be near.
 bool RayGrid::is_smooth(int row, int column) const {
   for (int k = 0; k < 2 * kMargin + 2; ++k)
     if (run_[at(row + k, column)] != sky_[at(row, column)]) return false;
@@ -125,8 +131,9 @@ bool RayGrid::is_smooth(int row, int column) const {
   return !is_near_special(row, column);
 }
 
-// On a picture with a seam, or with a point that is drawn out to a line, cells may lie near one
-// another on the sphere and far apart in the picture.  No pixel covers more than the central one.
+// On a picture with a seam, or with a point that is stretched into a line, cells may be close
+// together on the sphere and far apart in the picture.  There distances are measured on the sphere.
+// No pixel covers more than the central one, so the central pixel's angle bounds them.
 bool RayGrid::is_near_special(int row, int column) const {
   if (has_zenith(projection_) && !std::holds_alternative<Domemaster>(projection_)) {
     if (special_.empty()) return false;
@@ -142,6 +149,7 @@ bool RayGrid::is_near_special(int row, int column) const {
 
 bool RayGrid::is_in_image(int row, int column) const {
   if (!circle_) return true;
+  // away() is the distance of a cell from the middle along one axis.
   const auto away = [](int cell, double middle) {
     return std::max({cell * kStep - middle, middle - (cell * kStep + kStep - 1), 0.0});
   };

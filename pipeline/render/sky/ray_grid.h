@@ -1,17 +1,17 @@
-// A coarse grid of view rays that are traced exactly, from which most pixels of a frame are
-// interpolated.
+// A RayGrid is a coarse grid of view rays that are traced exactly.  Most pixels of a frame are
+// interpolated from it.
 //
-// Nodes stand every kStep pixels.  Between them, directions on the sky and shifts follow the cubic
-// through four nodes along each axis, with an error of at most kTolerance pixels.  Two conditions
-// bound the error of a cell:
+// The nodes are kStep pixels apart.  Between them, directions on the sky and shifts follow the
+// cubic through four nodes along each axis, with an error of at most kTolerance pixels.  Two
+// conditions bound the error of a cell:
 // - The nearest edge of a sky, towards which the azimuth goes like -ln x, is at least kEdgeCells
 //   away.
 // - At the nodes around it, the cubic through the nodes 1 and 3 steps away on both sides errs by
-//   less than kCoarser tolerances.  Its nodes are twice as far apart, so that it errs 2^4 times as
-//   much.
+//   less than kCoarser tolerances.  Its nodes are twice as far apart, so its error is 2^4 times as
+//   large.
 //
-// All pixels of a cell that fails are traced.  Directions are kept as floats, which are right to
-// 3e-7 radians: a thousandth of a texel of a map 16k wide.
+// If a cell fails, all of its pixels are traced.  Directions are stored as floats, which are right
+// to 3e-7 radians.  This is a thousandth of a texel of a map 16k wide.
 #pragma once
 
 #include <array>
@@ -30,8 +30,9 @@ class RayGrid {
   static constexpr int kStep = 8;
   static constexpr double kTolerance = 0.01;
 
-  // Traces all nodes, on all threads of the arena, and classifies the cells.  Those near the special
-  // directions, about which a grid may miss detail, are exact.  Memory is kept from frame to frame.
+  // Traces all nodes, on all threads of the arena, and classifies the cells.  Cells near the
+  // special directions, around which a grid may miss detail, become exact.  Memory is kept from
+  // frame to frame.
   void make(const PixelShader& shader, const std::vector<CameraDirection>& special);
 
   enum class Kind : std::uint8_t {
@@ -52,27 +53,29 @@ class RayGrid {
     return cells_[static_cast<std::size_t>(row * cell_columns_ + column)];
   }
 
-  // The part (0 to 1) of the pixels that are traced, of those that are neither dark nor outside the
-  // image.
+  // Returns the part (0 to 1) of the pixels that are traced.  Pixels of cells that are dark or
+  // outside the image do not count.
   double traced_fraction() const;
 
   // Interpolates one row of pixels (0 to kStep - 1) of the smooth cells [first, end) of a row of
-  // cells.  The cells see one sky, and (end - first) kStep <= SampleBatch::kSize.  Writes
-  // directions and shifts only.
+  // cells.  The cells must see one sky, and (end - first) kStep <= SampleBatch::kSize.  The
+  // function writes directions and shifts only.
   void interpolate_row(int cell_row, int row, int first, int end, SampleBatch& out) const;
-  // Interpolates all pixels of such cells: cell by cell, kStep rows each.  end - first <= kBlock.
+  // Interpolates all pixels of such cells, cell by cell, each in kStep rows.
+  // end - first <= kBlock.
   static constexpr int kBlock = SampleBatch::kSize / (kStep * kStep);
   void interpolate_block(int cell_row, int first, int end, SampleBatch& out) const;
 
  private:
-  // The columns of SampleBatch, as they stand at the nodes.  kGain and kTone hold both sides of a
-  // panorama's shift (SkyLight::shift_sides) until a side is chosen, and of the grid what
-  // SkyLight::grid_shift says.  On rings kX is the phase, and kWide how much of it a pixel covers.
+  // The quantities at the nodes are the columns of SampleBatch.  For a panorama kGain and kTone
+  // hold the two sides of its shift (SkyLight::shift_sides) until a side is chosen.  For the grid
+  // they hold SkyLight::grid_shift.  On rings kX is the phase, and kWide says how much of it a
+  // pixel covers.
   enum Quantity { kX, kY, kZ, kGain, kTone, kWide, kNarrow, kAxisX, kAxisY, kAxisZ, kQuantities };
-  // Loops over nodes run on to whole registers, beyond the last node.
+  // Loops over nodes process whole registers and so run on beyond the last node.
   static constexpr std::size_t kPadding = 96;
   static constexpr int kMargin = 3;  // nodes before the first cell, and behind the last
-  // What stands in sky_ and run_ besides the skies.
+  // sky_ and run_ hold these marks besides the skies.
   static constexpr std::uint8_t kMixed = 0xff, kDark = 0xfe;
 
   void resize(const Projection& projection);
@@ -83,12 +86,12 @@ class RayGrid {
   void store_shifts(std::size_t first, const ViewRayBatch& rays, int count);
   void check_row(int row);
   void classify_row(int row);
-  bool is_in_image(int row, int column) const;  // whether any pixel of a cell is
+  bool is_in_image(int row, int column) const;  // says whether any pixel of a cell is
   bool is_smooth(int row, int column) const;
   bool is_near_special(int row, int column) const;
   Cell classified(int row, int column) const;
   void choose_side(int cell_row, int cell, int count, SampleBatch& out) const;
-  // The node above and to the left of a cell's first corner.
+  // Returns the node above and to the left of a cell's first corner.
   const float* first_node(Quantity q, int cell_row, int cell) const {
     return &nodes_[q][at(cell_row + kMargin - 1, cell + kMargin - 1)];
   }
@@ -98,20 +101,20 @@ class RayGrid {
   }
 
   Projection projection_;
-  std::optional<PixelPosition> circle_;  // the middle of a fisheye's, in pixels counted from 0
+  std::optional<PixelPosition> circle_;  // the middle of a fisheye's circle, in pixels from 0
   const PixelShader* shader_ = nullptr;
   int node_columns_ = 0, node_rows_ = 0, cell_columns_ = 0, cell_rows_ = 0;
   std::array<std::vector<float>, kQuantities> nodes_;
   std::vector<float> tolerance_;       // radians on the sky
   std::vector<float> edge_;            // cells to the nearest edge of a sky
   std::vector<std::uint8_t> sky_;      // SkyRegion, or kDark
-  std::vector<std::uint8_t> run_;      // the sky of a node and the seven behind it, or kMixed
-  std::vector<std::uint8_t> cubic_;    // whether the cubics are right at a node
+  std::vector<std::uint8_t> run_;      // the sky of a node and the seven after it, or kMixed
+  std::vector<std::uint8_t> cubic_;    // says whether the cubics are right at a node
   std::vector<SampleFilter> filters_;  // of a pixel at a node
   std::vector<Cell> cells_;
   float tone_floor_ = 0;  // an error of kTone below this does not matter
   std::vector<CameraDirection> special_;
-  std::vector<PixelPosition> special_pixels_;  // where they are seen, in pixels counted from 0
+  std::vector<PixelPosition> special_pixels_;  // their places in the image, in pixels from 0
 };
 
 }  // namespace domefall

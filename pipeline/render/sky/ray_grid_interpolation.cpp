@@ -1,4 +1,4 @@
-// Interpolates pixels between the nodes of a RayGrid.
+// These functions of RayGrid interpolate pixels between its nodes.
 #include <array>
 #include <cstring>
 
@@ -11,16 +11,17 @@ namespace {
 
 constexpr int kStep = RayGrid::kStep;
 constexpr int kMostCells = SampleBatch::kSize / kStep;
-// The nodes that cells depend on, of which there are three more than cells, rounded up to whole
+// Cells depend on three more nodes than there are cells.  Their number is rounded up to whole
 // registers.
 constexpr int kMostNodes = kMostCells + 16, kBlockNodes = 16;
 
+// Weights belong to four successive nodes.
 struct Weights {
   float w[4];
 };
 
-// Lagrange's cubic through nodes at -1, 0, 1 and 2, evaluated at t in [0, 1].  Each node's weight
-// is the product of (t - m)/(n - m) over the other nodes m.
+// Returns the weights of Lagrange's cubic through nodes at -1, 0, 1 and 2, evaluated at t
+// in [0, 1].  The weight of node n is the product of (t - m)/(n - m) over the other nodes m.
 constexpr Weights cubic_weights(double t) {
   return {{static_cast<float>(-t * (t - 1) * (t - 2) / 6),
            static_cast<float>((t + 1) * (t - 1) * (t - 2) / 2),
@@ -28,14 +29,15 @@ constexpr Weights cubic_weights(double t) {
            static_cast<float>((t + 1) * t * (t - 1) / 6)}};
 }
 
-// The weights of the four nodes for each pixel of a cell.
+// This table has, for each pixel of a cell, the weights of the four nodes.
 constexpr std::array<Weights, kStep> kPixelWeights = [] {
   std::array<Weights, kStep> table{};
   for (int k = 0; k < kStep; ++k) table[k] = cubic_weights(static_cast<double>(k) / kStep);
   return table;
 }();
 
-// The same by node: its weights for the eight pixels of a cell, which fill one register.
+// This table has, for each node, the weights for the eight pixels of a cell.  They fill one
+// register.
 static_assert(kStep == kLanes);
 constexpr std::array<std::array<float, kStep>, 4> kNodeWeights = [] {
   std::array<std::array<float, kStep>, 4> table{};
@@ -49,22 +51,24 @@ constexpr std::array<float, kStep> kPixelNumbers{0, 1, 2, 3, 4, 5, 6, 7};
   std::memcpy(&to, from.data(), sizeof to);
 }
 
-// One quantity at the nodes about a row of cells: `first` is one row above the first cell and one
-// column before it.
+// A NodeWindow gives one quantity at the nodes around a row of cells.  `first` is one row above the
+// first cell and one column before it.
 struct NodeWindow {
   const float* first;
   std::ptrdiff_t stride;
   int cells;
 };
 
-// Interpolates one row of pixels: first between four rows of nodes, then along the row.  The eight
-// pixels of a cell are written side by side, those of the next cell `cell_stride` floats on.
+// Interpolates one row of pixels, first between four rows of nodes and then along the row.  The
+// eight pixels of a cell are stored side by side, and those of the next cell `cell_stride` floats
+// farther on.
 template <int kMost>
 [[gnu::always_inline]] inline void interpolate_cubic(const NodeWindow& in, int row,
                                                      std::ptrdiff_t cell_stride, float* out) {
   const float *a = in.first, *b = a + in.stride, *c = b + in.stride, *d = c + in.stride;
   const Weights by = kPixelWeights[row];
   float line[kMost];
+  // The loop runs over whole registers and reads padding beyond the last node.
   const int nodes = (in.cells + 3 + 15) / 16 * 16;
   for (int k = 0; k < nodes; ++k)
     line[k] = by.w[0] * a[k] + by.w[1] * b[k] + by.w[2] * c[k] + by.w[3] * d[k];
@@ -91,7 +95,8 @@ Dispatched<row_cubic_loop> row_cubic;
 }
 Dispatched<block_cubic_loop> block_cubic;
 
-// Interpolates linearly between the four corners of each cell, which is enough for footprints.
+// Interpolates linearly between the four corners of each cell, which is accurate enough for
+// footprints.
 [[gnu::always_inline]] inline void block_linear_loop(const NodeWindow& in, float* out) {
   const float *above = in.first + in.stride, *below = above + in.stride;
   Lanes numbers;
@@ -99,6 +104,7 @@ Dispatched<block_cubic_loop> block_cubic;
   for (int row = 0; row < kStep; ++row) {
     const float t = static_cast<float>(row) / kStep;
     float* to = out + row * kStep;
+    // The window begins one node before the first cell.
     for (int cell = 1; cell <= in.cells; ++cell, to += kStep * kStep) {
       const float left = above[cell] + t * (below[cell] - above[cell]);
       const float right = above[cell + 1] + t * (below[cell + 1] - above[cell + 1]);
@@ -110,7 +116,7 @@ Dispatched<block_cubic_loop> block_cubic;
 }
 Dispatched<block_linear_loop> block_linear;
 
-// Chooses between the two sides of a panorama's shift (SkyLight::shift_sides).
+// Chooses one of the two sides of a panorama's shift (SkyLight::shift_sides).
 [[gnu::always_inline]] inline void choose_loop(const float* red, const float* blue, float knee,
                                                int count, float* gain) {
   for (int k = 0; k < count; ++k) gain[k] = red[k] > knee ? blue[k] : red[k];

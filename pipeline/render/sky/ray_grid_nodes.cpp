@@ -1,4 +1,4 @@
-// The rays of a RayGrid's nodes, and what is kept of them.
+// These functions of RayGrid trace the rays of its nodes and store what is needed of them.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,9 @@
 namespace domefall {
 namespace {
 
-// Floats hold phases up to this one to kPhaseTolerance, and directions on the sky to this many
-// radians.  The borders of a grid are sharp however small a pixel is on it.
+// Up to this phase floats hold phases to kPhaseTolerance.  They hold directions on the sky to
+// kLeastTolerance (radians).  That matters because the borders of a grid are sharp however small a
+// pixel is on it.
 constexpr float kLargestPhase = 1024, kLeastTolerance = 6e-8f;
 
 // Converts kTolerance to radians on the sky by the shorter side of each footprint.  On an Einstein
@@ -29,10 +30,11 @@ Dispatched<set_tolerances_loop> set_tolerances;
 
 }  // namespace
 
-// The nodes of a row that cells with pixels in the image depend on.  A dome needs only those about
-// its disc.
+// Returns the range of a row's nodes on which cells with pixels in the image depend.  A dome needs
+// only those around its disc.
 std::pair<int, int> RayGrid::needed_nodes(int row) const {
   if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
+  // Cells with pixels in the disc depend on nodes up to kMargin + 1 steps beyond it.
   const double middle = (columns(projection_) - 1) / 2.0;
   const double y =
       std::max(std::abs((row - kMargin) * kStep - middle) - (kMargin + 1) * kStep, 0.0);
@@ -54,6 +56,7 @@ void RayGrid::trace_row(int row) {
     shader_->scene().tracer.trace(n.data(), count, rays);
     store_nodes(at(row, first), rays, angle.data(), count);
   }
+  // The mark of a run says at once whether the nodes of a row on which a cell depends see one sky.
   const std::uint8_t* sky = sky_.data() + at(row, 0);
   std::uint8_t* run = run_.data() + at(row, 0);
   for (int k = 0; k < cell_columns_; ++k) {
@@ -76,6 +79,7 @@ void RayGrid::store_nodes(std::size_t first, const ViewRayBatch& rays, const dou
     edge_[first + k] = static_cast<float>(rays.to_edge[k] / (angle[k] * kStep));
     any_light |= mark < kDark;
   }
+  // Nodes of dark skies need nothing else.
   if (!any_light) return;
   set_footprints(rays, angle, count,
                  {column(kX), column(kY), column(kZ), column(kWide), column(kNarrow),
@@ -85,8 +89,9 @@ void RayGrid::store_nodes(std::size_t first, const ViewRayBatch& rays, const dou
   store_shifts(first, rays, count);
 }
 
-// Where a ray ends on rings, its phase stands in the place of a direction: as its component at right
-// angles to a unit vector, by which the errors of both are measured in one way.
+// Stores the phases of rays that end on rings.  A phase takes the place of a direction: it is the
+// component at right angles to a unit vector, so that check_loop() measures the errors of both in
+// the same way.
 void RayGrid::store_rings(std::size_t first, const ViewRayBatch& rays, const double* angle,
                           int count) {
   const FormulaShader* rings = shader_->formula(SkyRegion::kIV);
@@ -100,14 +105,16 @@ void RayGrid::store_rings(std::size_t first, const ViewRayBatch& rays, const dou
     nodes_[kY][at] = 0;
     nodes_[kZ][at] = 1;
     nodes_[kWide][at] = width;
+    // From this width set_tolerances() makes a tolerance of at least kPhaseTolerance.
     nodes_[kNarrow][at] =
         std::max(width, FormulaShader::kPhaseTolerance / static_cast<float>(kTolerance));
     nodes_[kGain][at] = nodes_[kTone][at] = 1;
+    // Floats hold larger phases too coarsely.
     cubic_[at] = std::abs(phase) < kLargestPhase;
   }
 }
 
-// Stores shifts and filters.  A colour panorama's shift is stored as the gains of both of its
+// Stores shifts and filters.  For a colour panorama the shift is stored as the gains of its two
 // sides.
 void RayGrid::store_shifts(std::size_t first, const ViewRayBatch& rays, int count) {
   ViewRayBatch::Column<float> gain, tone;
@@ -122,6 +129,7 @@ void RayGrid::store_shifts(std::size_t first, const ViewRayBatch& rays, int coun
         const LightShift shift = background->grid_shift(rays.frequency_ratio[k]);
         nodes_[kGain][first + k] = shift.gain;
         nodes_[kTone][first + k] = shift.tone;
+        // Where floats round more coarsely than the tolerance, pixels are traced.
         cubic_[first + k] = tolerance_[first + k] >= kLeastTolerance;
       }
       continue;

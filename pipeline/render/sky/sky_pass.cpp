@@ -10,7 +10,7 @@ namespace domefall {
 namespace {
 
 constexpr int kGridStep = RayGrid::kStep;
-// The shorter side of the smallest image that is worth a grid.
+// An image whose shorter side has fewer pixels than this is not worth a grid.
 constexpr int kSmallest = 64;
 static_assert(FormulaShader::kSide == kGridStep);
 
@@ -22,7 +22,7 @@ bool has_backgrounds(const FrameScene& scene) {
 }  // namespace
 
 std::vector<CameraDirection> special_directions(const FrameScene& scene) {
-  constexpr double kFast = 3;  // of a celerity; slower ones crowd light little
+  constexpr double kFast = 3;  // of a celerity; slower observers see light crowded little
   const V3d& celerity = scene.tracer.vantage().celerity;
   std::vector<CameraDirection> special;
   const auto add = [&](const V3d& in_tetrad) {
@@ -32,6 +32,7 @@ std::vector<CameraDirection> special_directions(const FrameScene& scene) {
     add(celerity.normalized());
     add(-celerity.normalized());
   }
+  // The axis is seen where aberration moves it.
   if (scene.optics.white_hole)
     for (const double outward : {1.0, -1.0})
       add(to_observer(celerity, V3d(outward, 0, 0)).direction);
@@ -43,13 +44,14 @@ SkyPass::SkyPass(const FrameScene& scene, AntiAliasing anti_aliasing,
     : scene_(scene),
       shader_(scene, anti_aliasing, std::move(darkened)),
       grid_(grid),
+      // The grid does not interpolate the amplification of backgrounds.
       interpolates_(!anti_aliasing.everywhere && !anti_aliasing.every_pixel &&
                     has_backgrounds(scene) && !scene.amplifies_backgrounds() &&
                     std::min(columns(scene.projection()), rows(scene.projection())) >= kSmallest) {
   if (interpolates_) grid_.make(shader_, special_directions(scene));
 }
 
-// The band is drawn on by way of rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
+// The band writes through rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 SkyPass::Band SkyPass::band_at(int number, float* rgb) const {
   Band band{number, std::min(kGridStep, rows(scene_.projection()) - number * kGridStep), {}, rgb};
   for (int row = 0; row < band.rows; ++row)
@@ -62,6 +64,7 @@ void SkyPass::blacken_outside(const Band& band) const {
   for (int row = 0; row < band.rows; ++row) {
     float* out = row_of(band, row);
     const ColumnRange in = band.inside[row];
+    // In a row without any pixel of the image, `first` may lie beyond the last column.
     std::fill(out, out + 3 * std::min(in.first, width), 0.0f);
     std::fill(out + 3 * std::max(in.last + 1, std::min(in.first, width)), out + 3 * width, 0.0f);
   }
@@ -76,7 +79,7 @@ void SkyPass::blacken(const Band& band, int first, int end) const {
   }
 }
 
-// Fills smooth cells of one sky for which one plain sample per pixel is enough, row by row.
+// Fills smooth cells of one sky for which one plain sample for each pixel is enough, row by row.
 void SkyPass::fill_plain(const Band& band, int first, int end) const {
   constexpr int kMostCells = SampleBatch::kSize / kGridStep;
   const int width = columns(scene_.projection());
@@ -89,9 +92,9 @@ void SkyPass::fill_plain(const Band& band, int first, int end) const {
       const auto [left, right] = band.columns_of(row, from, to);
       if (left > right) continue;
       grid_.interpolate_row(band.number, row, from, to, batch);
-      // Whole cells are sampled straight into the row.  The sampler overwrites one float behind
-      // them, which the next pixels of the row mend; at the end of a row it would be the next
-      // row's.
+      // Whole cells are sampled directly into the row.  The sampler overwrites one float behind
+      // them, which the next pixels of the row correct.  At the end of a row this float would
+      // belong to the next row.
       const bool straight = left == pixel && right == to * kGridStep - 1 && right < width - 1;
       float* out = row_of(band, row);
       sampler.sample_plain(batch, (to - from) * kGridStep, straight ? out + 3 * pixel : rgb.data());
@@ -101,8 +104,8 @@ void SkyPass::fill_plain(const Band& band, int first, int end) const {
   }
 }
 
-// Fills other smooth cells of one sky, block by block, so that footprints that lie side by side are
-// sampled soon after one another and meet in the cache.
+// Fills other smooth cells of one sky block by block.  Neighbouring footprints are then sampled
+// soon after one another, while their texels are in the cache.
 void SkyPass::fill_block(const Band& band, int first, int end) const {
   SampleBatch batch;
   std::array<SampleFilter, SampleBatch::kSize> filters;
@@ -122,6 +125,7 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
     }
     for (int row = 0; row < band.rows; ++row)
       for (int cell = from; cell < to; ++cell) {
+        // The batch is stored cell by cell, and each cell row by row.
         const float* cell_row = &rgb[3 * kGridStep * ((cell - from) * kGridStep + row)];
         const auto [left, right] = band.columns_of(row, cell, cell + 1);
         if (left > right) continue;
@@ -131,7 +135,7 @@ void SkyPass::fill_block(const Band& band, int first, int end) const {
   }
 }
 
-// Appends the pixels of cells that lie in the image, cell by cell.
+// Appends those pixels of cells that lie in the image, cell by cell.
 void SkyPass::append_pixels(const Band& band, int first, int end,
                             std::vector<Pixel>& pixels) const {
   for (int cell = first; cell < end; ++cell)
@@ -148,6 +152,7 @@ void SkyPass::fill_band(int number, float* rgb) const {
   std::vector<Pixel> traced;
   const int cells = (columns(scene_.projection()) + kGridStep - 1) / kGridStep;
   if (!interpolates_) append_pixels(band, 0, cells, traced);
+  // Neighbouring cells that are alike are filled together.
   for (int first = 0, end = 0; interpolates_ && first < cells; first = end) {
     const RayGrid::Cell cell = grid_.cell(number, first);
     while (end < cells && grid_.cell(number, end) == cell) ++end;

@@ -12,16 +12,16 @@ namespace domefall {
 namespace {
 
 constexpr int kSamples = SampleBatch::kSize;
-// A footprint up to this many times as long as wide, or as a texel, has one tap as wide as it is
-// long.
+// A footprint has one tap, as wide as it is long, if it is at most this many times as long as it is
+// wide or as a texel.
 constexpr float kRound = 1.25f;
-// The taps of a line stand at most this many of their widths apart.
+// The taps of a line are at most this many of their widths apart.
 constexpr float kSpacing = 1.5f;
 constexpr std::array<int, 9> kTaps{1, 2, 4, 6, 8, 12, 16, 24, SkySampler::kMostTaps};
 // Texels are prefetched this many plain samples before they are read.
 constexpr int kPrefetchedSamples = 80;
 
-// Where plain samples fall on the finest level.
+// FinestTaps says where plain samples fall on the finest level.
 struct FinestTaps {
   alignas(64) std::array<std::int32_t, kSamples> texel;
   alignas(64) std::array<TexelWeights, kSamples> weights;
@@ -39,15 +39,15 @@ struct FinestTaps {
 }
 Dispatched<locate_plain_loop> locate_plain;
 
-// How the light of a colour map becomes pixel values.
+// A MapDevelopment says how the light of a colour map becomes pixel values.
 struct MapDevelopment {
   std::array<float, 3> luminance;  // the weights of the channels
   float black;                     // the luminance that becomes 0
   const float* gain;               // of each sample
 };
 
-// Lowers the luminance of samples by the black level, or to 0, and keeps their hue.  A sample
-// without light gives -infinity or NaN before it gives 0.
+// Lowers the luminance of samples by the black level, but not below 0, and keeps their hue.  A
+// sample without light makes `kept` -infinity or NaN, for which the factor is 0, too.
 [[gnu::always_inline]] inline void develop(const MapDevelopment& how, int count, float* rgb) {
   const float red = how.luminance[0], green = how.luminance[1], blue = how.luminance[2],
               black = how.black;
@@ -62,14 +62,14 @@ struct MapDevelopment {
   }
 }
 
-// Writes a sample's sum.  Of four channels the last is 0; the next sample's first overwrites it.
+// Writes the sum of a sample.  The fourth channel is 0 and is overwritten by the next sample.
 [[gnu::always_inline]] inline void write_total(const ChannelPair& sides, float* rgb) {
   Channels light;
   total(sides, light);
   std::memcpy(rgb, &light, sizeof light);
 }
 
-// Takes plain samples, which are most samples of most frames, in a loop of their own.
+// Takes plain samples in a loop of their own, because they are most samples of most frames.
 template <bool kWide>
 [[gnu::always_inline]] inline void take_plain_loop(const SkyLevel& level, const FinestTaps& taps,
                                                    const MapDevelopment& how, int count,
@@ -95,8 +95,9 @@ Dispatched<take_plain_loop<false>> take_plain_by_halves;
 }
 Dispatched<to_colours_loop> to_colours;
 
-// The first two channels of a thermal map are the radiance I and I theta (SkyMapKind::kThermal), so
-// that their ratio is the mean of theta.  The temperature is raised by `tone` octaves.
+// Turns sums of a thermal map into colours.  The first two channels are the radiance I and I theta
+// (SkyMapKind::kThermal), so their ratio is the mean of theta.  The temperature is raised by `tone`
+// octaves.
 void thermal_to_colours(const ChannelPair* sums, float black, const float* gain, const float* tone,
                         int count, float* rgb) {
   static const auto base = static_cast<float>(std::log2(kThermalBase));
@@ -114,18 +115,21 @@ void thermal_to_colours(const ChannelPair* sums, float black, const float* gain,
   }
 }
 
-// The longest footprint, in units of its width, that each number of taps is enough for.
+// TapLimits gives, for each number of taps, the longest footprint for which it is enough, in units
+// of the footprint's width.
 struct TapLimits {
   std::array<int, kTaps.size()> taps;
   std::array<float, kTaps.size()> longest;
 };
 
+// Chooses filters and writes their codes, as SampleFilter makes them.
 [[gnu::always_inline]] inline void choose_texels_loop(const float* wide, const float* narrow,
                                                       int count, float texel,
                                                       const TapLimits& limits, float longest_line,
                                                       std::uint8_t* codes) {
   const TapLimits l = limits;
   for (int k = 0; k < count; ++k) {
+    // No tap is narrower than a texel, so a narrower footprint counts as one texel wide.
     const float elongation = wide[k] / (narrow[k] > texel ? narrow[k] : texel);
     int wanted = 1;
     for (std::size_t j = 1; j < l.taps.size(); ++j)
@@ -133,6 +137,7 @@ struct TapLimits {
     const int taps = wide[k] < longest_line ? wanted : 1;
     const float spaced = wide[k] / (static_cast<float>(taps) * kSpacing);
     const float tap_width = taps == 1 ? wide[k] : narrow[k] > spaced ? narrow[k] : spaced;
+    // Taps wider than the finest texel need coarser levels.
     codes[k] = static_cast<std::uint8_t>(2 * taps + (tap_width > texel ? 1 : 0));
   }
 }
@@ -144,14 +149,14 @@ constexpr std::array<std::uint16_t, kSamples + 1> kNumbers = [] {
   return numbers;
 }();
 
-// The indices of samples, sorted by their filters.
+// A SortedByFilter holds the indices of samples, sorted by their filters.
 class SortedByFilter {
  public:
   SortedByFilter(const SampleFilter* filters, int count) {
     ends_.fill(0);
     each_run(filters, count, [](int& members, int first, int end) { members += end - first; });
-    // Each count becomes the start of its filter's indices, which moves on to their end as they are
-    // copied.
+    // Each count becomes the start of its filter's indices.  While indices are copied, the start
+    // moves on to their end.
     for (int before = 0; int& end : ends_) {
       const int members = end;
       end = before;
@@ -171,7 +176,7 @@ class SortedByFilter {
 
  private:
   // Calls f(ends_[code], first, end) for each run of samples with one filter.  Runs are mostly
-  // long, since neighbours are alike, and so eight filters are compared at a time.
+  // long, since neighbours are alike.  Eight filters are therefore compared at a time.
   template <class F>
   void each_run(const SampleFilter* filters, int count, F&& f) {
     for (int first = 0, end = 0; first < count; first = end) {
@@ -216,7 +221,7 @@ Dispatched<gather_points_loop> gather_points;
 }
 Dispatched<gather_lines_loop> gather_lines;
 
-// Queues the taps of the first `count` samples of a batch, all of one filter.
+// Queues the taps of the first `count` samples of a batch, all of which have this filter.
 void queue_taps(const SampleBatch& b, SampleFilter filter, const std::uint16_t* indices, int count,
                 TapQueue& queue, ChannelPair* sums) {
   const int most = TapQueue::most_samples(filter);
@@ -247,6 +252,7 @@ void SkySampler::choose_filters(const float* wide, const float* narrow, int coun
 }
 
 void SkySampler::sample_plain(const SampleBatch& batch, int count, float* rgb) const {
+  // Only colour maps have a loop of their own for plain samples.
   if (map_.kind() == SkyMapKind::kThermal) {
     std::array<SampleFilter, kSamples> filters;
     filters.fill(SampleFilter(1, false));
@@ -275,6 +281,8 @@ void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter*
       const std::uint16_t* indices = sorted.indices(filter);
       const int members = sorted.count(filter);
       if (members == 0) continue;
+      // Unless all samples have this filter, its samples are gathered, so that loops over them read
+      // successive memory.
       if (members != count) {
         gather_points(batch, indices, members, gathered);
         if (taps > 1) gather_lines(batch, indices, members, gathered);
@@ -282,6 +290,7 @@ void SkySampler::sample(const SampleBatch& batch, int count, const SampleFilter*
       queue_taps(members == count ? batch : gathered, filter, indices, members, queue, sums.data());
     }
   queue.flush(sums.data());
+  // Samples without taps must keep their values in rgb, so the others are copied one by one.
   std::array<float, 3 * kSamples + 1> lines;
   float* light = sorted.all_have_taps() ? rgb : lines.data();
   if (map_.kind() == SkyMapKind::kThermal)

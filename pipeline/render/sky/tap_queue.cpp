@@ -14,10 +14,11 @@ namespace {
 constexpr int kPrefetchedTaps = 80;
 
 using Taps = TapQueue::Taps;
+// A call of TapQueue::add() places at most 512 taps (kMostPlaces).
 using Column = std::array<float, 512>;
-// The directions of taps, their widths in texels of the finest level (at least 1), and thresholds
-// for the choice of a level.  The first taps of all samples are followed by all second taps, and so
-// on.
+// TapPositions holds the directions of taps, their widths in texels of the finest level (at least
+// 1), and thresholds for the choice of a level.  First come the first taps of all samples, then all
+// second taps, and so on.
 struct TapPositions {
   alignas(64) Column x, y, z, texels, threshold;
 };
@@ -26,8 +27,8 @@ struct MapSize {
   int size, last;  // as in TapQueue
 };
 
-// Puts tap k on a level, as the tap `slot` of `out`.  The bits of (127 - level) << 23 are those of
-// the float 2^-level.
+// Puts tap k on a level, as the tap `slot` of `out`.  The bits (127 - level) << 23 are those of the
+// float 2^-level.
 [[gnu::always_inline]] inline void locate_on_level(const TapPositions& __restrict taps, int k,
                                                    MapSize map, std::int32_t level, float factor,
                                                    int slot, Taps& __restrict out) {
@@ -40,7 +41,7 @@ struct MapSize {
   out.level[slot] = level;
 }
 
-// Puts taps on the finest level, without setting their levels.
+// Puts taps on the finest level and does not set their levels.
 [[gnu::always_inline]] inline void locate_finest_loop(const TapPositions& __restrict taps,
                                                       int count, MapSize map, float share, int slot,
                                                       Taps& __restrict out) {
@@ -54,9 +55,9 @@ struct MapSize {
 }
 Dispatched<locate_finest_loop> locate_finest;
 
-// Puts taps on one of the two levels on either side of their width: the finer one (coarser = 0) or
-// the coarser one (1).  A float's exponent is the octave of the width, its mantissa the part of the
-// way to the next octave, by which the coarser level is weighted.
+// Puts taps on one of the two levels that enclose their width: the finer one (coarser = 0) or the
+// coarser one (1).  The exponent of a float is the octave of the width.  Its mantissa says how far
+// the width is on its way to the next octave, and this part is the weight of the coarser level.
 [[gnu::always_inline]] inline void locate_levels_loop(const TapPositions& __restrict taps,
                                                       int count, MapSize map, float share,
                                                       int coarser, int slot, Taps& __restrict out) {
@@ -70,9 +71,9 @@ Dispatched<locate_finest_loop> locate_finest;
 }
 Dispatched<locate_levels_loop> locate_levels;
 
-// Puts each tap on one level only: on the coarser one if that level's weight exceeds the tap's
-// threshold.  The thresholds of a sample's taps are spread over (0, 1), so that as many of them
-// take the coarser level as its weight asks for.
+// Puts each tap on one level only.  This is the coarser one if that level's weight exceeds the
+// tap's threshold.  The thresholds of a sample's taps are spread over (0, 1), so that the coarser
+// level gets the share of taps that its weight asks for.
 [[gnu::always_inline]] inline void locate_level_loop(const TapPositions& __restrict taps, int count,
                                                      MapSize map, float share, int slot,
                                                      Taps& __restrict out) {
@@ -86,8 +87,8 @@ Dispatched<locate_levels_loop> locate_levels;
 }
 Dispatched<locate_level_loop> locate_level;
 
-// Spreads taps evenly along the footprints.  A tap is as wide as the footprint is narrow, or so wide
-// that the taps stand `spacing` widths apart.
+// Spreads taps evenly along the footprints.  A tap is as wide as the footprint's shorter side, or
+// wider if the taps would otherwise be more than `spacing` widths apart.
 [[gnu::always_inline]] inline void place_line_loop(const FilteredSamples& samples,
                                                    float texels_per_radian, float spacing,
                                                    TapPositions& out) {
@@ -95,8 +96,10 @@ Dispatched<locate_level_loop> locate_level;
   const int taps = s.filter.taps();
   const float share = 1 / static_cast<float>(taps);
   for (int tap = 0, to = 0; tap < taps; ++tap, to += s.count) {
+    // The line has `taps` equal parts, and each tap is in the middle of one.
     const float along = (static_cast<float>(tap) + 0.5f) * share - 0.5f;
-    // The fractions of multiples of the golden ratio are spread evenly, however many are taken.
+    // The fractional parts of multiples of the golden ratio are spread evenly, however many are
+    // taken.
     const double turns = (tap + 0.5) * (std::numbers::phi - 1);
     const auto threshold = static_cast<float>(turns - static_cast<int>(turns));
     for (int k = 0; k < s.count; ++k) {
@@ -112,7 +115,7 @@ Dispatched<locate_level_loop> locate_level;
 }
 Dispatched<place_line_loop> place_line;
 
-// Places the only taps of samples, each as wide as its footprint.
+// Places the taps of samples that have one each.  A tap is as wide as its footprint is long.
 [[gnu::always_inline]] inline void place_single_loop(const FilteredSamples& samples,
                                                      float texels_per_radian, TapPositions& out) {
   const FilteredSamples s = samples;
@@ -171,6 +174,7 @@ void TapQueue::locate(const FilteredSamples& samples, Taps& queued) const {
   const SampleFilter filter = samples.filter;
   const int count = filter.taps() * samples.count;
   const float share = 1 / static_cast<float>(filter.taps());
+  // number() sets to which sums the next queued taps belong.
   const auto number = [&] {
     for (int tap = 0; tap < filter.taps(); ++tap, queued.count += samples.count)
       std::copy_n(samples.indices, samples.count, &queued.indices[queued.count]);
@@ -181,6 +185,7 @@ void TapQueue::locate(const FilteredSamples& samples, Taps& queued) const {
   else
     place_line(samples, texels_per_radian_, spacing_, positions);
   if (on_two_levels(filter)) {
+    // Each tap is queued twice, once for each level.
     locate_levels(positions, count, map, share, 0, queued.count, queued);
     number();
     locate_levels(positions, count, map, share, 1, queued.count, queued);

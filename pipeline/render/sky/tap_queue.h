@@ -1,5 +1,5 @@
-// The taps of many samples, which wait to be taken.  Where all of them fall is known before the
-// first one is taken, so that their texels can be prefetched in time.
+// A TapQueue holds the taps of many samples until they are taken.  The places of all taps are known
+// before the first one is taken, so that their texels can be prefetched in time.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// Samples that share one filter.  The columns are those of SampleBatch.
+// FilteredSamples share one filter.  The columns are those of SampleBatch.
 struct FilteredSamples {
   SampleFilter filter;
   int count = 0;
@@ -22,18 +22,18 @@ struct FilteredSamples {
 
 class TapQueue {
  public:
-  // spacing: how far apart the taps of a line are, in units of the width of each.
+  // spacing is the distance between the taps of a line, in units of the width of each.
   TapQueue(const SkyMap& map, double spacing);
 
-  // The most samples with this filter that one call of add() accepts.
+  // Returns the most samples with this filter that one call of add() accepts.
   static int most_samples(SampleFilter filter) { return kMostPlaces / filter.taps(); }
-  // Queues the taps of these samples.  Where that needs room, the queued taps are taken first.
+  // Queues the taps of these samples.  If they need more room, the queued taps are taken first.
   void add(const FilteredSamples& samples, ChannelPair* sums);
-  // Takes all queued taps.  Each sample's sum receives the light of its taps, in two halves that
-  // have yet to be added (total).
+  // Takes all queued taps.  The sum of each sample receives the light of its taps in two halves,
+  // which total() adds later.
   void flush(ChannelPair* sums);
 
-  // Taps on the map, and the indices of their samples' sums.
+  // Taps holds taps on the map with the indices of their samples' sums.
   static constexpr int kCapacity = 1024;
   struct Taps {
     int count = 0;
@@ -43,8 +43,8 @@ class TapQueue {
   };
 
  private:
-  static constexpr int kMostPlaces = 512;  // where one call of add() places taps
-  // From this many taps on, each tap is taken on one level of the map instead of on two.
+  static constexpr int kMostPlaces = 512;  // the most positions of taps in one call of add()
+  // A sample with at least this many taps takes each tap on one level of the map instead of on two.
   static constexpr int kManyTaps = 4;
   static bool on_two_levels(SampleFilter filter) {
     return filter.minified() && filter.taps() < kManyTaps;

@@ -12,18 +12,18 @@ namespace {
 
 using std::numbers::pi;
 
-// A pixel is crowded if the larger side of its footprint on the sky exceeds this (radians).  The
-// cap that is integrated instead reaches so many pixels from it.
+// A pixel is crowded if the larger side of its footprint on the sky exceeds kCrowded (radians).
+// Then a cap of kCapPixels around it is integrated instead.
 constexpr double kCrowded = 0.5, kCapPixels = 1.5;
-// More than from a pixel's middle to its corner, 0.71 pixels.
+// This is more than the 0.71 pixels from a pixel's middle to its corner.
 constexpr double kHalfDiagonal = 0.75;
-// The numbers of samples from the edge of a sky to its far end, and around the axis.
+// These are the numbers of samples from the edge of a sky to its far end, and around the axis.
 constexpr int kAlong = 192, kAround = 384;
 
-// The light that has been gathered in a cap.
+// A CapLight is the light that has been gathered in a cap.
 struct CapLight {
   double rgb[3] = {0, 0, 0};
-  V3d middle{0, 0, 0};  // sum of directions, weighted by luminance
+  V3d middle{0, 0, 0};  // the sum of directions, weighted by luminance
 
   void add(const WorkingRgb& c, double solid_angle, const V3d& n) {
     rgb[0] += c.r * solid_angle;
@@ -43,7 +43,7 @@ class UnresolvedSkyFinder {
         to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
         pixel_(central_pixel_angle(scene.projection())) {}
 
-  // Looks for a sky that lensing crowds about `toward`, in the tetrad of the observer.
+  // Looks for a sky that lensing crowds around `toward`, a direction in the observer's tetrad.
   void integrate_lensed(SkyRegion sky, const SkyTable& table, const V3d& toward,
                         UnresolvedSkies& found) const {
     const auto cap = crowded_cap(sky, toward, found);
@@ -63,6 +63,8 @@ class UnresolvedSkyFinder {
   }
 
  private:
+  // Returns the cap around a direction if the pixel there is crowded and no cap of this sky
+  // overlaps it.
   std::optional<DarkenedCap> crowded_cap(SkyRegion sky, const V3d& toward,
                                          const UnresolvedSkies& found) const {
     const CameraDirection centre{apply_transposed(observer_.tetrad_from_camera, toward)};
@@ -77,6 +79,7 @@ class UnresolvedSkyFinder {
     return DarkenedCap{sky, centre, reach2};
   }
 
+  // Draws the gathered light as a star of the least width, at the mean direction.
   void add(const DarkenedCap& cap, const CapLight& light, UnresolvedSkies& found) const {
     if (!(light.middle.length() > 0)) return;
     const auto at = pixel_of(scene_.projection(), {light.middle.normalized()});
@@ -91,8 +94,8 @@ class UnresolvedSkyFinder {
     found.blobs.push_back(blob);
   }
 
-  // Whether light from there belongs to a pixel whose ray lies within the cap: what is gathered is
-  // exactly what those pixels leave out.
+  // Says whether light from direction n belongs to a pixel whose ray lies within the cap.  The
+  // gathered light is exactly what those pixels leave out.
   bool is_darkened(const DarkenedCap& cap, const V3d& n) const {
     const auto at = pixel_of(scene_.projection(), {n});
     const V3d ray =
@@ -100,9 +103,10 @@ class UnresolvedSkyFinder {
     return (ray - cap.centre.v).length2() <= cap.chord2;
   }
 
-  // Adds the light of all samples of the sky that arrive within the cap.  They are even in the
-  // ray's angle from the edge, which is 4 atan(x/2) by the table's coordinate x, and in the angle
-  // about the axis.  The observer sees each steradian of the tetrad's view as 1/d^2 steradians.
+  // Adds the light of all samples of the sky that arrive within the cap.  They are evenly spaced in
+  // the ray's angle from the edge, which is 4 atan(x/2) for the table's coordinate x, and in the
+  // angle about the axis.  The observer sees each steradian of the tetrad's view as 1/d^2
+  // steradians, where d is the frequency ratio.
   void gather_lensed(const SkyLight& sky, const SkyTable& table, const DarkenedCap& cap,
                      CapLight& light) const {
     const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
@@ -111,6 +115,7 @@ class UnresolvedSkyFinder {
     for (int i = 0; i < kAlong; ++i) {
       const double x = 2 * std::tan((i + 0.5) * d_alpha / 4);
       const NullRay ray = table.ray_at_distance(x);
+      // The double-angle formulas give the sine and cosine of alpha.
       const double sine = 2 * ray.sin_half * ray.cos_half;
       const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
       const double phi = table.azimuth(x), g = 1 / one_plus_z(ray);
@@ -134,10 +139,11 @@ class UnresolvedSkyFinder {
     }
   }
 
-  // Adds the light of rings about the direction of motion.  The last one, at the angle alpha,
-  // arrives at alpha' in the cap's last pixels, where tan(alpha/2) = (gamma + |celerity|)
-  // tan(alpha'/2) by [Riazuelo] eq. eq_inv_aberr.  The observer sees each steradian as 1/d^2
-  // steradians.
+  // Adds the light of rings around the direction of motion.  The last ring, at the angle alpha,
+  // arrives at the angle alpha' in the cap's last pixels, where
+  //     tan(alpha/2) = (gamma + |celerity|) tan(alpha'/2)
+  // by [Riazuelo] eq. eq_inv_aberr, written in half angles.  The observer sees each steradian as
+  // 1/d^2 steradians, where d is the frequency ratio.
   void gather_straight(const SkyLight& sky, const DarkenedCap& cap, CapLight& light) const {
     const double speed = vantage_.celerity.length(), widening = std::hypot(1, speed) + speed;
     const double edge = std::min((kCapPixels + kHalfDiagonal) * pixel_, pi);
@@ -186,7 +192,8 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
     if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
     return found;
   }
-  // Both skies' far ends lie on the axis, that of the home sky outward and the other one inward.
+  // The far ends of both skies lie on the axis, that of the home sky outward and that of the other
+  // one inward.
   const auto integrate = [&](SkyRegion sky, double outward) {
     const SkyTable* table = scene.optics.table_of(sky);
     if (!scene.background[sky] || table == nullptr) return;

@@ -1,8 +1,8 @@
-// A sky whose light is crowded into less than a pixel: that of region III a moment after the
-// crossing, that of a static observer just above the horizon, or whatever lies ahead of a very fast
-// one.  Rays through pixels would miss it or hit it by chance.  It is integrated from the side of
-// the sky, where it is smooth, and drawn like a star, so that all of its light arrives wherever it
-// lies between pixels.
+// Some skies have their light crowded into less than a pixel: the sky of region III a moment after
+// the crossing, the sky of a static observer just above the horizon, or whatever lies ahead of a
+// very fast observer.  Rays through pixels would miss such a sky or hit it by chance.  Its light is
+// therefore integrated over directions on the sky, in which it is smooth, and drawn like a star.
+// All of it then arrives wherever the sky lies between pixels.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@
 namespace domefall {
 
 struct UnresolvedSkies {
-  std::vector<DarkenedCap> darkened;  // what the blobs stand for, and the pixels must leave out
+  std::vector<DarkenedCap> darkened;  // what the blobs replace, and pixels leave out
   std::vector<CapBlob> blobs;
 };
 
-// Finds at most two caps for each sky.  An ordinary frame has none, which takes a few rays to find
-// out.  Each cap costs some 10 ms.  Its flux, from 74,000 samples, is within 1 % of the integral
-// over the sky.
+// Finds at most two caps for each sky.  An ordinary frame has none, and a few rays suffice to find
+// that out.  Each cap takes some 10 ms.  Its flux, from 74,000 samples, is within 1 % of the
+// integral over the sky.
 UnresolvedSkies find_unresolved_skies(const FrameScene& scene);
 
 }  // namespace domefall
