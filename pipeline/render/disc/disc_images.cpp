@@ -14,7 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Rays of one observer by ln tan(alpha/2), and their p.
+// The rays of one observer, each given by ln tan(alpha/2), where alpha is the angle of null_ray.h.
+// The label p of a ray is k^r/L, as in disc_images.h.
 class LabelledRays {
  public:
   LabelledRays(const Radius& at, bool outgoing)
@@ -23,27 +24,31 @@ class LabelledRays {
         s_(std::sqrt(2 / at.r)),
         one_minus_s_(at.above_horizon / (at.r * (1 + s_))) {}
 
-  // All with E > 0, from there on.
+  // Every ray from here on has E > 0.  With t = tan(alpha/2), the energy E = 1 - s cos alpha of
+  // null_ray.h is [(1 - s) + (1 + s) t^2]/(1 + t^2).  Outside the horizon that is positive for
+  // every t, and inside where t^2 > -(1 - s)/(1 + s).
   double least_log_tangent() const {
     constexpr double kAxis = -40;
     return one_minus_s_ >= 0 ? kAxis : std::log(-one_minus_s_ / (1 + s_)) / 2;
   }
   static double greatest_log_tangent() { return 40; }
 
-  // k^r/L = (cos alpha - s)/(r sin alpha) in the rain frame, the opposite in the outgoing one.
+  // Returns p = (cos alpha - s)/(r sin alpha) in the rain frame, and its opposite in the outgoing
+  // one.  By t = tan(alpha/2) that is [(1 - s)/t - (1 + s) t]/(2 r).
   double label(double log_tangent) const {
     const double t = std::exp(log_tangent), p = (one_minus_s_ / t - (1 + s_) * t) / (2 * at_.r);
     return outgoing_ ? -p : p;
   }
-  // The inverse, on the branch where E > 0.
+  // Inverts label() on the branch where E > 0.
   double log_tangent(double p) const {
     const double q = (outgoing_ ? -p : p) * at_.r;
-    // (1 + s) t^2 + 2 q t - (1 - s) = 0
+    // The formula of label() is the quadratic (1 + s) t^2 + 2 q t - (1 - s) = 0, whose larger root
+    // is wanted.  The form for each sign of q has no difference of like numbers.
     const double root = std::sqrt(std::max(0.0, q * q + (1 + s_) * one_minus_s_));
     return std::log(q > 0 ? one_minus_s_ / (q + root) : (root - q) / (1 + s_));
   }
 
-  // 1/r of rays after psi; 0 on a sky, infinite in the singularity.
+  // Finds w = 1/r of the rays after psi.  It is 0 on a sky and infinite in the singularity.
   void find(const double* log_tangent, const double* psi, int count, double* w) {
     for (int k = 0; k < count; ++k) {
       const double t = std::exp(log_tangent[k]), length = std::sqrt(1 + t * t);
@@ -55,7 +60,7 @@ class LabelledRays {
     for (int k = 0; k < count; ++k) w[k] = 1 / places_.r[static_cast<std::size_t>(k)];
   }
 
-  // Of the rays that were found last: their times there.
+  // Finds the times, as RayTimes counts them, of the places that find() found last.
   void times(const double* psi, double* out) const { RayTimes(orbits_).find(psi, places_, out); }
 
   bool outgoing() const { return outgoing_; }
@@ -69,7 +74,7 @@ class LabelledRays {
   RayPlaces::Column sine_{}, cosine_{};
 };
 
-// p of the rays that are at `target` = 1/r after psi, by halving the interval of ln tan(alpha/2).
+// Finds p of the rays that are at `target` = 1/r after psi, by bisection in ln tan(alpha/2).
 void solve(LabelledRays& rays, double target, const double* psi, int count, double* p) {
   RayPlaces::Column low{}, high{}, middle{}, w{};
   low.fill(rays.least_log_tangent());
@@ -79,7 +84,7 @@ void solve(LabelledRays& rays, double target, const double* psi, int count, doub
     for (int k = 0; k < count; ++k) middle[k] = (low[k] + high[k]) / 2;
     rays.find(middle.data(), psi, count, w.data());
     for (int k = 0; k < count; ++k) {
-      // In the rain frame w falls as alpha grows.
+      // In the rain frame w falls as alpha grows, and in the outgoing frame it rises.
       const bool below = (w[k] > target) != rays.outgoing();
       (below ? low : high)[k] = middle[k];
     }
@@ -87,22 +92,26 @@ void solve(LabelledRays& rays, double target, const double* psi, int count, doub
   for (int k = 0; k < count; ++k) p[k] = rays.label((low[k] + high[k]) / 2);
 }
 
-// Light from the horizon set out an infinite time ago, by gas that no pattern touches.
+// Light from the horizon set out an infinite time ago.  This finite time (M) stands for it in the
+// table, because no pattern shows there.
 constexpr double kLongAgo = -1e9;
 
-// What RayTimes says of light that comes straight from r: where it moves against the frame's fall,
-// its null coordinate is the other one.
+// Returns the time that RayTimes would give to light that comes radially from r.  Light that falls
+// keeps v = t + r*, and light that moves out keeps u = t - r*.  So the time is 0 for light that
+// keeps the frame's own null coordinate.  For the other kind that coordinate differs between the
+// two places by 2 r*.
 double radial_time(const Radius& at, bool outgoing, double r) {
   if ((r > at.r) != outgoing) return 0;
   const double to_place = r - at.r + 2 * std::log((r - 2) / at.above_horizon);
   return std::max(-2 * std::abs(to_place), kLongAgo);
 }
 
-// Cubic through four even nodes at -1, 0, 1, 2: the weights at t, and those of its derivative.
+// Returns Lagrange's weights at t for the cubic through four nodes at -1, 0, 1 and 2.
 std::array<double, 4> cubic(double t) {
   const double a = t + 1, b = t, c = t - 1, d = t - 2;
   return {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
 }
+// Returns the derivatives of these weights by t.
 std::array<double, 4> cubic_slope(double t) {
   const double a = t + 1, b = t, c = t - 1, d = t - 2;
   return {-(c * d + b * d + b * c) / 6, (c * d + a * d + a * c) / 2, -(b * d + a * d + a * b) / 2,
@@ -113,7 +122,8 @@ struct Place {
   std::size_t first;  // of four nodes
   double t;           // from the second one, in steps
 };
-// Of x in steps from the first of `count` nodes; at the ends the outermost four.
+// Finds the four nodes around x, which is in steps from the first of `count` nodes.  Near an end
+// they are the four outermost ones.
 Place place_at(double x, std::size_t count) {
   const double last = static_cast<double>(count) - 4;
   const double first = std::clamp(std::floor(x) - 1, 0.0, last);
@@ -147,7 +157,8 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
   low_.resize(kNodes);
   high_.resize(kNodes);
   w_.resize(static_cast<std::size_t>(kNodes) * (kParts + 1));
-  // At psi = 0, p psi is what w has to change by, and w goes straight between the rims.
+  // For small psi, w is observer_w_ + p psi.  So at psi = 0 the tabulated p psi/(1 + psi) is the
+  // difference from observer_w_ to a rim, and w is linear in u between the rims.
   low_[0] = outer_w_ - observer_w_;
   high_[0] = inner_w_ - observer_w_;
   for (int part = 0; part <= kParts; ++part)
@@ -168,6 +179,7 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
     solve(rays, inner_w_, &psi[static_cast<std::size_t>(first)], count,
           &high[static_cast<std::size_t>(first)]);
   }
+  // Between the rims of each node, w and the times are found at even steps of p.
   for (std::size_t k = 1; k < kNodes; ++k) {
     const double share = psi[k] / (1 + psi[k]);
     low_[k] = low[k] * share;
@@ -184,12 +196,14 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
       for (std::size_t part = 0; part <= kParts; ++part)
         times_[k * (kParts + 1) + part] = std::max(times[part], kLongAgo);
     }
-    // The rims themselves are known, however steep w is there.
+    // At the rims w is known.  The rays found there may miss it where w is steep in p.
     w[0] = outer_w_;
     w[kParts] = inner_w_;
     for (std::size_t part = 0; part <= kParts; ++part)
       w_[k * (kParts + 1) + part] = static_cast<float>(std::clamp(w[part], outer_w_, inner_w_));
   }
+  // The bounds of an order are the extremes of its nodes, with a margin above the error of
+  // interval().
   for (int order = 1; order < kOrders; ++order) {
     const auto first = static_cast<std::ptrdiff_t>(order) * kPerHalfTurn;
     const auto of = [&](const std::vector<double>& p) {
@@ -205,7 +219,7 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
 
 DiscImages::Interval DiscImages::interval(double psi) const {
   if (straight_) {
-    // w = w_0 cos psi + p sin psi
+    // A straight line has w'' = -w, so that w = w_0 cos psi + p sin psi with the observer's w_0.
     const SineCosine t = sin_cos(psi);
     const double sine = t.sine, cosine = t.cosine;
     const auto p = [&](double w) { return (w - observer_w_ * cosine) / sine; };
@@ -215,6 +229,7 @@ DiscImages::Interval DiscImages::interval(double psi) const {
   constexpr double kPerRadian = kPerHalfTurn / pi;
   const Place at = place_at(psi * kPerRadian, low_.size());
   const auto weights = cubic(at.t), slopes = cubic_slope(at.t);
+  // The scale takes p psi/(1 + psi), which the table holds, back to p.
   const double scale = (1 + psi) / psi, scale_slope = -1 / (psi * psi);
   const double low = weighted_sum(&low_[at.first], weights),
                high = weighted_sum(&high_[at.first], weights);

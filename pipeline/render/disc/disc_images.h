@@ -1,12 +1,13 @@
-// Where an observer sees the rings of a disc, tabulated once for its radius.
+// The tables of this file say where an observer sees the rings of a disc.  They are made once for
+// the observer's radius.
 //
-// A ray is known by p = k^r/L (M = 1), the slope dw/dpsi of w = 1/r at the observer, counted along
-// the angle psi that the ray sweeps back in time: it is at w(psi; p), whatever the sign of its
-// energy.  For a fixed psi, w grows with p.  So the image of the rings between two radii is, at
-// each psi, one interval of p: from that of the outer rim to that of the inner one.  Along psi
-// these curves are smooth, through the silhouette's edge too: an image of higher order is the same
-// interval half a turn farther on, only narrower, by e^-pi for each half turn.  At psi = 0 p is
-// infinite; p psi/(1 + psi) is tabulated, which is not.
+// Followed back in time, a ray sweeps the angle psi.  It is labelled by p = k^r/L (M = 1), which is
+// the slope dw/dpsi of w = 1/r at the observer.  The label fixes w(psi; p), whatever the sign of
+// the ray's energy.  For a fixed psi, w grows with p.  So at each psi the image of the rings
+// between two radii is one interval of p, from the p of the outer rim to that of the inner one.
+// Along psi the two ends are smooth curves, across the silhouette's edge too.  An image of higher
+// order is the same interval half a turn farther on, narrower by e^-pi for each half turn.  At psi
+// = 0 the ends are infinite, so p psi/(1 + psi) is tabulated, which stays finite.
 #pragma once
 
 #include <vector>
@@ -17,37 +18,42 @@ namespace domefall {
 
 class DiscImages {
  public:
-  // Images of that many half turns.  More are seen by no pixel: the fifth is 4e-6 radians wide.
+  // The number of images, one for each half turn.  No pixel sees more, since the fifth is 4e-6
+  // radians wide.
   static constexpr int kOrders = 5;
 
-  // Of the rings inner <= r <= outer (M), 2 <= inner, for an observer at 0 < r < infinity in the
-  // rain frame or, `outgoing`, in that of free fall to infinity; or, where light goes straight, in
-  // that of rest, r > 2.  `with_times`: moment() will be
-  // asked for, which where light goes straight has no time.
+  // The rings are those of inner <= r <= outer (M), 2 <= inner.  The observer is at 0 < r <
+  // infinity in the rain frame or, if `outgoing`, in the frame of free fall to infinity.  If light
+  // goes `straight`, the observer is at rest at r > 2.  `with_times` says that moment() will be
+  // called.  Where light goes straight, its times are 0.
   DiscImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
              bool with_times = false);
 
-  // How many half turns there are: one where light goes straight.
+  // Returns the number of half turns, which is one where light goes straight.
   int orders() const { return orders_; }
 
+  // An Interval is the image of the rings at one psi.
   struct Interval {
     double low, high;              // p of the outer rim, and of the inner one
     double low_slope, high_slope;  // d/dpsi
   };
-  // 0 < psi < orders() pi.  Measured over 0.5 <= r <= 1e4: within 2e-7 (1 + |p|) of the exact rays.
+  // Returns the image at 0 < psi < orders() pi.  Measured over 0.5 <= r <= 1e4, it is within
+  // 2e-7 (1 + |p|) of the exact rays.
   Interval interval(double psi) const;
-  // The least p and the greatest that the image of an order has anywhere.  Order 0 has neither.
+  // These return the least p and the greatest p that the image of an order has at any psi.  Order 0
+  // has no such bounds, and they are infinite.
   double least(int order) const { return least_[static_cast<std::size_t>(order)]; }
   double greatest(int order) const { return greatest_[static_cast<std::size_t>(order)]; }
 
-  // 1/r at that psi on the ray that lies by the part u (0 to 1) of the interval above its low end.
+  // Returns 1/r at psi on the ray whose p is low + u (high - low) of the interval, 0 <= u <= 1.
   double inverse_radius(double psi, double u) const;
 
-  // A place there: 1/r, and when its light set out, as RayTimes has it (M), with what both change
-  // by for each unit of u.
+  // A Moment holds w = 1/r of a place on the disc, the time at which its light set out, as RayTimes
+  // counts it (M), and the derivatives of both by u.
   struct Moment {
     double w, w_slope, time, time_slope;
   };
+  // Returns the moment of the place that inverse_radius() describes.
   Moment moment(double psi, double u) const;
 
  private:
@@ -61,7 +67,7 @@ class DiscImages {
   double observer_w_, inner_w_, outer_w_;
   std::vector<double> low_, high_;  // p psi/(1 + psi) at the nodes of psi
   std::vector<float> w_;            // at each node of psi, kParts + 1 values
-  std::vector<double> times_;       // likewise; empty if not asked for
+  std::vector<double> times_;       // M, at the same places; empty if not asked for
   std::vector<double> least_, greatest_;
 };
 

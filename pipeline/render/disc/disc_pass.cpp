@@ -28,14 +28,15 @@ DiscImages images_for(const FrameScene& scene) {
 
 DiscPass::Clock::Clock(const ObserverState& observer) : outgoing(is_outgoing(observer.tetrad)) {
   const double r = observer.r, tortoise = r + 2 * logarithm(std::abs(r / 2 - 1));
-  // A mirrored observer's t counts the other way.
+  // The t of a mirrored observer counts backwards.  With t -> -t, v = t + r* becomes 2 r* - v, and
+  // u = t - r* becomes -2 r* - u.
   null_time = is_mirrored(observer.tetrad) ? (outgoing ? -2 : 2) * tortoise - observer.null_time
                                            : observer.null_time;
   observer_v = outgoing ? null_time + 2 * tortoise : null_time;
 }
 
 double DiscPass::Clock::time_at(double r, double delay) const {
-  // On the horizon light sets out an infinite time ago; no pattern is there.
+  // On the horizon r* is infinite.  No pattern shows there, so that a finite number will do.
   constexpr double kLeast = 1e-9;
   const double tortoise = r + 2 * logarithm(std::max(r / 2 - 1, kLeast));
   return null_time + delay + (outgoing ? tortoise : -tortoise);
@@ -60,12 +61,13 @@ DiscPass::DiscPass(const FrameScene& scene)
   normal_sine_ = normal_across_ > 0 ? normal.z / normal_across_ : 0;
   node_ = apply_transposed(scene.state.observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
-  // Light that goes straight: cos alpha/(r sin alpha), and the energy of the frame at rest.
+  // Straight light is labelled in the frame of the observer at rest, where alpha counts from the
+  // hole and p = cos alpha/(r sin alpha).
   if (scene.tracer.goes_straight()) label_sign_ = 1;
 }
 
 double DiscPass::left_before(const CameraDirection& n, double psi) const {
-  // What moves in the plane itself is not behind it.
+  // A body that moves in the plane itself is not hidden by the disc there.
   constexpr double kInPlane = 1e-6;
   Pixels pixel;
   const double angle = central_pixel_angle(scene_.projection());

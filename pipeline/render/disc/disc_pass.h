@@ -1,10 +1,11 @@
-// The light of a disc in bands of pixel rows, and what it hides of the light behind it.
+// A DiscPass draws the light of a disc into bands of pixel rows, and hides the light behind it.
 //
-// A view ray is followed back through the plane of the disc, which it meets at psi_0, psi_0 + pi,
-// psi_0 + 2 pi, ... of the angle psi that it sweeps: the direct image, the one from beneath, the
-// photon rings.  How much of a pixel each image covers follows from the pixel's distance to the
-// image's two rims (DiscImages), so that no image is too thin to be seen.  Where psi_0 changes much
-// within a pixel, next to the plane itself for who is close to it, the pixel is divided in psi.
+// A view ray, followed back in time, sweeps the angle psi.  It meets the plane of the disc at
+// psi_0, psi_0 + pi, psi_0 + 2 pi and so on, where it sees the direct image, the image from beneath
+// and the photon rings.  How much of a pixel an image covers follows from the pixel's distance to
+// the image's two rims (DiscImages), so that no image is too thin to be seen.  For an observer
+// close to the plane, psi_0 changes much within the pixels next to the plane.  These are divided in
+// psi.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace domefall {
 
-// The least rows of a band.
+// A band has at least as many rows as this.
 inline constexpr int kDiscBandRows = 8;
 
 class DiscPass {
@@ -24,13 +25,16 @@ class DiscPass {
   // The scene, which has a disc, must outlive this.
   explicit DiscPass(const FrameScene& scene);
 
-  // Lays the disc over the rows [first, end) of the image, the first of which is rgb[3 columns].
+  // Lays the disc over the rows [first, end) of the image.  `rgb` points to the row `first`, and
+  // each row has 3 values for each column.
   void draw_rows(int first, int end, float* rgb) const;
-  // The same, each pixel looked at by itself: slower, and what draw_rows() is held against.
+  // Does the same with each pixel computed by itself.  This is slower, and tests compare
+  // draw_rows() with it.
   void draw_rows_singly(int first, int end, float* rgb) const;
 
-  // The part of the light from a place on the ray that the disc before it lets through: psi radians
-  // along the ray that is seen in that direction.  It fades within a pixel of the disc's rims.
+  // Returns the part of the light from a place on a ray that the disc in front of it lets through.
+  // The ray is seen in direction n, and the place lies psi radians along it.  Across a rim of the
+  // disc the part changes smoothly over a pixel.
   double left_before(const CameraDirection& n, double psi) const;
 
   struct Pixels;
@@ -46,7 +50,7 @@ class DiscPass {
   double r_, s_, one_minus_s_;
   double label_sign_;   // of p = k^r/L against its form in the rain frame
   double energy_sign_;  // of E, as the frame counts it, where light comes from region I
-  // From the observer's null time, v or u, to t where light set out.
+  // A Clock takes the observer's null time, v or u, to the time t at which light set out.
   struct Clock {
     explicit Clock(const ObserverState& observer);
     double time_at(double r, double delay) const;

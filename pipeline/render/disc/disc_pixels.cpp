@@ -8,7 +8,8 @@
 namespace domefall {
 namespace {
 
-// What the loop over pixels needs of the observer and the disc.
+// A DiscSight holds what the loop over pixels needs of the observer and the disc.  `straight` is
+// the energy E of straight light, and 0 where light is bent.
 struct DiscSight {
   double r, s, one_minus_s, label_sign, energy_sign, straight;
   double normal_up, normal_across, cos_azimuth, sin_azimuth;
@@ -21,8 +22,10 @@ struct DiscSight {
     const double x = pixels.rays.x[k], y = pixels.rays.y[k], z = pixels.rays.z[k];
     const double across2 = y * y + z * z, across = std::sqrt(across2);
     const double sine = across > 1e-12 ? across : 1e-12;
-    // cos alpha of the rain frame is -x, of the outgoing one x; either way p changes its sign with
-    // the direction.  1 - s cos alpha, without cancellation next to the horizon:
+    // The angle alpha counts from the hole in the rain frame and from the opposite direction in the
+    // outgoing one.  So cos alpha is -x or x, and p has the opposite sign in the outgoing frame.
+    // With half2 = sin^2(alpha/2), the energy 1 - s cos alpha becomes
+    // (1 - s)(1 - half2) + (1 + s) half2, which does not cancel next to the horizon.
     const double cosine = -o.label_sign * x;
     const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
     const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
@@ -31,7 +34,8 @@ struct DiscSight {
     const double e = o.straight > 0 ? o.straight : kept;
     const double pixel = angle[k] * pixels.rays.scale[k];
     const double labelled = (cosine - o.s) / (o.r * sine);
-    // The normal's part along the tangent, and that across it.
+    // These are the cosine and the sine of the azimuth about R from the normal's part across R to
+    // the tangent in which the ray sweeps psi.
     const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
                  beside = (z * o.cos_azimuth - y * o.sin_azimuth) / sine;
     const double side = o.normal_up > 0 ? -1 : 1;
@@ -39,15 +43,19 @@ struct DiscSight {
     const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
     pixels.energy[k] = e;
     pixels.label[k] = o.label_sign * labelled;
-    // d p/d alpha = -E/(r sin^2 alpha)
+    // The derivative of p = (cos alpha - s)/(r sin alpha) is dp/dalpha = -E/(r sin^2 alpha).  For
+    // straight light s = 0, and 1 stands for E.
     const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
     pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
+    // After psi the ray is at cos(psi) r^ + sin(psi) e^, which lies in the plane of the normal n
+    // where tan psi = -(n.r^)/(n.e^).
     const double turn = arc_tangent2(up, toward);
     pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
     pixels.azimuth_cosine[k] = side * along;
     pixels.azimuth_sine[k] = side * beside;
     pixels.azimuth_per[k] = pixel / sine;
-    // At most: where the pixel is nearest to the plane.
+    // By tan psi_0 = up/toward, psi_0 changes by up/(up^2 + toward^2) for each unit of `toward`.
+    // The smallest `toward` within the pixel makes this an upper bound.
     const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
     const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
     const double square = up * up + off * off;

@@ -1,4 +1,5 @@
-// Pixels by what decides where they see a disc.
+// For each pixel of a batch, the columns of this file describe where its view ray meets a disc.
+// A column named "..._per" says by how much the quantity changes across the pixel.
 #pragma once
 
 #include <array>
@@ -11,14 +12,14 @@ struct DiscPass::Pixels {
   template <class T>
   using Column = std::array<T, ViewRayBatch::kSize>;
   FrameRayBatch rays;
-  Column<double> energy;     // E; 0 where light does not come from region I
-  Column<double> label;      // p
-  Column<double> label_per;  // of a pixel
-  Column<double> turn;       // psi_0
-  // Of the azimuth about R, counted from where psi_0 is least.
+  Column<double> energy;  // E; 0 where light does not come from region I
+  Column<double> label;   // p of disc_images.h
+  Column<double> label_per;
+  Column<double> turn;  // psi_0, radians
+  // The azimuth about R counts from where psi_0 is least.
   Column<double> azimuth_cosine, azimuth_sine;
-  Column<double> azimuth_per;
-  Column<double> turn_per;
+  Column<double> azimuth_per;  // radians
+  Column<double> turn_per;     // radians, at most
 };
 
 }  // namespace domefall

@@ -12,21 +12,25 @@ namespace {
 
 using std::numbers::pi;
 
-// What decides where a ray meets the disc changes by less than this part of itself between nodes.
+// Nodes are used where the quantities that decide where a ray meets the disc change by less than
+// this part of themselves from node to node.
 constexpr double kSteady = 0.25;
-// How much faster, therefore, a distance may change between two nodes than at either of them.
+// Therefore a distance to a rim may change this much faster between two nodes than at either node.
 constexpr double kFaster = 1.6;
 // A cubic is trusted if the third and fourth differences of its nodes are smaller than these parts
-// of the light, or, next to a rim, where differences grow from node to node, a quarter of them.
-// With the fourth difference, its error is at most 1/24 of that.
+// of the light.  Next to a rim, where differences grow from node to node, the limits are a quarter
+// of these.  The error of a cubic through even nodes is f''''/24 times the product of the distances
+// to the four nodes.  That product is at most 1 in steps, so the error is at most 1/24 of the
+// fourth difference.
 constexpr float kMostThird = 0.02f, kMostFourth = 0.006f, kNextToRim = 0.25f;
-// Where a ray is against the image of an order.  Where gas begins to plunge, its light has a kink.
+// A Place says where a ray lies relative to the image of an order.  kWherePlunging is apart from
+// kWithin because the light has a kink where gas begins to plunge, which no cubic may cross.
 enum Place : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
-// The nodes that judge a cubic.
+// Five nodes have two third differences and one fourth difference, by which a cubic is judged.
 constexpr std::size_t kJudges = 5;
 
-// The weights of four nodes, at -1, 0, 1 and 2, for the pixels from 0 to 1; of the cell before the
-// middle one, and of the one after it.
+// The CellWeights of a cell are Lagrange's weights of four nodes for each of its eight pixels.  The
+// cell `first_cell` lies between the nodes first_cell and first_cell + 1 of the four.
 using CellWeights = std::array<std::array<float, 4>, 8>;
 CellWeights cell_weights(double first_cell) {
   CellWeights weights;
@@ -39,7 +43,9 @@ CellWeights cell_weights(double first_cell) {
   return weights;
 }
 
-// The Lorentz factor of the camera against the frame in which light's ways are known, at most.
+// Returns a bound on the Lorentz factor of the camera against the frame in which the paths of light
+// are known.  For two boosts in a row gamma = gamma_1 gamma_2 (1 + v_1.v_2), which is at most
+// 2 gamma_1 gamma_2.
 double most_gamma(const FrameScene& scene) {
   const Vantage& vantage = scene.tracer.vantage();
   const double gamma = std::sqrt(1 + vantage.celerity.dot(vantage.celerity));
@@ -50,7 +56,8 @@ double most_gamma(const FrameScene& scene) {
 }  // namespace
 
 bool DiscPass::Row::is_steady(const FrameScene& scene) {
-  // The frequency ratio changes by gamma of itself a radian at most.
+  // The Doppler factor is gamma (1 + v cos a).  Its relative change with the angle a is at most
+  // gamma v for each radian.
   return kStep * central_pixel_angle(scene.projection()) * most_gamma(scene) < kSteady;
 }
 
@@ -75,6 +82,8 @@ void DiscPass::Row::draw(int row, float* rgb) {
   for (int at = 0; cells > 0 && at <= cells; at += Strip::kSize)
     find_nodes(row, at, std::min(Strip::kSize, cells + 1 - at));
   for (std::size_t at = 0; at < static_cast<std::size_t>(cells);) {
+    // A run goes on as long as neighbouring nodes are joined.  The cell behind its last node is
+    // drawn pixel by pixel.
     std::size_t last = at;
     while (last < static_cast<std::size_t>(cells) && joined(nodes_[last], nodes_[last + 1])) ++last;
     draw_run(at, last, rgb);
@@ -108,7 +117,7 @@ void DiscPass::Row::find_nodes(int row, int first, int count) {
     const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(pixels_, k);
     lit[static_cast<std::size_t>(k)] = node.lit;
   }
-  // A pattern is too fine for cubics: only where nothing is lit are nodes enough.
+  // A pattern is too fine for cubics.  Its nodes only show where nothing is lit, and need no light.
   if (pass_.pattern_) return;
   strip_.look(pixels_, count, lit.data());
   for (int k = 0; k < count; ++k) {
@@ -127,6 +136,7 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
     node.clearance = kFar;
     return node;
   }
+  // Where the azimuth or psi_0 changes too much from node to node, the clearance stays 0.
   const double turned = kStep * pixels.azimuth_per[k];
   const double toward = pass_.normal_across_ * pixels.azimuth_cosine[k];
   const double from_plane = std::sqrt(pass_.normal_up_ * pass_.normal_up_ + toward * toward);
@@ -134,6 +144,7 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
   const double p = pixels.label[k], per = pixels.label_per[k];
   const DiscImages& images = pass_.images_;
   double clearance = kFar;
+  // Each order sets two bits of the sight.  A ray far from the range of an order needs no interval.
   for (int order = 0; order < images.orders(); ++order) {
     const double beneath = (images.least(order) - p) / per,
                  above = (p - images.greatest(order)) / per;
@@ -165,13 +176,14 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
   return node;
 }
 
-// Whether no rim is felt between two neighbouring nodes, nor at either.
+// Says whether no rim touches a pixel at two neighbouring nodes or between them.
 bool DiscPass::Row::joined(const Node& a, const Node& b) const {
   return a.sight == b.sight && a.clearance > kRimReach && b.clearance > kRimReach &&
          a.clearance + b.clearance > kFaster * (kStep + 2 * kRimReach);
 }
 
-// Draws the cells between nodes that see the same images, or notes their pixels.
+// Draws the cells between nodes that see the same images.  Pixels of cells that no cubic can draw
+// are noted in single_.
 void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
   if (!nodes_[first].lit) return;
   for (std::size_t cell = first; cell < last; ++cell)
@@ -180,11 +192,12 @@ void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
         single_.push_back(first_ + static_cast<int>(cell) * kStep + x);
 }
 
-// Draws a cell of a run by a cubic if it is right there, and returns whether it is.
+// Draws a cell of a run by a cubic if the cubic is accurate there.  Returns whether it did.
 bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t last,
                               float* rgb) const {
   static const std::array<CellWeights, 3> kWeights{cell_weights(0), cell_weights(1),
                                                    cell_weights(2)};
+  // The judges are the five nodes of the run around the cell, with `judge` as the first.
   const std::size_t judge = std::clamp(cell, first + 2, last - 2) - 2;
   std::array<std::array<float, 3>, kJudges> judges;
   for (std::size_t k = 0; k < kJudges; ++k) {
@@ -201,6 +214,7 @@ bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t l
           std::abs(after - before) <= kMostFourth * light))
       return false;
   }
+  // The cubic goes through four nodes from `from` on, all of which are among the judges.
   const std::size_t from = std::clamp(cell, first + 1, last - 2) - 1;
   const CellWeights& weights = kWeights[cell - from];
   std::array<std::array<float, 3>, 4> values;

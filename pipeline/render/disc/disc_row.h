@@ -1,9 +1,10 @@
-// A row of pixels before a disc.
+// A Row draws a disc over one row of pixels.
 //
-// Between rims the light of a disc is as smooth as its images: it is found at every eighth pixel,
-// the nodes of the row, and by cubics between them.  Only where a rim is near, or where the cubics
-// would be too far off, is each pixel looked at by itself.  The distances of two neighbouring nodes
-// to the rims, against how fast these can change, tell that no rim passes between them.
+// Between rims the light of a disc is as smooth as its images.  So it is computed at every eighth
+// pixel, the nodes of the row, and interpolated by cubics between them.  Only where a rim is near,
+// or where the cubics would be too far off, is each pixel computed by itself.  Two neighbouring
+// nodes have no rim between them if their distances to the rims are large against how fast these
+// can change.
 #pragma once
 
 #include <vector>
@@ -14,10 +15,10 @@ namespace domefall {
 
 class DiscPass::Row {
  public:
-  // Whether what is seen changes slowly enough from node to node.
+  // Says whether the view changes slowly enough from node to node for cubics.
   static bool is_steady(const FrameScene& scene);
 
-  // Without nodes, each pixel is looked at by itself.
+  // Without nodes, each pixel is computed by itself.
   Row(const DiscPass& pass, bool with_nodes);
 
   // Lays the disc over the row's pixels, rgb[3 columns].
@@ -27,7 +28,7 @@ class DiscPass::Row {
   static constexpr int kStep = 8;  // pixels from node to node
 
   struct Node {
-    // Where the ray lies: for each order two bits, none of those behind an opaque image.
+    // For each order two bits say where the ray lies.  Orders behind an opaque image have none set.
     unsigned sight = 0;
     bool lit = false;      // whether it is in an image
     double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
@@ -51,7 +52,7 @@ class DiscPass::Row {
   Pixels pixels_;
   int first_ = 0;  // column of the first node
   std::vector<Node> nodes_;
-  std::vector<int> single_;  // columns of pixels that are looked at one by one
+  std::vector<int> single_;  // columns of pixels that are computed one by one
 };
 
 }  // namespace domefall

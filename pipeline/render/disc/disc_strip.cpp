@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// psi changes by less than this within one division of a pixel.
+// psi changes by less than this (radians) within one division of a pixel.
 constexpr double kMostTurn = 0.1;
 constexpr int kMostDivisions = 48;
 
@@ -42,8 +42,10 @@ void DiscPass::Strip::look(const Pixels& pixels, int count, const bool* wanted) 
   flush();
 }
 
+// Divides a pixel so that psi_0 changes little in each division, and returns the part of the light
+// from behind that is left.
 double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
-  // psi_0 = atan2(up, across cos(azimuth)) grows with |azimuth| from 0 to pi.
+  // psi_0 = atan2(up, across cos(azimuth)) grows as |azimuth| grows from 0 to pi.
   const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
   const double azimuth = arc_tangent2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
   const double half = std::min(pixels.azimuth_per[k], pi) / 2;
@@ -51,7 +53,7 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
     const double turn = arc_tangent2(up, across * sin_cos(at).cosine);
     return turn > 0 ? turn : pi;
   };
-  // The inverse, from 0 to pi.
+  // This inverts turn_at for azimuths from 0 to pi: cos(azimuth) = up cos psi_0/(across sin psi_0).
   const auto azimuth_at = [&](double turn) {
     const SineCosine t = sin_cos(turn);
     const double x = up * t.cosine, length = across * t.sine;
@@ -77,6 +79,7 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
       before = after;
     }
   };
+  // At the azimuths -pi, 0 and pi, psi_0 has its extremes, so that the pixel is cut there first.
   double first = azimuth - half;
   const double last = azimuth + half;
   for (const double fold : {-pi, 0.0, pi})
@@ -88,7 +91,7 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
   return left;
 }
 
-// Adds the samples of a division, and returns what is left there of the light from behind.
+// Adds the samples of a division, and returns the part of the light from behind that is left there.
 double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& division) {
   const DiscImages& images = pass_.images_;
   const double p = pixels.label[k], per = pixels.label_per[k];
@@ -109,19 +112,20 @@ double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& div
   return left;
 }
 
-// The light of what a pixel sees of an image: the mean over its part of the interval, with the
-// weights by which the pixel sees it, so that all pixels together see each place once.
+// Adds the light of the part of an image that a pixel sees.  This is the mean over that part of the
+// interval, with the pixel's own weights, so that all pixels together count each place once.
 void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& division, double turn,
                             const DiscImages::Interval& rims, const Share& share, double weight) {
   const double width = rims.high - rims.low, p = pixels.label[k];
-  // How much of the interval a pixel's reach is.  It is slanted as the rims are, the more the
-  // nearer it is to either.
+  // `per` is the change of p across the pixel, relative to the image.  The slope of the image along
+  // psi is interpolated between those of the two rims.
   const double near = std::clamp((p - rims.low) / width, 0.0, 1.0);
   const double slope = rims.low_slope + (rims.high_slope - rims.low_slope) * near;
   const double per = length(pixels.label_per[k], slope * division.turn_per);
   const auto label_at = [&](double covered) {
     return std::clamp(p - distance_to_rim(covered) * per, rims.low, rims.high);
   };
+  // `seen` is the part of the interval that the pixel covers.  There is one sample for each kPart.
   const double seen = (label_at(share.from) - label_at(share.to)) / width;
   constexpr double kPart = 0.03;
   constexpr int kMost = 32;
@@ -135,15 +139,18 @@ void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& divisio
   }
 }
 
+// Notes one sample: its radius, its frequency ratio g as the observer measures it, and its weight.
 void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division, double turn,
                           double label, double u, double weight) {
   const double r = 1 / pass_.images_.inverse_radius(turn, u);
   const double w0 = 1 / pass_.r_;
   const bool straight = pass_.scene_.tracer.goes_straight();
-  // 1/b^2 = p^2 + w_0^2 - 2 w_0^3
+  // The orbit equation w'^2 = 1/b^2 - w^2 + 2 w^3, taken at the observer, where w' = p, gives
+  // 1/b^2 = p^2 + w_0^2 - 2 w_0^3.  Straight light has no cubic term.
   const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
   const double energy = pixels.energy[k];
   const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
+  // L times `about` is L_n = -L (r^ x e^).n of disc_shift.h.
   const double about =
       (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * division.azimuth_sine;
   const double shift = disc_shift({energy, momentum, momentum * about}, r,
@@ -156,20 +163,23 @@ void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division,
   ++count_;
 }
 
-// The place and the moment of the last sample, for the pattern.  `part` is what it covers of u.
+// Notes the place and the time of the last sample for the pattern.  `part` is the range of u that
+// the sample covers.
 void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& division, double turn,
                                  double u, double part) {
   const DiscImages::Moment at = pass_.images_.moment(turn, u);
   const SineCosine turned = sin_cos(turn);
   const double r = 1 / at.w;
-  // Around R from the normal's part across it, as locate_loop has it.
+  // The tangent e^ lies at this azimuth about R from the normal's part across R, as in
+  // locate_on_disc_loop.  The place is cos(turn) r^ + sin(turn) e^.
   const double side = pass_.normal_up_ > 0 ? -1 : 1;
   const double along = side * division.azimuth_cosine, beside = side * division.azimuth_sine;
   const double up = pass_.normal_cosine_, aside = pass_.normal_sine_;
   const V3d place(turned.cosine, turned.sine * (along * up - beside * aside),
                   turned.sine * (along * aside + beside * up));
   const double time = disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
-  // Around R the place moves by psi and about the axis of psi, at right angles.
+  // Across the pixel the place moves along psi, and at right angles to that about R.  The gas also
+  // turns on while the time of emission changes.
   const double moved =
                    length(division.turn_per, turned.sine * pixels.azimuth_per[k] * division.part),
                aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
@@ -177,7 +187,7 @@ void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& di
                                 time, std::abs(at.w_slope) * part * r * r, length(moved, aged)};
 }
 
-// Whether light sets out there to larger radii: back in time along the ray w then grows.
+// Says whether light sets out to larger radii.  If so, w grows along the ray back in time.
 bool DiscPass::Strip::outward(double turn, double label, double u) const {
   constexpr double kStep = 1e-3;
   const DiscImages::Interval later = pass_.images_.interval(turn + kStep);
@@ -185,6 +195,7 @@ bool DiscPass::Strip::outward(double turn, double label, double u) const {
   return pass_.images_.inverse_radius(turn + kStep, then) > pass_.images_.inverse_radius(turn, u);
 }
 
+// Turns the waiting samples into light and adds it to their pixels.
 void DiscPass::Strip::flush() {
   const std::size_t count = count_;
   pass_.scene_.disc->light({samples_.r.data(), count}, {samples_.g.data(), count},

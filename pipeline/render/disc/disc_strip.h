@@ -1,4 +1,5 @@
-// Pixels of one row, or of several, on their way to light: each is looked at by itself.
+// A Strip computes the light of a disc for a batch of pixels, each by itself.  The pixels may
+// belong to several rows.
 #pragma once
 
 #include <array>
@@ -7,29 +8,31 @@
 
 namespace domefall {
 
-// Samples of the disc wait until there are enough of them for the loops over samples.
+// The samples that pixels take of the disc are collected, and turned into light many at a time.
 class DiscPass::Strip {
  public:
   static constexpr int kSize = ViewRayBatch::kSize;
 
   explicit Strip(const DiscPass& pass);
 
-  // Finds light() and left() of `count` <= kSize pixels, or of those that are `wanted`.
+  // Finds light() and left() of `count` <= kSize pixels, or only of those that are `wanted`.
   void look(const Pixels& pixels, int count, const bool* wanted = nullptr);
 
-  // The light that the k-th pixel gets from the disc (cd/m^2), and the part that is left there of
-  // the light from behind.
+  // These return the light that the k-th pixel gets from the disc (cd/m^2), and the part of the
+  // light from behind that is left there.
   const WorkingRgb& light(int k) const { return light_[static_cast<std::size_t>(k)]; }
   double left(int k) const { return left_[static_cast<std::size_t>(k)]; }
 
  private:
-  // A division of a pixel: all of it, as a rule.
+  // A Division is a part of a pixel in which psi_0 changes little.  As a rule it is the whole
+  // pixel.
   struct Division {
     double turn, turn_per;  // psi_0, and by how much it changes here
     double azimuth_cosine, azimuth_sine;
     double part;  // of the pixel
   };
-  // The parts of a pixel that are beyond an image's inner rim, and beyond its outer one.
+  // A Share gives the part of a pixel that lies beyond an image's inner rim, and the part beyond
+  // its outer rim.  The image covers what is between these two.
   struct Share {
     double from, to;
   };

@@ -1,4 +1,4 @@
-// How much of a pixel lies on the one side of a rim.
+// These functions say how much of a pixel lies on one side of a rim.
 #pragma once
 
 #include <algorithm>
@@ -6,21 +6,23 @@
 
 namespace domefall {
 
-// A pixel sees a rim by a weight that is 1 next to its middle and falls evenly to 0 at kRimReach:
-// the mean of a square's chords, on the one hand along the rows and on the other along the
-// diagonals.  So a line that is narrower than a pixel has the same light wherever it lies between
-// two rows, or between two diagonals.
+// A pixel weights the light of a line by the distance to it.  The weight is 1 up to kRimEven and
+// falls linearly to 0 at kRimReach.  It is the convolution of two boxes, one as wide as the
+// distance 1 between rows of pixels and one as wide as the distance 1/sqrt 2 between diagonals.  So
+// the weights of all rows add up to a constant, and those of all diagonals too.  A line narrower
+// than a pixel therefore has the same light wherever it lies between two rows or two diagonals.
 inline constexpr double kRimDiagonal = 0.70710678118654752440;
 inline constexpr double kRimEven = (1 - kRimDiagonal) / 2, kRimReach = (1 + kRimDiagonal) / 2;
 
-// The part of a pixel on the greater side of a rim, from the distance to it in pixels.
+// Returns the part of a pixel on the greater side of a rim, from the signed distance to it in
+// pixels.  This is the integral of the weight.
 inline double beyond_rim(double distance) {
   const double off = std::abs(distance), rest = std::max(0.0, kRimReach - off);
   const double more = off < kRimEven ? 0.5 + off : 1 - rest * rest * kRimDiagonal;
   return distance < 0 ? 1 - more : more;
 }
 
-// The inverse, for parts from 0 to 1.
+// Inverts beyond_rim() for parts from 0 to 1.
 inline double distance_to_rim(double part) {
   const double less = std::min(part, 1 - part);
   const double off = less > 0.5 - kRimEven

@@ -1,8 +1,9 @@
-// What the images of a disc that lie before one another leave of a pixel's light.
+// A Veil says how much of a pixel's light is left behind several images of a disc.
 //
-// Their rims are as good as parallel within a pixel, and the thin images at the edge of the
-// silhouette lie side by side there: the one does not hide the other though both are in one pixel.
-// So an image covers an interval of the part of the pixel that is on the lower side of a line.
+// Within a pixel the rims of the images are almost parallel.  The thin images at the edge of the
+// silhouette lie side by side there, so that one does not hide the other although both are in one
+// pixel.  Therefore one coordinate from 0 to 1 says where a line parallel to the rims cuts the
+// pixel.  It is the part of the pixel on one side of the line.  An image covers an interval of it.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +11,13 @@
 
 namespace domefall {
 
-// kImages is the most that are laid over one another.
+// At most kImages images are laid over one another.
 template <int kImages>
 class Veil {
  public:
   // Lays an image of this opacity over the part [from, to] of the pixel, 0 <= from <= to <= 1,
-  // behind those that are there.  Returns how much of the image's light is seen, as a part of the
-  // pixel.
+  // behind the images that are there.  Returns how much of the image's light is seen, as a part of
+  // the pixel.
   double lay(double from, double to, double opacity) {
     divide(from);
     divide(to);
@@ -29,7 +30,7 @@ class Veil {
     return seen;
   }
 
-  // The part of the light from behind that is left.
+  // Returns the part of the light from behind that is left.
   double left() const {
     double sum = 0;
     for (std::size_t k = 0; k < count_; ++k) sum += left_[k] * width(k);
@@ -39,7 +40,7 @@ class Veil {
  private:
   double width(std::size_t k) const { return (k + 1 < count_ ? start_[k + 1] : 1) - start_[k]; }
 
-  // Lets a piece of the pixel begin there.
+  // Lets a piece of the pixel begin at `at`, 0 < at < 1.  Other values change nothing.
   void divide(double at) {
     if (!(at > 0 && at < 1)) return;
     const auto end = start_.begin() + static_cast<std::ptrdiff_t>(count_);
