@@ -12,12 +12,12 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kMostPieces = 4096;
-// The light of a disc is summed over so many chords.  The sum converges fast in their number,
-// but slowly if the axis is about as far from the disc's middle as the rim is, or nearer.
+// The light of a disc is summed over this number of chords.  The sum converges fast in the number.
+// It converges slowly if the axis is about as far from the disc's middle as the rim is, or nearer.
 constexpr int kChords = 8, kChordsAtRim = 64;
 constexpr double kAtRim = 1.5;  // the distance, in radii, up to which there are more chords
 
-// The disc in polar coordinates about the axis.  It is small enough to be flat.
+// A StarDisc is the disc in polar coordinates about the axis.  It is small enough to be flat.
 class StarDisc {
  public:
   StarDisc(double from_axis, double radius)
@@ -27,7 +27,7 @@ class StarDisc {
 
   bool is_ring() const { return from_axis_ < radius_; }
   bool is_at_rim() const { return from_axis_ < kAtRim * radius_; }
-  // An upper bound of the angle about the axis over which the image is drawn.
+  // Returns an upper bound of the angle about the axis over which the image is drawn.
   double extent() const { return drawn_part_ * (is_ring() ? 2 * pi : pi * radius_ / from_axis_); }
 
   struct Chord {
@@ -35,9 +35,10 @@ class StarDisc {
     double near, far;  // distances of its ends from the axis
     double width;      // in azimuth
   };
-  // The k-th of `count` chords, which lie on lines through the axis.  They are evenly spaced in
-  // azimuth where the axis lies in the disc, else in tau, where sin(azimuth) = radius/from_axis
-  // sin(tau).  Half a chord is then radius cos(tau) long, which is smooth up to the rim.
+  // Returns the k-th of `count` chords, which lie on lines through the axis.  Where the axis lies
+  // in the disc, they are evenly spaced in azimuth.  Otherwise they are evenly spaced in tau, with
+  // sin(azimuth) = radius/from_axis sin(tau).  Half a chord is then radius cos(tau) long, which is
+  // smooth up to the rim.
   Chord chord(int k, int count) const {
     const double share = (k + 0.5) / count;
     if (is_ring()) {
@@ -58,7 +59,8 @@ class StarDisc {
   double drawn_part_;  // of the arc's length
 };
 
-// The images of one order of the sky about the axis, on the source's side of the observer.
+// A Caustic is one order of the images of the sky about the axis, on the source's side of the
+// observer.
 class Caustic {
  public:
   Caustic(const SkyTable& table, const V3d& source, int order)
@@ -72,12 +74,13 @@ class Caustic {
     if (sine > 0) across_ = V3d(0, source.y, source.z) / sine;
   }
 
-  // The x of SkyTable of light that starts so far from the axis.
+  // Returns the x of SkyTable for light that starts at the angle from_axis from the axis.
   double distance(double from_axis) const { return table_.distance(axis_ + sign_ * from_axis); }
 
-  // The image of a chord, with its solid angle in place of the amplification.  That is the width
-  // times the difference of cos(psi) between the chord's ends.  With psi = psi_0 - 4 atan(x/2) and
-  // the ends' atan(x/2) = a and b, the difference is 2 sin(psi_0 - 2 (a + b)) sin(2 |a - b|).
+  // Returns the image of a chord, with its solid angle in place of the amplification.  This is the
+  // width times the difference of cos(psi) between the chord's ends.  With psi = psi_0 - 4
+  // atan(x/2), and with atan(x/2) = a and b at the ends, the difference is 2 sin(psi_0 - 2 (a + b))
+  // sin(2 |a - b|).
   SkyImage image(const StarDisc::Chord& chord) const {
     const double a = std::atan(distance(chord.near) / 2), b = std::atan(distance(chord.far) / 2);
     const NullRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
@@ -89,7 +92,7 @@ class Caustic {
     return image;
   }
 
-  // Of the angle psi from the sky's far end and an azimuth about the axis.
+  // Returns the direction at the angle psi from the sky's far end and this azimuth about the axis.
   TetradDirection direction(double psi, double azimuth) const {
     const V3d left(0, -across_.z, across_.y);
     const V3d e = (across_ * std::cos(azimuth) + left * std::sin(azimuth)) * side_;
@@ -108,7 +111,7 @@ class Caustic {
   V3d across_{0, 1, 0};  // the direction from the axis to the source, across the axis
 };
 
-// The number of pieces of the arc, whose spacing is the least along it.
+// Returns the number of pieces of the arc, which have the least spacing found along it.
 int pieces(const Caustic& caustic, const StarDisc& disc, double from_axis,
            const std::function<double(const V3d&)>& spacing) {
   constexpr int kSamples = 16;
@@ -122,13 +125,14 @@ int pieces(const Caustic& caustic, const StarDisc& disc, double from_axis,
   return count < kMostPieces ? std::max(1, static_cast<int>(count)) : kMostPieces;
 }
 
-// Several neighbouring chords as one image, in the middle of their light.
+// A Piece joins several neighbouring chords to one image, in the middle of their light.
 class Piece {
  public:
   void add(const SkyImage& image) {
     light_ += image.amplification;
     direction_ += image.direction.v * image.amplification;
-    // The light goes with the fourth power of the frequency ratio, whose mean is kept.
+    // The light is proportional to the fourth power of the frequency ratio.  The mean of this power
+    // is kept.
     const double g2 = image.frequency_ratio * image.frequency_ratio;
     fourth_ += image.amplification * g2 * g2;
   }
@@ -142,8 +146,9 @@ class Piece {
   V3d direction_{0, 0, 0};
 };
 
-// Lets the light of an arc fall towards its ends by (1 - t^2)^(kTaper part), t from -1 to 1 along it,
-// and keeps its sum.  An even disc ends so abruptly that a bright arc would seem cut off.
+// Lets the light of an arc fall towards its ends by (1 - t^2)^(kTaper part), where t goes from -1
+// to 1 along the arc, and keeps the sum.  An even disc ends so abruptly that a bright arc would
+// seem cut off.
 void taper(double part, std::vector<SkyImage>& arc) {
   constexpr double kTaper = 6;
   const auto count = static_cast<double>(arc.size());

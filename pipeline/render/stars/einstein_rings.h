@@ -1,9 +1,9 @@
-// The images of a star that stands behind the hole, or right above the observer: arcs and rings.
+// A star that stands behind the hole, or right above the observer, is seen as an arc or a ring.
 //
 // Where source, hole and observer are in line, the amplification of a point diverges like 1/sin of
 // its angle from this axis.  A frame resolves no points, so near the axis a star is an even disc
 // about as large as a pixel.  Its light is the solid angle of the image of that disc, which is
-// finite: an arc about the axis, or a ring if the axis lies in the disc.
+// finite.  The image is an arc about the axis, or a ring if the axis lies in the disc.
 //
 // The image is drawn as a ring while the axis lies in the disc.  Outside, the arc is shortened from
 // both ends, until at three radii from the axis it is a point.  Otherwise every star inside the
@@ -17,18 +17,19 @@
 
 namespace domefall {
 
-// A star nearer to the axis than this many radii is such a disc, and a point elsewhere.  The mean
-// of 1/distance over a disc whose middle is d radii from the axis is 1 + 1/(8 d^2) times that of
-// its middle, so that at 8 radii the light changes by two parts in a thousand.
+// A star is such a disc if it is nearer to the axis than this many radii, and a point elsewhere.
+// If the middle of the disc is d radii from the axis, the mean of 1/distance over the disc is
+// 1 + 1/(8 d^2) times its value in the middle.  So at 8 radii the light changes by two parts in a
+// thousand.
 inline constexpr double kNearAxis = 8;
 
-// Whether images of this order lie on a caustic for a source near the axis.  All do, but for the
+// Says whether images of this order lie on a caustic for a source near the axis.  All do except the
 // primary image of a source above the observer.
 inline bool on_caustic(const V3d& source, int order) { return source.x < 0 || order > 0; }
 
-// The image of an even disc of this radius (radians, > 0, small) about `source`, in pieces from one
-// end of the arc to the other.  Each piece has its part of the amplification.  It is no longer than
-// spacing(direction) anywhere on the arc, unless that takes more than 4096 pieces.
+// Returns the image of an even disc of this radius (radians, > 0, small) about `source`, in pieces
+// from one end of the arc to the other.  Each piece has its part of the amplification.  No piece is
+// longer than spacing(direction) anywhere on the arc, unless that takes more than 4096 pieces.
 std::vector<SkyImage> arc_of(const SkyTable& table, const V3d& source, int order, double radius,
                              const std::function<double(const V3d&)>& spacing);
 

@@ -21,14 +21,14 @@ constexpr double kErrorThere = 4.0 / 9;
 constexpr double kBetween = 1.001;
 constexpr double kUnbounded = 1e37;  // replaces any larger bound; it is within a float
 
-// The exact image of a source whose light has swept phi.
+// An Exact is the image of a source whose light has swept phi, found by inverting the table.
 struct Exact {
   double psi, slope;    // as LensCurve::View has them
   double sine, energy;  // sin(psi), and 1 + z of the free-fall observer
   double from_edge;     // angle from the sky's edge in radians, to full relative accuracy
 
-  // amplification * |sin phi_star| / (1 + z)^4, where the amplification is
-  // |sin psi d psi/(sin phi d phi)|.
+  // Returns amplification * |sin phi_star| / (1 + z)^4.  The amplification is the ratio of the
+  // solid angles, |sin psi d psi/(sin phi d phi)|.
   double light() const { return slope * sine / (energy * energy * energy * energy); }
 };
 
@@ -40,7 +40,9 @@ Exact exact(const SkyTable& table, double phi) {
           2 * ray.sin_half * ray.cos_half, one_plus_z(ray), from_edge};
 }
 
-// An upper bound of light() on the interval between a and c, in which b lies.
+// Returns an upper bound of light() on the interval between a and c, in which b lies.  No sine
+// exceeds the larger one of the two ends by more than half the width in psi, because every psi is
+// at most that far from an end.
 double most_light(const Exact& a, const Exact& b, const Exact& c) {
   const auto most = [](double p, double q, double r) { return std::max({p, q, r}); };
   const double sine = std::min(1.0, most(a.sine, b.sine, c.sine) + std::abs(a.psi - c.psi) / 2);
@@ -57,8 +59,8 @@ double light_of(const LensCurve::View& view, const PsiFrame& frame) {
 
 }  // namespace
 
-// From this order to the edge the slope falls, and energy and angle lie between their values at the
-// two ends.
+// From this order to the edge the slope falls, and the energy and the angle lie between their
+// values at the two ends.
 double most_light_from(const SkyTable& table, int order) {
   const Exact from = exact(table, order * pi);
   const NullRay edge = table.ray_at_distance(0);
@@ -67,9 +69,10 @@ double most_light_from(const SkyTable& table, int order) {
   return most_light(from, from, to);
 }
 
-// With s = sqrt(2/r), 1 + z is |1 - s cos(alpha)|.  Beyond the first edge psi is pi - alpha, beyond
-// the second alpha itself.  The angle alpha counts from -R in rain and from R in the outgoing
-// frame.  The difference 1 - s is (1 - s^2)/(1 + s), which does not cancel near the horizon.
+// With s = sqrt(2/r), 1 + z is |1 - s cos(alpha)| = |(1 - s) cos^2(alpha/2) + (1 + s)
+// sin^2(alpha/2)|.  Beyond the first edge psi is pi - alpha, and beyond the second it is alpha.
+// The angle alpha counts from -R in rain and from R in the outgoing frame.  The difference 1 - s
+// is computed as (1 - s^2)/(1 + s), which does not cancel near the horizon.
 PsiFrame psi_frame(const SkyTable& table) {
   const NullRay ray = table.ray_at_distance(table.x_max());
   const double s = std::sqrt(2 / ray.at.r), less = ray.at.above_horizon / (ray.at.r * (1 + s));
@@ -91,7 +94,7 @@ LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Toler
   const double middle = (2 * pair + 1) * pi, width = 2.0 / intervals;
   const PsiFrame frame = psi_frame(table);
   const auto at = [&](double v) { return exact(table, middle - 4 * std::atan(v)); };
-  // d psi/d v times the width.  The azimuth falls with v by d phi/d v = -4/(1 + v^2).
+  // This is d psi/d v times the width.  The azimuth falls with v by d phi/d v = -4/(1 + v^2).
   const auto by_interval = [&](const Exact& e, double v) {
     return -e.slope * 4 / (1 + v * v) * width;
   };
@@ -101,6 +104,7 @@ LensCurve::LensCurve(const SkyTable& table, int pair, int intervals, const Toler
     const Exact high = at(next), tested = at(v + kTested * width);
     const double d0 = by_interval(low, v), d1 = by_interval(high, next);
     const double rise = low.from_edge - high.from_edge;
+    // These are the coefficients of Hermite's cubic with the slopes d0 and d1 at its ends.
     double* c = &coefficients_[4 * static_cast<std::size_t>(i)];
     c[0] = low.psi;
     c[1] = d0;

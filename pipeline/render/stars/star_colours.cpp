@@ -21,8 +21,8 @@ StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kFirstTemperatu
   const std::uint64_t last = std::bit_cast<std::uint64_t>(kLastTemperature) >> kShift;
   for (std::uint64_t key = first_; key <= last; ++key)
     table_.push_back(light_at(std::bit_cast<double>(key << kShift)));
-  // The luminance of a unit of flux is largest near 6600 K.  The table has nodes 0.1 per cent apart
-  // there, so that the largest of them is within 1e-5 of the maximum.
+  // The luminance of a unit of flux is largest near 6600 K.  The nodes of the table are 0.1 per
+  // cent apart there, so that the largest value in the table is within 1e-5 of the maximum.
   for (const Light& light : table_) most_ = std::max(most_, double{light.luminance});
   most_ *= 1 + 1e-5;
 }

@@ -1,5 +1,5 @@
-// The light of blackbodies by temperature, from a table that is fast enough for millions of stars a
-// frame: its intervals are found from the bits of the temperature.
+// StarColours give the light of blackbodies by temperature.  The table is fast enough for millions
+// of stars in each frame, because its intervals are found from the bits of the temperature.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace domefall {
 
 class StarColours {
  public:
-  // The working-space light of a unit of bolometric flux, and its luminance, in lm/W.
+  // A Light is the working-space light of a unit of bolometric flux, and its luminance, in lm/W.
   struct Light {
     float r, g, b, luminance;
   };
@@ -19,6 +19,9 @@ class StarColours {
   // Interpolates blackbody_colours() at any temperature >= 0.  Measured: within a relative 1e-4 of
   // it above 3000 K, and within 4e-4 above 1000 K.
   Light operator()(double temperature) const {
+    // The key holds the exponent and the first kBits of the mantissa.  Between two keys the
+    // temperature grows linearly with the rest of the bits, which become the weight w.  A key below
+    // the table wraps around to a large number.
     const auto bits = std::bit_cast<std::uint64_t>(temperature);
     const std::uint64_t key = bits >> kShift;
     if (key - first_ >= table_.size() - 1) return beyond_table(temperature);
@@ -29,7 +32,7 @@ class StarColours {
             a.luminance + w * (b.luminance - a.luminance)};
   }
 
-  // The largest luminance of a unit of flux at any temperature, in lm/W.
+  // Returns the largest luminance of a unit of flux at any temperature, in lm/W.
   double most_luminance() const { return most_; }
 
  private:
@@ -37,7 +40,7 @@ class StarColours {
   StarColours();
   static Light beyond_table(double temperature);
 
-  static constexpr int kBits = 9;  // 512 intervals an octave
+  static constexpr int kBits = 9;  // 512 intervals in each octave
   static constexpr int kShift = 52 - kBits;
   std::uint64_t first_;
   std::vector<Light> table_;

@@ -16,40 +16,44 @@ namespace {
 
 using std::numbers::pi;
 
-// A blob covers some pixels more than its reach, since it is blurred by their squares, and pixels
-// on the rim of a dome lie partly beyond it.
+// A blob extends this many pixels beyond its reach.  It is blurred by the squares of the pixels,
+// and pixels on the rim of a dome lie partly outside the dome.
 constexpr double kBlurPixels = 4;
 
-// Where an effect is left out, this many orders are always tried, since either side may be the
-// bright one.  Beyond, the flux falls by exp(-2 pi) with every second order, so that the first
-// faint order ends the series.
+// Where an effect is left out, this many orders are always tried, since either side of the hole may
+// be the bright one.  Beyond these the flux falls by exp(-2 pi) with every second order, so that
+// the first faint order ends the series.
 constexpr int kAlwaysTried = 4;
 constexpr int kOrdersWithoutAmplification = 2;
 
-// The spacing of the pieces of an arc in sigma, and the least of those of a trail.  A row of
-// Gaussians at the distance s is even to 2 exp(-2 pi^2/s^2), here to 3e-4.
+// The pieces of an arc have this spacing in sigma, and those of a trail have it at least.  By
+// Poisson's summation formula a row of Gaussians at the distance s is even to 2 exp(-2 pi^2/s^2),
+// which is 3e-4 here.
 constexpr double kPieceSigmas = 1.5;
-// How much higher than its mean a row may be, as a pixel value.  In the dark a view makes half a
-// step of 8 bits of twice as much.
+// A row may be this much higher than its mean, as a pixel value.  In the dark, a view transform
+// makes half a step of 8 bits of twice this value.
 constexpr double kUneven = 5e-4;
 
-// What is the mean over a window of time depends on the ratio of a source's distance from the axis
-// to its way from frame to frame.  Up to kRacing the window reaches kWindow frames to either side
-// and falls to 0 like the power kSharpness: the ring of a bright star fades in and out over several
-// frames.  Beyond, the window becomes the more peaked, so that a slower image is a dot with faint
-// tails and not a bar, until at kSlow its sharpness is kSharpest.  From a third of kInstant to
+// The window of time depends on the ratio of a source's distance from the axis to its path from
+// frame to frame.  Up to kRacing the window reaches kWindow frames to either side and falls to 0
+// like the power kSharpness.  The ring of a bright star then fades in and out over several frames.
+// Beyond kRacing the window becomes more peaked, until at kSlow its sharpness is kSharpest.  A
+// slower image is therefore a dot with faint tails and not a bar.  From a third of kInstant to
 // kInstant the window shrinks to the instant.
 constexpr double kWindow = 5, kSharpness = 3, kSharpest = 8;
 constexpr double kRacing = 3, kSlow = 12, kInstant = 24;
 // With an open shutter an image is at least the mean over the gap between two instants.  Images
-// that move by less than so many pixels meanwhile are left to the mean of instants: their sum
-// ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %.
+// that move by less than this many pixels in the gap are left to the mean of the instants.  Their
+// sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %, as a row of Gaussians with a sigma of 0.9
+// pixels (kLeastSigmaPixels).
 constexpr double kTrailPixels = 1.5;
-// The farthest that a passage is from the axis (as a sine), and the longest half of its way.  The
-// sky is taken as flat so far.
+// A passage is at most this far from the axis (as a sine), and half of its path is at most this
+// long.  The sky is taken as flat up to there.
 constexpr double kFarthestPassage = 0.25, kLongestWay = 0.3;
 
-// The sine of the angle from the axis within which images may be trails.
+// Returns the sine of the angle from the axis within which images may be trails.  Between two
+// instants an image turns about the axis by at most way * gap/sine radians.  Farther out than the
+// second bound it moves by less than kTrailPixels.
 double farthest_passage(const FrameScene& scene, double stretch) {
   const V3d& turn = scene.motion.turn;
   const double way = std::hypot(turn.y, turn.z) + std::abs(turn.x);
@@ -60,16 +64,19 @@ double farthest_passage(const FrameScene& scene, double stretch) {
   return std::min(farthest, kFarthestPassage);
 }
 
-// How much longer than its chord a part of a trail is taken to be, since it is bent.
+// A part of a trail is taken to be this much longer than its chord, since it is bent.
 constexpr double kWayPerChord = 1.1;
 
-// The spacing, in sigma, of a trail whose pixel value along its middle is `row`: the faintest are
-// rows of dots that no display shows.
+// Returns the spacing, in sigma, of a trail whose pixel value along its middle is `row`.  It solves
+// row * 2 exp(-2 pi^2/s^2) = kUneven, with 1 added in the logarithm so that it exists for any row.
+// The faintest trails are rows of dots that no display shows.
 double spacing_of(double row) {
   return std::max(kPieceSigmas,
                   pi * std::numbers::sqrt2 / std::sqrt(std::log1p(2 * row / kUneven)));
 }
 
+// Returns the peak of the smallest blob for a light of 1 lux.  A Gaussian of unit integral has the
+// peak 1/(2 pi sigma^2).
 double peak_per_lux(double exposure, const PointSpread& point_spread) {
   return exposure / (2 * pi * point_spread.least() * point_spread.least());
 }
@@ -100,8 +107,8 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
   if (in_batches_) prepare_batches();
 }
 
-// The star with the gain and the limit of the frame applied to its flux, or nothing if none is
-// left.
+// Returns the star with the gain and the limit of the frame applied to its flux, or nothing if no
+// flux is left.
 std::optional<SceneStar> StarImageFinder::with_gain(const SceneStar& catalogued) const {
   const double part = sky_.star_gain * part_within_limit(sky_, catalogued.magnitude);
   if (!(part > 0)) return std::nullopt;
@@ -139,9 +146,9 @@ double StarImageFinder::radius_of(const SceneStar& star) const {
   return std::max(scene_.least_star_radius, star.angular_radius);
 }
 
-// The sine that stands for the star's distance from the axis in bound_.  The amplification of a
-// disc is the mean over its points, of which that of 1/(distance from the axis) is at most
-// 2/radius.
+// Returns the sine that stands for the star's distance from the axis where bound_ is used.  The
+// amplification of a disc is the mean over its points.  The mean of 1/(distance from the axis) over
+// a disc is at most 2/radius, which it reaches where the axis is in the middle of the disc.
 double StarImageFinder::least_sine(const SceneStar& star, const V3d& source,
                                    const std::optional<AxisPassage>& passage) const {
   const double sine = std::hypot(source.y, source.z), radius = radius_of(star);
@@ -163,9 +170,13 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   const double length = way.length(), radius = radius_of(star);
   if (!(kWindow * length > radius)) return std::nullopt;
   const double ratio = sine / length, instant = std::min(kInstant, near_ / length);
+  // The window reaches this many frames to either side of the frame's instant.
   double window = kWindow * (1 - smooth_step((3 * ratio / instant - 1) / 2));
   double sharpness =
       kSharpness + (kSharpest - kSharpness) * smooth_step((ratio - kRacing) / (kSlow - kRacing));
+  // The peak of the weight is (sharpness + 1)/(2 window).  If it is higher than the peak 1/gap of a
+  // triangle, the triangle takes its place.  Triangles at the distance of the gap add up to an even
+  // exposure.
   if (scene_.motion.gap < 1 && window < scene_.motion.gap * (sharpness + 1) / 2) {
     window = scene_.motion.gap;
     sharpness = 1;
@@ -175,7 +186,7 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   return AxisPassage(source, way * window, radius, sharpness);
 }
 
-// The image of one order in the frame of the tetrad.
+// Returns the image of one order in the frame of the tetrad.
 SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int order) const {
   if (scene_.effects.lensing) return image_of(table_, source, order, star.angular_radius);
   const AberratedLight at = from_rest_.to_rest(source);
@@ -183,7 +194,7 @@ SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int or
   return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
 }
 
-// The image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its temperature is
+// Returns the image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its temperature is
 // T/(1+z).
 StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
                                                    const SkyImage& at) const {
@@ -209,7 +220,7 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
   return received;
 }
 
-// Appends the image of one order.  Returns whether it is bright enough, even if it is beside the
+// Appends the image of one order.  Returns whether it is bright enough, even if it is outside the
 // frame.
 bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
                                    const std::optional<AxisPassage>& passage, int order,
@@ -237,14 +248,15 @@ double StarImageFinder::least_sigma_at(const V3d& direction) const {
   return scene_.point_spread.least() * from_tetrad_.to_rest(direction).frequency_ratio;
 }
 
-// A boost stretches a part as it does its middle, but for what the stretch changes along it.
+// The boost is applied to both ends of the part, whose distance is the chord.
 double StarImageFinder::sigmas_of(const StarTrail& trail, std::size_t k) const {
   const V3d begin = from_tetrad_.to_rest(trail.begin(k)).direction;
   const V3d end = from_tetrad_.to_rest(trail.begin(k + 1)).direction;
   return kWayPerChord * (end - begin).length() / scene_.point_spread.least();
 }
 
-// In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.
+// In a row of Gaussians the sum of all is sqrt(2 pi)/spacing times the peak of one.  Therefore the
+// height of the row does not depend on the number of pieces.
 int StarImageFinder::pieces_of(double sigmas, double peak, double& brightest) {
   const double row = peak * std::sqrt(2 * pi) / sigmas;
   brightest = std::max(brightest, std::min(peak, row));
@@ -281,6 +293,7 @@ bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<Sky
     peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);
   }
+  // The pieces of an arc overlap, so that their sum is higher than the peak of one of them.
   const double neighbours = images.size() > before + 1 ? std::sqrt(2 * pi) / kPieceSigmas : 1;
   if (peak * neighbours > kFaintestPeak) return true;
   images.resize(before);

@@ -1,4 +1,4 @@
-// The images of stars that one frame receives, as far as they are bright enough to be seen.
+// A StarImageFinder finds the images of stars in one frame that are bright enough to be seen.
 #pragma once
 
 #include <array>
@@ -13,50 +13,51 @@
 
 namespace domefall {
 
-// An image is left out if the peak pixel value of its blob, drawn at its smallest, is below this.
+// An image is left out if its blob, drawn at the smallest size, has a peak pixel value below this.
 inline constexpr double kFaintestPeak = 2e-4;
 
-// Finds the images of the stars of one sky.  Where light goes straight a star has one image.
-// Without amplification all images of a star are equally bright and infinitely many, so only the
-// two are found whose light does not go around the hole.
+// The stars are those of one sky.  Where light goes straight, a star has one image.  Without
+// amplification, a star has infinitely many images of equal brightness.  Only the two are found
+// whose light does not go around the hole.
 //
-// Near the axis of the lens an image is bright and quick.  Where the sky turns, it is the mean over
-// the time of a frame (star_trail.h).  Where it stands still, a star so near to the axis that its
-// own disc matters is an arc or a ring (einstein_rings.h).
+// Near the axis of the lens an image is bright and fast.  Where the sky turns, the image is the
+// mean over the time of a frame (star_trail.h).  Where the sky stands still, a star is an arc or a
+// ring if it is so near to the axis that its own disc matters (einstein_rings.h).
 //
 // Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
 // (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis,
-// of high orders and of frames without some effect are found one star at a time in
+// images of high orders and those of frames without some effect are found one star at a time, in
 // star_image_finder.cpp.
 class StarImageFinder {
  public:
   // The scene must outlive this object.
   StarImageFinder(const FrameScene& scene, SkyRegion sky);
 
-  // Appends the images of one star that are bright enough, even some beside the frame.  Each order
-  // inverts the table, which is exact and slow.
+  // Appends the images of one star that are bright enough.  Some of them may lie outside the frame.
+  // Each order inverts the table, which is exact and slow.
   void append(const SceneStar& catalogued, std::vector<StarImage>& images) const;
 
-  // Appends one image, found elsewhere, of a star as it is.  Returns whether it is bright enough,
-  // even if it is beside the frame.
+  // Appends one image that was found elsewhere.  No gain or limit is applied to the star.  Returns
+  // whether the image is bright enough, even if it is outside the frame.
   bool append_image(const SceneStar& star, const SkyImage& image,
                     std::vector<StarImage>& images) const;
 
-  // The same for an image in pieces that lie so close that they are seen as one.
+  // Does the same with an image in pieces that lie so close together that they are seen as one.
   bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
                      std::vector<StarImage>& images) const;
 
-  // The number of the stars, counted from the first, that may be bright enough by their magnitudes
-  // and fluxes.
+  // Returns how many stars, counted from the first, may be bright enough by their magnitudes and
+  // fluxes.
   std::size_t count(const SceneStars& stars) const;
-  // Appends the images of a batch: the stars from `first`, a multiple of kStarBatch, to the end of
-  // the batch or before `end`.  Images differ from those of single stars by the errors of LensCurve
-  // (0.01 pixel, 1e-4 of the light), and those whose blobs do not reach the frame are left out.
+  // Appends the images of a batch.  It begins with the star `first`, a multiple of kStarBatch, and
+  // stops at the end of the batch or before `end`.  Images differ from those of single stars by the
+  // errors of LensCurve (0.01 pixel, 1e-4 of the light).  Those whose blobs do not reach the frame
+  // are left out.
   void append(const SceneStars& stars, std::size_t first, std::size_t end,
               std::vector<StarImage>& images) const;
 
  private:
-  static constexpr int kOrders = 24;  // those that are tried at most
+  static constexpr int kOrders = 24;  // the most that are tried
   static constexpr int kCurves = 4;   // each for a pair of orders
   struct Received {
     StarImage image;
@@ -66,7 +67,7 @@ class StarImageFinder {
   struct Batch;
 
   std::optional<SceneStar> with_gain(const SceneStar& catalogued) const;
-  // The way of a source that passes near the axis while the frame lasts, or nothing.
+  // Returns the path of a source that passes near the axis while the frame lasts, or nothing.
   std::optional<AxisPassage> passage_of(const SceneStar& star, const V3d& source) const;
   bool append_order(const SceneStar& star, const V3d& source,
                     const std::optional<AxisPassage>& passage, int order,
@@ -75,12 +76,13 @@ class StarImageFinder {
                     std::vector<StarImage>& images) const;
   bool append_trail_in_batches(const SceneStar& star, const StarTrail& trail,
                                std::vector<StarImage>& images) const;
-  // The way along part k of a trail in the camera's view, in least sigmas.
+  // Returns the length of part k of a trail in the camera's view, in units of the least sigma.
   double sigmas_of(const StarTrail& trail, std::size_t k) const;
-  // The pieces of a part of a trail that is so many sigma long and whose light, in one piece, has
-  // this peak.
+  // Returns the number of pieces for a part of a trail that is `sigmas` long.  `peak` is the peak
+  // that its light would have in one piece.  Raises `brightest` to the peak of the row of pieces if
+  // that is higher.
   static int pieces_of(double sigmas, double peak, double& brightest);
-  // The least sigma of the frame about a direction, carried back through the boost: radians there.
+  // Returns the least sigma of the frame about a direction, in radians before the boost.
   double least_sigma_at(const V3d& direction) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,
                      std::vector<StarImage>& images) const;
@@ -111,18 +113,18 @@ class StarImageFinder {
   double peak_per_lux_;    // pixel value of the peak of the smallest blob
   double stretch_;         // gamma + |celerity|, the most by which the boost stretches angles
   bool has_caustics_;      // whether the lens brightens stars without bound near its axis
-  double near_;            // the sine of the angle from the axis below which images are trails
+  double near_;            // sine of the angle from the axis within which images may be trails
   bool in_batches_;        // whether stars are found in batches
 
-  // The rest is used if stars are found in batches.
+  // The members below are used if stars are found in batches.
   StarFrame batch_frame_;
   StarPlane plane_;
   std::vector<LensCurve> curves_;
-  // An image is too faint if this times its flux, amplification/(1+z)^4 in the tetrad included, is
-  // below 1.
+  // An image is too faint if this times its flux is below 1, where the flux includes the factor
+  // amplification/(1+z)^4 in the tetrad.
   double brightness_per_flux_ = 0;
-  // For each order: a star is too faint in this order and all that follow if this times its flux is
-  // below the sine of its angle from the axis.
+  // A star is too faint in an order and all that follow if the order's bound times the star's flux
+  // is below the sine of its angle from the axis.
   std::array<double, kOrders> bound_{};
 };
 

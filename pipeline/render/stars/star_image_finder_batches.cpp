@@ -1,4 +1,4 @@
-// The part of the class StarImageFinder that finds the images of a batch of stars at once.
+// This part of the class StarImageFinder finds the images of a batch of stars at once.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +10,13 @@
 namespace domefall {
 namespace {
 
-// The intervals of the curve of each pair of orders.  From order 2 on all images are near the
-// silhouette's edge, and fewer intervals are as accurate.
+// The curve of each pair of orders has this number of intervals.  From order 2 on all images are
+// near the silhouette's edge, where fewer intervals are as accurate.
 constexpr int kIntervals[] = {512, 64, 64, 64};
-// The tolerance of the curves in pixels and in parts of the light.
+// These are the tolerances of the curves, in pixels and in parts of the light.
 constexpr double kPositionError = 0.01, kFluxError = 1e-4;
 // Sources at a smaller angle (radians) from the axis are not found by curves, since their azimuth
-// about it is lost in rounding.
+// about the axis is lost in rounding.
 constexpr double kOnAxis = 1e-6;
 
 void copy_source(const StarSources& from, int k, StarSources& to, int at) {
@@ -28,15 +28,15 @@ void copy_source(const StarSources& from, int k, StarSources& to, int at) {
 
 }  // namespace
 
+// A Batch holds up to kStarBatch stars on their way to images.
 struct StarImageFinder::Batch {
   std::size_t first;  // index of its first star
   int count;
   StarSources sources;
-  // The sources whose next order is found by a curve: they are off the axis and bright enough.
+  // The next order of these sources is found by a curve.  They are off the axis and bright enough.
   StarColumn<int> candidates;
   int candidate_count = 0;
-  // Orders of a source, from first_order to before end_order, that are found by inverting the
-  // table.
+  // The orders of a source from first_order to before end_order are found by inverting the table.
   struct SetAside {
     int source, first_order, end_order;
   };
@@ -62,6 +62,7 @@ void StarImageFinder::prepare_batches() {
       kPositionError * central_pixel_angle(scene_.projection()) / stretch_, kFluxError};
   for (const int intervals : kIntervals)
     curves_.emplace_back(*table_, static_cast<int>(curves_.size()), intervals, tolerance);
+  // A bound covers all later orders too, so it is the largest from the last order down.
   for (int order = kOrders - 1; order >= 0; --order) {
     const auto k = static_cast<std::size_t>(order);
     const double most = order < 2 * kCurves ? curves_[k / 2].largest_bound(order % 2 != 0)
@@ -73,8 +74,8 @@ void StarImageFinder::prepare_batches() {
 std::size_t StarImageFinder::count(const SceneStars& stars) const {
   std::size_t number = stars.count_to_magnitude(sky_.max_magnitude);
   if (!in_batches_) return number;
-  // The sine of a disc's angle from the axis counts as half its radius at least (least_sine()).
-  // Flat space has no axis.
+  // The sine of the angle from the axis counts as half the radius of the star's disc or more
+  // (least_sine()).  Flat space has no axis, and 1 stands for the sine.
   const double least = table_ == nullptr ? 1 : scene_.least_star_radius / 2;
   while (number > 0 && !(stars.most_flux_from(number - 1) * sky_.star_gain * bound_[0] > least))
     number = (number - 1) / SceneStars::kBlock * SceneStars::kBlock;
@@ -133,8 +134,8 @@ void StarImageFinder::drop_faint(Batch& batch, int order) const {
   batch.candidate_count = kept;
 }
 
-// Appends the candidates' images of one order, by its curve.  Those in intervals not for use are
-// set aside.
+// Appends the candidates' images of one order, by the curve of the order.  Sources in intervals
+// that are not for use are set aside.
 void StarImageFinder::append_curved(Batch& batch, int order, std::vector<StarImage>& images) const {
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   const double side = order % 2 == 0 ? 1 : -1;
@@ -150,6 +151,7 @@ void StarImageFinder::append_curved(Batch& batch, int order, std::vector<StarIma
     if (bound < 0) batch.set_aside.push_back({source, order, order + 1});
   }
   if (count == 0) return;
+  // If all sources of the batch are bright, they need not be copied.
   StarViews views;
   if (count == batch.count) {
     bend(batch_frame_, curve, side, batch.sources, count, views);
@@ -204,7 +206,7 @@ void StarImageFinder::append_views(StarViews& views, int count, double least_pea
   images.resize(bright);
 }
 
-// append_trail() in columns of pieces.
+// Does the work of append_trail() with columns of pieces.
 bool StarImageFinder::append_trail_in_batches(const SceneStar& star, const StarTrail& trail,
                                               std::vector<StarImage>& images) const {
   const M33d& camera = observer_.tetrad_from_camera;
@@ -212,6 +214,7 @@ bool StarImageFinder::append_trail_in_batches(const SceneStar& star, const StarT
   std::vector<int> pieces;
   double brightest = 0;
   for (std::size_t k = 0; k < trail.parts(); ++k) {
+    // The whole part as one piece, of a star of unit flux and temperature, shows how bright it is.
     trail.store(k, 1, 0, 1, from_tetrad_, camera, views, 0);
     const double luminance = star_colours()(star.temperature * views.temperature[0]).luminance;
     const double peak = luminance * star.flux * views.flux[0] * peak_per_lux_;

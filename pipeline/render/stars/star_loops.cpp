@@ -15,13 +15,13 @@ namespace {
 
 using std::numbers::pi;
 
-// Columns of SceneStars.
+// An Input points to columns of SceneStars.
 struct Input {
   const float *x, *y, *z, *magnitude, *flux, *temperature;
 };
 
-// Copies of what is passed by reference are for the compiler, which then knows that no store of the
-// loop alters them.
+// The loops copy what is passed by reference.  The compiler then knows that no store of the loop
+// alters the values.
 [[gnu::always_inline]] inline void stars_into_tetrad_loop(const StarFrame& frame,
                                                           const Input& input, int count,
                                                           StarSources& s) {
@@ -42,8 +42,9 @@ struct Input {
 }
 Dispatched<stars_into_tetrad_loop> stars_into_tetrad;
 
-// Fills the columns sine and v.  With c and s the cosine and sine of half the angle from +R,
-// v = tan(pi/4 - angle/4) is (1 - t)/(1 + t) for t = tan(angle/4) = s/(1 + c).
+// Fills the columns sine and v.  Let c and s be the cosine and the sine of half the angle from +R.
+// With t = tan(angle/4) = s/(1 + c), the addition theorem makes v = tan(pi/4 - angle/4) equal to
+// (1 - t)/(1 + t) = (1 + c - s)/(1 + c + s).
 [[gnu::always_inline]] inline void to_lens_loop(int count, StarSources& sources) {
   for (int k = 0; k < count; ++k) {
     const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
@@ -55,8 +56,8 @@ Dispatched<stars_into_tetrad_loop> stars_into_tetrad;
 }
 Dispatched<to_lens_loop> to_lens;
 
-// Stores the k-th view, that of light which comes from `direction` in the frame of the tetrad with
-// this frequency ratio and amplification.
+// Stores the k-th view.  Its light comes from `direction` in the frame of the tetrad with this
+// frequency ratio and amplification.
 inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
                     double frequency_ratio, double amplification, const StarSources& sources, int k,
                     StarViews& views) {
@@ -69,7 +70,7 @@ inline void receive(const Aberration& boost, const M33d& camera, const V3d& dire
   views.z[k] = light.direction.z;
 }
 
-// The cubics of a batch of v: where they stand in the table, and their coefficients by power.
+// Cubics hold where the cubics of a batch of v stand in the table, and their coefficients by power.
 struct Cubics {
   alignas(64) StarColumn<const double*> row;
   alignas(64) StarColumn<double> v, share;
@@ -143,7 +144,8 @@ Dispatched<onto_dome_loop> onto_dome;
                                                    int count, StarViews& views) {
   for (int k = 0; k < count; ++k) {
     const double x = views.x[k], y = views.y[k], z = views.z[k];
-    // 1 + cos(theta), from sin^2(theta) where the sum would cancel.
+    // The place is at tan(theta/2) = sin(theta)/(1 + cos(theta)) times the scale.  Where the sum
+    // 1 + cos(theta) would cancel, it is sin^2(theta)/(1 - cos(theta)).
     const double behind = (x * x + y * y) / (1 + std::abs(z));
     const double m = scale / (z < 0 ? behind : 1 + z);
     views.i[k] = middle_i + m * x;
@@ -166,7 +168,8 @@ Dispatched<onto_plane_loop> onto_plane;
 }
 Dispatched<flag_loop> flag;
 
-// A view without an image becomes infinitely far, so that it is not listed.
+// Projects views one by one.  A view without a place in the picture is put infinitely far away, so
+// that it is not listed.
 void onto_any(const Projection& projection, double least_z, int count, StarViews& views) {
   for (int k = 0; k < count; ++k) {
     const CameraDirection n{{views.x[k], views.y[k], views.z[k]}};
@@ -177,14 +180,14 @@ void onto_any(const Projection& projection, double least_z, int count, StarViews
   }
 }
 
-// The largest angle from Z in a picture.
+// Returns the largest angle from Z in a picture.
 double farthest_angle(const Projection& p) {
   if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov / 2;
   if (has_zenith(p)) return pi;
   return std::acos(direction_at(p, {0.5, 0.5}).v.z);
 }
 
-// The number of pixels per radian in the middle of the frame.
+// Returns the number of pixels per radian in the middle of the frame.
 double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
 
 }  // namespace
@@ -221,8 +224,8 @@ StarPlane::StarPlane(const Projection& projection, double reach)
     fast_dome_ = least_z_ >= kLeastCosine;
   } else if (std::holds_alternative<Stereographic>(projection)) {
     // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin
-    // is that angle at the scale of the projection as far beyond a corner, which grows like
-    // 1/cos^2(theta/2).
+    // is that angle in pixels, at the scale that the projection has as far beyond a corner.  The
+    // scale is the derivative of 2 tan(theta/2), which grows like 1/cos^2(theta/2).
     scale_ *= 2;
     const double corner = 2 * std::atan(std::hypot(middle_i_ + 1, middle_j_ + 1) / scale_);
     const double farthest = std::min(corner + reach, 0.999 * pi), c = std::cos(farthest / 2);

@@ -1,5 +1,6 @@
-// Loops over columns of many stars, from the catalogue to pixels, which the compiler turns into
-// SIMD code.  They know all effects of nature and no source on the axis of the lens.
+// The loops of this file take columns of many stars from the catalogue to pixels.  The compiler
+// turns them into SIMD code.  They include all effects of nature, and hold for no source on the
+// axis of the lens.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace domefall {
 
 inline constexpr int kStarBatch = static_cast<int>(SceneStars::kBlock);
 
-// The constants of a frame that the loops need.
+// A StarFrame holds the constants of a frame that the loops need.
 struct StarFrame {
   M33d sky_from_tetrad, tetrad_from_camera;
   Aberration from_tetrad{V3d(0, 0, 0)};
@@ -26,7 +27,7 @@ struct StarFrame {
 template <class T>
 using StarColumn = std::array<T, kStarBatch>;
 
-// Stars as sources of light, with their directions in the frame of the tetrad.
+// StarSources are the stars as sources of light, with their directions in the frame of the tetrad.
 struct StarSources {
   StarColumn<double> x, y, z;            // unit vector along R, Theta, Phi
   StarColumn<double> sine;               // of the angle from the axis
@@ -34,22 +35,25 @@ struct StarSources {
   StarColumn<double> flux, temperature;  // W/m^2 and K at no redshift
 };
 
-// Images of stars as the moving camera receives them.
+// StarViews are images of stars as the moving camera receives them.
 struct StarViews {
   StarColumn<double> x, y, z;            // unit vector along the camera's axes
   StarColumn<double> flux, temperature;  // W/m^2 and K
   StarColumn<double> i, j;               // position in pixels, as StarImage has it
 };
 
-// Light that comes from `direction` in the frame of the tetrad, as the moving camera receives it.
+// ReceivedLight is the light of one image as the moving camera receives it.
 struct ReceivedLight {
   V3d direction;           // unit vector along the camera's axes
   double frequency_ratio;  // with that of the boost
   double flux;             // for a unit of flux without redshift
 };
 
-// The boost divides solid angles, and so the amplification, by the square of its own frequency
-// ratio, and multiplies the intensity by the fourth power of it.
+// Returns the light that comes from `direction` in the frame of the tetrad, as the camera receives
+// it.  Let the boost have the frequency ratio D, and let g be D times the ratio in the tetrad.  The
+// intensity is multiplied by g^4.  The boost divides solid angles, and so the amplification, by
+// D^2.  So the flux is amplification * g^4/D^2, which is computed as amplification *
+// (g * frequency_ratio)^2.
 inline ReceivedLight received(const Aberration& boost, const M33d& camera, const V3d& direction,
                               double frequency_ratio, double amplification) {
   const AberratedLight seen = boost.to_rest(direction);
@@ -68,8 +72,8 @@ void bend(const StarFrame& frame, const LensCurve& curve, double side, const Sta
 // Finds the images where light goes straight.
 void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
 
-// The projection of views to the frame's pixels, by SIMD code on a stereographic picture and,
-// unless its blobs reach farther over the rim than angle_over_sine() holds, on a Domemaster.
+// A StarPlane projects views to the frame's pixels.  It uses SIMD code for a stereographic picture,
+// and for a Domemaster unless blobs reach farther over its rim than angle_over_sine() holds.
 class StarPlane {
  public:
   // `reach` is the radius of the largest blob in radians.

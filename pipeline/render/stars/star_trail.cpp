@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// The longest step in x from one place where the lens is evaluated to the next.
+// The step in x from one place where the lens is evaluated to the next is at most this.
 constexpr double kStep = 0.25;
 
 }  // namespace
@@ -17,6 +17,8 @@ AxisPassage::AxisPassage(const V3d& source, const V3d& half_way, double radius, 
       half_way_(std::hypot(half_way.y, half_way.z)),
       sharpness_(sharpness) {
   along_ = V3d(0, half_way.y, half_way.z) / half_way_;
+  // Across R the path is the line source + u half_way.  Its part at right angles to the line is the
+  // closest approach, and its part along the line gives u there.
   const V3d across(0, -along_.z, along_.y);
   const double offset = source.y * across.y + source.z * across.z;
   outward_ = offset < 0 ? -across : across;
@@ -39,8 +41,10 @@ V3d AxisPassage::across(double x) const {
 
 double AxisPassage::u(double x) const { return u_least_ + least_ / half_way_ * std::sinh(x); }
 
-// Since du/distance = dx/half_way, it is the integral of the weight over x by the rule of Gauss and
-// Legendre with three points.
+// From u = u_least + least/half_way sinh(x) and distance = least cosh(x) follows du/distance =
+// dx/half_way.  So this is the integral of the weight over x, divided by half_way.  It is found by
+// the rule of Gauss and Legendre with three points, at the middle and sqrt(3/5) of half the
+// interval to either side.
 double AxisPassage::mean_inverse_distance(double from, double to) const {
   constexpr std::array<double, 3> kNodes{-0.7745966692414834, 0, 0.7745966692414834};
   constexpr std::array<double, 3> kWeights{5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -66,7 +70,7 @@ StarTrail::Node StarTrail::node_at(const SkyTable& table, int order, double x) c
           image.amplification * passage_.distance(x)};
 }
 
-// Adds nodes from one x to another, without the last one.
+// Adds nodes at even steps from one x to another, but none at the end.
 void StarTrail::add_nodes(const SkyTable& table, int order, double from, double to) {
   const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
   for (int k = 0; k < count; ++k)
@@ -77,9 +81,10 @@ std::size_t StarTrail::first_around(std::size_t k) const {
   return std::min(k > 0 ? k - 1 : 0, nodes_.size() - count_around());
 }
 
-// Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four around them, or
-// through all if there are fewer.  In x the numbers are so smooth that a step of kStep errs by less
-// than 1e-5 radians, and by 1e-4 half a radian from the axis.  The amplification is the strength.
+// Interpolates between nodes k and k + 1 by Lagrange's polynomial through the four nodes around
+// them, or through all nodes if there are fewer.  In x the numbers are so smooth that with steps of
+// kStep the error is below 1e-5 radians, and 1e-4 half a radian from the axis.  The image has the
+// strength in place of its amplification.
 SkyImage StarTrail::between(std::size_t k, double x) const {
   const std::size_t count = count_around(), first = first_around(k);
   double forward = 0, across = 0, frequency_ratio = 0, strength = 0;

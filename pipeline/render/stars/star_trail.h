@@ -1,16 +1,16 @@
-// The images of a star that passes the axis of the lens while a frame lasts: a trail along the
-// Einstein ring.
+// A star that passes the axis of the lens while a frame lasts has an image along the Einstein ring.
+// This file makes that trail.
 //
-// As a source passes the hole at the angle b from the axis, its image races around the ring, by
-// half of it within the time in which the source moves by a few b.  No single instant stands for
-// that time.  So an image near the axis is the mean over a window of time about the frame's
-// instant.  Its weight falls to 0 at both ends, so that the trail tapers.  If it falls evenly, the
-// windows of successive instants add up to an even exposure.
+// As a source passes the hole at the angle b from the axis, its image races around the ring.  It
+// covers half of the ring in the time in which the source moves by a few b.  No single instant
+// stands for that time.  So an image near the axis is the mean over a window of time about the
+// frame's instant.  The window's weight falls to 0 at both ends, so that the trail tapers.  If it
+// falls linearly, the windows of successive instants add up to an even exposure.
 //
-// Near the axis the sky is flat and the source moves along a line.  With x = asinh(s/b), where s is
-// the way from the point closest to the axis, the distance from the axis is b cosh(x).  The
-// amplification goes with its inverse, and ds / (b cosh x) = dx, so that an image brings equal
-// light in equal steps of x, though its path in x is as smooth as the lens.
+// Near the axis the sky is flat and the source moves along a line.  Let s be the distance along
+// this line from the point closest to the axis, and x = asinh(s/b).  Then the distance from the
+// axis is b cosh(x), and the amplification is proportional to its inverse.  Because ds / (b cosh x)
+// = dx, an image brings equal light in equal steps of x.  Its path in x is as smooth as the lens.
 #pragma once
 
 #include <algorithm>
@@ -22,14 +22,15 @@
 
 namespace domefall {
 
-// The way of a source past the axis, from u = -1 to u = 1, with its middle at u = 0.  It passes the
-// axis at `radius`/2 or more, because the mean of 1/distance over a disc about the axis is
-// 2/radius.
+// An AxisPassage is the path of a source past the axis, from u = -1 to u = 1, with its middle at
+// u = 0.  It counts as no closer to the axis than `radius`/2, because the mean of 1/distance over a
+// disc about the axis is 2/radius.
 class AxisPassage {
  public:
-  // `source` is a unit vector along R, Theta, Phi, and `half_way` what is added to it from u = 0 to
-  // u = 1, small against 1 and not along R.  The radius is in radians, > 0.  The weight is
-  // (sharpness + 1)/2 (1 - |u|)^sharpness, whose integral is 1; the sharpness is at least 1.
+  // `source` is a unit vector along R, Theta, Phi.  From u = 0 to u = 1 the vector `half_way` is
+  // added to it, which is small against 1 and not along R.  The radius is in radians, > 0.  The
+  // weight is (sharpness + 1)/2 (1 - |u|)^sharpness, whose integral is 1, with a sharpness of at
+  // least 1.
   AxisPassage(const V3d& source, const V3d& half_way, double radius, double sharpness = 1);
 
   double begin() const { return begin_; }    // the x of u = -1
@@ -39,9 +40,10 @@ class AxisPassage {
   V3d source(double x) const;                // unit vector along R, Theta, Phi
   V3d across(double x) const;                // unit vector from the axis towards the source
 
-  // The integral of weight/distance over u between two x, which lie on one side of the middle.
+  // Returns the integral of weight/distance over u between two x, which lie on one side of the
+  // middle.
   double mean_inverse_distance(double from, double to) const;
-  // What a loop needs to compute the same for many pieces of the way.
+  // A Way holds what a loop needs to compute this integral for many pieces of the path.
   struct Way {
     double u_least, u_per_sinh;  // u = u_least + u_per_sinh sinh(x)
     double sharpness, factor;    // of the weight, (sharpness + 1)/2/half_way
@@ -51,7 +53,8 @@ class AxisPassage {
     return {u_least_, least_ / half_way_, sharpness_, (sharpness_ + 1) / 2 / half_way_, outward_,
             along_};
   }
-  // At least the same over the whole way.
+  // Returns an upper bound of this integral over the whole path.  The weight is at most
+  // (sharpness + 1)/2, and du/distance = dx/half_way.
   double most_inverse_distance() const {
     return (sharpness_ + 1) / 2 * (end_ - begin_) / half_way_;
   }
@@ -61,40 +64,41 @@ class AxisPassage {
 
   double side_;      // the sign of the source's component along R
   double least_;     // distance from the axis at x = 0
-  double half_way_;  // the length of the way from u = 0 to u = 1
+  double half_way_;  // the length of the path from u = 0 to u = 1
   double sharpness_;
   double u_least_;       // u at x = 0
-  V3d outward_, along_;  // unit vectors across R: from the axis to x = 0, and along the way
+  V3d outward_, along_;  // unit vectors across R: from the axis to x = 0, and along the path
   double begin_, middle_, end_;
 };
 
-// The image of one order of a source near the axis on its way.  It is made of parts, from one end
-// of the trail to the other, between places where the lens was evaluated.  What an image adds to
-// the mean is its amplification.
+// A StarTrail is the image of one order of a source on its path near the axis.  It is made of
+// parts, from one end of the trail to the other, between places where the lens was evaluated.  The
+// amplification of a part is what the part adds to the mean.
 class StarTrail {
  public:
   StarTrail(const SkyTable& table, const AxisPassage& passage, int order);
 
   std::size_t parts() const { return nodes_.size() - 1; }
-  // The light of a part, as if all came from its middle.
+  // Returns the light of a part, as if all of it came from the middle of the part.
   SkyImage part(std::size_t k) const;
-  // The direction in which part k begins, and that in which the last one ends.
+  // Returns the direction in which part k begins.  With k = parts() it is the direction in which
+  // the last part ends.
   const V3d& begin(std::size_t k) const { return nodes_[k].direction; }
-  // Appends a part in so many pieces, between 1 and kMostPieces, whose lengths differ by a tenth.
+  // Appends part k in `pieces` pieces, between 1 and kMostPieces.  Their lengths differ by a tenth.
   void split(std::size_t k, int pieces, std::vector<SkyImage>& images) const;
 
-  // Stores pieces as they are received after a boost by a camera whose axes are the columns of the
-  // matrix, for a star of unit flux and temperature.  Of the `pieces` that split() makes of part k,
-  // `count` from `first` on become the views from `at` on.  It is a loop that becomes SIMD code.
+  // Stores pieces of a star of unit flux and temperature, as a camera receives them after a boost.
+  // The camera's axes are the columns of the matrix.  Of the `pieces` that split() makes of part k,
+  // `count` from `first` on become the views from `at` on.  The loop becomes SIMD code.
   void store(std::size_t k, int pieces, int first, int count, const Aberration& boost,
              const M33d& camera, StarViews& views, int at) const;
 
   static constexpr int kMostPieces = 4096;
 
  private:
-  // The image of the source at one place of its way.  Its direction has one component along R, and
-  // one along passage_.across(x), which is known for any x: so what turns around the ring is not
-  // interpolated.
+  // A Node is the image of the source at one place of its path.  Its direction has one component
+  // along R, and one along passage_.across(x).  Only these components are interpolated.  The vector
+  // across(x), which turns around the ring, is known for any x.
   struct Node {
     double x;
     V3d direction;
@@ -105,7 +109,7 @@ class StarTrail {
   void add_nodes(const SkyTable& table, int order, double from, double to);
   Node node_at(const SkyTable& table, int order, double x) const;
   SkyImage between(std::size_t k, double x) const;
-  // The first of the nodes by which part k is interpolated, and their number.
+  // These return the first of the nodes by which part k is interpolated, and the number of them.
   std::size_t first_around(std::size_t k) const;
   std::size_t count_around() const { return std::min<std::size_t>(4, nodes_.size()); }
 

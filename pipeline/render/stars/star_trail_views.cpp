@@ -1,4 +1,4 @@
-// The part of the class StarTrail that makes the views of many pieces at once.
+// This part of the class StarTrail makes the views of many pieces at once.
 #include <array>
 #include <cmath>
 
@@ -9,8 +9,8 @@
 namespace domefall {
 namespace {
 
-// A cubic in x for each number of a node, in Newton's form:
-// a[0] + (x - at[0]) (a[1] + (x - at[1]) (a[2] + (x - at[2]) a[3])).
+// TrailCubics hold a cubic in x for each number of a node, in Newton's form:
+//     a[0] + (x - at[0]) (a[1] + (x - at[1]) (a[2] + (x - at[2]) a[3])).
 struct TrailCubics {
   std::array<double, 3> at;
   std::array<double, 4> forward, across, frequency_ratio, strength;
@@ -20,13 +20,13 @@ inline double trail_cubic(const std::array<double, 4>& a, double d0, double d1, 
   return a[0] + d0 * (a[1] + d1 * (a[2] + d2 * a[3]));
 }
 
-// The pieces of a part: the middle of piece n is x + (n + 1/2) step.
+// TrailSteps say which pieces of a part are wanted.  The middle of piece n is x + (n + 1/2) step.
 struct TrailSteps {
   double x, step;
   int first, count;
 };
 
-// The boost and the camera of who sees the pieces.
+// A TrailObserver holds the boost and the camera of the observer who sees the pieces.
 struct TrailObserver {
   Aberration boost;
   M33d camera;
@@ -41,6 +41,8 @@ inline SinhCosh sinh_and_cosh(double x) {
   return {0.5 * (e - inverse), 0.5 * (e + inverse)};
 }
 
+// Returns (1 - |u|)^sharpness as an exponential, and 0 outside the window.  The logarithm needs a
+// positive number there too.
 inline double weight_at(const AxisPassage::Way& way, double sinh) {
   const double rest = 1 - std::abs(way.u_least + way.u_per_sinh * sinh);
   const double within = rest > 1e-300 ? rest : 1e-300;
@@ -69,12 +71,14 @@ inline double weight_at(const AxisPassage::Way& way, double sinh) {
     const double middle = first_x + step * (first + k);
     const double d0 = middle - c.at[0], d1 = middle - c.at[1], d2 = middle - c.at[2];
     const SinhCosh h = sinh_and_cosh(middle);
-    // sinh(middle - outer) and sinh(middle + outer) are their difference and sum.  It loses an ulp
-    // of the larger term, which is nothing beside the 1 that the weight is taken from.
+    // By the addition theorem, sinh(middle -+ outer) is the difference and the sum of these two.
+    // The difference loses an ulp of the larger term, which is nothing beside the 1 in the weight
+    // 1 - |u|.
     const double near = h.sine * apart.cosine, far = h.cosine * apart.sine;
     const double mean =
         scale * (5.0 / 18 * (weight_at(way, near - far) + weight_at(way, near + far)) +
                  8.0 / 18 * weight_at(way, h.sine));
+    // The unit vector across(x) is (outward + along sinh(x))/cosh(x).
     const double across = trail_cubic(c.across, d0, d1, d2) / h.cosine;
     const V3d direction(trail_cubic(c.forward, d0, d1, d2),
                         across * (way.outward.y + way.along.y * h.sine),
@@ -105,7 +109,7 @@ void StarTrail::store(std::size_t k, int pieces, int first, int count, const Abe
     cubics.frequency_ratio[n] = node[n].frequency_ratio;
     cubics.strength[n] = node[n].strength;
   }
-  // Newton's divided differences.
+  // The numbers of the nodes become Newton's divided differences in place.
   for (auto* a : {&cubics.forward, &cubics.across, &cubics.frequency_ratio, &cubics.strength})
     for (std::size_t order = 1; order < nodes; ++order)
       for (std::size_t n = nodes - 1; n >= order; --n)
