@@ -11,15 +11,17 @@
 namespace domefall {
 namespace {
 
-// Nearer to -Z than this a projection stretches beyond use.
+// Directions with a component along Z below this are too near to -Z, where projections stretch
+// beyond use.
 constexpr double kBehind = -0.9998;
 
-// Where a point of a text is seen; nothing if nowhere.
+// A PlaceOfPoint takes a point of a text to its place in the picture, or to nothing if it has none.
 using PlaceOfPoint = std::function<std::optional<PicturePoint>(const TextPoint&)>;
 
+// An OutlineBender turns the curves of outlines into polygons in the picture.
 class OutlineBender {
  public:
-  // A line bends by a radian over so many pixels.
+  // In the picture a straight line of the text bends by a radian over pixels_of_radian or more.
   OutlineBender(PlaceOfPoint place, double pixels_of_radian)
       : place_(std::move(place)), pixels_of_radian_(pixels_of_radian) {}
 
@@ -31,7 +33,7 @@ class OutlineBender {
   }
 
  private:
-  // Nothing if it has no image.
+  // Returns the outline as a polygon, or nothing if a point of it has no image.
   std::optional<PicturePolygon> bent(const TextOutline& outline) const {
     PicturePolygon polygon;
     if (!append(outline.start, polygon)) return std::nullopt;
@@ -43,14 +45,17 @@ class OutlineBender {
     return polygon;
   }
 
+  // Appends the image of a point.  Says whether it has one.
   bool append(const TextPoint& p, PicturePolygon& polygon) const {
     const auto place = place_(p);
     if (place) polygon.push_back(*place);
     return place.has_value();
   }
 
-  // A curve of that length that turns by an angle departs from n chords by length angle/(8 n^2).
-  // Those of letters turn by less than 2 radians.
+  // Appends a cubic Bezier curve in pieces.  An arc of length s that turns by the angle t departs
+  // from its chord by s t/8, so a curve departs from n chords by length * angle/(8 n^2).  The
+  // curves of letters turn by less than 2 radians.  The polygon of the control points bounds the
+  // length.
   bool append_curve(const TextPoint& from, const TextCurve& curve, PicturePolygon& polygon) const {
     constexpr double kTolerance = 0.05, kLetterTurn = 2;  // pixels, radians
     constexpr double kMostPieces = 200;
@@ -92,7 +97,8 @@ void add_text(const LetteredText& text, const TextSurface& surface, const TextPo
     const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     return pixel ? std::optional(picture_point(*pixel)) : std::nullopt;
   };
-  // A line may bend by as much as the edge of a dome does.
+  // Lines are taken to bend by a radian over an eighth of the larger side, which is four times as
+  // fast as the rim of a dome.
   OutlineBender(place, std::max(columns(projection), rows(projection)) / 8.0)
       .each_polygon(
           text, [&](const PicturePolygon& polygon) { add_unwound(polygon, projection, coverage); });
@@ -103,6 +109,7 @@ void add_flat_text(const LetteredText& text, const PicturePoint& middle, double 
   const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
     return PicturePoint{middle.x + capital * p.x, middle.y - capital * p.y};
   };
+  // In a flat text straight lines do not bend.
   OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const PicturePolygon& polygon) {
     coverage.add(polygon);
   });

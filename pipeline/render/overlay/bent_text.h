@@ -1,4 +1,4 @@
-// The outlines of a text in a picture.
+// These functions add the outlines of a text to the coverage of a picture.
 #pragma once
 
 #include "pipeline/render/overlay/coverage.h"
@@ -6,13 +6,14 @@
 
 namespace domefall {
 
-// Adds a text on a surface, moved by `shift` there, as the projection shows it.  Curves are
-// followed to 1/20 pixel.  An outline that comes near to the one direction without an image is
-// left out.
+// Adds a text on a surface as the projection shows it.  The text is moved by `shift` on the
+// surface.  Curves are followed to 1/20 pixel.  An outline is left out if it comes near to the one
+// direction without an image.
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage);
 
-// Adds a text that lies flat in the picture about a place, with capitals of so many pixels.
+// Adds a text that lies flat in the picture, centred on `middle`.  Capitals are `capital` pixels
+// high.
 void add_flat_text(const LetteredText& text, const PicturePoint& middle, double capital,
                    Coverage& coverage);
 

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// Numbers of one length, so that they do not tremble from frame to frame.
+// Writes a number with about five digits, so that its length changes little from frame to frame.
 std::string steady_number(double value) {
   const double size = std::abs(value);
   if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.3e}", value);
@@ -22,11 +22,13 @@ std::string motion_text(const Show& show, const ObserverState& o) {
   const bool has_rest = is_flat(o) || o.r > 2;
   std::string text;
   if (has_rest) {
+    // The celerity is gamma v, and v = gamma v/sqrt(1 + (gamma v)^2).
     const double celerity = static_celerity(o).length();
     text = fmt::format("v = {:.5f} c", celerity / std::hypot(1.0, celerity));
   } else {
     text = fmt::format("gamma v = {} (free fall)", steady_number(o.celerity.length()));
   }
+  // With g the observed over the emitted frequency, 1 + z is 1/g.
   if (const auto range = frequency_range(o, false, !show.effects.lensing))
     text += fmt::format("\n1+z = {} to {}", steady_number(1 / range->largest),
                         steady_number(1 / range->least));

@@ -16,9 +16,9 @@ bool is_usable(const PicturePoint& p) {
   return std::abs(p.x) < kFarAway && std::abs(p.y) < kFarAway;
 }
 
-// Adds what an edge between the heights of one row, from x0 to x1 >= x0, takes from the pixels of
-// that row, as differences from pixel to pixel: their running sum is the part of a pixel that lies
-// to the right of the edge.  `height` bears the edge's direction.
+// Adds an edge that lies within one row of pixels, from x0 to x1 >= x0.  The row holds differences
+// from pixel to pixel.  Their running sum is the part of a pixel to the right of the edge.
+// `height` has the sign of the edge's direction.
 void add_in_row(double x0, double x1, double height, double* row) {
   const double first = std::floor(x0), last = std::ceil(x1);
   auto* at = row + static_cast<std::ptrdiff_t>(first);
@@ -28,8 +28,8 @@ void add_in_row(double x0, double x1, double height, double* row) {
     at[1] += beyond;
     return;
   }
-  // The area to the right of the edge, up to each border between pixels, is a parabola in the first
-  // and the last pixel and grows evenly between.
+  // Up to a border between pixels, the area to the right of the edge is a parabola in the first and
+  // the last pixel, and grows linearly between these.
   const double per_pixel = height / (x1 - x0);
   double before = 0;
   for (double border = first + 1;; ++border, ++at) {
@@ -65,8 +65,8 @@ void Coverage::add_edge(PicturePoint from, PicturePoint to) {
     edges_[static_cast<std::size_t>(band)].push_back({from.x, from.y, to.x, to.y, direction});
 }
 
-// What lies to the left of the picture covers as an edge along its border would, and what lies to
-// the right of it covers nothing.
+// The part of an edge to the left of the picture counts as if it ran along the left border.  The
+// part to the right of the picture covers nothing.
 Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
   if (edges_.empty()) return {};
   const std::vector<Edge>& edges = edges_[static_cast<std::size_t>(top / kRows)];
@@ -84,6 +84,7 @@ Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
   band.assign(span.stride() * kRows, 0);
   const auto limit = static_cast<double>(span.count);
   for (const Edge& e : edges) {
+    // Each edge is cut at the borders between rows.
     const double slope = (e.x1 - e.x0) / (e.y1 - e.y0);
     const double begin = std::max(e.y0, double(top)), stop = std::min(e.y1, double(top + kRows));
     for (double y = begin; y < stop;) {
@@ -103,6 +104,7 @@ Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
       y = next;
     }
   }
+  // The running sum of the differences is the signed area.
   for (int row = 0; row < kRows; ++row) {
     double* at = band.data() + static_cast<std::size_t>(row) * span.stride();
     double sum = 0;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDegrees2Radians = std::numbers::pi / 180;
 
+// Marks collect lines of one width, and draw them in one colour.
 class Marks {
  public:
   Marks(const FrameState& state, const FrameRef& frame)
@@ -30,7 +31,7 @@ class Marks {
 
   void circle(const ViewCircle& circle) { add_circle(circle, width_, projection_, coverage_); }
 
-  // A box in the middle of the picture that has this part of its width and height.
+  // Adds a box in the middle of the picture that has this part of its width and height.
   void box(double part) {
     const double w = columns(projection_), h = rows(projection_);
     // The band lies within the picture.
@@ -39,11 +40,11 @@ class Marks {
     add_stroke({{x, y}, {w - x, y}, {w - x, h - y}, {x, h - y}}, true, width_, coverage_);
   }
 
-  // The way from one place of the audience to another, degrees, along which both angles change
-  // evenly.
+  // A Place is a direction as the audience sees it, in degrees.
   struct Place {
     double azimuth, elevation;
   };
+  // Adds the line from one place to another along which both angles change evenly.
   void way(const Place& from, const Place& to, double width_part = 1) {
     add_curve(
         [&](double part) {
@@ -55,7 +56,7 @@ class Marks {
         false, width_ * width_part, projection_, coverage_);
   }
 
-  // A circle about the middle of a dome's picture, that many pixels from its edge.
+  // Adds a circle about the middle of a dome's picture, at this distance in pixels from its edge.
   void circle_within(double pixels) {
     const double angle = (columns(projection_) / 2.0 - pixels) * central_pixel_angle(projection_);
     circle({V3d(0, 0, 1), std::cos(angle), std::sin(angle)});
@@ -73,6 +74,8 @@ class Marks {
   Coverage coverage_;
 };
 
+// Adds circles of elevation and meridians.  Only the meridians to the front, the back and the sides
+// reach the poles, so that lines do not crowd there.
 void add_grid(Marks& marks) {
   constexpr int kElevations = 15, kAzimuths = 30, kUpTo = 75, kRight = 90;
   for (int elevation = -kUpTo; elevation <= kUpTo; elevation += kElevations)
@@ -104,7 +107,8 @@ void add_sweet_spot(Marks& marks) {
   marks.way({-a, high}, {-a, low});
 }
 
-// Colours that are told apart, and by most of those who see fewer colours, too.
+// Returns the colour of an overlay.  The colours are distinct, also for most people who see fewer
+// colours.
 WorkingRgb light_of(OverlayKind overlay) {
   const auto of_rec709 = [](double r, double g, double b) {
     const V3d light = apply(working_from_rec709(), V3d(r, g, b));
@@ -131,7 +135,7 @@ WorkingRgb light_of(OverlayKind overlay) {
   return {1, 1, 1};
 }
 
-// Without lensing there is neither silhouette nor ring.
+// Draws the silhouette or the Einstein rings.  Without lensing there is neither.
 void draw_circles(OverlayKind overlay, const Show& show, const FrameState& state, double opacity,
                   const FrameRef& frame) {
   if (!show.effects.lensing) return;

@@ -14,12 +14,12 @@
 namespace domefall {
 namespace {
 
-// It is raised with every change of how overlays are drawn.
+// This number is raised with every change of how overlays are drawn.
 constexpr int kOverlayVersion = 2;
 
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 
-// Puts a text into a corner of the picture, on a ground that makes it legible on bright skies, too.
+// Puts a text into a corner of the picture, on a dark ground that makes it legible on bright skies.
 void draw_in_corner(const std::string& text, bool right, bool bottom, const FrameRef& frame) {
   // Lines of 28 letters fit beside the circle of a dome.
   constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
@@ -55,6 +55,7 @@ std::string overlays_key(const Show& show, const FrameState& state) {
   Digest digest;
   digest.add(kOverlayVersion).add(overlay_names(show.overlays));
   add_rotation(digest, state.camera_from_audience);
+  // A sample text stands for a font, whose outlines depend on the machine.
   const auto add_font = [&digest](const LetterStyle& style) {
     add_outlines(digest, lettering().letter("Handgloves 0123456789", style));
   };

@@ -1,4 +1,4 @@
-// Everything that is drawn over a frame because somebody asked for it.
+// These functions draw the overlays of a show over its frames: marks, names of stars and numbers.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace domefall {
 
-// A digest of what the overlays of a show change in a frame beyond what its own key holds: which
-// they are, their texts, and the fonts.  Empty for a show without overlays.  Throws as lettering()
-// and Lettering::letter where an overlay has text.
+// Returns a digest of everything that the overlays of a show change in a frame and that the frame's
+// own key does not hold.  This is which overlays there are, their texts, and the fonts.  The digest
+// is empty for a show without overlays.  Throws as lettering() and Lettering::letter where an
+// overlay has text.
 std::string overlays_key(const Show& show, const FrameState& state);
 
 // Draws the show's overlays over a frame, in their order.  `labels` are those of the show.  Throws
-// as above and as StarLabels.
+// as overlays_key() and as StarLabels.
 void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels,
                    const FrameRef& frame);
 

@@ -1,4 +1,4 @@
-// A frame of halves or of floats, which overlays are drawn over.
+// A FrameRef refers to a frame of halves or of floats over which overlays are drawn.
 #pragma once
 
 #include <variant>
@@ -11,7 +11,7 @@ struct FrameRef {
   int width, height;
   std::variant<HalfFrame*, FloatImage*> pixels;
 
-  // Any frame is one, so that it is given as it is.
+  // The constructors are implicit, so that either kind of frame can be passed as it is.
   FrameRef(HalfFrame& frame) : width(frame.width), height(frame.height), pixels(&frame) {}
   FrameRef(FloatImage& frame) : width(frame.width), height(frame.height), pixels(&frame) {}
 };

@@ -28,6 +28,7 @@ std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
 }
 
 const LetteredText& title_letters(const Title& title) {
+  // The references that are returned stay valid, because a map moves none of its elements.
   static std::mutex one_looks;
   static std::map<std::tuple<std::string, std::string, TextAlign>, LetteredText> known;
   const std::lock_guard lock(one_looks);

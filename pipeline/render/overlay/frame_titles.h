@@ -1,4 +1,4 @@
-// The titles of a show in its frames.
+// These functions draw the titles of a show into its frames.
 #pragma once
 
 #include <string>
@@ -15,15 +15,17 @@ struct SeenTitle {
   double opacity;  // above 0, at most 1
 };
 
-// The titles that are seen at a state's instant, those of the show before those of its segments.
+// Returns the titles that are seen at a state's instant.  Those of the show come before those of
+// its segments.
 std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state);
 
-// The outlines of a title, which are made once for each text and kept.  May be called from any
-// thread.  Throws as lettering() and Lettering::letter.
+// Returns the outlines of a title, which are made once for each text and kept.  It may be called
+// from any thread.  Throws as lettering() and Lettering::letter.
 const LetteredText& title_letters(const Title& title);
 
-// A digest of all that the titles of a frame change in it: their outlines, too, which depend on the
-// machine's fonts.  Empty for a frame without titles.  Throws as title_letters.
+// Returns a digest of everything that the titles of a frame change in it.  It includes their
+// outlines, which depend on the machine's fonts.  It is empty for a frame without titles.  Throws
+// as title_letters.
 std::string titles_key(const Show& show, const FrameState& state);
 
 // Draws the titles over a frame, in the order of seen_titles().  Throws as title_letters.

@@ -5,7 +5,7 @@
 namespace domefall {
 namespace {
 
-// Draws over the columns from `first` on, of which the parts are covered.
+// Draws over the columns from `first` on within a range.  `parts` says how much of each is covered.
 template <class T>
 void draw_row(T* pixels, int first, std::span<const double> parts, const ColumnRange& range,
               const Ink& ink) {
@@ -22,7 +22,7 @@ void draw_row(T* pixels, int first, std::span<const double> parts, const ColumnR
   }
 }
 
-// Draws over the columns `inside` of each row.
+// Draws over those columns of each row that inside(row) returns.
 template <class Inside>
 void draw_within(const Coverage& coverage, const Ink& ink, const Inside& inside,
                  const FrameRef& frame) {

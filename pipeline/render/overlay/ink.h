@@ -1,4 +1,4 @@
-// What overlays are drawn with.
+// Overlays are drawn with Ink wherever a Coverage says.
 #pragma once
 
 #include "pipeline/colour/colour_space.h"
@@ -7,17 +7,17 @@
 
 namespace domefall {
 
-// Light that replaces what is behind it.
+// An Ink is light that replaces the light behind it.
 struct Ink {
   WorkingRgb light;    // pixel values
   double opacity = 1;  // 0 to 1
 };
 
-// Draws over a frame of the projection's size, where the projection shows anything.
+// Draws over a frame of the projection's size, but only where the projection shows anything.
 void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
                const FrameRef& frame);
 
-// The same, outside a dome's circle too.
+// Draws over a frame everywhere, even outside a dome's circle.
 void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame);
 
 }  // namespace domefall

@@ -24,7 +24,8 @@ void add_unwound(PicturePolygon polygon, const Projection& projection, Coverage&
     for (const PicturePoint& p : polygon) sum += p.y;
     const double height = rows(projection);
     const double pole = sum < height / 2 * static_cast<double>(polygon.size()) ? 0 : height;
-    // The way from the last point to the first is a whole width, so that both have a neighbour.
+    // The line goes on to its first point a whole width away, from there to the edge of the picture
+    // at the pole, and back along the edge.
     const PicturePoint first = polygon.front();
     const double end = first.x + winding(projection, polygon);
     polygon.insert(polygon.end(), {{end, first.y}, {end, pole}, {first.x, pole}});

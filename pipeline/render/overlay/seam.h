@@ -1,20 +1,23 @@
-// Lines and outlines across the seam of a picture of the whole sphere.
+// An equirectangular picture of the whole sphere has a seam, where its left side meets its right.
+// These functions draw lines and outlines across it.
 #pragma once
 
 #include "pipeline/render/overlay/coverage.h"
 
 namespace domefall {
 
-// Moves points by whole widths of the picture, so that each lies beside the one before it, on this
-// or that side of the seam.  Does nothing on a picture without a seam.
+// Moves points by whole widths of the picture, so that each point lies beside the one before it,
+// even if that is beyond the seam.  Does nothing on a picture without a seam.
 void unwind(const Projection& projection, std::vector<PicturePoint>& points);
 
-// By how much points that were unwound, and of which the last lies beside the first on the sphere,
-// come back beside where they began: 0, or a width to either side if they go around a pole.
+// Returns how far from the first point the last one lies in the picture, in whole widths.  The
+// points were unwound, and the last is beside the first on the sphere.  The result is in pixels: 0,
+// or a width to either side if the points go around a pole.
 double winding(const Projection& projection, const std::vector<PicturePoint>& points);
 
-// Calls use(shift) for each number of pixels by which what was unwound must be moved to the right,
-// so that together all of it is in the picture: 0 alone on a picture without a seam.
+// Calls use(shift) for each number of pixels by which unwound points must be moved to the right, so
+// that the copies together show all of the line in the picture.  On a picture without a seam the
+// shift is 0 alone.
 template <class Use>
 void each_copy(const Projection& projection, const Use& use) {
   use(0.0);
@@ -23,8 +26,8 @@ void each_copy(const Projection& projection, const Use& use) {
   use(1.0 * columns(projection));
 }
 
-// Adds a polygon of points that were placed one by one.  One around a pole is all that lies between
-// its line and the edge of the picture there.
+// Adds a polygon of points that were placed one by one.  A polygon around a pole covers everything
+// between its line and the edge of the picture at that pole.
 void add_unwound(PicturePolygon polygon, const Projection& projection, Coverage& coverage);
 
 }  // namespace domefall

@@ -1,11 +1,12 @@
-// Of which view overlays tell in a dissolve.
+// In a dissolve there are two views, and overlays with text describe one of them.
 #pragma once
 
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
 
-// The state itself, or in a dissolve the one that vanishes as long as it has more of the light.
+// Returns the state itself, or in a dissolve the vanishing one as long as that has more of the
+// light.
 inline const FrameState& seen_better(const FrameState& state) {
   return state.vanishing_part > 0.5 ? *state.vanishing : state;
 }

@@ -21,16 +21,18 @@
 namespace domefall {
 namespace {
 
-// Names have capitals of this part of the shorter side, and no fewer pixels.
+// The capitals of names are this part of the shorter side high, and at least kLeastLabel pixels.
 constexpr double kLabelPart = 1. / 120, kLeastLabel = 7;
-// The radius of the ring around an image, and the way from there to its name, in capitals.
+// These are the radius of the ring around an image and the distance from the image to its name, in
+// heights of a capital.
 constexpr double kRing = 0.8, kGap = 1.2;
 
-// Where names are already, as discs along them.
+// TakenPlaces know where there are names already, as discs along them.
 class TakenPlaces {
  public:
   explicit TakenPlaces(double radius) : radius_(radius) {}
 
+  // Takes all these places if none of them is taken yet.  Says whether it did.
   bool take(const std::vector<PicturePoint>& places) {
     for (const PicturePoint& p : places)
       for (const PicturePoint& q : taken_)
@@ -44,7 +46,8 @@ class TakenPlaces {
   std::vector<PicturePoint> taken_;
 };
 
-// Places in the picture from an image to the end of its name; nothing if it does not fit there.
+// Returns places in the picture from an image to the end of its name, or nothing if the name is not
+// wholly in the picture.
 std::optional<std::vector<PicturePoint>> places_of_label(const TextSurface& surface, double length,
                                                          const Projection& projection) {
   std::vector<PicturePoint> places;
@@ -61,7 +64,7 @@ NamedImage named_image(const std::string& name, int order, const CameraDirection
   return {name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude};
 }
 
-// The first two images of each body, as of a star.
+// Appends the first two images of each body, as for a star.
 void append_bodies(const Show& show, const FrameState& state, std::vector<NamedImage>& found) {
   const BodySight sight(show, state);
   if (!sight.sees()) return;
@@ -79,7 +82,7 @@ void append_bodies(const Show& show, const FrameState& state, std::vector<NamedI
 
 LetterStyle label_style() { return {"Sans", TextAlign::kLeft}; }
 
-// Of the names of a star the first is its proper one, if it has one.
+// The map keeps the first name of each star, which is its proper name if it has one.
 const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sky) {
   auto& named = stars_[sky];
   if (named) return *named;
@@ -106,7 +109,7 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
     const double gain = settings.star_gain / default_star_gain(show_.point_spread);
     for (const NamedStarOfSky& star : stars_of(sky)) {
       const double drawn = gain * part_within_limit(settings, star.magnitude);
-      if (!(drawn > 0)) break;  // those that follow are fainter
+      if (!(drawn > 0)) break;  // the stars that follow are fainter
       for (int order = 0; order < std::min(finder.orders(), 2); ++order) {
         const StarSight::Image image = finder.image(sky, star.direction, order);
         const double magnitude = star.magnitude - 2.5 * std::log10(drawn * image.brightening);
@@ -120,7 +123,7 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
   return found;
 }
 
-// What is drawn lies on the surface of a text whose middle is the image.
+// The ring and the name lie on the surface of a text that has the image in its middle.
 void StarLabels::draw(const FrameState& state, const FrameRef& frame) {
   const Projection& projection = state.projection;
   const double letter =

@@ -1,4 +1,4 @@
-// The names of bright stars beside their lensed images.
+// StarLabels write the names of bright stars beside their lensed images.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,17 @@
 
 namespace domefall {
 
-// Stars fainter than this V bear no name, nor do images that are seen fainter than the other limit.
+// Stars fainter than the first V have no name.  Images that are seen fainter than the second have
+// none either.
 inline constexpr double kFaintestNamed = 2.5, kFaintestNamedImage = 4;
 
-// An image of a star that has a name.
+// A NamedImage is an image of a star or a body that has a name.
 struct NamedImage {
   std::string name;        // with a prime if it is the secondary image
   bool secondary = false;  // on the opposite side of the hole
   CameraDirection direction;
-  // As it is seen under the effects that the show keeps, with the frame's gain of stars over the
-  // default of their law.
+  // This is the magnitude that is seen under the effects that the show keeps.  It includes the
+  // ratio of the frame's gain of stars to the default gain of their law.
   double magnitude = 0;
 };
 
@@ -29,15 +30,15 @@ class StarLabels {
   // The show must outlive the labels.
   explicit StarLabels(const Show& show) : show_(show) {}
 
-  // The images of named stars of all skies that are seen, the brightest first: where the renderer
-  // draws them, whether they are in the picture or not.  Only the first two images of a star are
-  // found, and where light goes straight its one.  Reads the catalogues when they are first needed;
-  // throws as read_star_catalogue.
+  // Returns the images of the named stars of all skies that are seen, and those of bodies, the
+  // brightest first.  They are where the renderer draws them, even if that is outside the picture.
+  // At most the first two images of a star are found.  Where light goes straight, there is only
+  // one.  Reads the catalogues when they are first needed.  Throws as read_star_catalogue.
   std::vector<NamedImage> images(const FrameState& state);
 
-  // Draws a ring around each image and its name beside it, upright for the audience; those of
-  // secondary images are dimmer.  An image whose name would lie over another's, or be cut off, has
-  // neither.
+  // Draws a ring around each image, and its name beside it, upright for the audience.  Rings and
+  // names of secondary images are dimmer.  An image has neither if its name would lie over another
+  // name or be cut off.
   void draw(const FrameState& state, const FrameRef& frame);
 
  private:
@@ -52,7 +53,7 @@ class StarLabels {
   PerSky<std::optional<std::vector<NamedStarOfSky>>> stars_;
 };
 
-// The style of names, which the key of a frame with names holds.
+// Returns the style of names.  The key of a frame with names includes it.
 LetterStyle label_style();
 
 }  // namespace domefall

@@ -9,21 +9,23 @@
 namespace domefall {
 namespace {
 
-// A curve is cut where it comes nearer to -Z than this, which is outside any picture but for a flat
-// one of more than 340 degrees.
+// A curve is cut where its component along Z is below this.  Such directions near -Z are outside
+// any picture except a flat one of more than 340 degrees.
 constexpr double kStrokeBehind = -0.99;
 
+// Returns the unit normal of a piece of line, or 0 if the piece has no length.
 PicturePoint unit_across(const PicturePoint& from, const PicturePoint& to) {
   const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
   return length > 0 ? PicturePoint{-y / length, x / length} : PicturePoint{0, 0};
 }
 
-// From a corner to the edge of the band: the sum of the normals on both sides, as long as the band
-// is wide there.
+// Returns the vector from a corner to the edge of the band.  It points along the sum of the normals
+// a and b on both sides of the corner.
 PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double half) {
   const double x = a.x + b.x, y = a.y + b.y;
-  // For unit normals at an angle t, |a + b|^2 = 2 (1 + cos t) and a mitre has the length
-  // 1/cos(t/2).
+  // For unit normals at an angle t, |a + b| = 2 cos(t/2), and a mitre is half/cos(t/2) long.  So
+  // the mitre is 2 half (a + b)/|a + b|^2.  From t = 120 degrees on it is limited, because a sharp
+  // corner would have a long spike.
   const double scale = half * 2 / std::max(x * x + y * y, 1.0);
   return {x * scale, y * scale};
 }
@@ -32,7 +34,7 @@ PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double
 void add_run(std::vector<PicturePoint> run, bool closed, double width, const Projection& projection,
              Coverage& coverage) {
   unwind(projection, run);
-  // A closed line around a pole ends where it began, a width further on.
+  // A closed line around a pole ends where it began, but a width farther on in the picture.
   if (const double around = closed ? winding(projection, run) : 0; around != 0) {
     run.push_back({run.front().x + around, run.front().y});
     closed = false;
@@ -46,11 +48,11 @@ void add_run(std::vector<PicturePoint> run, bool closed, double width, const Pro
 
 }  // namespace
 
-// The band goes along the line on one side and back on the other; that of a closed one has a seam
-// of no width.
+// The outline of the band goes along the line on one side and back on the other.  Both ends of a
+// closed band meet in a seam of no width.
 void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width,
                 Coverage& coverage) {
-  std::vector<PicturePoint> points;  // without repeated ones, which have no direction
+  std::vector<PicturePoint> points;  // without repeated points, between which there is no direction
   for (const PicturePoint& p : line)
     if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > 1e-6)
       points.push_back(p);
@@ -75,6 +77,7 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
                const Projection& projection, Coverage& coverage) {
   const int pieces =
       64 + static_cast<int>(8 * std::sqrt(std::max(columns(projection), rows(projection))));
+  // A run is a piece of the curve all of which has an image.
   std::vector<PicturePoint> run;
   bool whole = true;
   for (int k = 0; k < pieces + (closed ? 0 : 1); ++k) {
@@ -94,6 +97,7 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
 
 void add_circle(const ViewCircle& circle, double width, const Projection& projection,
                 Coverage& coverage) {
+  // e1 and e2 are unit vectors at right angles to the axis and to each other.
   const V3d e1 =
       circle.axis.cross(std::abs(circle.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d e2 = circle.axis.cross(e1);

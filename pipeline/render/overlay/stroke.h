@@ -1,4 +1,4 @@
-// Lines as bands of even width.
+// Lines are drawn as bands of even width.
 #pragma once
 
 #include <functional>
@@ -8,15 +8,15 @@
 
 namespace domefall {
 
-// Adds a band of that width (pixels) about a line through points.  A closed one goes on from its
-// last point to its first.  At corners the band keeps its width up to right angles, as curves of
-// many points and boxes need it.
+// Adds a band of this width (pixels) about a line through points.  A closed line goes on from its
+// last point to its first.  Where the line turns by a right angle or less, the band keeps its width
+// at the corner.  Boxes and curves of many points need no more.
 void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width,
                 Coverage& coverage);
 
-// The same about the curve `direction`(0 to 1) on the sphere of the camera, in as many pieces as a
-// picture of the projection shows.  It is left out where it comes near to the one direction without
-// an image.
+// Adds a band about the curve on the camera's sphere that `direction` follows as its argument goes
+// from 0 to 1.  The curve is divided finely enough for a picture of the projection.  It is left out
+// where it comes near to the one direction without an image.
 void add_curve(const std::function<V3d(double)>& direction, bool closed, double width,
                const Projection& projection, Coverage& coverage);
 void add_circle(const ViewCircle& circle, double width, const Projection& projection,

@@ -1,4 +1,4 @@
-// What the key of a frame holds of a text in it.
+// The key of a frame includes a digest of the outlines of the texts in the frame.
 #pragma once
 
 #include "pipeline/image/digest.h"
@@ -6,7 +6,8 @@
 
 namespace domefall {
 
-// Adds the outlines of a text, to 1e-5 of a capital's height, which depend on the machine's fonts.
+// Adds the outlines of a text, rounded to 1e-5 of a capital's height.  They depend on the machine's
+// fonts.
 void add_outlines(Digest& digest, const LetteredText& text);
 
 }  // namespace domefall
