@@ -74,6 +74,8 @@ double DiscPass::left_before(const CameraDirection& n, double psi) const {
   locate(&n, &angle, 1, pixel);
   if (!(pixel.energy[0] > 0)) return 1;
   const double p = pixel.label[0], per = pixel.label_per[0];
+  // Each image that the ray crosses before psi takes its part of the light.  An image covers the
+  // part of the pixel that lies beyond its outer rim and not beyond its inner rim.
   double left = 1;
   for (int order = 0; order < images_.orders(); ++order) {
     const double turn = pixel.turn[0] + order * pi;

@@ -22,7 +22,7 @@ inline constexpr int kDiscBandRows = 8;
 
 class DiscPass {
  public:
-  // The scene, which has a disc, must outlive this.
+  // The scene must have a disc, and must outlive this pass.
   explicit DiscPass(const FrameScene& scene);
 
   // Lays the disc over the rows [first, end) of the image.  `rgb` points to the row `first`, and
@@ -48,8 +48,8 @@ class DiscPass {
   const FrameScene& scene_;
   DiscImages images_;
   double r_, s_, one_minus_s_;
-  double label_sign_;   // of p = k^r/L against its form in the rain frame
-  double energy_sign_;  // of E, as the frame counts it, where light comes from region I
+  double label_sign_;   // the sign of p = k^r/L against its form in the rain frame
+  double energy_sign_;  // the sign that the frame gives E of light from region I
   // A Clock takes the observer's null time, v or u, to the time t at which light set out.
   struct Clock {
     explicit Clock(const ObserverState& observer);
@@ -61,7 +61,8 @@ class DiscPass {
   Clock clock_;
   std::optional<DiscPattern> pattern_;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
-  // The disc's normal: its part along R, that across it, and the angle of that from Theta.
+  // The disc's normal is given by its part along R, by the length of its part across R, and by the
+  // cosine and the sine of the angle from Theta to that part.
   double normal_up_, normal_across_, normal_cosine_, normal_sine_;
 };
 

@@ -45,6 +45,7 @@ std::string titles_key(const Show& show, const FrameState& state) {
   add_rotation(digest, state.camera_from_audience);
   for (const auto& [title, opacity] : seen) {
     add_outlines(digest, title_letters(*title));
+    // The last bits of angles differ between processors, and steady() rounds them off.
     for (const double v : {title->azimuth, title->elevation, title->height, opacity})
       digest.add(steady(v));
     for (const float v : {title->light.r, title->light.g, title->light.b})
@@ -55,6 +56,7 @@ std::string titles_key(const Show& show, const FrameState& state) {
 
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
   for (const auto& [title, opacity] : seen_titles(show, state)) {
+    // Each title has its own light and opacity, and so its own coverage.
     Coverage coverage(frame.width, frame.height);
     const TextSurface surface(state.camera_from_audience, title->azimuth, title->elevation,
                               title->height);

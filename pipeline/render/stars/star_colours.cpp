@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// The range of the table in kelvin.
+// The table covers this range, in kelvin.
 constexpr double kFirstTemperature = 512, kLastTemperature = 0x1p26;
 
 StarColours::Light light_at(double temperature) {

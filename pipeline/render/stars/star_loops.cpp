@@ -101,6 +101,9 @@ struct Cubics {
 }
 Dispatched<look_up_loop> look_up;
 
+// Makes views of images at the angles psi from the sky's far end.  An image lies in the plane of R
+// and its source, on the source's side for side = 1 and on the opposite side for -1.  Its
+// amplification is |sin psi d psi/(sin phi d phi)|.
 [[gnu::always_inline]] inline void bend_all_loop(const StarFrame& frame, double side,
                                                  const double* psis, const double* slopes,
                                                  const StarSources& sources, int count,
