@@ -1,4 +1,4 @@
-// Whole numbers in sentences.
+// These functions write whole numbers as they stand in sentences.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace domefall {
 // Returns "1,234" for 1234.
 std::string with_commas(std::size_t count);
 
-// Returns "1 row", "1,234 rows" for `what` = "row".
+// Returns "1 row" or "1,234 rows" for `what` = "row".
 std::string counted(std::size_t count, std::string_view what);
 
 }  // namespace domefall

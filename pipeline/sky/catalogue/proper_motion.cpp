@@ -5,8 +5,8 @@
 
 namespace domefall {
 
-// With rho = cos Dec, the unit vectors at p are east = (-sin RA, cos RA, 0) and north =
-// (-sin Dec cos RA, -sin Dec sin RA, cos Dec).
+// With rho = cos Dec, the unit vectors at p are east = (-sin RA, cos RA, 0) and north = (-sin Dec
+// cos RA, -sin Dec sin RA, cos Dec).  In the code c = cos RA, s = sin RA and p.z = sin Dec.
 SkyDirection moved(const SkyDirection& from, double pm_ra, double pm_dec, double years) {
   constexpr double kRadiansPerMas = std::numbers::pi / 180 / 3.6e6;
   const V3d& p = from.v;

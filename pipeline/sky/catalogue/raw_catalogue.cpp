@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kGone = static_cast<std::uint32_t>(-1);
 
-// Names follow their stars to the indices that `index_of` gives them, or go with them.
+// Gives the names the new indices of their stars, and removes those whose star is gone.
 void move_names(std::vector<StarName>& names, const std::vector<std::uint32_t>& index_of) {
   for (StarName& name : names) name.star = index_of[name.star];
   std::erase_if(names, [](const StarName& name) { return name.star == kGone; });

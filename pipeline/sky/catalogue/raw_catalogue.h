@@ -1,5 +1,6 @@
-// A star catalogue as importers hand it over and as catalogue files hold it: observed quantities,
-// from which star_catalogue.h's directions and temperatures are made when it is used.
+// A raw catalogue holds observed quantities, as importers hand them over and as catalogue files
+// store them.  The directions and temperatures of star_catalogue.h are made from them when it is
+// used.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace domefall {
 
-// No star is as bright as the one or as faint as the other: beyond them a number is a mistake.
+// No star is brighter or fainter than these limits, so a number beyond them is a mistake.
 inline constexpr double kBrightestV = -30, kFaintestV = 40;
 
 // A star whose catalogue gives no magnitude has this one.  It lies beyond every limit, so that the
@@ -28,7 +29,7 @@ struct CatalogueStar {
 
   // Importers use these two; files do not hold them.
   std::uint32_t hip = 0;    // Hipparcos number, 0 for none; the components of a star may share it
-  bool v_is_rough = false;  // V comes from another band, without a colour to convert it
+  bool v_is_rough = false;  // V comes from another band, without a colour to convert it by
 };
 
 struct StarName {
@@ -36,13 +37,13 @@ struct StarName {
   std::string name;
 };
 
-// These lines are for people.
+// These lines are for people to read.
 struct CatalogueText {
   std::string source, licence;
   std::string made;  // the command by which Domefall made the file
 };
 
-// The names are in ascending order of `star`; a star may have several.
+// The names are in ascending order of `star`.  A star may have several.
 struct RawCatalogue {
   std::vector<CatalogueStar> stars;
   std::vector<StarName> names;
@@ -50,8 +51,8 @@ struct RawCatalogue {
   CatalogueText text;
 };
 
-// Sorts the stars, brightest first; stars of one magnitude keep their order.  Names follow their
-// stars.
+// Sorts the stars, brightest first.  Stars of one magnitude keep their order, and names follow
+// their stars.
 void sort_by_brightness(RawCatalogue& catalogue);
 
 // Removes the stars fainter than V = `faintest`, and their names.

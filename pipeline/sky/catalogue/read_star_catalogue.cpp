@@ -20,13 +20,13 @@ bool is_colour(float colour) {
 }
 
 bool is_star(const StarRecord& r, double length2) {
-  // Rounding to 2^-31 changes the square of a unit vector's length by 2e-9 at most.
+  // Rounding to 2^-31 changes the square of a unit vector's length by at most 2e-9.
   constexpr double kLengthTolerance = 1e-8;
   return std::abs(length2 - 1) < kLengthTolerance && r.v >= kBrightestV && r.v <= kFaintestV &&
          is_colour(r.colour) && std::isfinite(r.pm_ra) && std::isfinite(r.pm_dec);
 }
 
-// Returns where the row's star stands in that year.
+// Returns the direction of the row's star in that year.
 SkyDirection direction_in_row(const CsvFile& row, double epoch) {
   const double ra = row.required("ra_deg", 0, 360), dec = row.required("dec_deg", -90, 90);
   const double pm_ra = row.number("pm_ra_mas_yr", -kFastest, kFastest).value_or(0);
@@ -71,6 +71,7 @@ StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch)
     const V3d v(r.x / kUnitLength, r.y / kUnitLength, r.z / kUnitLength);
     const double length2 = v.x * v.x + v.y * v.y + v.z * v.z;
     if (!is_star(r, length2)) file.fail_at(r, "this record is no star");
+    // The length differs from 1 by the rounding of the components.
     SkyDirection direction{v / std::sqrt(length2)};
     if (years != 0 && (r.pm_ra != 0 || r.pm_dec != 0))
       direction = moved(direction, r.pm_ra, r.pm_dec, years);

@@ -9,6 +9,8 @@ std::vector<Star> thinned(const std::vector<Star>& stars, std::size_t whole) {
   std::vector<Star> kept(
       stars.begin(), stars.begin() + static_cast<std::ptrdiff_t>(std::min(whole, stars.size())));
   std::size_t step = 2;
+  // Stars from `first` to twice `first` stand for `step` stars each, which is 2.5 log10(step) in
+  // magnitude.  The kept star is the middle one of its step.
   for (std::size_t first = whole; first < stars.size(); first *= 2, step *= 2) {
     const std::size_t end = std::min(2 * first, stars.size());
     for (std::size_t k = first + step / 2; k < end; k += step) {

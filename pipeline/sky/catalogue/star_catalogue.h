@@ -1,4 +1,5 @@
-// Stars as the renderer needs them: directions, magnitudes, temperatures, and names to look for.
+// A star catalogue has what the renderer needs of stars: directions, magnitudes, temperatures, and
+// names to look for.
 #pragma once
 
 #include <string>
@@ -9,13 +10,13 @@
 
 namespace domefall {
 
-// Stars are placed as in this Julian year unless a show asks for another.
+// The directions of stars are those in this Julian year unless a show asks for another.
 inline constexpr double kCatalogueEpoch = 2000;
 
 struct Star {
   SkyDirection direction;  // J2000
   float v_magnitude;       // Johnson V
-  float temperature;       // K, of the blackbody as which it is drawn
+  float temperature;       // K, of the blackbody that it is drawn as
 };
 
 struct NamedStar {
@@ -28,14 +29,14 @@ struct StarCatalogue {
   std::vector<NamedStar> names;
 };
 
-// Returns fewer stars that send the same light, for pictures too small to tell them apart.  The
-// `whole` brightest are kept.  Of the next as many, every second is, for two; of twice as many
-// beyond them, every fourth, for four; and so on.  The stars that are kept shine for those that are
-// not, and are sorted like all others.  `stars` are sorted by magnitude; whole >= 1.
+// Returns fewer stars that send the same light, for pictures too small to tell them apart.  It
+// keeps the `whole` brightest stars.  Of the next `whole` stars it keeps every second, which gets
+// the light of two; of the 2 `whole` stars beyond them every fourth, which gets the light of four;
+// and so on.  `stars` are sorted by magnitude, and so is the result.  whole >= 1.
 std::vector<Star> thinned(const std::vector<Star>& stars, std::size_t whole);
 
 // Returns a name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen"
-// are one.
+// are the same name.
 std::string folded_star_name(std::string_view name);
 
 }  // namespace domefall

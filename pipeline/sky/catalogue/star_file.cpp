@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-// Copies a number out of the file, since it need not be aligned there.
+// Copies a number out of the file, because it need not be aligned there.
 template <class T>
 T at(std::string_view bytes, std::size_t offset) {
   T value;
@@ -32,6 +32,7 @@ std::string next_line(std::string_view& text) {
 
 std::size_t block_count(std::size_t stars) { return (stars + kBlockStars - 1) / kBlockStars; }
 
+// Returns a component in units of 2^-31.  The value 1 itself would be 2^31, which no int32 holds.
 std::int32_t fixed(double component) {
   return static_cast<std::int32_t>(
       std::clamp(std::round(component * kUnitLength), 1 - kUnitLength, kUnitLength - 1));
@@ -48,7 +49,7 @@ std::string_view bytes_of(const T& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-// Each text becomes one line, so ends of lines within it become blanks.
+// Returns the three lines of the text.  Line ends within one of them become blanks.
 std::string packed_text(const CatalogueText& text) {
   std::string lines;
   for (std::string line : {text.source, text.licence, text.made}) {
@@ -102,6 +103,7 @@ StarFileHeader star_header(const RawCatalogue& catalogue, const std::string& ind
   head.text_sum = checksum(text);
   head.names_sum = checksum(names);
   head.index_sum = checksum(index);
+  // Everything that the last checksum covers must be set before it is taken.
   head.head_sum = checksum(bytes_of(head).substr(0, offsetof(StarFileHeader, head_sum)));
   return head;
 }
@@ -133,6 +135,8 @@ std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint6
 
 StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
   const std::string_view bytes = file_.bytes();
+  // A file that claims to be a .stars file but is shorter than the header is said to be too short,
+  // and not of another kind.
   if (bytes.size() < sizeof(StarFileHeader) &&
       (is_star_file(bytes) || file.extension() == kStarExtension))
     throw InputError(fmt::format(
@@ -153,6 +157,8 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
          fmt::format("the star catalogue {}; it has {} bytes instead of {}",
                      bytes.size() < head.file_size ? "ends here" : "should end here", bytes.size(),
                      head.file_size));
+  // These values decide what is read, and a wrong program may have written them with the right
+  // checksum.
   if (head.stars > kMostStars || head.record_size != sizeof(StarRecord) ||
       head.block_stars != kBlockStars || head.records_at % alignof(StarRecord) != 0 ||
       head.records_at > bytes.size() ||
@@ -191,6 +197,7 @@ std::span<const StarRecord> StarFile::up_to(double limit) const {
   const std::size_t blocks = block_count(stars_);
   for (std::size_t block = 0; block < blocks; ++block) {
     check_block(block);
+    // The stars are sorted, so this block has the last of those within the limit.
     if (at<StarBlock>(index_, block * sizeof(StarBlock)).faintest <= faintest) continue;
     const auto* begin = records + block * kBlockStars;
     const auto* end = records + std::min<std::size_t>((block + 1) * kBlockStars, stars_);
@@ -225,6 +232,7 @@ std::vector<StarName> StarFile::names(std::size_t stars) const {
     const auto star = at<std::uint32_t>(names_, i);
     const auto length = at<std::uint32_t>(names_, i + sizeof star);
     if (length > names_.size() - i - kNumbers) fail(place, "a name is cut short");
+    // Names are in the order of their stars.
     if (star >= stars) break;
     found.push_back({star, std::string(names_.substr(i + kNumbers, length))});
     i += kNumbers + length;

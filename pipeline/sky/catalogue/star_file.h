@@ -1,5 +1,5 @@
-// The binary star catalogue, *.stars.  It is mapped into memory, so that a limit of magnitude
-// touches only the stars that it needs.
+// The binary star catalogue, *.stars, is mapped into memory, so that a limit of magnitude touches
+// only the stars that it needs.
 //
 // Little-endian.  Offsets and sizes are in bytes:
 //
@@ -25,8 +25,8 @@
 //            proper motion in right ascension (times cos Dec) and declination, mas a year, V, and
 //            colour (star_colour.h); identifier (star_id.h)
 //
-// Checksums are XXH3, 64 bits.  A block is checked when it is first read: nothing is used
-// unchecked, and nothing is read for its checksum alone.
+// Checksums are XXH3, 64 bits.  A block is checked when it is first read, so that no data is used
+// unchecked, and none is read for its checksum alone.
 //
 // Accuracy: rounding moves a direction by less than 0.1 mas.
 #pragma once
@@ -47,32 +47,34 @@ struct StarRecord {
 };
 static_assert(sizeof(StarRecord) == 32);
 
-// Returns whether bytes begin as those of such a file do.
+// Says whether bytes begin as those of a .stars file do.
 bool is_star_file(std::string_view bytes);
 
 class StarFile {
  public:
-  // Throws InputError naming the file and the byte if it is no such file, not whole, damaged or of
-  // a newer version, and as MappedFile does.
+  // Throws InputError naming the file and the byte if the file is of another kind, not whole,
+  // damaged or of a newer version.  Also throws as MappedFile does.
   explicit StarFile(const std::filesystem::path& file);
 
   std::size_t size() const { return stars_; }
   double epoch() const { return epoch_; }
   const CatalogueText& text() const { return text_; }
-  // Returns digits that stand for all that the file holds.
+  // Returns digits that stand for the whole contents of the file.
   std::string fingerprint() const;
 
-  // Returns the stars of V <= limit, both as floats.  Throws InputError where one of their blocks
-  // is damaged.
+  // Returns the stars of V <= limit, where both are compared as floats.  Throws InputError where
+  // one of their blocks is damaged.
   std::span<const StarRecord> up_to(double limit) const;
-  // Returns how many stars at least are of V <= limit, from the index alone: those in whole blocks.
+  // Returns a lower bound to the number of stars of V <= limit, from the index alone.  It counts
+  // those in blocks that are within the limit as a whole.
   std::size_t at_least_to(double limit) const;
   // Returns V of the faintest star, from the index alone.
   double faintest() const;
   // Returns the names of the first `stars` stars.
   std::vector<StarName> names(std::size_t stars) const;
 
-  // Throws InputError naming the byte at which a record that up_to() has returned begins.
+  // Throws InputError naming the byte where a record begins.  The record is one that up_to()
+  // returned.
   [[noreturn]] void fail_at(const StarRecord& record, const std::string& what) const;
 
  private:
@@ -89,9 +91,9 @@ class StarFile {
   CatalogueText text_;
 };
 
-// Writes a catalogue whose stars are sorted by brightness (sort_by_brightness); its numbers are
-// finite and within their ranges.  The file appears whole or not at all; throws as write_atomically
-// does.
+// Writes a catalogue whose stars are sorted by brightness (sort_by_brightness) and whose numbers
+// are finite and within their ranges.  The file appears whole or not at all.  Throws as
+// write_atomically does.
 void write_star_file(const std::filesystem::path& file, const RawCatalogue& catalogue);
 
 }  // namespace domefall

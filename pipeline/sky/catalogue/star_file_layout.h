@@ -1,4 +1,4 @@
-// The bytes of a .stars file as structures; star_file.h describes them.
+// These structures are the bytes of a .stars file, which star_file.h describes.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kBlockStars = 4096;
 inline constexpr std::size_t kRecordAlignment = 64;
 inline constexpr std::uint64_t kMostStars = 1u << 31;
 inline constexpr std::uint32_t kLongestName = 256;
-inline constexpr double kUnitLength = 2147483648.0;  // 2^31, in which directions are written
+inline constexpr double kUnitLength = 2147483648.0;  // 2^31 of these units are the length 1
 
 static_assert(std::endian::native == std::endian::little, "the file's numbers are little-endian");
 

@@ -10,8 +10,8 @@ namespace {
 
 enum class Kind : std::uint32_t { kHip = 1, kHd = 2, kTycho = 3 };  // 0: none
 
-// Kind, region and number begin at these of the 32 bits; region and number are those of a Tycho
-// star, whose component less 1 is in the two lowest bits.
+// The kind, and the region and number of a Tycho star, begin at these of the 32 bits.  The two
+// lowest bits of a Tycho star hold its component less 1.
 constexpr int kKindBit = 30, kRegionBit = 16, kNumberBit = 2;
 constexpr StarId kLargestNumber = (1u << kKindBit) - 1;
 constexpr std::uint32_t kRegions = 9537, kNumbersInRegion = 12121, kComponents = 4;
@@ -20,7 +20,7 @@ constexpr StarId of_kind(Kind kind, std::uint32_t number) {
   return (static_cast<std::uint32_t>(kind) << kKindBit) | number;
 }
 
-// Returns the numbers of a text such as "5949-2777-1", or nothing if there is anything else in it.
+// Returns the numbers of a text such as "5949-2777-1", or none if the text has any other form.
 std::vector<std::uint32_t> numbers_of(std::string_view text) {
   std::vector<std::uint32_t> numbers;
   for (;;) {

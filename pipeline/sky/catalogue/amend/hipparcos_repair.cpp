@@ -28,6 +28,8 @@ class Repair {
   }
 
  private:
+  // The colour of Hipparcos replaces that of a single star.  It says little about one star of
+  // several, so there it only fills a gap.
   void take_colour(const StarIndices& places, float colour) {
     if (colour == kNoColour) return;
     for (const std::uint32_t i : places) {
@@ -38,6 +40,8 @@ class Repair {
     }
   }
 
+  // Magnitudes do not add, but fluxes do: the sum of the stars has V = -2.5 log10(sum of 10^(-0.4
+  // V)).
   void take_magnitude(const StarIndices& places, float v) {
     double flux = 0;
     for (const std::uint32_t i : places) {

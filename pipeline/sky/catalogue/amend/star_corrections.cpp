@@ -15,7 +15,8 @@
 namespace domefall {
 namespace {
 
-// The magnitude of a removed star until the end.  It lies beyond every limit.
+// A removed star has this magnitude until all rows are applied, so that the indices of the other
+// stars stay the same.  It lies beyond every limit, and keep_brighter() drops it at the end.
 constexpr float kRemoved = 2 * kNoMagnitude;
 
 // Returns the parts between the bars of "HD 174638 | HIP 92420".
@@ -59,6 +60,8 @@ class Corrections {
   }
 
  private:
+  // Returns the index of the star with this identifier or name, or nothing if the catalogue has
+  // none.
   std::optional<std::uint32_t> find(std::string_view alternative) const {
     if (const auto id = parse_star_id(alternative)) {
       const auto found = by_id_.find(*id);
@@ -70,6 +73,7 @@ class Corrections {
     return found == by_name_.end() ? std::nullopt : std::optional(found->second);
   }
 
+  // Returns the star of the row: that of the first alternative that is there and not removed.
   CatalogueStar& wanted() {
     const std::string_view cell = row_.text("star");
     if (folded_star_name(cell).empty()) row_.fail("star is empty");
@@ -88,7 +92,8 @@ class Corrections {
     return star;
   }
 
-  // Gives the star the numbers of the row; false if there are none.
+  // Gives the star the numbers of the row and says whether there were any.  All cells are checked
+  // before the first is taken.
   bool take_numbers(CatalogueStar& star) {
     const auto v = row_.number("v_mag", kBrightestV, kFaintestV);
     const auto b_v = row_.number("b_v", kBluest, kReddest);

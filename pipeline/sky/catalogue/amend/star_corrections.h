@@ -1,4 +1,4 @@
-// Corrections made by hand, laid over a catalogue while it is imported.
+// Corrections made by hand are laid over a catalogue while it is imported.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// Reads a table (csv_file.h) with the column `star` and some of the others, whose cells may be
+// Reads a table (csv_file.h) with the column `star` and any of the others below, whose cells may be
 // empty:
 //
 //   star           which star: an identifier ("HIP 92420", "HD 174638", "TYC 2642-2929-1") or a

@@ -17,7 +17,7 @@ using nlohmann::json;
 struct Spelling {
   std::string_view sign, text;
 };
-// Greek letters, the final sigma among them, and superscripts in UTF-8.
+// The table has the Greek letters, both forms of sigma, and the superscript digits, all in UTF-8.
 constexpr std::array<Spelling, 35> kSpellings{
     {{"α", "alpha"},   {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"},
      {"ζ", "zeta"},    {"η", "eta"},  {"θ", "theta"}, {"ι", "iota"},  {"κ", "kappa"},
@@ -39,6 +39,7 @@ std::string entry_text(const json& entry, const char* key) {
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+// Returns the Bayer designation or, for a star without one, that of Flamsteed.
 std::string designation(const json& entry) {
   std::string label = spelt_out(entry_text(entry, "bayer"));
   if (label.empty()) label = entry_text(entry, "flam");

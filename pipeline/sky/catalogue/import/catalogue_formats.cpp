@@ -39,7 +39,8 @@ const CatalogueFormat* guess_folder(const fs::path& folder) {
 
 bool is_bar(std::string_view line, std::size_t byte) { return line[byte - 1] == '|'; }
 
-// Tables with fixed columns differ in the lengths of their lines and in what separates columns.
+// Tables with fixed columns differ in the lengths of their lines and in the characters between
+// columns.
 const CatalogueFormat* guess_table(std::string_view line) {
   constexpr std::size_t kTycho = 206, kSupplement = 122, kAscc = 210, kDraper = 48;
   if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return format_named("tycho2");
@@ -70,7 +71,9 @@ const CatalogueFormat* guess_format(const Paths& inputs) {
   if (fs::is_directory(inputs.front(), ignored)) return guess_folder(inputs.front());
   const MappedFile file(require_file(inputs.front()));
   std::string_view bytes = file.bytes();
+  // These bytes are kMagic of import_stellarium.cpp, least significant byte first.
   if (bytes.starts_with("\x0a\x04\x5f\x83")) return format_named("stellarium");
+  // A table may begin with lines of comment.
   while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos)
     bytes.remove_prefix(bytes.find('\n') + 1);
   if (bytes.starts_with('{')) return format_named("d3-celestial");

@@ -1,10 +1,10 @@
-// The formats of star catalogues that Domefall imports, and one importer for each.
+// These are the formats of star catalogues that Domefall imports, with one importer for each.
 //
-// A further format is a function import_NAME in a file of that name, declared below and listed in
-// catalogue_formats.cpp.  An importer reads whole files and trusts nothing in them: whatever their
-// bytes, it returns stars within the ranges of raw_catalogue.h or throws InputError, with file and
-// line (or byte), for what is damaged, cut short or of another kind.  A star without a magnitude
-// has kNoMagnitude.
+// A further format is a function import_NAME in a file of that name, which is declared below and
+// listed in catalogue_formats.cpp.  An importer reads whole files and trusts nothing in them.
+// Whatever their bytes, it returns stars within the ranges of raw_catalogue.h, or it throws
+// InputError, with file and line (or byte), for a file that is damaged, cut short or of another
+// kind.  A star without a magnitude has kNoMagnitude.
 #pragma once
 
 #include <filesystem>
@@ -21,47 +21,48 @@ using Paths = std::vector<std::filesystem::path>;
 
 struct ImportedCatalogue {
   RawCatalogue catalogue;
-  std::vector<std::string> notes;  // what was left out and why, a line each
+  std::vector<std::string> notes;  // one line each about what was left out, and why
 };
 
 struct CatalogueFormat {
-  std::string_view name;   // in commands
-  std::string_view title;  // in sentences
+  std::string_view name;   // the word for it in commands
+  std::string_view title;  // its name in sentences
   ImportedCatalogue (*import)(const Paths& inputs);
 };
 
 std::span<const CatalogueFormat> catalogue_formats();
 
-// Guesses the format of the first input by what lies in the folder or how the file begins; null
-// where that does not tell.  Throws InputError where the file cannot be read.
+// Guesses the format of the first input from the contents of the folder or the beginning of the
+// file.  Returns null where these do not tell.  Throws InputError where the file cannot be read.
 const CatalogueFormat* guess_format(const Paths& inputs);
 
-// Tycho-2, CDS I/259: the folder with tyc2.dat.00 to .19 and suppl_1.dat, or such files, which the
-// lengths of their lines tell apart.  Positions are those of J2000.  V = VT - 0.090 (BT - VT) and
-// B-V = 0.850 (BT - VT), by note 7 of its ReadMe; V from one band alone is marked as rough.
+// Tycho-2, CDS I/259, is the folder with tyc2.dat.00 to .19 and suppl_1.dat, or single files of it,
+// which the lengths of their lines tell apart.  Positions are those of J2000.  By note 7 of its
+// ReadMe V = VT - 0.090 (BT - VT) and B-V = 0.850 (BT - VT).  V from one band alone is marked as
+// rough.
 ImportedCatalogue import_tycho2(const Paths& inputs);
 
-// d3-celestial's stars.N.json: GeoJSON points with the Hipparcos number as id, without proper
-// motion.
+// d3-celestial's stars.N.json holds GeoJSON points with the Hipparcos number as id, and no proper
+// motions.
 ImportedCatalogue import_d3_celestial(const Paths& inputs);
 
-// Henry Draper Catalogue and Extension, CDS III/135A: catalog.dat.  Positions of B1900, good to 1.5
-// arcminutes, are turned to J2000.  V is the photovisual magnitude or, where there is none, the
-// photographic one less the colour.  Colours come from spectral types (spectral_type.h).  Deleted
-// and repeated entries, nebulae and clusters are left out.
+// The Henry Draper Catalogue and Extension, CDS III/135A, is catalog.dat.  Positions of B1900, good
+// to 1.5 arcminutes, are turned to J2000.  V is the photovisual magnitude or, where there is none,
+// the photographic one less the colour.  Colours come from spectral types (spectral_type.h).
+// Deleted and repeated entries, nebulae and clusters are left out.
 ImportedCatalogue import_henry_draper(const Paths& inputs);
 
-// ASCC-2.5, CDS I/280B: its cc*.dat files.  Positions of J1991.25 are moved to J2000.
+// ASCC-2.5, CDS I/280B, comes in cc*.dat files.  Positions of J1991.25 are moved to J2000.
 ImportedCatalogue import_ascc(const Paths& inputs);
 
-// The HYG database, versions 3 and 4: a table in quotes.
+// The HYG database, versions 3 and 4, is a table whose cells may stand in quotes.
 ImportedCatalogue import_hyg(const Paths& inputs);
 
-// Stellarium's stars_*.cat of types 0 and 1, as in versions 0.13 to 23, or the folder they are in.
-// The folder's hip_pm.dat gives better proper motions than they do.
+// Stellarium's catalogues are stars_*.cat of types 0 and 1, as in versions 0.13 to 23, or the
+// folder that holds them.  The folder's hip_pm.dat gives better proper motions than they do.
 ImportedCatalogue import_stellarium(const Paths& inputs);
 
-// Domefall's own table (read_star_catalogue.h), with identifiers where it has a column hip or hd.
+// Domefall's own table (read_star_catalogue.h) gives identifiers where it has a column hip or hd.
 ImportedCatalogue import_csv(const Paths& inputs);
 
 }  // namespace domefall

@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// A message repeats only printable characters of a file, which may hold anything.
+// Returns text for a message, with only the printable characters of a file that may hold anything.
 std::string quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c >= ' ' && c <= '~' ? c : '?';
@@ -43,6 +43,7 @@ bool FixedColumns::next() {
   line_ = rest_.substr(0, end);
   rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
   if (line_.ends_with('\r')) line_.remove_suffix(1);
+  // A last line without an end may have lost its tail, unless it already has every byte.
   const bool cut = end == std::string_view::npos && line_.size() < longest_;
   if (cut || line_.size() < shortest_ || line_.size() > longest_)
     fail(fmt::format("a line has {}{} bytes, this one {}{}",
@@ -61,6 +62,7 @@ std::optional<double> FixedColumns::number(const NumberColumn& column) const {
   std::string_view cell = text({column.first, column.last});
   if (cell.empty()) return std::nullopt;
   const std::string_view whole = cell;
+  // std::from_chars() takes no plus sign, but catalogues write one.
   if (cell.front() == '+' && cell.size() > 1 && cell[1] != '-') cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);

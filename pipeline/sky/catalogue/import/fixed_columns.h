@@ -1,4 +1,4 @@
-// Tables whose columns stand at fixed bytes of a line, as astronomers' catalogues do.
+// Astronomers' catalogues are often tables whose columns stand at fixed bytes of a line.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace domefall {
 
-// A column has the bytes `first` to `last` of a line, counted from 1, both included.
+// A column takes the bytes `first` to `last` of a line, counted from 1 and both included.
 struct TextColumn {
   int first, last;
 };
 
-// Beyond the range `low` to `high` a number of the column is a mistake.
+// A number of this column is a mistake if it lies outside `low` to `high`.
 struct NumberColumn {
   int first, last;
   const char* name;
@@ -25,25 +25,26 @@ struct NumberColumn {
 
 class FixedColumns {
  public:
-  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF).  What a line lacks
-  // at its end is blank.  Throws InputError for an empty file, and as MappedFile does.
+  // Lines have `shortest` to `longest` bytes without their ends (LF or CR LF).  A line that is
+  // shorter than `longest` counts as filled up with blanks.  Throws InputError for an empty file,
+  // and as MappedFile does.
   FixedColumns(const std::filesystem::path& file, std::size_t shortest, std::size_t longest);
 
-  // Reads a line; false at the end of the file.  Throws InputError, with the line, if it is too
+  // Reads a line and says whether there was one.  Throws InputError, with the line, if it is too
   // short or too long, or is a last line that is cut short.
   bool next();
 
-  // The functions below return a column of the line that was read last.
+  // The functions below look at the line that was read last.
 
   // Returns the text without the blanks around it.
   std::string_view text(const TextColumn& column) const;
   char letter(int byte) const {
     return static_cast<std::size_t>(byte) <= line_.size() ? line_[byte - 1] : ' ';
   }
-  // Returns nothing where the column is blank.  Throws InputError, with the line, for what is no
-  // number within the column's range.
+  // Returns the number, or nothing where the column is blank.  Throws InputError, with the line,
+  // for text that is no number within the column's range.
   std::optional<double> number(const NumberColumn& column) const;
-  // Returns the same, but throws where the column is blank.
+  // Returns the number, but throws InputError where the column is blank.
   double required(const NumberColumn& column) const;
   // Returns a whole number, or 0 where the column is blank.
   std::uint32_t whole(const NumberColumn& column) const;

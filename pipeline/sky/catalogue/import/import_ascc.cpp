@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-// The last columns are infrared magnitudes, which are not used.
+// A line may lack its last columns: these are infrared magnitudes, which are not used.
 constexpr std::size_t kShortestLine = 177, kLongestLine = 210;
 constexpr double kEpoch = 1991.25, kDegreesPerHour = 15;
 constexpr NumberColumn kRa{1, 12, "RAhour", 0, 24}, kDec{14, 25, "DEdeg", -90, 90},
@@ -21,9 +21,10 @@ constexpr NumberColumn kRa{1, 12, "RAhour", 0, 24}, kDec{14, 25, "DEdeg", -90, 9
     kRegion{137, 140, "TYC1", 0, 9537}, kNumber{141, 145, "TYC2", 0, 12121},
     kComponent{146, 146, "TYC3", 0, 4}, kHip{148, 153, "HIP", 0, kLastHip},
     kHd{155, 160, "HD", 0, kLastHd};
+// The table has kNoMotion or kUnmeasured where nothing was measured.
 constexpr double kNoMotion = 999999, kUnmeasured = 99999, kFaintest = 40000;
 
-// Returns a magnitude, of which the file has thousandths.
+// Returns a magnitude, which the file gives in thousandths.
 std::optional<double> magnitude(const FixedColumns& line, const NumberColumn& column) {
   constexpr double kMillimagnitude = 1e-3;
   const auto value = line.number(column);
@@ -33,7 +34,8 @@ std::optional<double> magnitude(const FixedColumns& line, const NumberColumn& co
   return *value * kMillimagnitude;
 }
 
-// Returns a proper motion in mas a year, of which the file has hundredths.
+// Returns a proper motion in mas a year, which the file gives in hundredths, or 0 where there is
+// none.
 float motion(const FixedColumns& line, const NumberColumn& column) {
   constexpr double kHundredth = 0.01;
   const double value = line.number(column).value_or(kNoMotion);

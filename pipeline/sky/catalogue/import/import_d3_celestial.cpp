@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// A feature of the list knows its index for messages.
+// A feature is one star of the list.  It knows its index for messages.
 class Feature {
  public:
   Feature(const std::filesystem::path& file, std::size_t index, const json& value)
@@ -25,6 +25,7 @@ class Feature {
     out.id = hipparcos_id(out.hip);
     const json& place = member(member(value_, "geometry"), "coordinates");
     if (!place.is_array() || place.size() != 2) fail("coordinates must be [RA, Dec]");
+    // GeoJSON has longitudes from -180 to 180 degrees, and RA is negative beyond 180.
     const double ra = number(place[0], "RA", -180, 360);
     out.direction = sky_direction(ra < 0 ? ra + 360 : ra, number(place[1], "Dec", -90, 90));
     const json& properties = member(value_, "properties");
@@ -45,6 +46,7 @@ class Feature {
   }
 
   double number(const json& value, const char* name, double low, double high) const {
+    // A value that is no number becomes one beyond the range, so that one test refuses both.
     const double number = value.is_number() ? value.get<double>() : high + 1;
     if (!(number >= low && number <= high))
       fail(fmt::format("{} must be a number from {:.12g} to {:.12g}", name, low, high));
@@ -56,7 +58,7 @@ class Feature {
     return static_cast<std::uint32_t>(id);
   }
 
-  // B-V comes as text, which may be empty.
+  // Returns B-V, which the file has as text, or kNoColour where the text is empty.
   float colour(const json& value) const {
     if (!value.is_string()) fail("bv must be a number in quotes, or empty quotes");
     const auto& text = value.get_ref<const std::string&>();

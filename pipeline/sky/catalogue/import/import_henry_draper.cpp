@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-// A line may have lost its trailing blanks; each has something up to the column before the type.
+// A line may have lost its trailing blanks, but each has text up to the column before the type.
 constexpr std::size_t kShortestLine = 41, kLongestLine = 48;
 constexpr NumberColumn kHdNumber{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh", 0, 23},
     kRaTenths{21, 23, "RAdm", 0, 599}, kDecDegrees{25, 26, "DEd", 0, 90},
@@ -23,13 +23,15 @@ constexpr NumberColumn kHdNumber{1, 6, "HD", 1, kLastHd}, kRaHours{19, 20, "RAh"
     kPhotographic{37, 41, "Ptg", -2, 50};
 constexpr TextColumn kType{43, 45};
 constexpr int kSign = 24, kRemark = 48;
+// The catalogue has these codes in place of a magnitude.
 constexpr double kNebula = 20, kVariable = 30, kNova = 40, kCluster = 50;
-// By the ReadMe this star was entered twice; it is HD 194629.
+// The ReadMe says that this star was entered twice: it is HD 194629.
 constexpr std::uint32_t kRepeated = 194648;
 
 // Turns a direction of B1900 (FK4) to J2000 (FK5).  The matrix is the product of Newcomb's
 // precession to B1950 and the matrix of Standish 1982.  The E-terms of aberration, 0.35 arcseconds,
-// are left out; they are far below the 0.1 minute to which the catalogue gives right ascension.
+// are left out, since they are far below the 0.1 minute to which the catalogue gives right
+// ascension.
 SkyDirection to_j2000(const SkyDirection& b1900) {
   const V3d& p = b1900.v;
   const V3d q(0.999702924 * p.x - 0.0223531344 * p.y - 0.00971607525 * p.z,
@@ -49,7 +51,7 @@ SkyDirection position(const FixedColumns& line) {
   return to_j2000(sky_direction(hours * kDegreesPerHour, sign == '-' ? -degrees : degrees));
 }
 
-// Returns nothing for the catalogue's codes, which are greater than any magnitude.
+// Returns the magnitude, or nothing for one of the catalogue's codes, which exceed every magnitude.
 std::optional<double> measured(std::optional<double> magnitude) {
   return magnitude && *magnitude < kNebula ? magnitude : std::nullopt;
 }
@@ -58,6 +60,7 @@ struct Skipped {
   std::size_t deleted = 0, repeated = 0, nebulae = 0, unmeasured = 0;
 };
 
+// Returns V, from the photographic magnitude and the colour where the star has no visual one.
 float magnitude(const FixedColumns& line, float colour) {
   if (const auto visual = measured(line.number(kVisual))) return static_cast<float>(*visual);
   const auto photographic = measured(line.number(kPhotographic));

@@ -8,6 +8,7 @@
 namespace domefall {
 namespace {
 
+// The table gives right ascension in hours, of 15 degrees each.
 constexpr StarColumns kColumns{"ra", "dec", "mag", "ci", "pmra", "pmdec", 15, -kReddest};
 
 // Returns "alpha CMa" for "Alp" and "CMa", "alpha1 Cru" for "Alp-1" and "Cru".

@@ -23,22 +23,25 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMagic = 0x835f040a;
 
+// A file begins with this header.  Magnitudes are in thousandths.
 struct Header {
   std::uint32_t magic;
   std::int32_t type, major, minor, level, mag_min, mag_range, mag_steps;
 };
 static_assert(sizeof(Header) == 32);
 
-// A star within its zone.  x0 and x1 are its place along the zone's axes in units of their largest
-// value.  The motions, in 0.1 mas a year, go to the star's own east and north and are stretched as
-// the zone's plane is there.  This was found by comparison with Hipparcos' motions over 100 mas a
-// year.  Half of these agree to 5 % in zones of level 0, to 1.4 % at level 1, to 0.4 % at level 2.
+// This is a star within its zone.  x0 and x1 are its place along the zone's axes in units of their
+// largest value.  The motions, in 0.1 mas a year, go to the star's own east and north, and they are
+// stretched as the zone's plane is there.  This was found by comparison with Hipparcos' motions
+// over 100 mas a year.  Half of these agree to 5 % in zones of level 0, to 1.4 % at level 1 and to
+// 0.4 % at level 2.
 struct Packed {
   double x0, x1, motion0, motion1;
   int colour, magnitude;
   std::uint32_t hip;
 };
 
+// A star of type 0 lies in the file like this.
 struct Full {
   std::uint32_t hip_and_component;
   std::int32_t x0, x1;
@@ -62,7 +65,8 @@ Packed unpack_full(const char* bytes) {
           star.hip_and_component & kHipBits};
 }
 
-// Returns the number of `count` bits from bit `first` on; the least significant bits come first.
+// Returns the number that is held by `count` bits from bit `first` on, of which the first is the
+// least significant.
 std::int64_t bits(const char* bytes, int first, int count, bool is_signed) {
   std::int64_t value = 0;
   for (int i = 0; i < count; ++i) {
@@ -70,10 +74,12 @@ std::int64_t bits(const char* bytes, int first, int count, bool is_signed) {
     const auto byte = static_cast<unsigned char>(bytes[bit / 8]);
     value |= static_cast<std::int64_t>((byte >> (bit % 8)) & 1) << i;
   }
+  // The highest bit of a signed number counts as -2^(count - 1).
   const bool negative = is_signed && ((value >> (count - 1)) & 1) != 0;
   return negative ? value - (std::int64_t{1} << count) : value;
 }
 
+// A star of type 1 is packed into 80 bits.
 constexpr std::size_t kShortSize = 10;
 Packed unpack_short(const char* bytes) {
   constexpr double kLargest = 524287;
@@ -165,7 +171,7 @@ Paths catalogues_in(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    // stars_hip_*.cat are tables of spectral types and components.
+    // The files stars_hip_*.cat are tables of spectral types and components.
     if (name.starts_with("stars_") && name.ends_with(".cat") && !name.starts_with("stars_hip"))
       files.push_back(entry->path());
   }
@@ -175,8 +181,8 @@ Paths catalogues_in(const fs::path& folder) {
   return files;
 }
 
-// Replaces the motions of the brighter stars by those of hip_pm.dat, which are Hipparcos' own and
-// lack the errors above.
+// Replaces the motions of the brighter stars by those of hip_pm.dat.  These are Hipparcos' own and
+// lack the errors that Packed has.
 void take_motions(const fs::path& file, std::vector<CatalogueStar>& stars) {
   std::unordered_map<std::uint32_t, std::pair<float, float>> motions;
   CsvFile row(file, '\t', {"hip", "pm_ra", "pm_dec"});

@@ -37,12 +37,13 @@ constexpr Photometry kMain{
 constexpr Photometry kSupplement{
     {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, kLastHip}};
 
-// Reads magnitude, colour and Hipparcos number; false where neither band was measured.
+// Reads magnitude, colour and Hipparcos number, and says whether either band was measured.
 bool read_photometry(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {
   const auto bt = line.number(columns.bt), vt = line.number(columns.vt);
   star.hip = line.whole(columns.hip);
   if (!bt && !vt) return false;
-  // For a star with one band alone, the colour with which it is drawn is assumed.
+  // A star that was measured in BT alone is assumed to have the colour with which it is drawn.  Its
+  // V is BT - (BT - VT) - 0.090 (BT - VT).  A star measured in VT alone has VT for V.
   const double bt_vt = bt && vt ? *bt - *vt : kAssumedColour / 0.850;
   if (bt && vt) star.colour = colour_of_b_v(0.850 * bt_vt);
   star.v_is_rough = !bt || !vt;
@@ -65,7 +66,7 @@ class Tycho {
     FixedColumns line(file, kMainLine, kMainLine);
     while (line.next()) {
       CatalogueStar star = start_of(line);
-      // Without a mean position the observed one, of about J1991.5, is all there is.
+      // A star without a mean position has only the observed one, of about J1991.5.
       const bool observed = line.letter(kPositionFlag) == 'X';
       star.direction = sky_direction(line.required(observed ? kObservedRa : kRa),
                                      line.required(observed ? kObservedDec : kDec));
@@ -110,7 +111,8 @@ class Tycho {
   std::size_t unmeasured_ = 0, hipparcos_band_ = 0;
 };
 
-// Returns all files of the catalogue.  A part that is missing would be a hole in the sky.
+// Returns all files of the catalogue and throws if one is missing, since that would leave a hole in
+// the sky.
 Paths parts_of(const fs::path& folder) {
   Paths parts;
   for (int i = 0; i < kMainParts; ++i) parts.push_back(folder / fmt::format("tyc2.dat.{:02}", i));

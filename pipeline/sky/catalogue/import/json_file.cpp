@@ -17,7 +17,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(
         fmt::format("{}: byte {}: this is no JSON, or not all of it", file.string(), error.byte));
-  } catch (const nlohmann::json::exception&) {  // a number that a double does not hold
+  } catch (const nlohmann::json::exception&) {  // raised by a number that no double can hold
     throw InputError(file.string() + ": holds a number that cannot be read");
   }
 }

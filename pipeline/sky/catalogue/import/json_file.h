@@ -1,4 +1,4 @@
-// JSON files of others.
+// Some catalogues come as JSON files, which others have written and which may hold anything.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// Types are counted in steps, of which there are ten from one letter to the next.
+// Types are counted in steps.  There are ten steps from one letter to the next.
 constexpr std::string_view kLetters = "OBAFGKM";
 constexpr double kSteps = 10, kMiddle = 5;
 
@@ -29,8 +29,8 @@ constexpr std::array kColours{Node{step_of(2, 0), 0.07}, Node{step_of(2, 5), 0.2
                               Node{step_of(5, 5), 1.55}, Node{step_of(6, 0), 1.64}};
 constexpr float kOfS = 1.8F, kOfN = 2.4F, kOfR = 1.55F;
 
-// Interpolates between nodes, in the logarithm if so asked.  Beyond the ends the last value is
-// kept.
+// Interpolates between nodes, in the logarithm if `logarithmic` is set.  Beyond the ends it returns
+// the value of the last node.
 double interpolated(std::span<const Node> nodes, double step, bool logarithmic) {
   if (step <= nodes.front().step) return nodes.front().value;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -43,8 +43,8 @@ double interpolated(std::span<const Node> nodes, double step, bool logarithmic) 
   return nodes.back().value;
 }
 
-// Returns the digit behind the letter, or a middle one where there is none.  The small letters of
-// Oa to Oe, the catalogue's types of Wolf-Rayet and O stars, are passed over.
+// Returns the digit behind the letter, or a middle one where there is none.  It passes over the
+// small letters of Oa to Oe, which are the catalogue's types of Wolf-Rayet and O stars.
 double digit_of(std::string_view rest) {
   while (!rest.empty() && rest.front() >= 'a' && rest.front() <= 'e') rest.remove_prefix(1);
   return !rest.empty() && rest.front() >= '0' && rest.front() <= '9' ? rest.front() - '0' : kMiddle;

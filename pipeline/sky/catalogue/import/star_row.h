@@ -1,4 +1,4 @@
-// A star from the row of a table whose columns have names.
+// A star is read from the row of a table whose columns have names.
 #pragma once
 
 #include "pipeline/image/csv_file.h"
@@ -7,13 +7,13 @@
 namespace domefall {
 
 struct StarColumns {
-  std::string_view ra, dec, v, b_v, pm_ra, pm_dec;  // names
-  double degrees;                                   // in one unit of ra
-  double bluest;                                    // the least B-V that is taken for a number
+  std::string_view ra, dec, v, b_v, pm_ra, pm_dec;  // their names in the table
+  double degrees;                                   // in one unit of `ra`
+  double bluest;                                    // the least B-V that is taken as a number
 };
 
-// Returns the star of the row read last, identified by the columns `hip` and `hd` where there are
-// such.  Throws InputError with the line.
+// Returns the star of the row read last.  Columns `hip` and `hd` identify it where the table has
+// them.  Throws InputError with the line.
 CatalogueStar read_star_row(const CsvFile& row, const StarColumns& columns);
 
 }  // namespace domefall

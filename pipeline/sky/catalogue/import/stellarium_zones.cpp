@@ -11,6 +11,7 @@ using Triangle = std::array<V3d, 3>;
 V3d unit(const V3d& v) { return v / std::sqrt(v.dot(v)); }
 
 std::vector<Triangle> icosahedron() {
+  // The corners of an icosahedron lie at (0, +-1, +-golden ratio) and its cyclic permutations.
   const double golden = 0.5 * (1 + std::sqrt(5.0));
   const double b = 1 / std::sqrt(1 + golden * golden), a = b * golden;
   const std::array<V3d, 12> corners{V3d(a, -b, 0), V3d(a, b, 0), V3d(-a, b, 0), V3d(-a, -b, 0),
@@ -56,6 +57,8 @@ StellariumZones::StellariumZones(int level) {
     zone.east = unit(V3d(0, 0, 1).cross(zone.centre));
     zone.north = zone.centre.cross(zone.east);
     for (const V3d& corner : triangle) {
+      // A corner is projected from the sphere's centre onto the plane that touches the sphere at
+      // the zone's centre.  This divides its components by the cosine of its angle from there.
       const V3d d = corner - zone.centre;
       const double mu0 = d.dot(zone.east), mu1 = d.dot(zone.north);
       const double stretch = 1 / std::sqrt(1 - mu0 * mu0 - mu1 * mu1);
