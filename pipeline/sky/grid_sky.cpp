@@ -13,13 +13,15 @@ namespace {
 constexpr double kCell = 5 * std::numbers::pi / 180;
 constexpr double kPolarRadius = kCell / 2;
 constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
-// Luminance (cd/m^2) at no redshift: a light square is as bright as the heart of the Milky Way.
+// Luminances (cd/m^2) are those at no redshift.  A light square is as bright as the heart of the
+// Milky Way.
 constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
 
 double nearest_whole(double x) { return (x + kRounding) - kRounding; }
 
 // Returns the mean, over a box of this width about x, of the square wave that is 1 on [0, 1) and -1
-// on [1, 2).  Its integral from 0 is the distance to the nearest even number.
+// on [1, 2).  The integral of the wave from 0 to x is the distance from x to the nearest even
+// number, so the mean is a difference of two such distances over the width.
 double box_filtered_wave(double x, double width) {
   const double above = x + width / 2, below = x - width / 2;
   const double to_above = above - 2 * nearest_whole(above / 2),
@@ -27,6 +29,7 @@ double box_filtered_wave(double x, double width) {
   return (std::abs(to_above) - std::abs(to_below)) / width;
 }
 
+// Returns the angle to the nearest line of the grid.
 double to_square_border(double angle) {
   return std::abs(angle - kCell * nearest_whole(angle / kCell));
 }
@@ -42,21 +45,26 @@ double to_square_border(double angle) {
     const double right_ascension = arc_tangent2(at.y[k], at.x[k]),
                  declination = arc_tangent2(at.z[k], across);
     const double from_disc = std::numbers::pi / 2 - kPolarRadius - std::abs(declination);
+    // The box must have some width, since the mean divides by it.
     const double width = at.footprint[k] > 1e-9 ? at.footprint[k] : 1e-9;
-    // The disc's edge is blurred over the footprint.  Of a wider footprint it fills only a share.
+    // The disc's edge is blurred over the footprint.  A disc fills only a share of a wider
+    // footprint.
     const double whole = kCell * kCell / (width * width), share = whole < 1 ? whole : 1;
     const double within = 0.5 - from_disc / width,
                  bounded = within < 0   ? 0
                            : within > 1 ? 1
                                         : within,
                  disc = share * bounded;
+    // A footprint covers an angle of right ascension that grows as 1/cos(declination) towards the
+    // poles.
     const double columns =
         box_filtered_wave(right_ascension / kCell, width / kCell / (across > 1e-6 ? across : 1e-6));
     const double rows = box_filtered_wave(declination / kCell, width / kCell);
     to.squares[k] = static_cast<float>((kMean + kSwing * columns * rows) * (1 - disc));
     to.discs[k] = static_cast<float>(kPolarDisc * disc);
-    // Of a small circle of declination `across` is the radius, so an angle along it is longer than
-    // the way to the meridian, by a part of a reach that is small wherever a square resolves it.
+    // The circle of declination through the place has the radius `across`.  The arc along it to the
+    // next meridian is longer than the shortest way there, but only by a small part of a reach
+    // wherever squares can be resolved.
     const double reach = at.reach[k];
     const int in_square = int{to_square_border(declination) >= reach} &
                           int{to_square_border(right_ascension) * across >= reach};
@@ -69,6 +77,8 @@ Dispatched<grid_lights_loop> grid_lights_by_set;
 }  // namespace
 
 WorkingRgb grid_colour(const GridLight& light, double g) {
+  // `surface` gives the light of a full surface.  These factors bring its luminance to 1 where g =
+  // 1.
   static const double square_scale = 1 / blackbody_xyz(kSquareTemperature).y;
   static const double disc_scale = 1 / blackbody_xyz(kPolarTemperature).y;
   WorkingRgb sum{0, 0, 0};

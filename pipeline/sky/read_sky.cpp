@@ -28,8 +28,8 @@ FloatImage read_panorama(const std::filesystem::path& file) {
   return image;
 }
 
-// A .sky file up to this size is verified when it is opened, which takes a moment.  Of a larger one
-// only what is sampled is to be read.
+// A .sky file up to this size is verified when it is opened, which takes a moment.  A larger one is
+// not, because only the parts that are sampled should be read.
 constexpr std::uint64_t kReadWhole = std::uint64_t{256} << 20;
 
 }  // namespace
@@ -50,6 +50,7 @@ void try_sky(const std::filesystem::path& file) {
     read_panorama(file);
 }
 
+// The line never comes first in the text, because import_sky() writes the source before it.
 bool is_microwave_background(const std::filesystem::path& file) {
   return is_sky_file(file) && SkyFile(file).origin().text.find(
                                   std::string("\n") + kMicrowaveBackground) != std::string::npos;

@@ -1,4 +1,4 @@
-// The backgrounds that a show may name: .sky files and panoramas.
+// A show may name two kinds of background: .sky files and panoramas.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,22 @@
 namespace domefall {
 
 // Opens a .sky file (is_sky_file), or makes a map of an equirectangular image (map_of_panorama).
-// Finer levels than those with `largest_face` texels along an edge are left out, which is for
-// frames of few pixels: painting them is most of the time that an image takes.  Throws InputError
-// naming the file.
+// Levels of more than `largest_face` texels along an edge are left out.  This serves frames of few
+// pixels, because most of the time that an image takes goes into painting its fine levels.  Throws
+// InputError naming the file.
 std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file,
                                        int largest_face = kLargestFace);
 
-// Throws as read_sky does where a .sky file cannot be opened or an image cannot be decoded, but makes
-// no map.
+// Makes no map, but throws as read_sky does where a .sky file cannot be opened or an image cannot
+// be decoded.
 void try_sky(const std::filesystem::path& file);
 
-// Whether the file is a .sky file of the cosmic microwave background, as `domefall sky import
-// --cmb` makes it and says in its header's text.
+// Says whether the file is a .sky file of the cosmic microwave background, as `domefall sky import
+// --cmb` makes it.  The text in the file's header tells.
 bool is_microwave_background(const std::filesystem::path& file);
 
-// Returns a digest of what decides how the sky looks.  A .sky file is not read whole for it.
+// Returns a digest of everything that decides how the sky looks.  It needs only the header of a
+// .sky file.
 std::string sky_digest(const std::filesystem::path& file);
 
 }  // namespace domefall

@@ -14,9 +14,10 @@ using std::numbers::pi;
 constexpr double kTemperature = 3000;
 constexpr double kLight = 4e-4, kDark = kLight / 4;  // cd/m^2
 
-// The mean over a footprint, by which the cosine is blurred.
+// Returns the mean luminance over a footprint, which blurs the cosine.
 inline double ring_luminance(double phase, double width) {
   const double blur = exponential(-pi * pi * width * width / 6);
+  // The cosine repeats, so whole turns are taken off, which keeps its argument small.
   const double turn = phase - ((phase + kRounding) - kRounding);
   return (kLight + kDark) / 2 + (kLight - kDark) / 2 * sin_cos(2 * pi * turn).cosine * blur;
 }

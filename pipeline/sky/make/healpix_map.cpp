@@ -15,7 +15,8 @@ using std::numbers::pi;
 
 constexpr int kLargestFaceOfHealpix = 4096;
 
-// Returns the number made of every other bit, beginning with the lowest.
+// Returns the number made of every other bit, from the lowest on.  A pixel's number in NESTED order
+// interleaves the bits of its coordinates x and y in this way.
 long every_other_bit(long bits) {
   long out = 0;
   for (int k = 0; bits >> (2 * k) != 0; ++k) out |= ((bits >> (2 * k)) & 1) << k;
@@ -24,9 +25,9 @@ long every_other_bit(long bits) {
 
 }  // namespace
 
-// Gorski et al. 2005, sec. 5.2.  A base pixel's southern corner has the coordinates (0, 0), from
-// which x grows to the north-east and y to the north-west.  It is kRing/4 of the way to the south
-// pole and kEast eighths of a turn from longitude 0.
+// Gorski et al. 2005, sec. 5.2, numbers the pixels like this.  The southern corner of a base pixel
+// has the coordinates (0, 0), from which x grows to the north-east and y to the north-west.  The
+// corner is kRing/4 of the way to the south pole and kEast eighths of a turn from longitude 0.
 long ring_from_nested(int nside, long pixel) {
   static constexpr std::array<int, 12> kRing{2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
   static constexpr std::array<int, 12> kEast{1, 3, 5, 7, 0, 2, 4, 6, 1, 3, 5, 7};
@@ -35,10 +36,12 @@ long ring_from_nested(int nside, long pixel) {
   const long ring = kRing[static_cast<std::size_t>(base)] * n - x - y - 1;
   const long north = std::min(ring, 4 * n - ring), length = 4 * std::min(north, n);
   const long shifted = north >= n && (ring - n) % 2 != 0 ? 0 : 1;
+  // The rings of a polar cap have 4, 8, ... pixels, so that 2 ring (ring - 1) pixels lie north of
+  // ring number `ring`.
   const long before = ring < n        ? 2 * ring * (ring - 1)
                       : ring <= 3 * n ? 2 * n * (n - 1) + (ring - n) * 4 * n
                                       : 12 * n * n - 2 * north * (north + 1);
-  // Twice the number along the ring, which is 1 for the first pixel.
+  // This is twice the pixel's number along the ring, which is 1 for the first pixel.
   const long east = kEast[static_cast<std::size_t>(base)] * (length / 4) + x - y + 2 - shifted;
   return before + (east / 2 - 1 + length) % length;
 }
@@ -56,8 +59,9 @@ HealpixMap::HealpixMap(HealpixFile file, float missing) : file_(std::move(file))
   file_.nested = false;
 }
 
-// Gorski et al. 2005, sec. 5.1.  The rings of the polar caps have 4, 8, ... pixels and are all
-// shifted by half a pixel.  Those between have 4 nside pixels, and every other of them is shifted.
+// Gorski et al. 2005, sec. 5.1, places the rings like this.  Those of the polar caps have 4, 8, ...
+// pixels and are all shifted by half a pixel.  Those between have 4 nside pixels, and every other
+// one is shifted.
 HealpixMap::Ring HealpixMap::ring(long number) const {
   const long n = file_.nside, north = std::min(number, 4 * n - number);
   const auto nn = static_cast<double>(n);
@@ -66,8 +70,8 @@ HealpixMap::Ring HealpixMap::ring(long number) const {
             std::acos(static_cast<double>(2 * n - number) * 2 / (3 * nn)),
             (number - n) % 2 == 0 ? 0.5 : 0.0};
   const auto k = static_cast<double>(north);
-  // 1 - z = k^2 / (3 n^2) is twice the square of sin(theta/2), which keeps its digits near the
-  // pole.
+  // The ring has 1 - cos(theta) = k^2/(3 n^2).  This is 2 sin^2(theta/2).  An arcsine keeps its
+  // digits near the pole, where an arccosine would lose them.
   const double theta = 2 * std::asin(k / (nn * std::sqrt(6.0)));
   if (number == north) return {2 * north * (north - 1), 4 * north, theta, 0.5};
   return {12 * n * n - 2 * north * (north + 1), 4 * north, pi - theta, 0.5};
@@ -87,8 +91,10 @@ double HealpixMap::pole(std::size_t first) const {
   return (static_cast<double>(v[0]) + v[1] + v[2] + v[3]) / 4;
 }
 
-// Returns the last ring at or north of a place, or 0 if that is north of the first.
+// Returns the last ring at or north of a place, or 0 if the place is north of the first ring.
 long HealpixMap::ring_above(double z, double across) const {
+  // The formulas for z of a ring are solved for its number.  from_pole is 1 - |z| without
+  // cancellation.
   const double n = file_.nside, from_pole = across * across / (1 + std::abs(z));
   if (std::abs(z) <= 2.0 / 3) return static_cast<long>(n * (2 - 1.5 * z));
   const auto north = static_cast<long>(n * std::sqrt(3 * from_pole));
@@ -116,7 +122,7 @@ double HealpixMap::at(const V3d& direction) const {
   } else {
     b = pole(file_.values.size() - 4);
   }
-  // For a place on a ring, rounding may have found the ring beside it.
+  // If a place is on a ring, rounding may have found the ring beside it.
   return a + std::clamp((theta - from) / (to - from), 0.0, 1.0) * (b - a);
 }
 

@@ -1,4 +1,5 @@
-// Maps in the HEALPix pixelisation, sampled between their pixels, and the skies that they hold.
+// HEALPix maps are sampled between their pixels, and the skies that they hold are painted from
+// them.
 #pragma once
 
 #include "pipeline/image/read_healpix.h"
@@ -9,10 +10,10 @@ namespace domefall {
 
 class HealpixMap {
  public:
-  // Bad pixels become `missing`.
+  // Bad pixels, which are NaN, get the value `missing`.
   HealpixMap(HealpixFile file, float missing);
 
-  // Returns the value in a direction of the map's own coordinates, of any length.  It is linear
+  // Returns the value in a direction, of any length, in the map's own coordinates.  It is linear
   // between the two nearest pixels of each of the two nearest rings (Gorski et al. 2005, sec. 5.1),
   // and linear in colatitude between the rings.  A pole has the mean of its four pixels.
   double at(const V3d& direction) const;
@@ -37,21 +38,21 @@ class HealpixMap {
 // Returns the number in RING order of a pixel in NESTED order.
 long ring_from_nested(int nside, long pixel);
 
-// Returns the texels along a cube face that keep a map's detail; at most 4096.
+// Returns the number of texels along a cube face that keep a map's detail, at most 4096.
 int healpix_face(int nside);
 
-// Returns the samples along the side of a texel, so that a level coarser than the map has means of
-// the map.
+// Returns the number of samples along the side of a texel.  Several give a level that is coarser
+// than the map the means of its pixels.
 int samples_across(const HealpixMap& map, const SkyPyramid::Level& level);
 
-// Turns an equatorial direction into the coordinates of a frame.
+// Returns the rotation of equatorial directions into the coordinates of a frame.
 M33d frame_from_equatorial(SkyFrame frame);
 
-// Returns the unit (sky_unit) of a colour map of grey light (D65), of which the value 1 is
+// Returns the unit (sky_unit) of a colour map of grey light (D65) in which the value 1 stands for
 // `luminance` cd/m^2.
 double healpix_unit(const HealpixMap& map, double luminance);
 
-// Sets the finest level of such a colour map, border and all.  Negative values are dark.
+// Sets the finest level of such a colour map, including its border.  Negative values become dark.
 void paint_healpix(const HealpixMap& map, SkyFrame frame, double luminance,
                    const SkyPyramid& pyramid);
 

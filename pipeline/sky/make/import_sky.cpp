@@ -51,6 +51,7 @@ Orientation import_panorama(const SkyImport& import) {
 
 SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
   if (import.frame_given) return import.orientation.frame;
+  // The FITS keyword COORDSYS names the frame by its first letters.
   const std::string& c = file.coordinates;
   if (c.starts_with('G') || c.starts_with('g')) return SkyFrame::kGalactic;
   if (c.starts_with('C') || c.starts_with('Q') || c.starts_with("EQ")) return SkyFrame::kEquatorial;
@@ -60,7 +61,8 @@ SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
       fmt::format("its coordinates (COORDSYS) are '{}'; only galactic and equatorial are read", c));
 }
 
-// Returns how many kelvin the unit of TUNIT is: "K", "mK,thermodynamic", "uK_CMB" and the like.
+// Returns the number of kelvin in the unit of TUNIT: "K", "mK,thermodynamic", "uK_CMB" and the
+// like.
 double kelvin_of(const SkyImport& import, const std::string& units) {
   if (import.unit) return *import.unit;
   if (units.starts_with('K')) return 1;
@@ -78,7 +80,7 @@ std::string cmb_text(const CmbSettings& cmb) {
                      cmb.contrast);
 }
 
-// Refuses a map of bad pixels, which are NaN, and one without light.  The fluctuations of a
+// Refuses a map whose pixels are all bad (NaN) and one without light.  The fluctuations of a
 // microwave background may be negative.
 void check_texels(const SkyImport& import, const HealpixFile& healpix) {
   bool good = false;

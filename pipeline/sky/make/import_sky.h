@@ -1,4 +1,4 @@
-// From other people's images of the whole sky to .sky files.
+// Other people's images of the whole sky become .sky files.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace domefall {
 
-// How the line begins by which the text of a .sky file says that it holds the microwave background.
+// The text of a .sky file of the microwave background has a line that begins like this.
 inline constexpr const char* kMicrowaveBackground = "microwave background: ";
 
 enum class SkyProjection {
@@ -23,23 +23,23 @@ enum class SkyProjection {
 struct SkyImport {
   std::filesystem::path image, out;
   SkyProjection projection = SkyProjection::kOfFile;
-  // That of an equirectangular panorama.  For a HEALPix map only the frame counts.
+  // An equirectangular panorama lies on the sky like this.  A HEALPix map uses only the frame.
   Orientation orientation;
-  bool frame_given = false;  // otherwise a HEALPix map is asked for its own
-  // What the value 1 of the image is: cd/m^2 [kPanoramaUnit]; with cmb: kelvin [what the file
-  // says].
+  bool frame_given = false;  // otherwise a HEALPix map says which one it has
+  // The value 1 of the image stands for this many cd/m^2 [kPanoramaUnit].  With cmb it stands for
+  // this many kelvin [what the file says].
   std::optional<double> unit;
   PixelEncoding encoding = PixelEncoding::kOfFile;
-  int size = 0;    // of a face; 0 for the image's own detail
-  int column = 1;  // of a HEALPix file
+  int size = 0;    // texels along an edge of a face; 0 for the image's own detail
+  int column = 1;  // column of a HEALPix file
   std::optional<CmbSettings> cmb;
-  std::string text;                    // lines that are added to the file's own: licence, credit
+  std::string text;                    // lines added to the file's own: licence, credit
   std::optional<double> fainter_than;  // SkyOrigin::fainter_than
 };
 
 // Writes the file and returns the orientation that it states.  Throws InputError naming the image
-// if it cannot be read or is not what it should be: if all of its pixels are missing, or if none
-// exceeds 0 and some are below.
+// if it cannot be read or is of the wrong kind or shape, if all of its pixels are missing, or if
+// none exceeds 0 and some are below.
 Orientation import_sky(const SkyImport& import);
 
 }  // namespace domefall

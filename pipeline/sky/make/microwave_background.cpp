@@ -10,11 +10,12 @@ namespace {
 
 double mean_temperature(const CmbSettings& cmb) { return kCmbTemperature * cmb.redshift; }
 
-// Returns the factor by which the radiance of a full surface is multiplied.
+// Returns the factor that thins the radiance of a full surface to the luminance of the settings.
 double thinning(const CmbSettings& cmb) {
   return cmb.luminance / luminance(blackbody_colours().surface(mean_temperature(cmb)));
 }
 
+// The second channel of a thermal map is the radiance times this (SkyMapKind::kThermal).
 double theta(double temperature) { return std::log2(temperature / kThermalBase); }
 
 }  // namespace

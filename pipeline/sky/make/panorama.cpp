@@ -14,15 +14,16 @@ using std::numbers::pi;
 
 constexpr int kLargestFaceOfImage = 4096;
 
-// Returns the Catmull-Rom weights of four samples at t in [0, 1) between the second and the third.
+// Returns the Catmull-Rom weights of four samples, at t in [0, 1) between the second and the third.
 std::array<double, 4> catmull_rom(double t) {
   const double t2 = t * t, t3 = t2 * t;
   return {(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2,
           (t3 - t2) / 2};
 }
 
-// Interpolates, by cubics, in an equirectangular image with its middle at +x, its left quarter at
-// +y and its top at +z.  A row beyond a pole is the one across it, turned by half its width.
+// Interpolates by cubics in an equirectangular image with its middle at +x, its left quarter at +y
+// and its top at +z.  A row beyond a pole is the row on the other side of the pole, turned by half
+// the image's width.
 template <class T>
 std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d) {
   const int w = image.width, h = image.height;
@@ -49,7 +50,9 @@ std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d)
 }
 
 // Returns the greatest value of any channel in the working space.  Cubic interpolation exceeds it
-// by a factor below 1.6, for which sky_unit() leaves room.
+// by a factor below 1.6, for which sky_unit() leaves room.  The negative weights sum to -t (1 -
+// t)/2 >= -1/8, and all weights sum to 1.  Their absolute values therefore sum to at most 5/4 along
+// each axis, and (5/4)^2 < 1.6.
 template <class T>
 double greatest_working(const ImageRgb<T>& image) {
   const ColourMatrix& m = working_from_rec709();
@@ -66,6 +69,8 @@ template <class T>
 void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
                  const SkyPyramid::Level& level) {
   const ColourMatrix& m = working_from_rec709();
+  // A texel of the face that panorama_face() asks for is half a pixel wide.  A wider texel gets as
+  // many samples along its side as it covers pixels.
   const int across = std::max(panorama_face(image.width) / 2 / level.size, 1);
   const auto painter = [&image, &to_picture, &m, scale](const V3d& d, float* channel) {
     const auto c = equirectangular_at(image, apply(to_picture, d));
@@ -75,7 +80,7 @@ void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
   paint(level, painter, across);
 }
 
-// The means of `by` x `by` pixels, of which an image's sides are multiples.
+// Returns an image of the means of `by` x `by` pixels.  The sides of `image` are multiples of `by`.
 FloatImage shrunk(const FloatImage& image, int by) {
   FloatImage small(image.width / by, image.height / by);
   const float part = 1.0f / static_cast<float>(by * by);

@@ -1,4 +1,4 @@
-// Panoramas in the equirectangular projection, as images come, made into colour maps.
+// Panoramas, which are images in the equirectangular projection, are made into colour maps.
 #pragma once
 
 #include "pipeline/image/frame_buffer.h"
@@ -15,19 +15,20 @@ inline constexpr double kPanoramaUnit = 1e-4;
 // Makes a map from an image in linear Rec.709, equatorial J2000 and seen from inside: the middle
 // column is RA 0h, RA grows to the left, and the top row is Dec +90.  The image is twice as wide as
 // it is high, and at least 4 x 2.  The faces of the map have at most `largest_face` texels along an
-// edge; for fewer than the image's detail asks for, means of its pixels are painted.
+// edge.  If the image has more detail than that, means of its pixels are painted.
 SkyMap map_of_panorama(const FloatImage& image, int largest_face = kLargestFace);
 
-// Returns the texels along a face that keep the detail of an image of this width.  They are half as
-// fine as its pixels, so that samples, which are linear between texels, stay smooth.  At most 4096.
+// Returns the number of texels along a face that keep the detail of an image of this width, at most
+// 4096.  A texel is half as wide as a pixel of the image, so that samples, which are linear between
+// texels, stay smooth.
 int panorama_face(int width);
 
-// Returns the unit (sky_unit) of a colour map of an image, linear Rec.709, of which the value 1 is
-// `luminance` cd/m^2.
+// Returns the unit (sky_unit) of a colour map of an image in linear Rec.709 whose value 1 stands
+// for `luminance` cd/m^2.
 double panorama_unit(const LightImage& image, double luminance);
 
-// Sets the finest level of such a map, border and all.  If it is coarser than the image's pixels,
-// its texels are means of several samples.
+// Sets the finest level of such a map, including its border.  If the level is coarser than the
+// image's pixels, its texels are means of several samples.
 void paint_panorama(const LightImage& image, const Orientation& orientation, double luminance,
                     const SkyPyramid& pyramid);
 

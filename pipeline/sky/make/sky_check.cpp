@@ -14,7 +14,7 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kBrightest = 150, kDensest = 40'000;
-// A point or a cloud stands out of its surroundings from this contrast on.
+// A point stands out of its surroundings from the first contrast on, a cloud from the second.
 constexpr double kStandsOut = 1.3;
 constexpr double kCloudStandsOut = 1.15;
 constexpr double kStarsEnough = 0.5, kStarsMargin = 0.15, kBandEnough = 0.3, kBandMargin = 0.1;
@@ -27,12 +27,14 @@ double light(const SkyMap& map, const V3d& direction, double footprint) {
   return luminance(map.sample(direction, footprint));
 }
 
+// Returns the direction at `angle` from d, turned about d by `turn`.
 V3d beside(const V3d& d, double angle, double turn) {
   const V3d aside = d.cross(std::abs(d.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d across = d.cross(aside);
   return std::cos(angle) * d + std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * across);
 }
 
+// Returns the light at twelve places on a circle about d, in ascending order.
 std::vector<double> ring(const SkyMap& map, const V3d& d, double angle, double footprint) {
   constexpr int kPlaces = 12;
   std::vector<double> around;
@@ -43,6 +45,8 @@ std::vector<double> ring(const SkyMap& map, const V3d& d, double angle, double f
   return around;
 }
 
+// Returns inside/around.  It is 1 where both are dark, and infinite where only the surroundings
+// are.
 double ratio(double inside, double around) {
   if (!(inside > 0)) return around > 0 ? 0 : 1;
   return around > 0 ? inside / around : HUGE_VAL;
@@ -60,7 +64,8 @@ struct NamedPlace {
   }
 };
 
-// Places by NED and SIMBAD, J2000.  The radius is that of what stands out of the surroundings.
+// The places are those of NED and SIMBAD, J2000.  The radius is that of the part that stands out of
+// the surroundings.
 constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -69.8, 2.5},
                                              {"Small Magellanic Cloud", 13.2, -72.8, 1.2},
                                              {"M 31", 10.68, 41.27, 0.5},
@@ -70,13 +75,14 @@ constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -6
                                              {"Scutum Cloud", 281.3, -6.5, 1.5},
                                              {"Coalsack (dark)", 192.5, -62.9, 1.5, true}}};
 
-// Returns the light of a disc over the median of a ring around it.
+// Returns the light of a disc divided by the median of a ring around it.
 double contrast(const SkyMap& map, const V3d& d, double radius) {
   const std::vector<double> around = ring(map, d, 2.5 * radius, radius);
   return ratio(light(map, d, radius), around[around.size() / 2]);
 }
 
-// Whether there is a point of light within a texel or a tenth of a degree of a place.
+// Says whether there is a point of light near a place, within a texel or a tenth of a degree,
+// whichever is larger.
 bool stands_out(const SkyMap& map, const V3d& d) {
   const double texel = std::numbers::pi / 2 / map.levels()[0].size;
   const double near = std::max(texel, 0.1 * kDegree);
@@ -85,6 +91,7 @@ bool stands_out(const SkyMap& map, const V3d& d) {
   return ratio(peak, around[around.size() / 2]) > kStandsOut;
 }
 
+// Returns the rank of each value.  Equal values share the mean of their ranks.
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -114,12 +121,14 @@ double correlation(const std::vector<double>& x, const std::vector<double>& y) {
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
-// A band holds places all over the sky and the ranks of the density of stars there.
+// A band holds places all over the sky and the ranks of the density of stars at them.
 struct Band {
   std::vector<V3d> places;
   std::vector<double> density;
 };
 
+// Returns the stars about d, weighted by a Gaussian: 1 - cos(angle) is half of the square of a
+// small angle.
 double density_at(const V3d& d, const StarCatalogue& catalogue) {
   const std::size_t count = std::min(catalogue.stars.size(), kDensest);
   double sum = 0;
@@ -152,6 +161,8 @@ class Judge {
         map_from_picture_(panorama_from_equatorial(stated)) {}
 
   OrientationFit fit(const Orientation& orientation) const {
+    // The map was made with the stated orientation, so a direction goes into the panorama by the
+    // assumed orientation and back out of it by the stated one.
     const M33d picture = panorama_from_equatorial(orientation);
     const auto in_map = [&](const V3d& d) {
       return apply_transposed(map_from_picture_, apply(picture, d));
@@ -203,7 +214,7 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
   const Judge judge(map, stated, catalogue);
   SkyCheck check{SkyVerdict::kUnclear, false, judge.fit(stated), {}};
   for (const Orientation& o : alternatives(stated)) check.others.push_back(judge.fit(o));
-  // With stars in the map, one orientation finds most of the bright ones and another does not.
+  // If the map shows stars, one orientation finds most of the bright ones and another does not.
   double most = check.stated.stars, least = most;
   for (const OrientationFit& f : check.others) {
     most = std::max(most, f.stars);
@@ -228,7 +239,7 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
 std::vector<KnownPlace> known_places(const SkyMap& map, const StarCatalogue& catalogue) {
   std::vector<KnownPlace> places;
   const double texel = std::numbers::pi / 2 / map.levels()[0].size;
-  // A name has exactly the direction of its star.
+  // A name has exactly the direction of its star in the catalogue.
   for (const Star& star : catalogue.stars) {
     if (places.size() == kNamedStars) break;
     const auto name = std::find_if(

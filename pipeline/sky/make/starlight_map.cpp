@@ -21,15 +21,16 @@ struct Cell {
   double flux = 0, weighted = 0;
 };
 
-// Returns the cells along a face of the coarsest grid whose cells are within two thirds of the
-// blur.
+// Returns the number of cells along a face in the coarsest grid whose cells are at most two thirds
+// of the blur.
 int cell_grid(double blur, int size) {
   int n = 1;
   while (n < size && std::numbers::pi / 2 / n > blur / 1.5) n *= 2;
   return n;
 }
 
-// Adds up the stars of each cell in the catalogue's order, on which alone the sums depend.
+// Adds up the stars of each cell in the catalogue's order, so that the sums depend on that order
+// alone.
 std::vector<Cell> gather(const std::vector<FaintStar>& stars, int n) {
   std::vector<Cell> cells(6 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
   for (const FaintStar& star : stars) {
@@ -53,14 +54,15 @@ struct Span {
 };
 
 // Returns the texels along one axis of a face that a cap of radius `angle` may touch.  `ahead` and
-// `aside` are the components of its centre along the face's normal and that axis.  Projected on
-// their plane, the cap is within asin(sin(angle) / length) of its centre, where `length` is that of
-// the projected centre.
+// `aside` are the components of the cap's centre along the face's normal and that axis.  Projected
+// on the plane of these two, the cap lies within the angle asin(sin(angle)/length) of its centre,
+// where `length` is that of the projected centre.
 Span texels_within(double ahead, double aside, double angle, int n) {
   const double length = std::hypot(ahead, aside);
   double low = -1, high = 1;
   if (std::sin(angle) < length) {
     const double centre = std::atan2(aside, ahead), half = std::asin(std::sin(angle) / length);
+    // A face reaches 45 degrees to either side of its middle, where u = tan(angle) is -1 and 1.
     constexpr double kQuarter = std::numbers::pi / 4;
     if (centre - half > kQuarter || centre + half < -kQuarter) return {0, -1};
     low = std::tan(std::max(centre - half, -kQuarter));
@@ -79,7 +81,7 @@ FaceBox box_of(const V3d& d, int face, double angle, int n) {
   const int axis = face / 2;
   const double ahead = face % 2 ? -d[axis] : d[axis];
   const double u = d[(axis + 1) % 3], v = d[(axis + 2) % 3];
-  // The farthest texel of a face is 54.74 degrees from its middle.
+  // The farthest texel of a face is acos(1/sqrt 3) = 54.74 degrees (0.9554) from its middle.
   if (ahead < std::cos(0.9554 + angle)) return {{0, -1}, {0, -1}, {}};
   return {texels_within(ahead, u, angle, n),
           texels_within(ahead, v, angle, n),
@@ -91,6 +93,7 @@ std::size_t flat(int row, int column, int n) {
          static_cast<std::size_t>(column);
 }
 
+// Returns u or v at the centre of texel k, as texel_centre() has it.
 double face_coordinate(int k, int n) { return (2 * k + 1.0) / n - 1; }
 
 }  // namespace
@@ -118,7 +121,8 @@ std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double 
   for (std::size_t k = 0; k <= most; ++k)
     classes.push_back({blur * std::pow(kBlurStep, static_cast<double>(k)), {}});
   for (const FaintStar& star : stars) {
-    // A peak is flux over blur squared, and five magnitudes are a factor of 100 in flux.
+    // The peak of a blurred star is its flux over its blur squared.  Five magnitudes are a factor
+    // of 100 in flux, hence a factor of 10 in blur.
     const double wider = std::pow(10, 0.2 * std::max(smooth_to - star.v_magnitude, 0.0));
     const auto k = static_cast<std::size_t>(std::lround(std::log(wider) / std::log(kBlurStep)));
     classes[std::min(k, most)].stars.push_back(star);
@@ -139,9 +143,9 @@ StarlightMap::StarlightMap(int size)
       const double u = face_coordinate(i, size), v = face_coordinate(j, size);
       inverse_length_[flat(j, i, size)] = static_cast<float>(1 / std::sqrt(1 + u * u + v * v));
     }
-  // The Gaussian as a function of 1 - cos(angle), which for small angles is half of angle^2.  Its
-  // value at the cut is subtracted, so that it ends without a step; the entries from there on are
-  // 0.
+  // The kernel is the Gaussian as a function of 1 - cos(angle), which for small angles is half of
+  // angle^2.  Its value at the cut is subtracted, so that it ends without a step.  The entries from
+  // there on are 0.
   const double end = std::exp(-kCut * kCut / 2);
   for (int k = 0; k <= kKernelSteps; ++k)
     kernel_.push_back(static_cast<float>(std::exp(-kCut * kCut / 2 * k / kKernelSteps) - end));
@@ -155,8 +159,8 @@ void StarlightMap::add(const std::vector<FaintStar>& stars, double blur) {
     if (cell.flux > 0) spread(cell.direction.normalized(), cell.flux, cell.weighted, blur);
 }
 
-// Goes over the texels of the cap twice: first for their weights and the sum of these times solid
-// angles, then to add the light.
+// Goes over the texels of the cap twice.  The first pass finds their weights, and the sum of
+// weights times solid angles.  The second adds the light, divided by that sum.
 void StarlightMap::spread(const V3d& direction, double flux, double weighted, double blur) {
   const double reach = kCut * kCut * blur * blur / 2;  // 1 - cos(angle) at the cut
   const double angle = std::acos(1 - reach);
@@ -173,7 +177,8 @@ void StarlightMap::spread(const V3d& direction, double flux, double weighted, do
       const float* inverse = &inverse_length_[flat(j, 0, size_)];
       for (int i = columns.first; i <= columns.last; ++i) {
         const float u = (static_cast<float>(i) + 0.5f) * step - 1;
-        // The squared chord is 2 (1 - cos(angle)); made of differences it keeps its digits.
+        // The squared chord is 2 (1 - cos(angle)).  Made of differences of components, it keeps its
+        // digits.
         const float x = centre[0] - inverse[i], y = centre[1] - u * inverse[i],
                     z = centre[2] - v * inverse[i];
         const float at = (x * x + y * y + z * z) * steps;
@@ -186,6 +191,7 @@ void StarlightMap::spread(const V3d& direction, double flux, double weighted, do
       }
     }
   }
+  // The sum lacks the factor 4/size^2 of all solid angles (texel_solid_angle).
   const double scale = 1 / (sum * 4 / size_ / size_);
   const auto radiance = static_cast<float>(flux * scale);
   const auto thermal = static_cast<float>(weighted * scale);

@@ -1,4 +1,4 @@
-// A starless Milky Way: the light of a catalogue's faint stars, spread until they run together.
+// A starless Milky Way is the light of a catalogue's faint stars, spread until they run together.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace domefall {
 
-// A star has a flux (W/m^2, over all wavelengths) and the temperature (K) of the blackbody as which
-// it is drawn.
+// A star has a flux (W/m^2, over all wavelengths) and the temperature (K) of the blackbody that it
+// is drawn as.
 struct FaintStar {
   V3d direction;  // unit
   double flux, temperature;
@@ -19,8 +19,8 @@ struct FaintStar {
 // Returns the stars of a catalogue that are fainter than a magnitude.
 std::vector<FaintStar> fainter_stars(const StarCatalogue& catalogue, double v_magnitude);
 
-// The standard deviation (radians) of the Gaussian by which stars are blurred has these limits.
-// The widest still ends within half the sphere; the narrowest is 1.5 texels of the largest face.
+// Stars are blurred by a Gaussian whose standard deviation (radians) has these limits.  The widest
+// blur still ends within half the sphere.  The narrowest is 1.3 texels of the largest face.
 inline constexpr double kNarrowestBlur = 5e-4, kWidestBlur = 0.15;
 
 // The stars of a class have the same blur.
@@ -30,24 +30,25 @@ struct BlurClass {
 };
 // Sorts stars by their blurs.  The few bright ones would stand out of the many faint ones.  A star
 // brighter than `smooth_to` (V) therefore has a wider blur, with which its peak, flux over blur
-// squared, is that of a star of smooth_to.  Blurs go in steps of 1.5 up to kWidestBlur.
+// squared, is that of a star of V = smooth_to.  Blurs go in steps of 1.5 up to kWidestBlur.
 std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double blur,
                                     double smooth_to);
 
-// Returns the texels along a face that show a blur smoothly: at least three to its standard
-// deviation, as far as kLargestStarlightFace allows.
+// Returns the number of texels along a face that show a blur smoothly, which is at least three for
+// its standard deviation unless kLargestStarlightFace limits it.
 inline constexpr int kLargestStarlightFace = 4096;
 int starlight_face(double blur);
 
-// The map holds radiance, and radiance times theta (SkyMapKind::kThermal), of the light of stars.
-// Each is spread by a Gaussian on the sphere, which ends smoothly at 4 standard deviations.  Its
-// light over the texels sums up to its flux, to single precision, wherever it stands on the cube.
-// Stars within a cell of two thirds of the blur are spread together, about their common centre.
+// The map holds the light of stars as radiance and as radiance times theta (SkyMapKind::kThermal).
+// Each star is spread by a Gaussian on the sphere, which ends smoothly at 4 standard deviations.
+// Its light over the texels sums up to its flux, to single precision, wherever it stands on the
+// cube.  Stars within a cell of two thirds of the blur are spread together, about their common
+// centre.
 class StarlightMap {
  public:
   // Makes a dark map.  The size of a face is a power of two.
   explicit StarlightMap(int size);
-  // Adds stars by a blur (standard deviation, radians) of at least two thirds of a texel.
+  // Adds stars with a blur (standard deviation, radians) of at least two thirds of a texel.
   void add(const std::vector<FaintStar>& stars, double blur);
 
   // Returns the greatest radiance, or radiance times theta, of any texel (W/m^2/sr), for
@@ -55,7 +56,8 @@ class StarlightMap {
   double greatest() const;
   // Returns the sum of radiance times solid angle, W/m^2.
   double flux() const;
-  // Sets the finest level, border and all, of a thermal map of this size, times `gain`.
+  // Sets the finest level, including its border, of a thermal map of this size to the light times
+  // `gain`.
   void write(const SkyPyramid& pyramid, double gain) const;
 
  private:
@@ -71,8 +73,9 @@ class StarlightMap {
   std::vector<float> weights_;         // of one star's texels, kept to save allocations
 };
 
-// Returns the solid angle (sr) of a texel with its centre at (u, v) of a face of `size`: the
-// texel's area on the face, 4/size^2, over (1 + u^2 + v^2)^(3/2).  This midpoint rule is good to
+// Returns the solid angle (sr) of a texel with its centre at (u, v) of a face of `size`.  A texel's
+// area on the face is 4/size^2.  At its distance d = sqrt(1 + u^2 + v^2) from the sphere's centre
+// it is seen at an angle of cosine 1/d, and so under 4/size^2/d^3.  This midpoint rule is good to
 // 1e-4 at size 64.
 double texel_solid_angle(int size, double u, double v);
 

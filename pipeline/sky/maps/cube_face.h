@@ -1,9 +1,10 @@
-// The cube on whose faces sky maps are kept: which face a direction meets, and where on it.
+// Sky maps are kept on the faces of a cube.  This file says which face a direction meets, and
+// where.
 //
-// Face 2a is the one towards axis a (x, y, z), and face 2a + 1 the one opposite.  With (a, b, c)
-// the axes in cyclic order, a direction d has u = d_b/|d_a| and v = d_c/|d_a| on both, so opposite
-// faces are mirror images.  Texel (i, j) of n x n has its centre at u = (2 i + 1)/n - 1 and v = (2
-// j + 1)/n - 1; it is stored behind row j - 1.
+// Face 2a is the one towards axis a (x, y, z), and face 2a + 1 is opposite.  With (a, b, c) the
+// axes in cyclic order, a direction d has u = d_b/|d_a| and v = d_c/|d_a| on both, so opposite
+// faces are mirror images.  On a face of n x n, texel (i, j) has its centre at u = (2 i + 1)/n - 1
+// and v = (2 j + 1)/n - 1.  Texels are stored row by row, so that row j follows row j - 1.
 #pragma once
 
 #include <cmath>
@@ -26,7 +27,8 @@ inline FacePoint face_of(const V3d& d) {
   return {d.z < 0 ? 5 : 4, d.x / z, d.y / z};
 }
 
-// Returns the inverse, which also holds beyond the face's edges.  The result is not of unit length.
+// Returns a vector, not of unit length, towards a point.  It inverts face_of, and it also holds
+// beyond the face's edges.
 inline V3d direction_of(const FacePoint& p) {
   const int axis = p.face / 2;
   V3d d;
@@ -36,8 +38,7 @@ inline V3d direction_of(const FacePoint& p) {
   return d;
 }
 
-// Returns the centre of texel (i, j) on a face of n x n.  Texels of the border have i or j of -1 or
-// n.
+// Returns the centre of texel (i, j) on a face of n x n.  In the border i or j is -1 or n.
 inline FacePoint texel_centre(int face, int i, int j, int n) {
   return {face, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1};
 }

@@ -13,14 +13,16 @@ namespace {
 
 constexpr int kTexels = 64;
 constexpr double kDarkest = 0.01;  // of the sphere
-constexpr double kEven = 0.75;     // of the median, beyond which the darkest part is not dark
+constexpr double kEven = 0.75;     // of the median; from there on the darkest part is not dark
 
-// The light of a texel, of what luminance it is, and the part of the sphere that it stands for.
+// A patch is one texel: its light, the luminance of that light, and the part of the sphere that the
+// texel stands for.
 struct Patch {
   double light, luminance, solid_angle;
 };
 
-// A texel at (u, v) of a face of the cube is seen under (1 + u^2 + v^2)^(-3/2) of its area.
+// Returns the solid angle of a texel, up to a factor that all texels share.  A texel at (u, v) of a
+// face of the cube is seen under (1 + u^2 + v^2)^(-3/2) of its area.
 double texel_solid_angle(int i, int j, int size) {
   const double u = (2 * i + 1.0) / size - 1, v = (2 * j + 1.0) / size - 1;
   const double s = 1 + u * u + v * v;
@@ -35,12 +37,15 @@ Patch patch_of(const SkyMap& map, const SkyTexel& texel, double solid_angle) {
   }
   if (!(channel(0) > 0)) return {0, 0, solid_angle};
   const double radiance = map.unit() * channel(0);
+  // A thermal texel holds radiance I and I theta, so their quotient is theta =
+  // log2(T/kThermalBase).
   const double temperature = kThermalBase * std::exp2(channel(1) / channel(0));
   return {radiance, radiance * luminance(blackbody_colours().per_flux(temperature)), solid_angle};
 }
 
 std::vector<Patch> patches_of(const SkyMap& map) {
   const auto& levels = map.levels();
+  // If no level is so small, the last and smallest one is taken.
   const auto level = std::find_if(levels.begin(), levels.end() - 1,
                                   [](const SkyLevel& l) { return l.size <= kTexels; });
   const int n = level->size;
@@ -55,7 +60,7 @@ std::vector<Patch> patches_of(const SkyMap& map) {
   return patches;
 }
 
-// The patch that completes this part of the sphere, of patches in ascending order.
+// Returns the patch with which this part of the sphere is reached, in ascending order of light.
 const Patch& at_part(const std::vector<Patch>& patches, double part) {
   double sphere = 0, below = 0;
   for (const Patch& patch : patches) sphere += patch.solid_angle;
@@ -79,7 +84,8 @@ DarkLevel dark_level(const SkyMap& map) {
 
 double light_of_luminance(const SkyMap& map, double luminance) {
   if (map.kind() == SkyMapKind::kColour) return luminance;
-  // Of a map that is dark in many places, the darkest part that shines at all has a temperature.
+  // A map may be dark in many places.  Only a part that shines has a temperature, so the darkest of
+  // these is taken.
   std::vector<Patch> patches = patches_of(map);
   std::erase_if(patches, [](const Patch& patch) { return !(patch.luminance > 0); });
   const auto darkest =

@@ -1,7 +1,7 @@
-// The dark level of a sky map: the light of its own darkest parts.
+// The dark level of a sky map is the light of its own darkest parts.
 //
-// A picture of the sky has a floor that no eye sees as light: what the camera, the airglow and the
-// zodiacal dust added, or what the sum of all faint stars leaves between the clouds of the Milky
+// A picture of the sky has a floor that no eye sees as light.  The camera, the airglow and the
+// zodiacal dust add to it, and so does the sum of all faint stars between the clouds of the Milky
 // Way.  Shows take this level as black.
 #pragma once
 
@@ -14,16 +14,16 @@ struct DarkLevel {
   double luminance = 0;  // cd/m^2 of the same light at frequency ratio 1
 };
 
-// The light that 1 % of the sphere falls below, each texel counting as its solid angle.  It is
-// measured on the first level of at most 64 texels along an edge of a face, which are 1.4 degrees,
-// so that neither a star's gap nor the noise of a picture decides.  It follows from the map alone.
-// It is 0 if it exceeds 3/4 of what half of the sphere falls below: a sky so even has no dark
-// parts.
+// Returns the light that 1 % of the sphere falls below, where each texel counts as its solid angle.
+// It is measured on the first level of at most 64 texels along an edge of a face.  These are 1.4
+// degrees wide, so that neither a star's gap nor the noise of a picture decides.  The result
+// follows from the map alone.  It is 0 if it exceeds 3/4 of the light that half of the sphere falls
+// below, because a sky so even has no dark parts.
 DarkLevel dark_level(const SkyMap& map);
 
-// The light (in the unit of DarkLevel::light) that has this luminance in cd/m^2, if it has the
-// temperature of the map's darkest parts.  For a colour map it is the luminance itself; for a
-// thermal one without any visible light it is 0.
+// Returns the light (in the unit of DarkLevel::light) that has this luminance in cd/m^2 at the
+// temperature of the map's darkest parts.  For a colour map it is the luminance itself.  For a
+// thermal map without any visible light it is 0.
 double light_of_luminance(const SkyMap& map, double luminance);
 
 }  // namespace domefall

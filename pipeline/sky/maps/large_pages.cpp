@@ -13,7 +13,7 @@ std::shared_ptr<void> large_pages(std::size_t bytes) {
   const std::size_t whole = (bytes + kPage - 1) / kPage * kPage;
   void* memory = std::aligned_alloc(kPage, whole);
   if (memory == nullptr) throw std::bad_alloc();
-  madvise(memory, whole, MADV_HUGEPAGE);  // the system may ignore it
+  madvise(memory, whole, MADV_HUGEPAGE);  // the system may ignore this
   std::memset(memory, 0, bytes);
   return {memory, [](void* m) { std::free(m); }};
 }

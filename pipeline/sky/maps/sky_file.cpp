@@ -24,12 +24,13 @@ static_assert(std::endian::native == std::endian::little, "maps are used as they
 constexpr std::array<char, 8> kMagic{'D', 'O', 'M', 'E', 'S', 'K', 'Y', 0};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPage = 4096, kMostText = 65536;
+// These bits of Header::picture say how the panorama lies.
 constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPicture = 8;
 
 constexpr std::string_view kExtension = ".sky";
 constexpr std::string_view kLimitLine = "stars: fainter than V = ";
 
-// Puts the limit into the text as its first line.
+// Puts the limit of fainter_than into the text as its first line.
 SkyOrigin with_limit_line(SkyOrigin origin) {
   if (origin.fainter_than)
     origin.text = fmt::format("{}{:g}\n{}", kLimitLine, *origin.fainter_than, origin.text);
@@ -80,7 +81,7 @@ std::size_t file_bytes(int size, std::size_t text) {
   return bytes;
 }
 
-// Returns the checksum of a header, in which the place for it counts as 0.
+// Returns the checksum of a header, which is taken with 0 in the place of the checksum.
 std::uint64_t header_checksum(std::string_view header) {
   std::string copy(header);
   std::memset(copy.data() + offsetof(Header, checksum), 0, sizeof Header::checksum);
@@ -91,6 +92,7 @@ std::uint64_t face_checksum(const SkyLevel& level, int face) {
   return XXH3_64bits(level.face(face), SkyLevel::face_texels(level.size) * sizeof(SkyTexel));
 }
 
+// Returns the levels of a map, finest first, as they lie in the file behind the header.
 std::vector<SkyPyramid::Level> lay_out(std::byte* file, int size, std::size_t text) {
   const std::vector<int> sizes = level_sizes(size);
   std::vector<SkyPyramid::Level> levels;
@@ -119,7 +121,7 @@ std::optional<Orientation> panorama_of(const Header& h) {
   throw InputError(fmt::format("{}: byte {}: {}", path.string(), byte, what));
 }
 
-// Reads the fixed part and checks what holds for any map.
+// Reads the fixed part of the header and checks what holds for any map.
 Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
   if (file.size() < sizeof h)
@@ -143,7 +145,8 @@ Header read_header(const std::filesystem::path& path, std::string_view file) {
   return h;
 }
 
-// Checks the values: a program that is wrong may have written a header with the right checksum.
+// Checks the values, since a program that is wrong may have written a header with the right
+// checksum.
 void check_sense(const std::filesystem::path& path, const Header& h) {
   if (h.kind > static_cast<std::uint32_t>(SkyMapKind::kThermal))
     fail(path, offsetof(Header, kind), fmt::format("unknown kind of map {}", h.kind));
@@ -157,6 +160,7 @@ void check_sense(const std::filesystem::path& path, const Header& h) {
     fail(path, offsetof(Header, centre_deg), "the middle must be a number");
 }
 
+// Reads the list of levels, of which each must begin where the one before ends.
 std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const Header& h,
                                      std::string_view file) {
   std::vector<LevelEntry> entries(h.levels);
@@ -218,6 +222,8 @@ void NewSkyFile::finish() {
   }
   std::memcpy(at, origin_.text.data(), origin_.text.size());
   std::memcpy(file_->data(), &h, sizeof h);
+  // The checksum is taken of the header as it lies in the file, text included, and then put into
+  // it.
   h.checksum = header_checksum({reinterpret_cast<const char*>(file_->data()), h.header_bytes});
   std::memcpy(file_->data(), &h, sizeof h);
   file_->commit();

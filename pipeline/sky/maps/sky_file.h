@@ -1,5 +1,6 @@
-// Sky maps on the disk (.sky).  A map of any size is used without being read: its levels are mapped
-// into memory, and the disk is asked only for the pages that samples touch.
+// A .sky file holds a sky map on the disk.  A map of any size is used without being read as a
+// whole: its levels are mapped into memory, and the disk is asked only for the pages that samples
+// touch.
 //
 // Little-endian.  A header of whole pages is followed by the levels, finest first, each at a
 // multiple of 4096 bytes and as SkyLevel has it in memory.  The header:
@@ -13,7 +14,7 @@
 //   then the text (UTF-8, lines "stars: fainter than V = ...", where that is known, "source: ...",
 //   "licence: ..."), then zeros.
 //
-// Checksums are XXH3, 64 bits.  That of the header is taken with 0 in its own place.
+// Checksums are XXH3, 64 bits.  The header's own checksum is taken with 0 in its place.
 #pragma once
 
 #include <array>
@@ -35,18 +36,18 @@ namespace domefall {
 // The origin says where a map came from.
 struct SkyOrigin {
   std::string text;                     // source and licence, for people; up to 64 KiB
-  std::optional<Orientation> panorama;  // of the panorama it was made from, if it was one
-  // The map holds the light of stars fainter than this V, and of no others; nothing where that is
-  // not known.
+  std::optional<Orientation> panorama;  // the panorama's orientation, if the map is from one
+  // The map holds the light of stars fainter than this V, and of no others.  The limit is missing
+  // where it is not known.
   std::optional<double> fainter_than = {};
 };
 
-// A file in the making.  Its user fills the finest level of pyramid(), border and all, then calls
-// finish().
+// This is a file in the making.  Its user fills the finest level of pyramid(), including the
+// border, and then calls finish().
 class NewSkyFile {
  public:
-  // `size` is that of a face, a power of two up to kLargestFace.  Throws as NewMappedFile does, and
-  // InputError for a text that is too long.
+  // `size` is the number of texels along an edge of a face, a power of two up to kLargestFace.
+  // Throws as NewMappedFile does, and InputError for a text that is too long.
   NewSkyFile(const std::filesystem::path& path, SkyMapKind kind, double unit, int size,
              SkyOrigin origin);
 
@@ -60,28 +61,29 @@ class NewSkyFile {
   SkyPyramid pyramid_;
 };
 
-// Whether a file is a .sky file (is_of_format).
+// Says whether a file is a .sky file (is_of_format).
 bool is_sky_file(const std::filesystem::path& path);
 
-// A .sky file that is open.
+// A SkyFile is a .sky file that is open.
 class SkyFile {
  public:
   // Checks the header and the length of the file.  Throws InputError with file and byte for a file
-  // that is no .sky file, damaged, cut short or of a newer version, and else as MappedFile.
+  // that is no .sky file, damaged, cut short or of a newer version.  Otherwise throws as MappedFile
+  // does.
   explicit SkyFile(const std::filesystem::path& path);
 
-  // The file stays mapped as long as this or a copy of it lives.
+  // The file stays mapped as long as this map or a copy of it lives.
   const SkyMap& map() const { return map_; }
   const SkyOrigin& origin() const { return origin_; }
   std::uint64_t bytes() const { return bytes_.size(); }
 
-  // The checksum in the header, as digits.  It covers the checksums of the faces, so it stands for
-  // the whole file in the keys of frames.
+  // Returns the checksum of the header as digits.  It covers the checksums of the faces, so it
+  // stands for the whole file in the keys of frames.
   std::string digest() const;
 
-  // Reads the levels that have at most `largest_face` texels along an edge, which are all of them
-  // unless a limit is given.  Throws InputError with file and byte of the first face whose checksum
-  // is off.
+  // Reads the levels that have at most `largest_face` texels along an edge, which are all levels
+  // unless a limit is given.  Throws InputError with file and byte of the first face that does not
+  // have its checksum.
   void verify(int largest_face = kLargestFace) const;
 
  private:
@@ -89,9 +91,9 @@ class SkyFile {
   explicit SkyFile(const Opened& opened);
 
   std::filesystem::path path_;
-  std::string_view bytes_;  // that the map keeps alive
+  std::string_view bytes_;  // kept alive by the map
   std::uint64_t checksum_;
-  std::vector<std::array<std::uint64_t, 6>> face_checksums_;  // of each level
+  std::vector<std::array<std::uint64_t, 6>> face_checksums_;  // one array for each level
   SkyMap map_;
   SkyOrigin origin_;
 };

@@ -24,7 +24,7 @@ SkyMap SkyMap::without_levels_above(int size) const {
 
 SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double v) {
   const int n = level.size;
-  const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // from the border on
+  const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // counted from the border on
   const int i = std::min(static_cast<int>(x), n), j = std::min(static_cast<int>(y), n);
   const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
   const SkyTexel* a = level.face(face) + static_cast<std::size_t>(j) * (n + 2) + i;
@@ -43,9 +43,11 @@ SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double
 
 SkyMap::Value SkyMap::filtered(const V3d& direction, double footprint) const {
   const FacePoint at = face_of(direction);
+  // A face spans a quarter of a turn.  A level of half the size has texels of twice the width, so
+  // the footprint's log2 in texels of the finest level says which two levels to mix.
   const double texels = footprint * levels_[0].size / (pi / 2);
   if (texels <= 1) return bilinear(levels_[0], at.face, at.u, at.v);
-  // The weight is linear between powers of two, where log2 would need a function of the library.
+  // The weight is linear between powers of two, because log2 would need a function of the library.
   const auto octave = static_cast<std::size_t>(std::ilogb(texels));
   const std::size_t last = levels_.size() - 1;
   const std::size_t fine = std::min(octave, last), coarse = std::min(octave + 1, last);

@@ -13,24 +13,25 @@
 
 namespace domefall {
 
-// The kind says what a texel's channels hold, in units of SkyMap::unit().
+// The kind says what the channels of a texel hold, in units of SkyMap::unit().
 enum class SkyMapKind : std::uint32_t {
-  // r, g, b of the working space, 0.
+  // The channels are r, g and b of the working space, and 0.
   kColour = 0,
-  // I, I theta, 0, 0: blackbody light of bolometric radiance I (sigma T^4/pi of a full surface) and
-  // theta = log2(T / kThermalBase).  Both I and I theta add up when light is added, so a filter
-  // gives the radiance and the mean of log T weighted by it.
+  // The channels are I, I theta, 0 and 0.  They describe blackbody light of the bolometric radiance
+  // I, which is sigma T^4/pi for a full surface, and of theta = log2(T/kThermalBase).  Both I and I
+  // theta add up when light is added, so a filter gives the radiance and the mean of log T weighted
+  // by it.
   kThermal = 1,
 };
 
 // Every temperature of a map exceeds this one (kelvin), so that theta > 0.
 inline constexpr double kThermalBase = 256;
 
-// No map has a finer level than one of this many texels along an edge of a face.
+// No map has a level that is finer than this number of texels along an edge of a face.
 inline constexpr int kLargestFace = 8192;
 
-// A level has six faces (cube_face.h) of (size + 2)^2 texels, row by row.  The border of one texel
-// around each is what a sample between the outermost texels of two faces needs.
+// A level has six faces (cube_face.h) of (size + 2)^2 texels, row by row.  A border of one texel
+// around each face serves samples between the outermost texels of two faces.
 struct SkyLevel {
   int size;  // texels along an edge of a face, without the border
   const SkyTexel* texels;
@@ -43,9 +44,9 @@ struct SkyLevel {
   }
 };
 
-// This is blackbody light of a temperature (K) and a bolometric radiance (W/m^2/sr), which is less
-// than that of a full surface.  At frequency ratio g its colour is BlackbodyColours::per_flux(g
-// temperature) radiance g^4.
+// This is blackbody light of a temperature (K) and of a bolometric radiance (W/m^2/sr), which is
+// less than that of a full surface.  At a frequency ratio g its colour is
+// BlackbodyColours::per_flux(g temperature) times radiance g^4.
 struct ThermalLight {
   double radiance, temperature;
 };
@@ -53,24 +54,24 @@ struct ThermalLight {
 class SkyMap {
  public:
   // The sizes of the levels are powers of two, each half of the one before, down to 1.  `owner`
-  // keeps their texels alive.
+  // keeps the texels alive.
   SkyMap(SkyMapKind kind, double unit, std::vector<SkyLevel> levels,
          std::shared_ptr<const void> owner);
 
   SkyMapKind kind() const { return kind_; }
-  // The unit is what a half of value 1 stands for: cd/m^2 (kColour) or W/m^2/sr (kThermal).
-  // sky_unit() makes the brightest texel 2^13 to 2^14, so that light down to 2^-27 of it is kept to
-  // 2^-11.
+  // The unit is the light that a half of value 1 stands for, in cd/m^2 (kColour) or W/m^2/sr
+  // (kThermal).  sky_unit() makes the brightest texel 2^13 to 2^14.  The smallest normal half is
+  // 2^-14, so that light down to 2^-27 of the brightest is kept, to a half's precision of 2^-11.
   double unit() const { return unit_; }
   const std::vector<SkyLevel>& levels() const { return levels_; }
-  // The same map without the levels that have more than `size` texels along an edge of a face, but
-  // with one level at least.
+  // Returns the map without the levels that have more than `size` texels along an edge of a face,
+  // but keeps at least one level.
   SkyMap without_levels_above(int size) const;
 
   // Returns the light (cd/m^2, working space) in a direction of any length, averaged over about
-  // `footprint` radians.  For a thermal map it is that at frequency ratio 1.
+  // `footprint` radians.  The light of a thermal map is that at frequency ratio 1.
   WorkingRgb sample(const V3d& direction, double footprint) const;
-  // Returns the light of a thermal map before it becomes a colour; it is {0, kThermalBase} where
+  // Returns the light of a thermal map before it becomes a colour.  It is {0, kThermalBase} where
   // the map is dark.
   ThermalLight sample_thermal(const V3d& direction, double footprint) const;
 
@@ -78,7 +79,7 @@ class SkyMap {
 
  private:
   struct Value {
-    float channel[4];  // of texels, not yet multiplied by the unit
+    float channel[4];  // those of texels, not yet multiplied by the unit
   };
   static Value bilinear(const SkyLevel& level, int face, double u, double v);
   Value filtered(const V3d& direction, double footprint) const;

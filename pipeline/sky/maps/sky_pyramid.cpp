@@ -14,9 +14,9 @@
 namespace domefall {
 namespace {
 
-constexpr int kGreatestExponent = 14;
+constexpr int kGreatestExponent = 14;  // of the brightest texel; halves reach almost 2^16
 
-// Returns the texel that four become in the next level.
+// Returns the texel of the next level that covers these four.
 SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
   SkyTexel out{};
   for (int k = 0; k < 4; ++k)
@@ -26,7 +26,7 @@ SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const Sky
   return out;
 }
 
-// A place lies between two inner texels, at a distance from the first of 0 to 1.
+// A place lies between two inner texels.  `part` is its distance from the first, from 0 to 1.
 struct Between {
   int first, second;
   float part;
@@ -38,7 +38,7 @@ Between between(double u, int n) {
   return {first, std::min(first + 1, n - 1), static_cast<float>(x - first)};
 }
 
-// Returns what the neighbouring face has in the direction of a texel of the border.
+// Returns the light of the neighbouring face in the direction of a texel of the border.
 SkyTexel sample_across(const SkyPyramid::Level& level, int face, int i, int j) {
   const int n = level.size;
   const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
@@ -68,7 +68,7 @@ void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
   fill_border(coarse);
 }
 
-// Sets one row; `row` counts all rows of all faces, borders included.
+// Sets one row.  `row` counts all rows of all faces, including those of borders.
 void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painter, int across) {
   const int n = level.size, fine = n * across, face = row / (n + 2), j = row % (n + 2) - 1;
   for (int i = -1; i <= n; ++i) {
@@ -144,8 +144,8 @@ void fill_border(const SkyPyramid::Level& level) {
 }
 
 void paint(const SkyPyramid::Level& level, const SkyPainter& painter, int across) {
-  // The caller may hold a lock.  A thread that waits here for the last rows must not take up
-  // another task meanwhile, since that may wait for the same lock.
+  // The caller may hold a lock.  A thread that waits here for the last rows must not begin another
+  // task in the meantime, since that task may wait for the same lock.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(0, 6 * (level.size + 2),
                       [&](int row) { paint_row(level, row, painter, across); });

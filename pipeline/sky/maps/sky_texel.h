@@ -1,4 +1,4 @@
-// The texels of sky maps: four half floats.
+// A texel of a sky map holds four half floats.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ struct SkyTexel {
   std::uint16_t channel[4];
 };
 
-// Returns the half nearest to a value from 0 to 65504; 0 where that would be subnormal (below
-// 2^-14).
+// Returns the half that is nearest to a value from 0 to 65504.  It is 0 where that half would be
+// subnormal (below 2^-14).
 std::uint16_t half_bits(float value);
 float half_value(std::uint16_t bits);
 
