@@ -19,13 +19,15 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kMostWarnings = 50;
-// The amplification of all images of a star is this over the sine of its angle from the axis, at
-// most, and their blueshift makes them so much brighter.  Both are more than any show was seen to
-// have.
+// All images of a star together are amplified by at most kMostPerSine over the sine of the star's
+// angle from the axis.  Their blueshift makes them brighter by at most the factor kMostBlueshift.
+// Both numbers are larger than any show was seen to need.
 constexpr double kMostPerSine = 4, kMostBlueshift = 10;
 
 double magnitudes(double factor) { return 2.5 * std::log10(factor); }
 
+// Returns the largest value of a channel over the whole show, which has `own` where no curve sets
+// it.
 double largest_value(const Show& show, Channel channel, double own) {
   double most = own;
   for (const Segment& segment : show.timeline)
@@ -33,13 +35,13 @@ double largest_value(const Show& show, Channel channel, double own) {
   return most;
 }
 
-// By how much the exposure and the gain of a show make stars brighter at most.
+// Returns the largest factor by which the exposure and the gain of a show make stars brighter.
 double largest_gain(const Show& show, SkyRegion region) {
   return std::exp2(largest_value(show, Channel::kEv, show.exposure.ev)) *
          largest_value(show, star_gain_channel(region), show.sky[region].star_gain);
 }
 
-// The light of images in the picture.
+// Returns the light of the images that are in the picture.
 double light_of(const std::vector<StarImage>& images, const Projection& projection) {
   double sum = 0;
   for (const StarImage& image : images) {
@@ -64,6 +66,8 @@ void AxisStars::read(SkyRegion region) {
   const auto& field = show_.sky[region].stars;
   const double gain = largest_gain(show_, region);
   if (!field || !(gain > 0)) return;
+  // A star's own disc keeps its light from growing further where the sine is below half of its
+  // radius.  Fainter stars than this limit cannot blind and need not be read.
   const double most = 2 * kMostPerSine / show_.least_star_radius * gain * kMostBlueshift;
   const double limit =
       std::min(kBlindingMagnitude + magnitudes(most),
@@ -73,6 +77,7 @@ void AxisStars::read(SkyRegion region) {
   std::vector<Class>& classes = stars_[region];
   for (std::size_t k = 0; k < stars.size(); ++k) {
     const SceneStar star = stars[k];
+    // Beyond this sine the brightest that the star can be is fainter than kBlindingMagnitude.
     const double window = kMostPerSine * gain * kMostBlueshift *
                           std::pow(10, 0.4 * (kBlindingMagnitude - star.magnitude));
     // Each class has windows within a factor of 2, and the brightest come first.
@@ -92,11 +97,13 @@ void AxisStars::add(const FrameState& state) {
   if (state.vanishing) add(*state.vanishing, true);
 }
 
-// A star may stand near either end of the axis.
+// Notes the stars near the axis in one view.  A star may stand near either end of the axis: behind
+// the hole, or behind the observer.
 void AxisStars::add(const FrameState& state, bool vanishes) {
   const ObserverState& o = state.observer;
   if (is_flat(o)) return;
   const M33d& axes = o.sky_from_tetrad;
+  // The first axis is R, which points away from the hole.
   const V3d behind(-axes[0][0], -axes[1][0], -axes[2][0]);
   const bool inside = o.region == Region::kII && o.r < 2;
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
@@ -104,6 +111,8 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
     for (const Class& each : stars_[region])
       for (const double side : {1.0, -1.0}) {
         const V3d axis = behind * side;
+        // Stars within the window have a z within the window of that of the axis, and they are
+        // sorted by z.
         auto star = std::partition_point(each.stars.begin(), each.stars.end(), [&](const auto& c) {
           return c.star.direction.v.z < axis.z - each.window;
         });
@@ -119,7 +128,7 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
   }
 }
 
-// Adds the frame to the star's passage, or begins another.
+// Adds the frame to the star's passage, or begins another passage.
 void AxisStars::note(const Passage& found) {
   for (const std::size_t k : recent_) {
     Passage& passage = passages_[k];
@@ -132,7 +141,8 @@ void AxisStars::note(const Passage& found) {
   passages_.push_back(found);
 }
 
-// Of all images of the star together, at 0 EV.
+// Returns the magnitude of a star that would be as bright at 0 EV as all images of this one
+// together.  Only this star is put into the scene.
 double AxisStars::magnitude(const Show& show, const Passage& passage) const {
   const FrameState whole = frame_state(show_, passage.frame);
   const FrameState& state = passage.vanishes ? *whole.vanishing : whole;
@@ -148,6 +158,7 @@ double AxisStars::magnitude(const Show& show, const Passage& passage) const {
   std::vector<StarImage> images;
   if (plan[passage.region].stars)
     StarImageFinder(scene, passage.region).append(passage.star->star, images);
+  // During a dissolve a view shows only its part of the light.
   const double left =
       passage.vanishes ? whole.vanishing_part : 1 - (whole.vanishing ? whole.vanishing_part : 0);
   const double pixel_value = light_of(images, state.projection) * state.fade * left;
@@ -174,6 +185,7 @@ std::vector<ShowWarning> AxisStars::warnings() const {
     std::string cure =
         "not even with stars.least_radius_deg: 1 would it be dim: lower the stars' "
         "gain, or place the hole elsewhere";
+    // The smallest of these radii that dims the star enough is proposed.
     for (const double degrees : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0}) {
       dimmed.least_star_radius = degrees * std::numbers::pi / 180;
       if (dimmed.least_star_radius <= show_.least_star_radius ||

@@ -1,4 +1,5 @@
-// Stars straight behind the hole, whose rings blind where the sky stands still or moves slowly.
+// A star straight behind the hole is seen as a ring, which blinds where the sky stands still or
+// moves slowly.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +13,15 @@
 
 namespace domefall {
 
-// The magnitude, at 0 EV, from which on a star's images together are told.  Those of a star of first
-// magnitude behind a hole at 14 M have -6.4 with a radius of 0.05 degrees, which is a calm ring.
+// A star is reported if all its images together are brighter than this magnitude at 0 EV.  The
+// images of a star of first magnitude behind a hole at 14 M have -6.4 with a radius of 0.05
+// degrees, which makes a calm ring.
 inline constexpr double kBlindingMagnitude = -7.5;
 
-// Is shown the states of a show one by one, in the order of frames, and remembers those in which a
-// star comes so near to the axis of the lens that its light may blind.  That takes a microsecond a
-// state.  Of each such passage the frame with the most light is then looked at in full.
+// An AxisStars is shown the states of a show one by one, in the order of frames.  It remembers
+// those in which a star comes so near to the axis of the lens that its light may blind, which takes
+// a microsecond for each state.  The brightest frame of each such passage is then looked at in
+// full.
 class AxisStars {
  public:
   // Reads the bright stars of the show's catalogues; the show must outlive this object.  Throws
@@ -27,8 +30,8 @@ class AxisStars {
 
   void add(const FrameState& state);
 
-  // One warning for each passage, in the order of time, but 50 at most, with the radius
-  // (stars.least_radius_deg) that would dim it enough.
+  // Returns one warning for each passage, in the order of time, but 50 at most.  A warning gives
+  // the radius (stars.least_radius_deg) that would dim the star enough.
   std::vector<ShowWarning> warnings() const;
 
  private:
@@ -36,17 +39,18 @@ class AxisStars {
     SceneStar star;
     double window;  // the largest sine of its angle from the axis at which it may blind
   };
-  // Stars of about one brightness, by the z of their directions.
+  // The stars of a class have about the same brightness.  They are sorted by the z of their
+  // directions.
   struct Class {
     std::vector<Candidate> stars;
-    double window = 0;  // the largest of them
+    double window = 0;  // the largest window of its stars
   };
   struct Passage {
     SkyRegion region;
     const Candidate* star;
     int frame, last_frame;
-    bool vanishes;  // whether it is in the view that vanishes in that frame
-    double light;   // about proportional to that of the frame
+    bool vanishes;  // whether the star is in the view that vanishes in that frame
+    double light;   // about proportional to the star's light in that frame
   };
 
   void read(SkyRegion region);
@@ -59,7 +63,7 @@ class AxisStars {
   PerSky<std::vector<Class>> stars_;
   PerSky<std::vector<NamedStar>> names_;
   std::vector<Passage> passages_;
-  std::vector<std::size_t> recent_;  // those of the last two frames
+  std::vector<std::size_t> recent_;  // indices of passages seen in the last two frames
 };
 
 }  // namespace domefall

@@ -14,17 +14,18 @@
 namespace domefall {
 namespace {
 
-// In smaller pictures stars are found one by one, which takes ten times as long as it does in large
-// ones (StarImageFinder).
+// In smaller pictures stars are found one by one, which takes ten times as long as in large ones
+// (StarImageFinder).
 constexpr int kCostWidth = 512;
 constexpr std::size_t kMostSegments = 8, kMostMeasured = 16;
-// Two samples differ too much for what is between them to be interpolated, if half of the
-// difference comes to more than this part of all frames' cost.
+// The cost between two samples can be interpolated unless half of their difference, times the
+// frames between them, is more than this part of the cost of all frames.
 constexpr double kPreciseEnough = 5e-3;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// The places in `frames` where another segment begins, the first one with it, and the end.
+// Returns the indices in `frames` at which a segment begins, from 0 on, and then the end.  A show
+// of more than kMostSegments segments counts as one segment.
 std::vector<std::size_t> segment_bounds(const Show& show, const std::vector<int>& frames) {
   std::vector<std::size_t> bounds{0};
   while (bounds.back() < frames.size() && bounds.size() <= kMostSegments) {
@@ -38,11 +39,12 @@ std::vector<std::size_t> segment_bounds(const Show& show, const std::vector<int>
   return bounds;
 }
 
-// Measures the light of single frames.
+// A LightClock measures the time that the light of single frames takes.
 class LightClock {
  public:
   LightClock(const Show& show, Renderer& renderer)
       : show_(show), instant_(show), width_(std::min(columns(show.projection), kCostWidth)) {
+    // Where a frame is the mean of many instants, one of them is measured by a renderer of its own.
     instant_.exposure.shutter = 0;
     if (show.exposure.shutter > 0) own_.emplace(instant_, renderer.threads());
     renderer_ = own_ ? &*own_ : &renderer;
@@ -50,7 +52,7 @@ class LightClock {
 
   double seconds(int number) {
     const FrameState small = reduced(frame_state(instant_, number), width_);
-    // The first frame of all loads the skies and the stars.
+    // The first frame of all loads the skies and the stars, so it is rendered once before.
     if (!is_warm_) render_for_files(*renderer_, instant_, small, frame_);
     is_warm_ = true;
     const double start = processor_time();
@@ -72,10 +74,11 @@ class LightClock {
   bool is_warm_ = false;
 };
 
-// Measured costs by their places in a list of frames.
+// Samples are measured costs by their indices in a list of frames.
 using Samples = std::map<std::size_t, double>;
 
-// Between two samples of one segment, half of their difference times the frames between them.
+// A gap lies between two samples of one segment.  Its doubt is half of their difference times the
+// frames between them.
 struct Gap {
   std::size_t first = 0, last = 0;
   double doubt = 0;
@@ -84,7 +87,7 @@ struct Gap {
 Gap most_doubtful(const Samples& samples, const std::vector<std::size_t>& bounds) {
   Gap most;
   for (auto b = samples.begin(), a = b++; b != samples.end(); a = b++) {
-    if (std::ranges::binary_search(bounds, b->first)) continue;  // a cut is between them
+    if (std::ranges::binary_search(bounds, b->first)) continue;  // a segment ends between them
     const std::size_t length = b->first - a->first;
     const double doubt = std::abs(b->second - a->second) / 2 * static_cast<double>(length);
     if (length > 1 && doubt > most.doubt) most = {a->first, b->first, doubt};
@@ -120,6 +123,8 @@ std::vector<double> relative_light_costs(const Show& show, const std::vector<int
   for (std::size_t k = 1; k < bounds.size(); ++k)
     for (const std::size_t at : {bounds[k - 1], (bounds[k - 1] + bounds[k]) / 2, bounds[k] - 1})
       sample(at);
+  // The middle of the most doubtful gap is measured next, until no gap matters or kMostMeasured
+  // frames are measured.
   for (;;) {
     std::vector<double> costs = interpolated(samples, frames.size());
     const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);

@@ -1,4 +1,4 @@
-// How the time of rendering is spread over a show's frames.
+// The time of rendering is spread unevenly over a show's frames.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,13 @@
 
 namespace domefall {
 
-// For each of these frames, the processor time that its light takes, in units of their mean, which
-// is 0 for none.  At both ends of each segment, and at some frames between them, it is rendered at
-// a reduced size, at one instant, and counted as often as an open shutter has instants; between
-// these the cost is interpolated.  A show of very many segments is sampled evenly.  `frames` are
-// sorted; an empty list gives an empty one.  Takes a third of a second of processor time or so.
-// `renderer` is one of the show.
+// Returns, for each of these frames, the processor time that its light takes.  The unit is the mean
+// of all, and the times are all 0 if nothing takes time.  The light is measured at both ends of
+// each segment, and at some frames between them.  It is rendered at a reduced size and at one
+// instant, and it counts as often as an open shutter has instants.  Between these frames the cost
+// is interpolated.  A show of very many segments is sampled evenly.  `frames` are sorted, and an
+// empty list gives an empty one.  `renderer` is one of the show.  The measurement takes about a
+// third of a second of processor time.
 std::vector<double> relative_light_costs(const Show& show, const std::vector<int>& frames,
                                          Renderer& renderer);
 

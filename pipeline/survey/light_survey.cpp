@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
 constexpr double kFadeStops = 3;
-// From this part of white's code value on the steps to white are not seen.
+// From this part of white's code value on, the steps that remain to white cannot be seen.
 constexpr double kNearWhite = 0.99;
 
-// The code value to which the grade takes the brightest grey that a half float holds.
+// Returns the code value to which the grade takes the brightest grey that a half float can hold.
 double white_of(const Grader& grader) {
   HalfFrame grey(1, 1);
   std::fill(grey.pixels.begin(), grey.pixels.end(), Imath::half(65504.0f));
@@ -23,7 +23,7 @@ double white_of(const Grader& grader) {
   return *std::max_element(graded.pixels.begin(), graded.pixels.end());
 }
 
-// Indices of the pixels inside the image of a projection.
+// Returns the indices of the pixels inside the image of a projection.
 std::vector<std::size_t> inside_pixels(const Projection& p) {
   std::vector<std::size_t> inside;
   for (int row = 0; row < rows(p); ++row) {
@@ -70,7 +70,7 @@ class LightMeter {
   }
 
  private:
-  std::optional<Grader> grader_;  // with the CDL of the frame measured last
+  std::optional<Grader> grader_;  // with the CDL of the frame that was measured last
 };
 
 }  // namespace
@@ -94,6 +94,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   found.frames = samples;
   found.brightest = *std::max_element(lights.begin(), lights.end(), darker);
   double highest = -HUGE_VAL;
+  // A fade counts like an exposure that is lower by its logarithm in stops.
   const auto stops = [](const FrameLight& light) { return light.ev + std::log2(light.fade); };
   for (const FrameLight& light : lights) highest = std::max(highest, stops(light));
   std::erase_if(lights,

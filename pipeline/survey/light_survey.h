@@ -1,4 +1,4 @@
-// How bright a show is, measured on small frames of it.
+// A light survey says how bright a show is, measured on small frames of it.
 #pragma once
 
 #include <optional>
@@ -14,29 +14,30 @@ struct FrameLight {
   int segment = 0;
   double ev = 0;
   double fade = 1;  // the part of its light that a fade from or to black leaves
-  // Luminance of the pixels inside the image (a dome's circle), in pixel values: its mean, and the
-  // value that 1 % of them exceed.
+  // These are luminances of the pixels inside the image (a dome's circle), in pixel values: their
+  // mean, and the value that 1 % of them exceed.
   double mean = 0, percentile99 = 0;
-  // Part of the pixels, 0 to 1, of which a channel lies within 1 % of the grade's white.  Without a
-  // grade: of which a channel exceeds 1.
+  // This part of the pixels, 0 to 1, has a channel within 1 % of the grade's white.  Without a
+  // grade it is the part of which a channel exceeds 1.
   double white = 0;
 };
 
 struct LightSurvey {
   FrameLight brightest;  // by its mean
-  // Fades are left out: it is sought among the frames whose exposure is within 3 stops of the
-  // highest.
+  // The darkest frame is sought among those whose exposure is within 3 stops of the highest, which
+  // leaves out fades.
   FrameLight darkest;
-  int frames = 0;  // how many were measured
+  int frames = 0;  // number of measured frames
 };
 
-// What the renderer of survey_light needs: texels of 0.7 degrees, where a pixel of its frames has
-// 4, and some thousand stars, since each of them covers several pixels.
+// The renderer of survey_light needs no more detail than this.  Texels are 0.7 degrees wide, while
+// a pixel of its frames has 4.  Some thousand stars are enough, since each of them covers several
+// pixels.
 inline constexpr SkyDetail kSurveyDetail{128, 512};
 
-// Measures one frame for each second, but 2 at least and 60 at most, at a width of 48 pixels.
-// `grader` is null for a show without a grade.  Means agree with those of large frames to a few
-// percent, since stars are as bright at a small size, only larger.
+// Measures one frame for each second of the show, but at least 2 and at most 60, at a width of 48
+// pixels.  `grader` is null for a show without a grade.  Means agree with those of large frames to
+// a few percent, since stars at a small size are as bright and only larger.
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);
 
 }  // namespace domefall

@@ -1,18 +1,18 @@
-// Frames at a reduced size, by which a survey samples a show in less time than rendering takes.
+// A survey samples a show with frames at a reduced size, which take less time than rendering it.
 #pragma once
 
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
 
-// The same projection with `width` columns.  A flat one keeps its field of view and, to rounding,
-// the shape of its pixels, but has 16 rows at least.
+// Returns the same projection with `width` columns.  A flat one keeps its field of view and, to
+// rounding, the shape of its pixels, but has at least 16 rows.
 Projection reduced(const Projection& projection, int width);
 
-// The same frame in that projection, and so is the one that dissolves into it.
+// Returns the same frame in that projection.  The view that dissolves into it is reduced, too.
 FrameState reduced(FrameState state, int width);
 
-// The same frame with no star in any sky.
+// Returns the same frame with no star in any sky.
 FrameState without_stars(FrameState state);
 
 }  // namespace domefall

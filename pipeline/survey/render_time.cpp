@@ -17,26 +17,28 @@
 namespace domefall {
 namespace {
 
-// The width in pixels of the largest of the three sizes.  The others have a half and a quarter of
-// it.
+// This is the width in pixels of the largest of the three sizes.  The others have a half and a
+// quarter of it.
 constexpr int kLarge = 1024;
 constexpr int kFrames = 3;  // measured at each size
 constexpr double kWorth = 0.05;
 
 int largest_width(const Show& show) { return std::min(columns(show.projection), kLarge); }
 
-// How often the width doubles from the largest measured size to the full one.
+// Returns the number of times that the width doubles from the largest measured size to the full
+// one.
 double doublings_of(const Show& show) {
   return std::log2(1.0 * columns(show.projection) / largest_width(show));
 }
 
-// The state of one of the measured frames, k from 0 to kFrames.  The first two are one.
+// Returns the state of one of the measured frames, k from 0 to kFrames.  The first two are the
+// same.
 FrameState measured_state(const Show& show, int k) {
   const auto last = static_cast<long>(frame_count(show) - 1);
   return frame_state(show, static_cast<int>(last * std::max(0, 2 * k - 1) / (2 * kFrames)));
 }
 
-// The instants of a frame of full size, whose mean an open shutter shows.
+// Returns the mean number of instants in a frame of full size with an open shutter.
 double mean_instants(const Show& show) {
   if (!(show.exposure.shutter > 0)) return 1;
   OpticsStore optics;
@@ -45,8 +47,8 @@ double mean_instants(const Show& show) {
   return sum / kFrames;
 }
 
-// Seconds a frame takes by the clock, and of all processors together.  Other programs hardly change
-// the latter.
+// A frame takes these seconds by the clock, and of all processors together.  Other programs hardly
+// change the latter.
 struct Cost {
   double wall = 0, processor = 0;
   double linear_bytes = 0, graded_bytes = 0;  // of its files
@@ -59,14 +61,14 @@ class Measurement {
   Measurement(const Show& show, Renderer& renderer, const Grader* grader)
       : show_(show), renderer_(renderer), grader_(grader) {}
 
-  // The cost of a frame in a run in which one frame is written while the next is rendered.
+  // Returns the cost of a frame in a run in which one frame is written while the next is rendered.
   Cost of_frames(int width, bool stars = true) const {
     using Clock = std::chrono::steady_clock;
     std::future<void> writing;
     Clock::time_point start;
     double processor = 0;
     Cost cost;
-    // One frame more is made: the clocks run from the writing of the first one on.
+    // One frame more is made, because the clocks run only from the writing of the first frame on.
     for (int k = 0; k <= kFrames; ++k) {
       auto frame = std::make_shared<RenderedFrame>();
       render_for_files(renderer_, show_, state(k, width, stars), *frame);
@@ -82,7 +84,7 @@ class Measurement {
     return cost;
   }
 
-  // That of its light alone.
+  // Returns the cost of a frame's light alone.
   Cost of_light(int width, bool stars = true) const {
     RenderedFrame frame;
     render_for_files(renderer_, show_, state(0, width, stars), frame);
@@ -134,9 +136,11 @@ class Measurement {
   ScratchFolder folder_;
 };
 
-// The processor time at a width that is `doublings` doublings above that of the last of three
-// costs, each of twice the width of the one before.  A part of the work is proportional to the
-// pixels, another to the length of edges, and another to the stars.
+// Returns the processor time at a width that is `doublings` doublings above that of the last of
+// three costs, each of twice the width of the one before.  A part of the work is proportional to
+// the pixels, another to the length of edges, and another to the stars.  A doubling multiplies
+// these by 4, 2 and 1.  With the last step d and its growth g, further doublings add d g + d g^2 +
+// ..., which is summed as a geometric series.
 double processor_at(const std::array<Cost, 3>& costs, double doublings) {
   const auto& [quarter, half, whole] = costs;
   const double step = std::max(0.0, whole.processor - half.processor);
@@ -145,7 +149,7 @@ double processor_at(const std::array<Cost, 3>& costs, double doublings) {
   return whole.processor + step * growth * (std::pow(growth, doublings) - 1) / (growth - 1);
 }
 
-// A file's size at a width that is `doublings` doublings above `whole`'s.
+// Returns a file's size at a width that is `doublings` doublings above `whole`'s.
 double size_at(double half, double whole, double doublings) {
   const double growth = std::clamp(whole / std::max(half, 1.0), 2.0, 4.0);
   return whole * std::pow(growth, doublings);
@@ -155,14 +159,14 @@ double size_at(double half, double whole, double doublings) {
 
 bool is_worth_measuring(const Show& show) {
   const double part = std::pow(1.0 * largest_width(show) / columns(show.projection), 2);
-  // Those of a half and a quarter of the width have a quarter and a sixteenth of the pixels.
+  // Frames of a half and a quarter of the width have a quarter and a sixteenth of the pixels.
   const double sizes = doublings_of(show) > 0 ? 1 + 1.0 / 4 + 1.0 / 16 : 1;
   return (kFrames + 1) * part * sizes < kWorth * frame_count(show);
 }
 
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader) {
   set_file_threads(renderer.threads());
-  // Where a frame is the mean of many instants, one of them is measured.
+  // Where a frame is the mean of many instants, a show with a shutter of one instant is measured.
   const double instants = mean_instants(show);
   Show instant = show;
   instant.exposure.shutter /= instants;
@@ -171,7 +175,7 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   std::optional<Grader> as_at_full_size;
   if (grader) {
     as_at_full_size = grader->as_for(columns(show.projection), rows(show.projection));
-    as_at_full_size->grade(HalfFrame(1, 1));  // A table is made once in a run: not by the clocks.
+    as_at_full_size->grade(HalfFrame(1, 1));  // makes the run's table outside the clocks
   }
   const Measurement measured(instant, own ? *own : renderer,
                              as_at_full_size ? &*as_at_full_size : nullptr);
@@ -185,7 +189,8 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   if (doublings > 0) {
     const Cost half = measured.of_frames(width / 2), half_light = measured.of_light(width / 2);
     // In pictures of a quarter of kLarge stars are found one by one, which takes ten times as long
-    // as it does in large ones (StarImageFinder).
+    // as in large ones (StarImageFinder).  The time for stars is therefore taken from the larger
+    // size.
     const double stars = half_light.processor - measured.of_light(width / 2, false).processor;
     Cost quarter = measured.of_frames(width / 4, false);
     Cost quarter_light = measured.of_light(width / 4, false);
@@ -195,6 +200,7 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
     time.linear_bytes = size_at(half.linear_bytes, whole.linear_bytes, doublings);
     time.graded_bytes = size_at(half.graded_bytes, whole.graded_bytes, doublings);
   }
+  // The light is made for each instant, and the rest once for each frame.
   const double all_light = instants * light, all = processor + all_light - light;
   time.processor_s = all;
   time.light_part = std::clamp(all_light / std::max(all, 1e-9), 0.0, 1.0);

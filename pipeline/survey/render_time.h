@@ -1,4 +1,4 @@
-// How long a show takes to render on this machine, estimated from a few frames of it.
+// A RenderTime says how long a show takes to render on this machine, estimated from a few frames.
 #pragma once
 
 #include "pipeline/grade/grader.h"
@@ -10,27 +10,29 @@ struct RenderTime {
   double seconds = 0;      // of the whole show
   double frame_s = 0;      // of one frame
   double processor_s = 0;  // the processor time of one frame, which other programs hardly change
-  double light_part = 0;   // of it for light; the rest is for the grade and the files
+  double light_part = 0;   // its part for light; the rest is for the grade and the files
   int threads = 0;
   double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 where none is made
 };
 
-// Whether the estimate renders less than a twentieth of the show's pixels.  A single frame of 4096
-// pixels or a few seconds of small ones are rendered almost as soon as measured.
+// Says whether the estimate renders less than a twentieth of the show's pixels.  A single frame of
+// 4096 pixels or a few seconds of small frames are rendered almost as soon as measured.
 bool is_worth_measuring(const Show& show);
 
 // Renders, grades and writes frames spread over the show, as domefall render does it but into a
-// scratch folder, at three reduced sizes, each twice as wide as the one before; one of at most 1024
-// pixels at its own size alone.  The processor time that a doubling adds is taken to grow by a
-// constant factor from one doubling to the next, which the three sizes give and which lies between
-// 2 and 4.  The clock at the largest
-// size turns processor time into seconds on this machine under its present load.  `grader` is null
-// for a show without a grade.
-// Of a frame with an open shutter one instant is measured, and counted as often as it has instants.
-// The files' sizes are carried from the two larger sizes to the full one by the power of the width
-// between them.
-// Measured on orbits and falls with stars, on a machine full of other work (load 10 on 2
-// processors), the estimate was within 20 % at 4096 pixels and within 10 % at 1024 and 2048 as long
+// scratch folder.  Frames of at most 1024 pixels are made at their own size alone.  Larger ones are
+// made at three reduced sizes, each twice as wide as the one before.  The processor time that a
+// doubling adds is taken to grow by a constant factor from one doubling to the next.  The three
+// sizes give this factor, which lies between 2 and 4.  The clock at the largest size turns
+// processor time into seconds on this machine under its present load.  `grader` is null for a show
+// without a grade.
+//
+// Of a frame with an open shutter one instant is measured, and it counts as often as the frame has
+// instants.  The files' sizes are continued from the two larger sizes to the full one by the power
+// of the width that lies between those two.
+//
+// The estimate was measured on orbits and falls with stars, on a machine full of other work (load
+// 10 on 2 processors).  It was within 20 % at 4096 pixels and within 10 % at 1024 and 2048 as long
 // as that load kept still.  Throws TemporaryError where nothing can be written.
 RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grader* grader);
 

@@ -17,9 +17,9 @@ namespace {
 constexpr int kMostPairs = 20'000;
 constexpr double kRadianDeg = 180 / std::numbers::pi;
 
-// Speed of two observers at one place against each other; nothing inside the horizon if their
-// tetrads differ.  With c = gamma v of each along axes of the sky, the Lorentz factor of the one
-// for the other is gamma gamma' - c.c'.
+// Returns the speed of two observers at one place against each other.  Returns nothing inside the
+// horizon if their tetrads differ.  With c = gamma v of each along axes of the sky, one observer
+// has the Lorentz factor gamma gamma' - c.c' for the other.
 std::optional<double> relative_speed(const ObserverState& a, const ObserverState& b) {
   V3d c = a.celerity, d = b.celerity;
   if (a.tetrad != b.tetrad) {
@@ -27,8 +27,8 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
     c = static_celerity(a), d = static_celerity(b);
   }
   const V3d difference = apply(a.sky_from_tetrad, c) - apply(b.sky_from_tetrad, d);
-  // Without cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2, and v = sqrt(gamma^2
-  // - 1) over gamma.
+  // This form avoids cancellation: gamma_rel - 1 = (|c - d|^2 - (gamma - gamma')^2)/2, because
+  // gamma^2 = 1 + c^2, and v = sqrt(gamma_rel^2 - 1)/gamma_rel.
   const double e = std::hypot(1.0, c.length()) - std::hypot(1.0, d.length());
   const double excess = std::max(0.0, (difference.length2() - e * e) / 2);
   return std::sqrt(excess * (excess + 2)) / (1 + excess);
@@ -36,13 +36,14 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
 
 // ---- between frames ----
 
-// What changes from one frame to the next.
+// A FramePair says what changes from one frame to the next.
 struct FramePair {
   double turn = 0, stops = 0;  // radians of the camera, EV of the exposure
   int segment = -1;            // -1 if a cut lies between them
 };
 
-// The angle of the rotation from a to b.  |a - b|^2, summed over the elements, is 8 sin^2(angle/2).
+// Returns the angle of the rotation from a to b.  The sum of |a - b|^2 over the elements is 6 - 2
+// tr(a^T b) = 4 (1 - cos(angle)) = 8 sin^2(angle/2).
 double angle_between(const M33d& a, const M33d& b) {
   double sum = 0;
   for (int i = 0; i < 3; ++i)
@@ -50,7 +51,7 @@ double angle_between(const M33d& a, const M33d& b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(sum / 8)));
 }
 
-// The camera's axes on the sky, as columns.
+// Returns the camera's axes on the sky, as columns.
 M33d on_sky(const ObserverState& o) {
   const auto axis = [&o](int k) {
     return apply(o.sky_from_tetrad, column(o.tetrad_from_camera, k));
@@ -64,6 +65,7 @@ FramePair compare(const FrameState& a, const FrameState& b) {
   pair.segment = a.segment;
   pair.stops = b.settings.ev - a.settings.ev;
   pair.turn = angle_between(on_sky(a.observer), on_sky(b.observer));
+  // The turn against the hole is that in the tetrad, whose first axis is radial.
   if (!is_flat(a.observer) && a.observer.tetrad == b.observer.tetrad)
     pair.turn = std::min(
         pair.turn, angle_between(a.observer.tetrad_from_camera, b.observer.tetrad_from_camera));
@@ -75,8 +77,9 @@ struct Pairs {
   std::vector<FramePair> pairs;
 };
 
-// The second frames of the pairs to compare.  Between keyframes a camera turns smoothly, and each
-// state takes milliseconds: every tenth frame is enough there, and those next to the keyframes.
+// Returns the second frames of the pairs to compare.  Between keyframes a camera turns smoothly,
+// and each of its states takes milliseconds.  Every tenth frame is enough there, besides those next
+// to the keyframes.
 std::vector<int> chosen_frames(const Show& show) {
   constexpr int kWithinTurns = 10;
   const int count = frame_count(show), step = (count + kMostPairs - 1) / kMostPairs;
@@ -98,6 +101,8 @@ Pairs compare_frames(const Show& show) {
   Pairs found;
   found.frames = chosen_frames(show);
   found.pairs.resize(found.frames.size());
+  // Chunks are compared in parallel.  Within a chunk, the later state of one pair is the earlier of
+  // the next.
   tbb::parallel_for(
       std::size_t{0}, (found.frames.size() + kTogether - 1) / kTogether, [&](std::size_t chunk) {
         std::optional<FrameState> before;
@@ -113,8 +118,8 @@ Pairs compare_frames(const Show& show) {
   return found;
 }
 
-// One warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value) is
-// what the warning says.
+// Adds one warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value)
+// gives the words of the warning.
 template <class TextOf>
 void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quantity, double limit,
                   const TextOf& text_of, std::vector<ShowWarning>& warnings) {
@@ -134,7 +139,7 @@ void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quant
 
 // ---- keyframes ----
 
-// Warns of what jumps at keyframes with `ease: hold`.
+// Warns of values that jump at keyframes with `ease: hold`.
 class Holds {
  public:
   Holds(const Show& show, std::vector<ShowWarning>& warnings) : show_(show), warnings_(warnings) {}
@@ -160,7 +165,8 @@ class Holds {
         add(segment, curve.keys[i].at_s, fmt::format("{} jumps at a keyframe that holds", name));
   }
 
-  // A jump is not seen where the segment begins, nor where another segment or none is seen.
+  // Adds a warning unless the jump is not seen: where the segment begins, or where another segment
+  // or none is shown.
   void add(int segment, double at_s, const std::string& text) {
     const double begin = begin_of(show_, segment);
     const int frame = static_cast<int>(std::ceil(at_s * show_.frames_per_second - kCutTolerance));
@@ -178,8 +184,9 @@ void warn_of_rates(const Show& show, std::vector<ShowWarning>& warnings) {
     const double least = std::min(j.rate_before, j.rate_after),
                  most = std::max(j.rate_before, j.rate_after);
     if (j.place_jumps() || j.velocity_jumps() || j.dissolve_s > 0) continue;
-    // Rates at the ends of a segment are quotients of differences, so that a clock that starts from
-    // standstill has a small one, and only a clock that stands still before and after has 0.
+    // The rate at an end of a segment is a quotient of differences.  A clock that starts from
+    // standstill therefore has a small rate, and only a clock that stands still before and after
+    // has 0.
     if (most <= kLargestRateStep * least || most == 0) continue;
     const int frame =
         static_cast<int>(std::ceil(j.time_s * show.frames_per_second - kCutTolerance));
@@ -224,7 +231,7 @@ std::vector<SegmentJoint> segment_joints(const Show& show) {
 std::vector<ShowWarning> show_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
   const Pairs found = compare_frames(show);
-  const double deg_per_s = kRadianDeg * show.frames_per_second;  // of a radian a frame
+  const double deg_per_s = kRadianDeg * show.frames_per_second;  // equals a radian a frame
   constexpr double kRounding = 1e-9;
   warn_of_runs(
       show, found, &FramePair::turn, kFastestTurnDeg / deg_per_s * (1 + kRounding),

@@ -11,12 +11,14 @@
 namespace domefall {
 namespace {
 
-// A segment has as many samples as frames, within these bounds: enough that an orbit has one
-// turning point at most between two of them.
+// A segment has as many samples as frames, within these bounds.  They are enough that an orbit has
+// at most one turning point between two samples.
 constexpr int kLeastSurveySamples = 512, kMostSurveySamples = 20'000;
-// About half the bits of a double: r changes by less than rounding closer to a minimum.
+// This is about half the bits of a double.  Near a minimum r is quadratic in time, so that a closer
+// time would change it by less than rounding.
 constexpr int kMinimumBits = 26;
 
+// Adds a region unless it is the one that was visited last.
 void visit(std::vector<Region>& regions, Region region) {
   if (regions.empty() || regions.back() != region) regions.push_back(region);
 }
@@ -26,17 +28,18 @@ int frame_at(const Show& show, double time_s) {
   return std::clamp(static_cast<int>(frame), 0, frame_count(show) - 1);
 }
 
-// The part of its trajectory that a segment shows, sampled in proper time.
+// A SampledPath is the part of its trajectory that a segment shows, sampled in proper time.
 class SampledPath {
  public:
   SampledPath(const Segment& segment, int frames) : segment_(segment) {
     const ProperTime &begin = segment.timing.tau_begin, &end = segment.timing.tau_end;
     const int samples = std::clamp(frames, kLeastSurveySamples, kMostSurveySamples);
+    // The radius repeats itself after a period, so that samples of one period are enough.
     const double step = std::min(double(end - begin), period()) / samples;
     for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end, begin + step * k));
     taus_.push_back(end);
-    // A path between two singularities is highest at 0, and may visit region I for a short time
-    // only.
+    // A path between two singularities is highest at proper time 0, and it may visit region I only
+    // for a short time.
     if (begin < 0 && 0 < end) taus_.emplace_back(0);
     add_periastron(begin, end);
     std::sort(taus_.begin(), taus_.end());
@@ -48,7 +51,8 @@ class SampledPath {
     return regions;
   }
 
-  // Proper time and value of the least r.
+  // Returns the proper time and the value of the least r.  Brent's method refines the least sample
+  // between its neighbours.
   std::pair<ProperTime, double> closest() const {
     std::size_t least = 0;
     for (std::size_t k = 1; k < taus_.size(); ++k)
@@ -63,7 +67,8 @@ class SampledPath {
   }
 
  private:
-  // An orbit that comes from far away is near its periastron for much less than a sample's time.
+  // Adds the passage of the periastron.  An orbit that comes from far away is near it for much less
+  // than a sample's time.
   void add_periastron(const ProperTime& begin, const ProperTime& end) {
     const auto* orbit = std::get_if<Geodesic>(&segment_.trajectory);
     if (!orbit || !(orbit->innermost() > 0)) return;
@@ -75,7 +80,7 @@ class SampledPath {
     return placed(point_at(segment_.trajectory, tau), segment_.placement);
   }
 
-  // The proper time after which r repeats itself.
+  // Returns the proper time after which r repeats itself, or infinity if it never does.
   double period() const {
     const auto* orbit = std::get_if<Geodesic>(&segment_.trajectory);
     return orbit ? orbit->radial_period() : HUGE_VAL;
@@ -85,7 +90,8 @@ class SampledPath {
   std::vector<ProperTime> taus_;
 };
 
-// The part of a segment, 0 to 1, after which its clock shows tau, by bisection.
+// Returns the part of a segment, 0 to 1, after which its clock shows tau.  It is found by
+// bisection.
 double part_of(const Segment& segment, const ProperTime& tau) {
   constexpr int kSteps = 60;
   if (tau <= segment.timing.tau_begin) return 0;
@@ -118,7 +124,7 @@ SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   return s;
 }
 
-// Keeps the fastest observer and the most shifted light of the frames that are added.
+// An Extremes keeps the fastest observer and the most shifted light of the frames that are added.
 class Extremes {
  public:
   explicit Extremes(const Show& show, ShowSurvey& found) : show_(show), found_(found) {}
@@ -132,6 +138,7 @@ class Extremes {
       if (!plan[is_far ? far : home].lit()) continue;
       const auto range = frequency_range(o, is_far, !show_.effects.lensing);
       if (!range) continue;
+      // The frequency ratio is 1/(1 + z).
       raise(found_.reddest, 1 / range->least, state);
       lower(found_.bluest, 1 / range->largest, state);
     }
@@ -171,8 +178,8 @@ ShowSurvey survey(const Show& show, const std::function<void(const FrameState&)>
     if (show.mass_solar && (!found.closest || s.closest.value < found.closest->value))
       found.closest = s.closest;
   }
-  // The camera's direction does not matter here, and the axes that follow a keyframed target take
-  // milliseconds to find.
+  // The camera's direction does not matter here, so targets are removed: axes that follow a
+  // keyframed target take milliseconds to find.
   Show without_targets = show;
   for (Segment& segment : without_targets.timeline)
     segment.attitudes.clear(), segment.camera.attitude = EulerAngles{};

@@ -1,5 +1,5 @@
-// What a show does, in numbers: where it goes, how near and how fast, and how far the light of its
-// skies is shifted.  No frame is rendered for it.
+// A survey tells in numbers what a show does: where it goes, how near and how fast, and how far the
+// light of its skies is shifted.  It renders no frame.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace domefall {
 
-// A value and the place in the show where it is reached.
+// An extreme is a value and the place in the show where it is reached.
 struct Extreme {
   double value = 0;
   double time_s = 0;  // show seconds
@@ -23,13 +23,13 @@ struct SegmentSurvey {
   std::string type;               // of the trajectory, in the words of show files
   double begin_s = 0, end_s = 0;  // show seconds
   double dissolve_s = 0;
-  // Radii in units of M; infinite in flat space.  `closest` may lie between two frames: the turning
-  // points of an orbit are sought to 1e-7 of its proper time.
+  // Radii are in units of M, and infinite in flat space.  `closest` may lie between two frames: the
+  // turning points of an orbit are sought to 1e-7 of its proper time.
   double r_begin = kFlatSpace, r_end = kFlatSpace;
   Extreme closest;
   std::vector<Region> regions;  // in the order visited, each time it is entered
   double proper_time = 0;       // M (seconds in flat space) that pass in the segment
-  // M of proper time (seconds in flat space) per second of show, at both ends.
+  // These are M of proper time (seconds in flat space) per second of show, at both ends.
   double rate_begin = 0, rate_end = 0;
 };
 
@@ -37,21 +37,21 @@ struct ShowSurvey {
   std::vector<SegmentSurvey> segments;
   std::vector<Region> regions;     // in the order visited
   std::optional<Extreme> closest;  // r (M); none in flat space
-  // Largest gamma v of a frame's observer against the static one of its place (r > 2, or flat
-  // space).  There is none if no frame is outside.
+  // This is the largest gamma v of a frame's observer against the static one of its place (r > 2,
+  // or flat space).  It is missing if no frame is outside.
   std::optional<Extreme> fastest;
-  // Least and largest 1 + z of light from a sky that the show lights, over every frame and all
-  // directions, inside the image or not.
+  // These are the least and the largest 1 + z of light from a sky that the show lights, over every
+  // frame and all directions, inside the image or not.
   std::optional<Extreme> bluest, reddest;
 };
 
-// The survey of every segment and every frame.  It takes about 5 microseconds a frame and 5 ms a
-// segment.  Calls `see`, where there is one, for the state of each frame, whose camera does not
+// Surveys every segment and every frame.  It takes about 5 microseconds for a frame and 5 ms for a
+// segment.  It calls `see`, if there is one, with the state of each frame, whose camera does not
 // follow keyframed targets.
 ShowSurvey survey(const Show& show, const std::function<void(const FrameState&)>& see = {});
 
-// M of proper time per second of show (seconds in flat space) when `part` of a segment, 0 to 1, has
-// passed.  It is the quotient of differences over 1e-6 of the segment.
+// Returns M of proper time per second of show (seconds in flat space) when `part` of a segment, 0
+// to 1, has passed.  It is the quotient of differences over 1e-6 of the segment.
 double clock_rate(const Segment& segment, double part);
 
 }  // namespace domefall

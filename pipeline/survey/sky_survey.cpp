@@ -15,10 +15,10 @@
 namespace domefall {
 namespace {
 
-// Of the whole sky.
+// The whole sky has 4 pi steradians of (180/pi)^2 square degrees.
 constexpr double kSquareDegrees = 360 * 360 / std::numbers::pi;
 
-// A background of a region, with the segments that have it.
+// A ShownSky is a background of a region, with the segments that have it.
 struct ShownSky {
   SkyRegion region;
   const SkyBackground* background;
@@ -26,7 +26,7 @@ struct ShownSky {
   double max_magnitude;  // the deepest that any of them reaches
 };
 
-// A segment inside the hole segment_sees both skies.
+// Says whether a segment sees the sky of a region.  A segment inside the hole sees both skies.
 bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
   if (region == SkyRegion::kIV) return show.mass_solar.has_value();
   const Region home = region == SkyRegion::kI ? Region::kI : Region::kIII;
@@ -34,8 +34,8 @@ bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion regi
                      [home](Region r) { return r == home || r == Region::kII; });
 }
 
-// The deepest limit between a segment's first and last instant.  Between keys a curve passes beyond
-// neither.
+// Returns the deepest limit between a segment's first and last instant.  A curve does not exceed
+// its keys between them, so only keys and ends are looked at.
 double deepest_limit(const Show& show, int segment, SkyRegion region) {
   const Segment& s = segment_of(show, segment);
   const double own = show.sky[region].stars.value_or(StarField{}).max_magnitude;
@@ -70,10 +70,11 @@ std::vector<ShownSky> shown_skies(const Show& show, const ShowSurvey& survey) {
   return shown;
 }
 
-// The V of a catalogue's stars, ascending; a file is read once.
+// A Magnitudes object gives the V of a catalogue's stars, ascending.  It reads a file only once.
 class Magnitudes {
  public:
   Magnitudes(const Show& show, const std::vector<ShownSky>& shown) : epoch_(show.star_epoch) {
+    // Several skies may use one catalogue to different limits, of which the deepest is read.
     for (const ShownSky& sky : shown)
       if (const auto& stars = show.sky[sky.region].stars)
         limits_[stars->catalogue] = std::max(
@@ -113,12 +114,13 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   if (found.stars == 0) return found;
   found.faintest = *(end - 1);
   if (!found.map_fainter_than) return found;
+  // A star of magnitude v is as bright as 10^(0.4 (10 - v)) stars of V = 10.
   for (auto v = std::upper_bound(all.begin(), end, *found.map_fainter_than); v != end; ++v)
     found.twice += std::pow(10, 0.4 * (10 - *v)) / kSquareDegrees;
   return found;
 }
 
-// Whether a sky of region III is one of region I, seen from the other side.
+// Says whether a sky of region III is one of region I, seen from the other side.
 bool is_as_in_region_one(const Show& show, const ShownSky& sky,
                          const std::vector<ShownSky>& shown) {
   if (sky.region != SkyRegion::kIII ||

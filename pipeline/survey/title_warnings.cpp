@@ -16,10 +16,11 @@
 namespace domefall {
 namespace {
 
-constexpr double kLeastCapital = 2;  // pixels, below which no letter is legible
+constexpr double kLeastCapital = 2;  // pixels; no letter below is legible
 
-// Titles are drawn at the frames' instants.  The search begins a frame early, since the nearest
-// frame may stand before the title, and its time may round to either side.
+// Returns the first frame that shows any of the title's light.  Titles are drawn at the frames'
+// instants.  The search begins a frame early, because the nearest frame may stand before the title,
+// and its time may be rounded to either side.
 std::optional<int> first_frame_with(const Show& show, const Title& title) {
   const auto time_of = [&](int frame) { return frame / show.frames_per_second; };
   const int count = frame_count(show);
