@@ -24,7 +24,7 @@ inline constexpr double kBlindingMagnitude = -7.5;
 // full.
 class AxisStars {
  public:
-  // Reads the bright stars of the show's catalogues; the show must outlive this object.  Throws
+  // Reads the bright stars of the show's catalogues.  The show must outlive this object.  Throws
   // InputError if a catalogue cannot be read.
   explicit AxisStars(const Show& show);
 

@@ -41,6 +41,8 @@ class LightMeter {
     if (grader) grader_ = *grader;
   }
 
+  // Measures a frame into `light`.  The grade's white is asked for anew, since the CDL of each
+  // frame changes it.
   void measure(const HalfFrame& frame, const FrameState& state, FrameLight& light) {
     const std::vector<std::size_t> inside = inside_pixels(state.projection);
     std::vector<double> values;
@@ -63,6 +65,7 @@ class LightMeter {
         white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
       }
     }
+    // Only the value at this rank is needed, so the values need not be sorted as a whole.
     const auto rank = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
     std::nth_element(values.begin(), rank, values.end());
     light.percentile99 = *rank;
@@ -82,6 +85,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
   LightMeter meter(grader);
   std::vector<FrameLight> lights;
   for (int k = 0; k < samples; ++k) {
+    // The samples are spread evenly from the first frame to the last.
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
     const FrameState state = reduced(frame_state(show, frame), kSurveyWidth);

@@ -10,6 +10,7 @@ Projection reduced(const Projection& projection, int width) {
   constexpr int kLeastRows = 16;
   const Projection small = with_width(projection, width);
   if (!has_free_shape(small)) return small;
+  // Of a very wide picture hardly a row would be left.
   return with_sides(small, width, std::max(kLeastRows, rows(small)));
 }
 

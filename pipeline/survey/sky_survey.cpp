@@ -49,6 +49,8 @@ double deepest_limit(const Show& show, int segment, SkyRegion region) {
   return deepest;
 }
 
+// Returns each background once for each region whose sky it is, with all segments that see it
+// there.
 std::vector<ShownSky> shown_skies(const Show& show, const ShowSurvey& survey) {
   std::vector<ShownSky> shown;
   for (const SkyRegion region : kEverySky)
@@ -95,6 +97,8 @@ class Magnitudes {
   std::map<std::filesystem::path, std::vector<double>> read_;
 };
 
+// Returns the files of a sky.  A star is counted twice if it is drawn and is fainter than the limit
+// that the map's file states.
 SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitudes) {
   SkySources found;
   found.region = sky.region;

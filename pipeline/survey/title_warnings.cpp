@@ -32,6 +32,7 @@ std::optional<int> first_frame_with(const Show& show, const Title& title) {
   return std::nullopt;
 }
 
+// Says whether any letter has an outline.
 bool has_ink(const LetteredText& letters) {
   return std::ranges::any_of(letters.outlines,
                              [](const TextOutline& outline) { return !outline.curves.empty(); });
@@ -39,6 +40,7 @@ bool has_ink(const LetteredText& letters) {
 
 void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>& warnings) {
   const std::optional<int> shown_at = first_frame_with(show, title);
+  // A title that is seen in no frame is judged by the frame nearest to its beginning.
   const int frame = shown_at.value_or(nearest_frame(show, title.begin_s));
   const FrameState state = frame_state(show, frame);
   const LetteredText& letters = title_letters(title);

@@ -27,7 +27,7 @@ struct CatalogueStar {
   float colour = kNoColour;              // star_colour.h
   StarId id = kNoStarId;
 
-  // Importers use these two; files do not hold them.
+  // Importers use these two.  Files do not hold them.
   std::uint32_t hip = 0;    // Hipparcos number, 0 for none; the components of a star may share it
   bool v_is_rough = false;  // V comes from another band, without a colour to convert it by
 };

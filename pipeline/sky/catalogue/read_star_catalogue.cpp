@@ -14,11 +14,14 @@
 namespace domefall {
 namespace {
 
+// Says whether a number lies in one of the three ranges of star_colour.h.
 bool is_colour(float colour) {
   return (colour >= kBluest && colour <= kReddest) || colour == kNoColour ||
          (colour >= kColdest && colour <= kHottest);
 }
 
+// Says whether the numbers of a record, whose vector has this squared length, can be those of a
+// star.
 bool is_star(const StarRecord& r, double length2) {
   // Rounding to 2^-31 changes the square of a unit vector's length by at most 2e-9.
   constexpr double kLengthTolerance = 1e-8;
@@ -73,6 +76,7 @@ StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch)
     if (!is_star(r, length2)) file.fail_at(r, "this record is no star");
     // The length differs from 1 by the rounding of the components.
     SkyDirection direction{v / std::sqrt(length2)};
+    // Moving a star by nothing would take time and could change its last digits.
     if (years != 0 && (r.pm_ra != 0 || r.pm_dec != 0))
       direction = moved(direction, r.pm_ra, r.pm_dec, years);
     catalogue.stars.push_back({direction, r.v, static_cast<float>(temperature_of(r.colour))});

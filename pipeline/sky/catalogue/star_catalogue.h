@@ -31,8 +31,8 @@ struct StarCatalogue {
 
 // Returns fewer stars that send the same light, for pictures too small to tell them apart.  It
 // keeps the `whole` brightest stars.  Of the next `whole` stars it keeps every second, which gets
-// the light of two; of the 2 `whole` stars beyond them every fourth, which gets the light of four;
-// and so on.  `stars` are sorted by magnitude, and so is the result.  whole >= 1.
+// the light of two.  Of the 2 `whole` stars beyond them it keeps every fourth, which gets the light
+// of four, and so on.  `stars` are sorted by magnitude, and so is the result.  whole >= 1.
 std::vector<Star> thinned(const std::vector<Star>& stars, std::size_t whole);
 
 // Returns a name in lower case without blanks and underscores, so that "Alpha Cen" and "alphacen"

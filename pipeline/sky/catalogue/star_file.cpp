@@ -23,6 +23,7 @@ T at(std::string_view bytes, std::size_t offset) {
   return value;
 }
 
+// Takes the next line off the text and returns it.
 std::string next_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string line(text.substr(0, end));
@@ -70,6 +71,8 @@ std::string packed_names(const std::vector<StarName>& names) {
   return out;
 }
 
+// Returns the index, whose entries have the checksum of a block and V of its last and faintest
+// star.
 std::string index_of(const std::vector<CatalogueStar>& stars, std::string_view records) {
   std::string index;
   for (std::size_t first = 0; first < stars.size(); first += kBlockStars) {
@@ -123,6 +126,7 @@ void StarFile::fail_at(const StarRecord& record, const std::string& what) const 
        what);
 }
 
+// Returns a part of the file once its bounds and its checksum are right.
 std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint64_t sum,
                                 const char* what) const {
   const std::string_view bytes = file_.bytes();
@@ -152,6 +156,7 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
                      head.version, kStarFileVersion));
   if (checksum(bytes.substr(0, offsetof(StarFileHeader, head_sum))) != head.head_sum)
     fail(0, "the header is damaged");
+  // The byte named is the one where the file ends or should end.
   if (head.file_size != bytes.size())
     fail(std::min<std::uint64_t>(head.file_size, bytes.size()),
          fmt::format("the star catalogue {}; it has {} bytes instead of {}",
@@ -170,6 +175,7 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
   head_sum_ = head.head_sum;
   index_ = part(head.index_at, block_count(stars_) * sizeof(StarBlock), head.index_sum, "index");
   names_ = part(head.names_at, head.names_size, head.names_sum, "table of names");
+  // No checksum covers the filling, whose bytes must be 0.
   const std::size_t end = head.names_at + head.names_size;
   for (std::size_t i = end; i < records_at_; ++i)
     if (bytes[i] != 0) fail(i, "the filling before the stars is damaged");

@@ -1,7 +1,7 @@
 // The binary star catalogue, *.stars, is mapped into memory, so that a limit of magnitude touches
 // only the stars that it needs.
 //
-// Little-endian.  Offsets and sizes are in bytes:
+// All numbers are little-endian.  Offsets and sizes are in bytes:
 //
 //   0    8  89 "STARS" 0D 0A          text does not begin so, and a change of line ends shows
 //   8    4  0x01020304                in the order of the bytes of all numbers

@@ -60,6 +60,7 @@ std::string star_id_name(StarId id) {
 }
 
 std::optional<StarId> parse_star_id(std::string_view text) {
+  // Letters count as capitals, and blanks are dropped.
   std::string folded;
   for (const char c : text)
     if (c != ' ') folded.push_back(static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c));

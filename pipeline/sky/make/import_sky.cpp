@@ -25,6 +25,7 @@ bool is_fits(const std::filesystem::path& path) {
   return start_of_file(path, kStart.size()) == kStart;
 }
 
+// Returns the origin that the file will state.
 SkyOrigin written_origin(const SkyImport& import, const Orientation& orientation) {
   return {fmt::format("source: {}\n{}", import.image.filename().string(), import.text), orientation,
           import.fainter_than};
@@ -106,9 +107,12 @@ Orientation import_healpix(const SkyImport& import) {
   orientation.frame = frame_of(import, healpix);
   CmbSettings cmb = import.cmb.value_or(CmbSettings{});
   if (import.cmb) cmb.kelvin = kelvin_of(import, healpix.units);
+  // Missing pixels become 0, which is dark in a colour map and the mean temperature in a thermal
+  // one.
   const HealpixMap map(std::move(healpix), 0);
   const double luminance = import.unit.value_or(kPanoramaUnit);
   SkyOrigin origin = written_origin(import, orientation);
+  // The settings of the microwave background become a line of their own in the text.
   if (import.cmb) origin.text += cmb_text(cmb);
   NewSkyFile file(import.out, import.cmb ? SkyMapKind::kThermal : SkyMapKind::kColour,
                   import.cmb ? cmb_unit(cmb) : healpix_unit(map, luminance),

@@ -22,6 +22,7 @@ double theta(double temperature) { return std::log2(temperature / kThermalBase);
 
 double cmb_unit(const CmbSettings& cmb) {
   const double hottest = mean_temperature(cmb) * (1 + kCmbLargest);
+  // The greater of the two channels of the hottest texel decides.
   const double radiance = thinning(cmb) * blackbody_radiance(hottest);
   return sky_unit(radiance * std::max(1.0, theta(hottest)));
 }
@@ -30,6 +31,7 @@ void paint_cmb(const HealpixMap& map, SkyFrame frame, const CmbSettings& cmb,
                const SkyPyramid& pyramid) {
   const M33d turn = frame_from_equatorial(frame);
   const double scale = thinning(cmb) / pyramid.unit, mean = mean_temperature(cmb);
+  // The map's value times this is contrast dT/2.725 K.
   const double amplified = cmb.contrast * cmb.kelvin / kCmbTemperature;
   const auto painter = [&](const V3d& d, float* channel) {
     const double part = std::clamp(amplified * map.at(apply(turn, d)), -kCmbLargest, kCmbLargest);

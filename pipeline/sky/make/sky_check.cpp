@@ -133,6 +133,7 @@ double density_at(const V3d& d, const StarCatalogue& catalogue) {
   const std::size_t count = std::min(catalogue.stars.size(), kDensest);
   double sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
+    // The exponent is angle^2/(2 kBandBlur^2).
     const double x = (1 - d.dot(catalogue.stars[k].direction.v)) / (kBandBlur * kBandBlur);
     if (x < kKernelEnd) sum += std::exp(-x);
   }
@@ -188,6 +189,8 @@ class Judge {
   M33d map_from_picture_;
 };
 
+// Returns all orientations but the stated one, with the middle turned by quarters: 2 x 2 x 2 x 4 -
+// 1 = 31.
 std::vector<Orientation> alternatives(const Orientation& stated) {
   std::vector<Orientation> all;
   for (const SkyFrame frame : {SkyFrame::kEquatorial, SkyFrame::kGalactic})
@@ -229,6 +232,7 @@ SkyCheck check_orientation(const SkyMap& map, const Orientation& stated,
   const double own = score(check.stated), best = score(check.others[0]);
   const double enough = check.by_stars ? kStarsEnough : kBandEnough;
   const double margin = check.by_stars ? kStarsMargin : kBandMargin;
+  // The verdict is unclear if no orientation fits well, or if another fits a little better.
   if (best >= enough && best - own >= margin)
     check.verdict = SkyVerdict::kOther;
   else if (own >= enough && own >= best)

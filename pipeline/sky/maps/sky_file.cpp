@@ -37,6 +37,7 @@ SkyOrigin with_limit_line(SkyOrigin origin) {
   return origin;
 }
 
+// Returns the limit that the first line of the text states, or nothing if there is no such line.
 std::optional<double> limit_of(std::string_view text) {
   double limit = 0;
   if (!text.starts_with(kLimitLine)) return std::nullopt;
@@ -62,10 +63,12 @@ struct LevelEntry {
 };
 static_assert(sizeof(LevelEntry) == 64);
 
+// A map has a level for every power of two from kLargestFace down to 1.
 constexpr std::size_t kMostLevels = std::bit_width(static_cast<unsigned>(kLargestFace));
 constexpr std::size_t kMostHeader =
     (sizeof(Header) + kMostLevels * sizeof(LevelEntry) + kMostText + kPage - 1) / kPage * kPage;
 
+// Every part begins on a page, so that levels are mapped as they lie in the file.
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
 std::size_t level_bytes(int size) { return 6 * SkyLevel::face_texels(size) * sizeof(SkyTexel); }
@@ -104,6 +107,7 @@ std::vector<SkyPyramid::Level> lay_out(std::byte* file, int size, std::size_t te
   return levels;
 }
 
+// Returns the bits for an orientation, and kNoPicture for none.
 std::uint32_t panorama_flags(const std::optional<Orientation>& o) {
   if (!o) return kNoPicture;
   return (o->frame == SkyFrame::kGalactic ? kGalactic : 0) |
@@ -189,6 +193,7 @@ Header sky_header(const SkyMap& map, const SkyOrigin& origin) {
   return h;
 }
 
+// Returns the header's entry for a level that lies in the file in memory.
 LevelEntry entry_of(const SkyLevel& level, const std::byte* file) {
   const auto* start = reinterpret_cast<const std::byte*>(level.texels);
   LevelEntry e{
@@ -233,6 +238,7 @@ bool is_sky_file(const std::filesystem::path& path) {
   return is_of_format(path, {kMagic.data(), kMagic.size()}, kExtension, sizeof(Header));
 }
 
+// An Opened is a .sky file whose header has been checked, before SkyFile takes it apart.
 struct SkyFile::Opened {
   std::shared_ptr<const MappedFile> file;
   Header header;

@@ -2,8 +2,8 @@
 // whole: its levels are mapped into memory, and the disk is asked only for the pages that samples
 // touch.
 //
-// Little-endian.  A header of whole pages is followed by the levels, finest first, each at a
-// multiple of 4096 bytes and as SkyLevel has it in memory.  The header:
+// All numbers are little-endian.  A header of whole pages is followed by the levels, finest first,
+// each at a multiple of 4096 bytes and as SkyLevel has it in memory.  The header has these bytes:
 //
 //   0  8 bytes  "DOMESKY", 0            32  f64  unit (SkyMap::unit)
 //   8  u32      version, 1              40  u32  kind (SkyMapKind)    44  u32  number of levels

@@ -22,6 +22,8 @@ SkyMap SkyMap::without_levels_above(int size) const {
   return {kind_, unit_, {first, levels_.end()}, owner_};
 }
 
+// Returns the channels at a point of a face, from the four texels around it.  Texels are counted
+// with the border, whose first has its centre at x = 0, that is at u = -1 - 1/n.
 SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double v) {
   const int n = level.size;
   const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // counted from the border on
@@ -49,6 +51,7 @@ SkyMap::Value SkyMap::filtered(const V3d& direction, double footprint) const {
   if (texels <= 1) return bilinear(levels_[0], at.face, at.u, at.v);
   // The weight is linear between powers of two, because log2 would need a function of the library.
   const auto octave = static_cast<std::size_t>(std::ilogb(texels));
+  // A footprint that exceeds the texel of the coarsest level gets that level.
   const std::size_t last = levels_.size() - 1;
   const std::size_t fine = std::min(octave, last), coarse = std::min(octave + 1, last);
   const auto w = static_cast<float>(std::ldexp(texels, -static_cast<int>(octave)) - 1);

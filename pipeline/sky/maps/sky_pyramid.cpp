@@ -57,6 +57,7 @@ SkyTexel sample_across(const SkyPyramid::Level& level, int face, int i, int j) {
   return out;
 }
 
+// Makes a level from the next finer one.  Each of its texels is the mean of four.
 void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
   for (int face = 0; face < 6; ++face)
     for (int j = 0; j < coarse.size; ++j) {
@@ -109,6 +110,7 @@ SkyPyramid::SkyPyramid(SkyMapKind of_kind, double in_unit, int size)
   const std::vector<int> sizes = level_sizes(size);
   std::size_t total = 0;
   for (const int n : sizes) total += 6 * SkyLevel::face_texels(n);
+  // All levels lie in one piece of memory, the finest first.
   owner = large_pages(total * sizeof(SkyTexel));
   auto* next = static_cast<SkyTexel*>(owner.get());
   for (const int n : sizes) {

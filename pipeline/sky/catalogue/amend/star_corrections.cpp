@@ -42,6 +42,7 @@ class Corrections {
     }
   }
 
+  // Applies all rows and returns their number.
   std::size_t apply() {
     std::size_t rows = 0;
     for (; row_.next(); ++rows) {
@@ -121,12 +122,14 @@ class Corrections {
     if (!take_numbers(star)) row_.fail("the row changes nothing");
   }
 
+  // Marks a star as removed.  Numbers in such a row would be a mistake.
   void remove(CatalogueStar& star) {
     CatalogueStar other;
     if (take_numbers(other)) row_.fail("a star that is removed has no numbers");
     star.v = kRemoved;
   }
 
+  // Adds a star and makes it known to later rows, by its identifier or else by its name.
   void add() {
     CatalogueStar star;
     const std::string_view cell = row_.text("star");

@@ -34,6 +34,7 @@ std::string spelt_out(std::string text) {
   return text;
 }
 
+// Returns the text of a key, or an empty text if the entry has none.
 std::string entry_text(const json& entry, const char* key) {
   const auto found = entry.find(key);
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
@@ -47,6 +48,7 @@ std::string designation(const json& entry) {
   return label.empty() || constellation.empty() ? "" : fmt::format("{} {}", label, constellation);
 }
 
+// Returns the indices of the stars that bear Hipparcos numbers.
 std::unordered_map<StarId, std::uint32_t> places_of(const RawCatalogue& catalogue) {
   std::unordered_map<StarId, std::uint32_t> places;
   for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)

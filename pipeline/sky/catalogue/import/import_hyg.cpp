@@ -20,6 +20,7 @@ std::string bayer_name(std::string_view letter, std::string_view constellation) 
   const std::string_view start = letter.substr(0, letter.find('-'));
   if (start.size() < 2 || constellation.empty()) return "";
   for (const std::string_view full : kLetters) {
+    // The table has only the beginning of a letter's name, with a capital.
     std::string abbreviated(full.substr(0, start.size()));
     abbreviated[0] = static_cast<char>(abbreviated[0] - 'a' + 'A');
     if (abbreviated != start) continue;
@@ -39,6 +40,7 @@ ImportedCatalogue import_hyg(const Paths& inputs) {
     CsvFile row(input, {"ra", "dec", "mag", "ci"});
     while (row.next()) {
       const std::string_view proper = row.text("proper");
+      // The table has the sun, too, which has no place among the stars of a sky.
       if (proper == "Sol") {
         out.notes.emplace_back("the sun left out");
         continue;

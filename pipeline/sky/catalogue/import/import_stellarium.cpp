@@ -108,6 +108,7 @@ class Reader {
       fail(20, "the range of magnitudes makes no sense");
   }
 
+  // Appends all stars of the file.  Their number in each zone precedes them.
   void read(std::vector<CatalogueStar>& stars) const {
     const std::size_t zones = zone_count(head_.level);
     const std::size_t size = head_.type == 0 ? sizeof(Full) : kShortSize;
@@ -133,6 +134,7 @@ class Reader {
     throw InputError(fmt::format("{}: byte {}: {}", file_.path().string(), byte, what));
   }
 
+  // Returns the number of stars in each zone.
   std::vector<std::uint32_t> zone_sizes(std::size_t zones) const {
     if ((bytes().size() - sizeof head_) / sizeof(std::uint32_t) < zones)
       fail(bytes().size(), "the file ends within its table of zones");
@@ -142,6 +144,7 @@ class Reader {
   }
 
   CatalogueStar star(const StellariumZones& grid, std::size_t zone, std::size_t at) const {
+    // B-V goes in 127 steps from -0.5 to 3.5.
     constexpr double kMasPerUnit = 0.1, kMillimagnitude = 1e-3, kColourSteps = 127,
                      kColourRange = 4, kBluestStep = -0.5;
     const char* place = bytes().data() + at;

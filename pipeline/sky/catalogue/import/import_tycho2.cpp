@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Lines of the main table and of the supplement have these lengths, by which they are told apart.
 constexpr std::size_t kMainLine = 206, kSupplementLine = 122;
 constexpr double kSupplementEpoch = 1991.25;
 constexpr int kMainParts = 20;
@@ -51,6 +52,7 @@ bool read_photometry(const FixedColumns& line, const Photometry& columns, Catalo
   return true;
 }
 
+// Returns a star with its identifier and proper motion.
 CatalogueStar start_of(const FixedColumns& line) {
   for (const NumberColumn& part : {kRegion, kNumber, kComponent}) line.required(part);
   CatalogueStar star;
@@ -80,6 +82,7 @@ class Tycho {
       CatalogueStar star = start_of(line);
       star.direction = moved(sky_direction(line.required(kRa), line.required(kDec)), star.pm_ra,
                              star.pm_dec, 2000 - kSupplementEpoch);
+      // The supplement marks with H the stars whose V is the magnitude Hp of Hipparcos.
       if (line.letter(kSupplementBand) == 'H') ++hipparcos_band_;
       keep(line, kSupplement, star);
     }
