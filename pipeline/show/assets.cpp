@@ -13,12 +13,14 @@ fs::path named_folder() {
   return named ? named : "";
 }
 
+// Returns the folder that take_program_folder() has set, which is empty before.
 fs::path& given_program_folder() {
   static fs::path folder;
   return folder;
 }
 
-// The folder of the running program; empty where the system does not tell.
+// Returns the folder of the running program, or an empty path where the system does not tell it.
+// Linux keeps a link to the running program at /proc/self/exe.
 fs::path program_folder() {
   if (!given_program_folder().empty()) return given_program_folder();
   std::error_code error;

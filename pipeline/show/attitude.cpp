@@ -12,8 +12,9 @@
 namespace domefall {
 namespace {
 
-// The scene's "up", which a target leaves free.  It is the north of the orbit, -Theta, or that of
-// the sky in flat space.  For a target within 0.06 degrees of that axis it is outward, R.
+// Returns the scene's "up" across the line of sight, which a target leaves free.  It is the north
+// of the orbit, -Theta, or in flat space that of the sky.  For a target within 0.06 degrees of that
+// axis it is outward, R.
 V3d up_across(const V3d& target, const ObserverState& o) {
   const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
   const V3d outward(1, 0, 0);
@@ -21,13 +22,15 @@ V3d up_across(const V3d& target, const ObserverState& o) {
   return (up - target * up.dot(target)).normalized();
 }
 
+// Returns the camera axes after a turn by `angle` about z, so that the image, whose y points down,
+// turns clockwise.
 M33d rolled(const V3d& x, const V3d& y, const V3d& z, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return from_columns(x * c - y * s, y * c + x * s, z);
 }
 
-// The axes after rotations by phi about C, vartheta about the new B and psi about the new C, where
-// A, B and C are the boosted Theta, Phi and R.  [Riazuelo] sec. sec_cam.
+// Returns the axes after rotations by phi about C, vartheta about the new B and psi about the new
+// C, where A, B and C are the boosted Theta, Phi and R.  [Riazuelo] sec. sec_cam.
 M33d euler_axes(const EulerAngles& angle) {
   const V3d a(0, 1, 0), b(0, 0, 1), c(1, 0, 0);
   const V3d a1 = a * std::cos(angle.phi) + b * std::sin(angle.phi);
@@ -38,15 +41,18 @@ M33d euler_axes(const EulerAngles& angle) {
                       b1 * std::cos(angle.psi) - a2 * std::sin(angle.psi), z);
 }
 
-// The axes of a dome that leans forward: what stood at elevation e in front stands at e + tilt.
+// Returns the axes of a dome that leans forward, so that what stood at elevation e in front stands
+// at e + tilt.
 M33d tilted(const M33d& axes, double tilt) {
   const V3d y = column(axes, 1), z = column(axes, 2);
   const double c = std::cos(tilt), s = std::sin(tilt);
   return from_columns(column(axes, 0), y * c - z * s, y * s + z * c);
 }
 
-// The unit quaternion of a rotation.  Its largest component is computed from the trace or from a
-// diagonal element, where nothing cancels, and the others from it.
+// Returns the unit quaternion (w, v) of a rotation m.  The diagonal of m gives trace m + 1 = 4 w^2
+// and 1 + m_ii - m_jj - m_kk = 4 v_i^2.  The root of the one or the other that is taken is at least
+// 1/2, so that nothing cancels.  The other components follow from it, since m_kj - m_jk = 4 w v_i
+// and m_ij + m_ji = 4 v_i v_j.
 Imath::Quatd quaternion_of(const M33d& m) {
   const double trace = m[0][0] + m[1][1] + m[2][2];
   if (trace > 0) {
@@ -64,9 +70,9 @@ Imath::Quatd quaternion_of(const M33d& m) {
   return {(m[k][j] - m[j][k]) / (4 * v[i]), v.x, v.y, v.z};
 }
 
-// motion_direction in the frame whose directions are drawn.  Outside the horizon that frame may be
-// at rest, and the direction is where the observer moves against it; inside, it is continued as
-// usual.
+// Returns motion_direction() in the frame whose directions are drawn.  Outside the horizon that
+// frame may be at rest, and then the direction is that in which the observer moves against it.
+// Inside, where the frame rests in t, motion_direction() of that frame continues it.
 V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
   if (!vantage.measured) return motion_direction(o);
   if (o.r > 2) return *vantage.measured;
@@ -75,9 +81,10 @@ V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
   return motion_direction(resting);
 }
 
-// Where a body is seen in the tetrad; the hole where it is not, or where the observer rides it.
+// Returns the direction in the tetrad in which a body is seen, or that of the hole where the body
+// is not seen or the observer rides it.
 V3d direct_image(const Body& body, const ObserverState& o) {
-  constexpr double kApart = 1e-6;  // M; what is nearer has no direction but that of rounding
+  constexpr double kApart = 1e-6;  // M; rounding spoils directions to what is nearer
   const V3d hole(-1, 0, 0);
   if (!sees_bodies(o)) return hole;
   const PlaceView view{o.r, is_outgoing(o.tetrad), false};
@@ -89,7 +96,8 @@ V3d direct_image(const Body& body, const ObserverState& o) {
 
 V3d motion_direction(const ObserverState& o) {
   // d/dt = T + sqrt(2/r) R in rain and T - sqrt(2/r) R in the outgoing tetrad.  The boost into the
-  // observer's frame turns its spatial part k into k - c (1 - c.k/(1 + gamma)), c = gamma v.
+  // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into k - c (1 - c.k/(1 +
+  // gamma)), where c = gamma v.
   const double s = std::sqrt(2 / o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
@@ -132,6 +140,8 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
   // Roll turns the scene about the target, so it is applied before the target is put on the dome.
   const M33d screen = rolled(right, -up, f, camera.roll);
   const V3d x = column(screen, 0), u = -column(screen, 1);
+  // The target f stands at the elevation e above the front Y, and the screen's up u is at right
+  // angles to it: f = Y cos e + Z sin e and u = Z cos e - Y sin e, which are solved for Y and Z.
   const double elevation = camera.elevation + camera.dome_tilt;
   const double c = std::cos(elevation), s = std::sin(elevation);
   return from_columns(x, f * c - u * s, f * s + u * c);
@@ -139,16 +149,18 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
 
 M33d audience_axes(const Projection& projection, double dome_tilt) {
   if (!has_zenith(projection)) return from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-  // What stood at elevation e of the front stands at e + dome_tilt.
+  // What stood at elevation e above the front stands at e + dome_tilt.
   const double c = std::cos(dome_tilt), s = std::sin(dome_tilt);
   return from_columns({1, 0, 0}, {0, c, s}, {0, -s, c});
 }
 
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
   const Imath::Quatd q = quaternion_of(to * from.transposed());
+  // The quaternion of a rotation holds the cosine and the sine of half its angle.
   const double sine = q.v.length();
   const double angle = 2 * std::atan2(sine, q.r);
-  // A rotation by no angle or by whole turns has any axis; it keeps the one before.
+  // A rotation by no angle or by whole turns has no axis of its own, so that it keeps that of
+  // `before`.
   const V3d axis = sine > 0 ? q.v / sine : before.normalized();
   const double turns = std::round((before.dot(axis) - angle) / (2 * std::numbers::pi));
   return axis * (angle + 2 * std::numbers::pi * turns);
@@ -159,6 +171,7 @@ M33d turned_by(const M33d& from, const V3d& turn) {
   if (!(angle > 0)) return from;
   const V3d n = turn / angle;
   const double c = std::cos(angle), s = std::sin(angle);
+  // Rodrigues' formula rotates v about n by the angle.
   const auto rotated = [&](const V3d& v) {
     return v * c + n.cross(v) * s + n * (n.dot(v) * (1 - c));
   };

@@ -1,4 +1,4 @@
-// The axes of a camera from what it looks at.
+// These functions find the axes of a camera from what it looks at.
 #pragma once
 
 #include <optional>
@@ -9,28 +9,29 @@
 
 namespace domefall {
 
-// The camera axes X, Y and Z, as columns in the boosted tetrad, for an observer that is otherwise
-// complete.  A flat projection puts the target in the middle of the image; one with a zenith puts
-// it `elevation` above the front of the rim.  Without aberration the tetrad is that of the observer
-// at rest (vantage.h).
+// Returns the camera axes X, Y and Z, as columns in the boosted tetrad, for an observer whose state
+// is complete except for its camera.  A flat projection puts the target in the middle of the image.
+// A projection with a zenith puts it `elevation` above the front of the rim.  Without aberration
+// the tetrad is that of the observer at rest (vantage.h).
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects = {});
 
-// The direction in which the target is seen, in the same tetrad.  Euler angles have no target.
+// Returns the direction in which the target is seen, in the same tetrad.  Euler angles have no
+// target, so that nothing is returned for them.
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& observer,
                                     const Effects& effects = {});
 
-// The direction in which an observer moves against the static frame, in the boosted tetrad: minus
-// the part of the Killing vector d/dt that is orthogonal to u.  It goes on through the horizon.
-// Its length is 0 if the observer is static.
+// Returns the direction in which an observer moves against the static frame, in the boosted tetrad.
+// It is minus the part of the Killing vector d/dt that is orthogonal to u, so that it continues
+// smoothly through the horizon.  Its length is 0 if the observer is static.
 V3d motion_direction(const ObserverState& observer);
 
-// The rotation vector (axis times angle in radians, in the basis of the cameras' axes) that turns
-// `from` into `to`.  Of the vectors that do so, which differ by whole turns, it is the nearest to
-// `before`.
+// Returns the rotation vector that turns `from` into `to`: the axis times the angle in radians, in
+// the basis in which the axes are given.  Rotation vectors that differ by whole turns have the same
+// effect, and the one nearest to `before` is returned.
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before);
 
-// The axes that such a rotation vector leads to.
+// Returns the axes into which such a rotation vector turns `from`.
 M33d turned_by(const M33d& from, const V3d& turn);
 
 }  // namespace domefall

@@ -17,11 +17,13 @@ constexpr Range kYears = Range{"years"}.within(-1e6, 1e6);
 constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9, kLargestBody = 1e6;
 constexpr double kBrightestMagnitude = -100, kFaintestMagnitude = 100;
 
-// What a body does by itself.  The others need a segment, or an engine.
+// A body can follow these types of trajectory by itself.  The other types need a segment, or an
+// engine.
 constexpr std::array<std::string_view, 7> kOrbitTypes{
     "static", "circular", "parabolic", "hyperbolic", "bound", "infall", "thrown"};
 
-// Reads where it moves, and from where on.  Returns whether there was no mistake.
+// Reads the trajectory of a body and the proper time at which it begins.  Returns true if there was
+// no mistake.
 bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   const Item* way = s.one_of({"r", "trajectory"});
   if (!way) {
@@ -35,15 +37,17 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     return r.has_value();
   }
   if (const auto type = peek(*way, "type"); type && !read_choice(*type, kOrbitTypes)) return false;
-  // A body shows no part of its way and has no clock to run, and it is in region I, or comes from
-  // it.
+  // These keys choose the part of a trajectory that a segment shows, the rate of its clock or a
+  // region.  A body has neither part nor clock, and it is in region I or comes from there.
   for (const std::string_view key :
        {"to_r", "to_leg", "to_tau_m", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"})
     if (const auto given = peek(*way, key)) {
       given->fail("is for the trajectories of segments");
       return false;
     }
-  constexpr double kMoment = 1e-9;  // of which a segment's default ends want something
+  // The default end of a trajectory follows from the duration of its segment.  A body has no
+  // segment, so that a moment stands in for the duration.
+  constexpr double kMoment = 1e-9;  // seconds
   const Stage stage{to.mass_solar, place_tetrad(to.hole_at, to.heading, 0), kMoment};
   const auto read = read_trajectory(*way, stage, lookup);
   if (!read) return false;
@@ -57,12 +61,15 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   return true;
 }
 
-// Reads the plane of an orbit that is given by the first one, and when it begins.
+// Reads the plane of an orbit, which is given against that of the observer's first orbit, the
+// azimuth in it, and the instant when the body begins to shine.
 void read_orbit_plane(const Section& s, const Show& to, Body& body) {
   const double inclination = radians(s.number("inclination_deg", kDegrees.within(0, 180), 0));
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), 0));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
   const V3d north = -column(at_node, 1), onward = column(at_node, 2);
+  // The motion at the node, normal x node = onward cos i + north sin i, rises to the north by the
+  // inclination i.
   body.node = {column(at_node, 0)};
   body.normal = {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()};
   body.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-3600, 3600), 0));
@@ -71,7 +78,8 @@ void read_orbit_plane(const Section& s, const Show& to, Body& body) {
   body.shines_before = !begins;
 }
 
-// `year` is the one in which the show begins, if it says so.
+// Reads an orbit that is given by its astronomical elements.  `year` is that in which the show
+// begins, if the show gives it.
 void read_elements(const Item& item, const Show& to, std::optional<double> year, Body& body) {
   const Section s(item, {"period_years", "eccentricity", "inclination_deg", "node_deg",
                          "pericentre_deg", "pericentre_year"});
@@ -87,6 +95,7 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
     return;
   }
   if (!period || !eccentricity || !inclination || !node || !pericentre || !passage) return;
+  // One M lasts kSecondsPerSolarMass seconds per solar mass, so that this many M make a year.
   const double years_m = kSecondsPerYear / (kSecondsPerSolarMass * to.mass_solar.value_or(1));
   try {
     set_orbit({*period * years_m, *eccentricity, radians(*inclination), radians(*node),
@@ -98,7 +107,8 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
   body.null_time = (*passage - *year) * years_m;
 }
 
-// V at kBodyMagnitudeDistance of what has this absolute magnitude, which is meant for 10 pc.
+// Returns V at kBodyMagnitudeDistance of a body with this absolute magnitude, which is that at 10
+// pc.  The two differ by 5 log10 of the ratio of the distances (the distance modulus).
 double near_magnitude(double absolute, double mass_solar) {
   constexpr double kTenParsecs = 1.0292712503e9;  // light seconds
   const double distance = kBodyMagnitudeDistance * kSecondsPerSolarMass * mass_solar;

@@ -1,4 +1,4 @@
-// The section `bodies` of a show file: what shines on orbits of its own.
+// The section `bodies` of a show file lists what shines on orbits of its own.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace domefall {
 
-// `to` has its black hole.  Reports bodies of a show without one.
+// Reads the bodies of a show.  The black hole of `to` must have been read.  Reports bodies of a
+// show without a hole.
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup);
 
 }  // namespace domefall

@@ -10,8 +10,10 @@
 namespace domefall {
 namespace {
 
-// A point in the rain tetrad, if it has one there: outside the past horizon.  E = gamma +- s w and
-// u^r = w +- s gamma, with + in the outgoing tetrad and - in rain.
+// Brings a point of region I from the outgoing tetrad to rain; all other points stay as they are.
+// With the radial celerity w, E = gamma + s w and u^r = w + s gamma in the outgoing tetrad.  In
+// rain both signs are minus, which gives w = (u^r + s E)/(1 - s^2).  The null times differ by v - u
+// = 2 r*.
 OrbitPoint in_rain(OrbitPoint point) {
   if (!is_outgoing(point.tetrad) || point.region != Region::kI) return point;
   const double s = std::sqrt(2 / point.r), lapse = 1 - 2 / point.r;
@@ -23,13 +25,14 @@ OrbitPoint in_rain(OrbitPoint point) {
   return point;
 }
 
-// Its proper time since Body::start when it begins to shine, and when it ends.
+// Returns the proper time since Body::start at which a body begins to shine.
 double first_proper_time(const Body& body) {
   if (!body.shines_before) return 0;
   const auto* geodesic = std::get_if<Geodesic>(&body.trajectory);
   return geodesic ? geodesic->birth() - double(body.start)
                   : -std::numeric_limits<double>::infinity();
 }
+// Returns the proper time since Body::start at which a body ends.
 double last_proper_time(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
 
 }  // namespace
@@ -48,6 +51,7 @@ BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
   const OrbitPoint start = point(0);
   return {[=](double tau) {
             const OrbitPoint now = point(tau);
+            // The radius 0 of a BodyPoint without values stands for a body that is not there yet.
             if (now.region == Region::kIV) return BodyPoint{};
             const double phi = body.azimuth + (now.azimuth - start.azimuth);
             return BodyPoint{node * std::cos(phi) + onward * std::sin(phi),
@@ -63,12 +67,14 @@ BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
 Beginning beginning_beside(const Body& body, double tau, double behind) {
   const BodyPoint at = motion_of(body, M33d()).at(tau);
   const OrbitPoint own = point_at(body.trajectory, body.start + tau);
+  // The outgoing tetrad counts u = v - 2 r*.
   const bool outgoing = is_outgoing(own.tetrad) && own.region == Region::kI;
   return {from_columns(at.direction, -body.normal.v, body.normal.v.cross(at.direction)),
           at.null_time + behind - (outgoing ? 2 * tortoise(own.r) : 0)};
 }
 
-// v grows with tau.
+// v grows with tau, so that steps that double bracket the tau, and bisection narrows the bracket
+// down to two neighbouring doubles.
 std::optional<double> time_of_null(const Body& body, double null_time) {
   const BodyMotion motion = motion_of(body, M33d());
   const auto is_later = [&](double tau) { return motion.at(tau).null_time > null_time; };
@@ -81,7 +87,7 @@ std::optional<double> time_of_null(const Body& body, double null_time) {
   }
   for (double step = kFirstStep; !is_later(high); step *= 2) {
     if (high > kFarthestTau) return std::nullopt;
-    // Its end is not an instant of its own.
+    // The motion has no point at its end, so that the steps towards it are halved.
     const double next = high + step;
     if (next >= motion.end && motion.end - high <= std::abs(motion.end) * 1e-15)
       return std::nullopt;

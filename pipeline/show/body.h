@@ -1,4 +1,4 @@
-// A body that shines on an orbit of its own about the hole.
+// A Body shines on an orbit of its own about the hole.
 #pragma once
 
 #include <optional>
@@ -16,33 +16,35 @@ struct Body {
   std::string name;
   Trajectory trajectory = CircularOrbit{10};  // static, circular or free fall
   bool backward = false;                      // against the sense of its axis
-  // The axis about which it goes counter-clockwise, and the direction in its plane from which its
-  // azimuth counts, both on the sky.
+  // The body goes counter-clockwise about the axis `normal`, and its azimuth counts from the
+  // direction `node` in its plane.  Both are directions on the sky.
   SkyDirection normal{V3d(0, 0, 1)}, node{V3d(1, 0, 0)};
-  // Its proper time and its azimuth (radians) when its v = t + r*, counted from the show's start,
-  // is `null_time` (M).
+  // `start` and `azimuth` (radians) are those of the body at the instant when its v = t + r*,
+  // counted from the show's start, is `null_time` (M).
   ProperTime start = 0.0;
   double azimuth = 0, null_time = 0;
-  bool shines_before = true;  // or it begins to shine then
+  bool shines_before = true;  // else it begins to shine at that instant
   double temperature = 6000;  // of a blackbody, K
-  // V, as it would be at rest at a distance of kBodyMagnitudeDistance without a hole.
+  // V, as the body would have it at rest at a distance of kBodyMagnitudeDistance without a hole.
   double magnitude = 0;
   double radius = 0;  // of a glowing sphere, M; 0 of a point
 };
 inline constexpr double kBodyMagnitudeDistance = 100;  // M
 
-// Whether an observer can see bodies: nothing comes from region I to region IV, and the mirrored
-// frames are those of region III.
+// Says whether an observer can see bodies.  Nothing comes from region I to region IV, and the
+// mirrored frames are those of region III.
 bool sees_bodies(const ObserverState& observer);
 
-// How it moves as an observer in that frame has to know it: proper time counts from Body::start.
+// Returns the motion of a body as an observer with these axes has to know it.  Proper time counts
+// from Body::start.
 BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad);
 
-// Where an observer begins who moves as the body does, `behind` later (M of v), and is at its
-// proper time `start` + tau.
+// Returns where an observer begins who moves as the body does, but `behind` later (M of v), and
+// whose proper time is `start` + tau.
 Beginning beginning_beside(const Body& body, double tau, double behind);
 
-// The tau at which its v is `null_time`; nothing where it is not there, before or after.
+// Returns the tau at which the v of the body is `null_time`, or nothing where the body has not
+// begun or has ended by then.
 std::optional<double> time_of_null(const Body& body, double null_time);
 
 }  // namespace domefall

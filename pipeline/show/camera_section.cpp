@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 8> kKeys{"projection",    "cut",         
                                                 "look_at",       "euler_deg",    "roll_deg",
                                                 "elevation_deg", "dome_tilt_deg"};
 
-// Reads {keyframe: NAME}: the attitude of a keyframe that bears the name.
+// Reads {keyframe: NAME}, which takes over the attitude of the keyframe that bears the name.
 std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras& named) {
   const Attitude* attitude =
       find_named(Section(item, {"keyframe"}), "keyframe", named.keyframes,
@@ -24,7 +24,7 @@ std::optional<Attitude> read_other_keyframe(const Item& item, const NamedCameras
   return attitude ? std::optional(*attitude) : std::nullopt;
 }
 
-// Reads {body: NAME}.
+// Reads {body: NAME}, which looks at that body.
 std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& named) {
   const auto* body =
       find_named(Section(item, {"body"}), "body", named.bodies, "names no body of the show");
@@ -41,6 +41,7 @@ std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named
   return std::nullopt;
 }
 
+// Reads the attitude.  Euler angles exclude the keys that say where a target stands.
 std::optional<Attitude> read_attitude(const Section& camera, const NamedCameras& named,
                                       Lookup& lookup) {
   for (const std::string_view key : {"look_at", "roll_deg", "elevation_deg"})
@@ -91,6 +92,7 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
     if (const Item* fixed = camera.find(key))
       fixed->fail("holds for the whole show; it belongs in the show's own camera section");
   CameraKeys own = read_camera_keys(camera, show.projection, show.named, lookup);
+  // A camera without an attitude of its own has the show's, and Euler angles use neither of these.
   if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
       if (const Item* given = camera.find(key))
@@ -143,7 +145,8 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
   return keys;
 }
 
-// Euler angles do not use an elevation, but a keyframe may turn from them to a target.
+// The elevation has its default with Euler angles too, which do not use it, because a keyframe may
+// turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
   Camera camera;
   camera.attitude = keys.attitude.value_or(LookAtHole{});

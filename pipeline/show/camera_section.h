@@ -1,4 +1,5 @@
-// The section `camera` of a show, a segment or a keyframe, and the show's `cameras`.
+// These functions read the section `camera` of a show, a segment or a keyframe, and the show's
+// `cameras`.
 #pragma once
 
 #include <map>
@@ -9,20 +10,22 @@
 
 namespace domefall {
 
-// What a camera section says.  That of a segment is laid over the show's, key by key.
+// CameraKeys hold what a camera section says.  Those of a segment are laid over the show's, key by
+// key.
 struct CameraKeys {
   std::optional<Attitude> attitude;
   ChannelValues values;  // of kRoll, kElevation, kDomeTilt and kFov
 };
 
-// What camera sections may refer to: the entries of `cameras`, keyframes that bear a name, and
-// bodies.
+// Camera sections may refer by name to the entries of `cameras`, to keyframes that bear a name, and
+// to bodies.
 struct NamedCameras {
   std::map<std::string, CameraKeys, std::less<>> cameras;
   std::map<std::string, Attitude, std::less<>> keyframes;
   std::map<std::string, std::shared_ptr<const Body>, std::less<>> bodies;
 };
 
+// A ShowCamera is what the show's own sections say, from which all other cameras start.
 struct ShowCamera {
   Projection projection;
   CameraKeys keys;
@@ -36,11 +39,12 @@ ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies
 // Reads the camera of a segment or a keyframe, which is the name of an entry of `cameras` or a map.
 CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup);
 
-// One camera's keys with those of another, `own`, laid over them.  A new attitude replaces the old
-// one.  Euler angles drop the roll and the elevation that went with a target.
+// Returns one camera's keys with those of another, `own`, laid over them.  A new attitude replaces
+// the old one.  Euler angles drop the roll and the elevation that went with a target.
 CameraKeys laid_over(CameraKeys keys, const CameraKeys& own);
 
-// The camera with defaults filled in: the hole as the target, on a dome 45 degrees above the rim.
+// Returns the camera with its defaults filled in.  By default it looks at the hole, which stands 45
+// degrees above the rim of a dome.
 Camera camera_from(const CameraKeys& keys, const Projection& projection);
 
 }  // namespace domefall

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// The camera at an instant, except for its attitude.
+// Returns the camera at an instant, except for its attitude.
 Camera camera_at(const Segment& s, double t) {
   Camera camera = s.camera;
   camera.roll = value_at(s, Channel::kRoll, t, camera.roll);
@@ -18,12 +18,13 @@ Camera camera_at(const Segment& s, double t) {
   return camera;
 }
 
-// The way from one keyframe to the next is followed in these steps.  Rotations that differ by whole
-// turns lead to the same attitude, and at each step the one that goes on from the step before is
-// taken.
+// The way from one keyframe to the next is followed in this many steps.  Rotations that differ by
+// whole turns lead to the same attitude, and each step takes the one that continues the step
+// before.
 constexpr int kTurnSteps = 64;
 
-// The camera's rotation from one attitude to the next, while the targets of both may move.
+// A Turn is the camera's rotation from one attitude to the next, while the targets of both may
+// move.
 class Turn {
  public:
   Turn(const Show& show, int segment, const Projection& projection, const AttitudeKey& from,
@@ -33,6 +34,7 @@ class Turn {
   M33d axes_at(double t, const ObserverState& observer) const {
     const double x = (t - from_.at_s) / (to_.at_s - from_.at_s);
     const int steps = std::clamp(static_cast<int>(std::ceil(x * kTurnSteps)), 1, kTurnSteps);
+    // The rotation at the last step before t tells which one to continue.
     const V3d before =
         to_.turns.empty() ? followed(steps).back() : to_.turns[static_cast<std::size_t>(steps) - 1];
     const V3d turn = turn_at(t, observer, before);
@@ -40,7 +42,7 @@ class Turn {
     return turned_by(axes(from_, t, observer), turn * done);
   }
 
-  // The rotations at the first `steps` steps of the way.
+  // Returns the rotations at the first `steps` steps of the way.
   std::vector<V3d> followed(int steps) const {
     std::vector<V3d> turns;
     turns.reserve(static_cast<std::size_t>(steps));
@@ -55,8 +57,8 @@ class Turn {
   }
 
  private:
-  // The segment seen at t, since the turn may begin before its own segment and end after it.
-  // During a dissolve two are seen, and its own counts.
+  // Returns the segment seen at t, since the turn may begin before its own segment and end after
+  // it.  During a dissolve two segments are seen, and the turn's own one counts.
   int segment_then(double t) const {
     const auto s = static_cast<std::size_t>(segment_);
     const double begin = begin_of(show_, segment_);
@@ -100,6 +102,7 @@ void follow_turns(Show& show) {
     std::vector<AttitudeKey>& keys = show.timeline[s].attitudes;
     const double begin = times[s], end = begin + show.timeline[s].duration_s;
     for (std::size_t k = 1; k < keys.size(); ++k)
+      // A segment has the show's keyframes too, but shows only the turns that overlap it.
       if (keys[k].ease != Ease::kHold && keys[k].at_s > begin && keys[k - 1].at_s < end)
         keys[k].turns = Turn(show, static_cast<int>(s), show.projection, keys[k - 1], keys[k])
                             .followed(kTurnSteps);

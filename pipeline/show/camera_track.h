@@ -1,4 +1,4 @@
-// The camera's orientation along the timeline.
+// These functions give the camera's orientation along the timeline.
 #pragma once
 
 #include "pipeline/show/show.h"
@@ -6,15 +6,15 @@
 
 namespace domefall {
 
-// The axes that the camera of a segment has t seconds into the show (columns in the boosted tetrad
-// of the observer), for an image of that projection.  Between two keyframes the camera has turned
-// by a part of the rotation from the one attitude to the other, so that it does not jump while
-// targets move.
+// Returns the axes (columns in the boosted tetrad of the observer) that the camera of a segment has
+// t seconds into the show, for an image of that projection.  Between two keyframes the camera has
+// turned by a part of the rotation that leads from the one attitude to the other at t, so that it
+// does not jump while targets move.
 M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
                     const ObserverState& observer);
 
-// Fills in AttitudeKey::turns of a show that is otherwise complete.  It takes some milliseconds for
-// each keyframe with a target on the sky.
+// Fills in AttitudeKey::turns of a show that is otherwise complete.  This takes some milliseconds
+// for each keyframe with a target on the sky.
 void follow_turns(Show& show);
 
 }  // namespace domefall

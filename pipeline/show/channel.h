@@ -1,4 +1,4 @@
-// The numbers of a show that keyframes can change, each a channel with a curve of its own.
+// A Channel is a number of a show that keyframes can change, each along a curve of its own.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace domefall {
 
 enum class Channel {
-  kRoll,  // the camera's, in radians; kFov is for flat projections
+  kRoll,  // the camera's, in radians; kFov is for fisheyes and flat projections
   kElevation,
   kDomeTilt,
   kFov,
@@ -58,12 +58,13 @@ constexpr Channel max_magnitude_channel(SkyRegion sky) {
                        static_cast<std::size_t>(sky)];
 }
 
-// The channel of red, green or blue (0, 1, 2) in one of the CDL's triples, which begins with `red`.
+// Returns the channel of red, green or blue (0, 1, 2) in that triple of the CDL which begins with
+// `red`.
 constexpr Channel colour_channel(Channel red, std::size_t colour) {
   return kEveryChannel[static_cast<std::size_t>(red) + colour];
 }
 
-// One value for each channel.
+// A PerChannel holds one value for each channel.
 template <class T>
 struct PerChannel {
   std::array<T, kChannels> values{};  // in the order of Channel
@@ -74,17 +75,18 @@ struct PerChannel {
   }
 };
 
-// What a camera, a segment or a keyframe says of the channels; nothing where it does not name one.
+// ChannelValues hold what a camera, a segment or a keyframe says of the channels, and nothing for a
+// channel that it does not name.
 using ChannelValues = PerChannel<std::optional<double>>;
 
-// Puts those of `above` that are given in the place of `below`'s.
+// Puts the values that `above` gives in the place of those of `below`.
 inline void lay_over(ChannelValues& below, const ChannelValues& above) {
   for (const Channel channel : kEveryChannel)
     if (above[channel]) below[channel] = above[channel];
 }
 
-// The CDL of which value(channel, neutral) gives each number; `neutral` is what leaves a picture as it
-// is.
+// Returns the CDL whose numbers value(channel, neutral) gives, where `neutral` is the number that
+// leaves a picture as it is.
 template <class Value>
 Cdl cdl_from(const Value& value) {
   Cdl cdl;
@@ -97,11 +99,11 @@ Cdl cdl_from(const Value& value) {
   return cdl;
 }
 
-// The keys of the skies in the section `sky` of show files.
+// Each sky has a key of its own in the section `sky` of show files.
 inline constexpr PerSky<std::string_view> kSkyKeys{{"region_I", "region_III", "region_IV"}};
 
-// The key of a channel in show files, with its path for one outside `camera`: "roll_deg",
-// "sky.region_I.stars.gain".
+// Returns the key of a channel in show files, such as "roll_deg".  The key of a channel outside
+// `camera` is a whole path, such as "sky.region_I.stars.gain".
 std::string key_of(Channel channel);
 
 }  // namespace domefall

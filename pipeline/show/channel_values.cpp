@@ -6,7 +6,8 @@ namespace domefall {
 
 namespace {
 
-// The keys of a sky in a segment, in which those of backgrounds come last.
+// A sky may have these keys in a segment.  The keys of backgrounds come last, since keyframes do
+// not have them.
 constexpr std::array<std::string_view, 5> kOutsideKeys{"gain", "stars", "background", "white_cd_m2",
                                                        "black_cd_m2"};
 constexpr std::array<std::string_view, 5> kSingularityKeys{"gain", "background", "white_cd_m2",

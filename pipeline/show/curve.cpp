@@ -8,12 +8,12 @@ namespace {
 
 using Keys = std::vector<CurveKey>;
 
-// The mean slope of the stretch that ends at key k.
+// Returns the mean slope of the stretch that ends at key k.
 double secant(const Keys& keys, std::size_t k) {
   return (keys[k].value - keys[k - 1].value) / (keys[k].at_s - keys[k - 1].at_s);
 }
 
-// The curve's slope at key k, as value_at describes it.
+// Returns the curve's slope at key k, as value_at describes it.
 double slope_at(const Keys& keys, std::size_t k) {
   if (k == 0 || k + 1 == keys.size()) return 0;
   const Ease before = keys[k].ease, after = keys[k + 1].ease;
@@ -22,14 +22,15 @@ double slope_at(const Keys& keys, std::size_t k) {
   if (before == Ease::kLinear) return in;
   if (after == Ease::kLinear) return out;
   if (!(in * out > 0)) return 0;
+  // The weights of the harmonic mean favour the secant of the shorter stretch.
   const double h_in = keys[k].at_s - keys[k - 1].at_s, h_out = keys[k + 1].at_s - keys[k].at_s;
   const double a = 2 * h_out + h_in, b = h_out + 2 * h_in;
   return (a + b) / (a / in + b / out);
 }
 
-// The slope at an end of a stretch whose secant is `chord`.  The slope of a straight neighbour
-// could carry the cubic beyond its ends, which a slope of up to three secants does not (Fritsch and
-// Carlson 1980).
+// Returns the slope at an end of a stretch whose secant is `chord`.  The slope of a linear
+// neighbour could carry the cubic beyond its ends, so that it is cut to three secants, with which
+// the cubic is still monotone (Fritsch and Carlson 1980).
 double tamed(double slope, double chord) {
   if (!(slope * chord > 0)) return 0;
   return std::abs(slope) > 3 * std::abs(chord) ? 3 * chord : slope;
@@ -48,6 +49,8 @@ double value_at(const Curve& curve, double t) {
   if (to.ease == Ease::kHold) return from.value;
   const double h = to.at_s - from.at_s, x = (t - from.at_s) / h;
   if (to.ease == Ease::kLinear) return from.value + x * (to.value - from.value);
+  // This is the cubic Hermite polynomial in x, in Horner's form, with the slopes m0 and m1 per unit
+  // of x at the ends.
   const double chord = secant(keys, k);
   const double m0 = tamed(slope_at(keys, k - 1), chord) * h,
                m1 = tamed(slope_at(keys, k), chord) * h;

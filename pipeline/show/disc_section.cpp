@@ -22,6 +22,7 @@ bool read_switch_of(const Section& s, std::string_view key, bool fallback) {
   return s.word<bool>(key, {{"true", true}, {"false", false}}).value_or(fallback);
 }
 
+// Reads the radii.  A disc ends at the last stable orbit, or at the horizon if its gas plunges in.
 void read_radii(const Section& s, Disc& disc) {
   const Range radius = kUnitsOfM.at_most(kWidestDisc);
   Range stable = radius.at_least(kLastStableOrbit);
@@ -38,14 +39,15 @@ void read_radii(const Section& s, Disc& disc) {
                             short_number(disc.outer), as_written(*inner)));
 }
 
-// The elements of celestial mechanics: the angle between the two planes, and the place where matter
-// rises to the north of the orbit's.
+// Reads two elements of celestial mechanics: the angle between the two planes, and the place where
+// matter rises to the north of the orbit's plane.
 void read_disc_plane(const Section& s, const Show& to, Disc& disc) {
   const double inclination =
       radians(s.number("inclination_deg", kDegrees.within(0, 180), kInclinationDeg));
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), kNodeDeg));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
   const V3d north = -column(at_node, 1), onward = column(at_node, 2);
+  // The motion at the node, normal x node = onward cos i + north sin i, rises to the north.
   disc.normal = {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()};
   disc.node = {column(at_node, 0)};
 }
@@ -54,7 +56,7 @@ void read_disc_plane(const Section& s, const Show& to, Disc& disc) {
 
 constexpr Range kContrast = kPureNumber.within(0, 1);
 
-// A pattern is a map with its type and these keys, or its type alone.
+// Returns the keys of a pattern, which is a map with its type and these keys, or its type alone.
 Section keys_of(const Item& pattern, std::initializer_list<std::string_view> known) {
   return pattern.node.IsMap() ? Section(pattern, known) : Section();
 }
@@ -93,6 +95,7 @@ PatternKind read_spot(const Item& item) {
 
 std::optional<PatternKind> read_pattern(const Item& item) {
   using Reader = PatternKind (*)(const Item&);
+  // The word none has no reader, and so leaves the disc without a pattern.
   constexpr Words<Reader, 4> kPatterns{{{"turbulence", read_turbulence},
                                         {"rings", read_rings},
                                         {"spot", read_spot},

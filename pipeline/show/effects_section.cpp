@@ -14,16 +14,16 @@ bool read_switch(const Section& section, std::string_view key) {
   return section.word<bool>(key, {{"true", true}, {"false", false}}).value_or(true);
 }
 
-// The state on or inside a horizon, of the one or, in a dissolve, two that make up a frame; null if
-// there is none.
+// Returns the state on or inside a horizon among those that make up a frame, or null if there is
+// none.  A frame has one state, or two in a dissolve.
 const FrameState* within(const FrameState& state) {
   if (!(state.observer.r > 2)) return &state;
   return state.vanishing ? within(*state.vanishing) : nullptr;
 }
 
-// A frame on or inside a horizon, if there is one.  What falls in stays inside to the end of its
-// segment, and what comes out of the white hole is inside at its start.  So it is enough to test
-// the frames next to the ends of segments and of dissolves.
+// Returns a frame on or inside a horizon, if there is one.  What falls in stays inside to the end
+// of its segment, and what comes out of the white hole is inside at its start.  So it is enough to
+// test the frames next to the ends of segments and of dissolves.
 std::optional<FrameState> frame_within(const Show& show) {
   const int last = frame_count(show) - 1;
   std::vector<double> ends = segment_times(show);

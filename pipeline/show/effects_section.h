@@ -1,4 +1,4 @@
-// The show's `effects`.
+// The section `effects` of a show can leave effects out, to show the others one at a time.
 #pragma once
 
 #include "pipeline/show/section.h"
@@ -6,12 +6,12 @@
 
 namespace domefall {
 
-// Reads the section; what it does not name is as in nature.
+// Reads the section.  Effects that it does not name are as in nature.
 Effects read_effects(const Section& show);
 
 // Reports `lensing: false` if a frame lies on or inside a horizon, where no frame is at rest whose
-// straight lines light could follow.  `root` is the whole file, and `show` was read without a
-// mistake.
+// straight lines light could follow.  `root` is the whole file, and `show` must have been read
+// without a mistake.
 void check_effects(const Item& root, const Show& show);
 
 }  // namespace domefall

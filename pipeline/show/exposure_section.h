@@ -1,4 +1,5 @@
-// The show's `exposure`.
+// The section `exposure` of a show gives the brightness of its frames and the time for which the
+// shutter is open.
 #pragma once
 
 #include "pipeline/show/section.h"

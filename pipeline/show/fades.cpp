@@ -9,6 +9,7 @@ double light_left(const Fades& fades, double begin, double end, double t) {
     return fade > 0 ? smooth_step(passed / fade) : 1;
   };
   const double left = part(t - begin, fades.in_s) * part(end - t, fades.out_s);
+  // `left` is the brightness that the eye sees, which goes as the square root of the light.
   return left * left;
 }
 

@@ -1,15 +1,16 @@
-// Fades from and to black.
+// A show, a segment or a title can fade from and to black.
 #pragma once
 
 namespace domefall {
 
-// Seconds of show in which the light rises from black at a beginning, and sinks to it at an end.
+// The light rises from black in the first `in_s` seconds of show, and sinks to it in the last
+// `out_s`.
 struct Fades {
   double in_s = 0, out_s = 0;
 };
 
-// The part of its light, 0 to 1, that is left at t of what lasts from `begin` to `end` (seconds).
-// To the eye, which sees a quarter of the light as half, it changes evenly.
+// Returns the part of its light, 0 to 1, that something which lasts from `begin` to `end` (seconds)
+// has left at t.  The light changes evenly to the eye, which sees a quarter of it as half.
 double light_left(const Fades& fades, double begin, double end, double t);
 
 }  // namespace domefall

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSmallest = 16, kLargest = 16384;
 
-// The number that a text is; -1 if it is no whole number.
+// Returns the number that a text is, or -1 if it is no whole number.
 int whole_number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -23,6 +23,8 @@ int whole_number(std::string_view text) {
 
 bool is_frame_size(int pixels) { return pixels >= kSmallest && pixels <= kLargest; }
 
+// Returns the projection with the sides of a text WIDTHxHEIGHT.  A text without an 'x' leaves an
+// empty height, which is no number.
 Projection with_stated_sides(const Projection& projection, const std::string& size,
                              const std::string& asked) {
   const std::size_t cross = std::min(size.find('x'), size.size());
@@ -42,6 +44,7 @@ Projection resized(const Projection& projection, const std::string& size, const 
   if (size.empty()) return projection;
   const std::string asked = name + " ";
   const bool fisheye = std::holds_alternative<Fisheye>(projection);
+  // A fisheye alone takes both forms, since a single number makes it a square.
   if (has_free_shape(projection) && (!fisheye || size.find('x') != std::string::npos))
     return with_stated_sides(projection, size, asked);
   const bool sphere = std::holds_alternative<Equirectangular>(projection);

@@ -20,6 +20,7 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
     const Channel magnitude = max_magnitude_channel(region);
     sky.max_magnitude = value_at(s, magnitude, t, own.stars.value_or(StarField{}).max_magnitude);
     const std::optional<Curve>& limit = s.curves[magnitude];
+    // A curve of a single key does not change.
     sky.soft_limit = limit && limit->keys.size() > 1;
   }
   return settings;
@@ -37,7 +38,7 @@ Cdl cdl_at(const Show& show, const Segment& s, double t) {
   return cdl;
 }
 
-// The CDL of a dissolve, in which the part `vanishing` is left of another.
+// Returns the CDL during a dissolve, while the part `vanishing` of `other` is left.
 Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
   const auto mix = [vanishing](double a, double b) { return a + (b - a) * vanishing; };
   Cdl between;
@@ -56,6 +57,7 @@ double fade_at(const Show& show, int segment, double t) {
   return light_left(s.fades, begin, end, t) * light_left(show.fades, 0, end_of(show), t);
 }
 
+// Returns the state of a frame in one segment, without a dissolve.
 FrameState state_in(const Show& show, int segment, int frame, double t) {
   const Segment& s = segment_of(show, segment);
   FrameState state;
@@ -76,7 +78,8 @@ FrameState state_in(const Show& show, int segment, int frame, double t) {
   return state;
 }
 
-// The state of a frame of that segment, with the segment that vanishes during a dissolve.
+// Returns the state of a frame of that segment, together with the segment that vanishes during a
+// dissolve.
 FrameState state_at(const Show& show, int segment, int frame, double t) {
   FrameState state = state_in(show, segment, frame, t);
   const double dissolve = segment_of(show, segment).dissolve_s;
@@ -110,10 +113,11 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
   return states;
 }
 
-// A direction d of the sky has the components S^T d along the tetrad's axes, so they change by
-// (S'^T S) S^T d, where S'^T S is antisymmetric.  The difference is taken over a 64th of a frame,
-// so that it holds up to some 60 radians a frame; no film shows more.  It is rounded, since its
-// last bits differ between processors.
+// With the axes S of the tetrad on the sky, a direction d of the sky has the components S^T d along
+// them.  These change by (S'^T S) S^T d, where S'^T S is antisymmetric and thus stands for a
+// rotation vector.  The difference is taken over a 64th of a frame, so that it holds up to some 60
+// radians a frame.  No film shows more.  The result is rounded, since its last bits differ between
+// processors.
 V3d sky_turn(const Show& show, const FrameState& state) {
   constexpr double kHalf = 1.0 / 128, kSteps = 1e9;
   const auto axes = [&](double frames) {
@@ -126,12 +130,13 @@ V3d sky_turn(const Show& show, const FrameState& state) {
   const double after = std::min(kHalf, (end - state.show_time_s) * show.frames_per_second);
   if (!(after > before)) return V3d(0, 0, 0);
   const M33d first = axes(before), last = axes(after);
-  // (S'^T S)[i][j] is the product of the changed axis i and axis j.
+  // (S'^T S)[i][j] is the scalar product of the change of axis i and of axis j, taken midway.
   const auto change = [&](int i, int j) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) sum += (last[k][i] - first[k][i]) * (last[k][j] + first[k][j]) / 2;
     return sum / (after - before);
   };
+  // Adding 0 turns -0 into 0.
   const auto rounded = [](double v) { return std::round(v * kSteps) / kSteps + 0.0; };
   return {rounded(change(2, 1)), rounded(change(0, 2)), rounded(change(1, 0))};
 }

@@ -1,4 +1,5 @@
-// The state of one frame: what the renderer needs of it, a pure function of show and frame number.
+// A FrameState holds what the renderer needs of one frame.  It is a pure function of show and frame
+// number.
 #pragma once
 
 #include <memory>
@@ -9,13 +10,14 @@
 
 namespace domefall {
 
-// The values of exposure and skies at one instant, which keyframes may have changed.
+// FrameSettings hold the exposure and the skies' numbers at one instant, which keyframes may have
+// changed.
 struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
     double max_magnitude = 9;
     // True if the limit is keyframed.  Stars then fade in over the last half magnitude before it,
-    // so that none appears at once.  Otherwise all up to the limit have their whole light.
+    // so that none appears at once.  Otherwise all stars up to the limit have their whole light.
     bool soft_limit = false;
   };
   double ev = 0;
@@ -28,30 +30,31 @@ struct FrameState {
   int segment = 0;  // index into the timeline; during a dissolve the later one
   ObserverState observer;
   Projection projection;
-  M33d camera_from_audience;  // as audience_axes() of camera.h has it
+  M33d camera_from_audience;  // audience_axes() of camera.h
   FrameSettings settings;
   Cdl cdl;
   double fade = 1;  // the part of its light that is left in a fade from or to black
-  // During a dissolve: the state in the segment that vanishes, and the part of the light that is
-  // still its.  Null and 0 otherwise.
+  // During a dissolve, `vanishing` is the state in the segment that vanishes, and `vanishing_part`
+  // is the part of the light that still comes from it.  Otherwise they are null and 0.
   std::shared_ptr<const FrameState> vanishing;
   double vanishing_part = 0;
 };
 
-// The state of a frame, from 0 to frame_count(show) - 1.  Frame n shows the instant
-// n / frames_per_second.
+// Returns the state of a frame, from 0 to frame_count(show) - 1.  Frame n shows the instant n /
+// frames_per_second.
 FrameState frame_state(const Show& show, int frame);
 
-// The states in the middles of `count` (>= 1) equal parts of the time for which a frame's shutter
-// is open.  That time is cut off at the ends of the frame's segment, so that a cut is not blurred.
+// Returns the states in the middles of `count` (>= 1) equal parts of the time for which a frame's
+// shutter is open.  That time is cut off at the ends of the frame's segment, so that a cut is not
+// blurred.
 std::vector<FrameState> exposure_states(const Show& show, int frame, int count);
 
-// The rotation vector of the sky against the axes R, Theta, Phi of the tetrad at a state's instant,
-// in radians per frame.  It is 0 for an observer who stays on one line through the hole.
+// Returns the rotation vector of the sky against the axes R, Theta, Phi of the tetrad at a state's
+// instant, in radians per frame.  It is 0 for an observer who stays on one line through the hole.
 V3d sky_turn(const Show& show, const FrameState& state);
 
 // Gives `other`, and the state that vanishes in it, the projection of `state`, which a caller may
-// have resized.  A flat one keeps its own field of view.
+// have resized.  Each keeps its own field of view where the projection has a variable one.
 void take_size(const FrameState& state, FrameState& other);
 
 }  // namespace domefall

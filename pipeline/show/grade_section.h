@@ -1,4 +1,4 @@
-// The show's `grade` and `dome`: what is made of scene-linear frames.
+// The sections `grade` and `dome` of a show say what is made of its scene-linear frames.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -7,10 +7,11 @@
 
 namespace domefall {
 
-// Reads `grade`; the shipped configuration stands in for one that is not named.
+// Reads `grade`.  The shipped configuration stands in where none is named.
 GradeSettings read_grade(const Section& show, const Lookup& lookup);
 
-// Reads `dome: {light, reflectance}` for a show of this projection, which must be a dome's.
+// Reads `dome: {light, reflectance}` for a show of this projection.  Only a domemaster can have the
+// light of the dome simulated or compensated.
 DomeSettings read_dome(const Section& show, const Projection& projection);
 
 }  // namespace domefall

@@ -14,13 +14,15 @@
 namespace domefall {
 namespace {
 
+// yaml-cpp gives the tag "!" to quoted text, and "?" to text without quotes.
 bool is_quoted(const Item& item) { return item.node.Tag() == "!"; }
 
 std::string in_unit(const Range& range) {
   return range.unit.empty() ? "" : fmt::format(" ({})", range.unit);
 }
 
-// The characters of a scalar.  Reports an item that is none, and one with a tag or an open quote.
+// Returns the characters of a scalar.  Reports an item that is no scalar, and one with a tag or an
+// open quote.
 std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
   if (!item.node.IsScalar()) {
     item.fail("must be " + wanted + ", got " + kind_of(item));
@@ -38,7 +40,7 @@ std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
   return item.node.Scalar();
 }
 
-// Whether a text is .nan, -.inf or the like, which YAML takes for numbers.
+// Says whether a text is .nan, -.inf or the like, which YAML takes for numbers.
 bool is_yaml_special(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const auto is = [&](std::string_view word) {
@@ -47,10 +49,10 @@ bool is_yaml_special(std::string_view text) {
   return is(".nan") || is(".inf");
 }
 
-// Whether a number that no double holds is beyond the largest one, and not below the smallest.
+// Says whether a number that no double holds is beyond the largest one, and not below the smallest.
 bool is_huge(const std::string& text) { return std::isinf(std::strtod(text.c_str(), nullptr)); }
 
-// The advice for a text that would be a number without its `rest`.
+// Returns the advice for a text that would be a number without its `rest`.
 std::string_view mended(std::string_view rest, const Range& range) {
   if (rest.empty()) return "; leave the quotes out";
   if (rest[0] == ',') return "; write a decimal point";
@@ -59,7 +61,8 @@ std::string_view mended(std::string_view rest, const Range& range) {
   return range.unit.empty() || rest[0] == 'x' ? "" : "; leave the unit out";
 }
 
-// What the value must do to keep the bound that it breaks; nothing if it keeps both.
+// Says what the value must do to keep the bound that it breaks, or returns nothing if it keeps
+// both.
 std::optional<std::string> broken_bound(const Range& range, double value) {
   if (range.low_excluded && !(value > range.low)) return "exceed " + short_number(range.low);
   if (!range.low_excluded && !(value >= range.low)) return "be at least " + short_number(range.low);
@@ -129,10 +132,13 @@ std::optional<double> read_number(const Item& item, const Range& range) {
   const std::string wanted = "a number" + in_unit(range);
   const auto text = scalar(item, wanted);
   if (!text) return std::nullopt;
+  // from_chars takes no plus sign.
   const char* begin = text->data() + (text->starts_with('+') ? 1 : 0);
   const char* end = text->data() + text->size();
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
+  // A number too large for a double counts as infinite.  If it breaks a bound, the message names
+  // that bound instead of the limits of a double.
   const bool too_large = error == std::errc::result_out_of_range && is_huge(*text);
   if (too_large) value = text->starts_with('-') ? -HUGE_VAL : HUGE_VAL;
   const bool bounded = too_large && stop == end && broken_bound(range, value);
@@ -190,7 +196,8 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
     return std::nullopt;
   }
   std::vector<Item> items;
-  for (const auto& child : item.node) {  // an iterator's value is a node, and a pair for maps
+  // The value of an iterator is a node and, for maps, also a pair.
+  for (const auto& child : item.node) {
     const auto mark = child.Mark();
     items.push_back({static_cast<const YAML::Node&>(child),
                      {mark.line, mark.column},

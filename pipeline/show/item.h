@@ -1,6 +1,7 @@
-// A value in a show file, which knows its place and its path ("timeline[1].trajectory.from_r"), and
-// the readers that check its kind, unit and range.  A reader that finds a mistake reports it and
-// returns nothing, so that the rest of the file is still checked.
+// An Item is a value in a show file, which knows its place and its path
+// ("timeline[1].trajectory.from_r").  The readers below check its kind, unit and range.  A reader
+// that finds a mistake reports it and returns nothing, so that the rest of the file is still
+// checked.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -27,12 +28,12 @@ struct Item {
 
   // Reports "PATH what" at the place of the value.
   void fail(const std::string& what) const;
-  // Reports the same of a file that is missing or cannot be read.
+  // Reports in the same form a file that is missing or cannot be read.
   void miss_file(const std::string& what) const;
 };
 
-// Bounds of a number.  A message names only the bound that is broken, with its unit and, for a
-// lower bound that is not obvious, with its reason.
+// A Range holds the bounds of a number.  A message names only the bound that is broken, with its
+// unit and, for a lower bound that is not obvious, with its reason.
 struct Range {
   std::string_view unit{};
   double low = -std::numeric_limits<double>::infinity();
@@ -59,30 +60,31 @@ inline constexpr Range kPureNumber{};
 inline constexpr Range kDegrees{"degrees"};
 inline constexpr Range kUnitsOfM{"units of M"};
 
-// What the item is, for a message: "a map", "a list", "nothing", "'3'", or "the text '3'" where the
-// file has quotes.
+// Says what the item is, for a message: "a map", "a list", "nothing", "'3'", or "the text '3'"
+// where the file has quotes.
 std::string kind_of(const Item& item);
 
 bool is_text_or_number(const Item& item);
 // Reads plain words, quoted text, or a number as text.  Text must not be empty, and may have no
 // control characters.
 std::optional<std::string> read_text(const Item& item);
-// The same of text that may have several lines.  Those that are empty at its ends are left out.
+// Reads text that may have several lines.  Empty lines and blanks at its ends are left out.
 std::optional<std::string> read_lines(const Item& item);
 std::optional<double> read_number(const Item& item, const Range& range);
-// The value that was read of an item.  Reports one that breaks a bound.
+// Returns the value that was read of an item, or reports that it breaks a bound.
 std::optional<double> in_range(const Item& item, double value, const Range& range);
 std::optional<int> read_whole_number(const Item& item, const Range& range);
 
-// The number as the file has it, for a message.
+// Returns the number as the file has it, for a message.
 std::string as_written(const Item& item);
 
-// Whether the item is this word, so far as that can be said before it is known what it may be.
+// Says whether the item is this word, and reports nothing, so that it can be asked before it is
+// known what the item may be.
 bool is_word(const Item& item, std::string_view word);
-// The index of one of the words.
+// Returns the index of the word that the item is, or reports an item that is none of them.
 std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words);
 
-// Words of show files and what they stand for.
+// Words are those of show files, each with what it stands for.
 template <class T, std::size_t N>
 using Words = std::array<std::pair<std::string_view, T>, N>;
 
@@ -93,7 +95,8 @@ constexpr std::array<std::string_view, N> names_of(const Words<T, N>& words) {
   return names;
 }
 
-// What the item stands for if it is one of the words.  Anything else is left to another reader.
+// Returns what the item stands for if it is one of the words.  Anything else is left to another
+// reader.
 template <class T, std::size_t N>
 std::optional<T> meaning(const Item& item, const Words<T, N>& words) {
   for (const auto& [word, value] : words)
@@ -103,6 +106,7 @@ std::optional<T> meaning(const Item& item, const Words<T, N>& words) {
 
 // Reads a list of at least one entry.  The paths of its entries end in [k], counted from 1.
 std::optional<std::vector<Item>> read_list(const Item& item);
+// Reads a list of exactly `count` numbers.
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
                                                 const Range& range);
 

@@ -24,6 +24,7 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
     keyframe.attitude = keys.attitude;
     lay_over(keyframe.values, keys.values);
   }
+  // A name stands for what the camera looks at, so that a keyframe without an attitude enters none.
   if (const Item* name = s.find("name"))
     if (const auto text = read_text(*name); text && keyframe.attitude)
       camera.named.keyframes[*text] = *keyframe.attitude;

@@ -1,4 +1,5 @@
-// The lists `keyframes` of a show and of its segments, and the curves through them.
+// These functions read the lists `keyframes` of a show and of its segments, and lay curves through
+// them.
 #pragma once
 
 #include <vector>
@@ -15,22 +16,25 @@ struct Keyframe {
   ChannelValues values;
 };
 
-// The part of the show for which a list of keyframes is given.
+// A KeyframeSpan is the part of the show for which a list of keyframes is given.
 struct KeyframeSpan {
   double start = 0;   // the show's second from which at_s counts
   double latest = 0;  // the largest at_s allowed
 };
 
-// Reads a list.  Keyframes that bear a name are entered into `camera`.
+// Reads a list of keyframes, whose times must ascend.  Keyframes that bear a name are entered into
+// `camera`.
 std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
                                      const std::vector<Marker>& markers, ShowCamera& camera,
                                      Lookup& lookup);
 
-// The curve of a channel through the keyframes that give it; nothing if none does.  It begins at
-// `start` with `value_there`, the value without keyframes, unless a keyframe stands there.
+// Returns the curve of a channel through the keyframes that give it, or nothing if none does.  The
+// curve begins at `start` with `value_there`, the value without keyframes, unless a keyframe stands
+// there.
 std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
                                    double start, double value_there);
-// The same for attitudes; empty if no keyframe gives one.
+// Returns the attitudes of the keyframes that give one, which begin in the same way with
+// `attitude_there`.  The list is empty if no keyframe gives one.
 std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,
                                            const Attitude& attitude_there);
 

@@ -1,4 +1,4 @@
-// A name by which one place of a show file refers to another.
+// One place of a show file can refer to another by a name, which is looked up here.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace domefall {
 
-// What `known`, a map, has under the name that a section gives under `key`; null if it gives none,
-// or one that is not known, which is reported.  `missing` begins the message.
+// Returns what the map `known` has under the name that a section gives under `key`.  Returns null
+// if the section gives none, or one that is not known, which is reported.  `missing` begins the
+// message.
 template <class Known>
 const typename Known::mapped_type* find_named(const Section& s, std::string_view key,
                                               const Known& known, const std::string& missing) {

@@ -24,6 +24,7 @@ std::optional<fs::path> Lookup::file(const Item& item, const std::string& name) 
   const fs::path beside = folder_ / name;
   const std::string named = "names the file '" + shown(name) + "', ";
   std::error_code error;
+  // Only a file that is missing or cannot be read may be in order on another machine.
   if (fs::is_directory(beside, error))
     item.fail(named + "which is a folder");
   else if (fs::is_regular_file(beside, error))
@@ -69,6 +70,7 @@ bool Lookup::read_places(const Item& item, int table) {
 std::optional<SkyDirection> Lookup::find_place(const Item& item, const std::string& name) {
   constexpr int kTables = 2;
   auto found = places_.find(name);
+  // The tables are read one after the other until one has the name.
   for (; !found && tables_read_ < kTables; found = places_.find(name))
     if (read_places(item, tables_read_))
       ++tables_read_;
@@ -83,6 +85,7 @@ std::optional<SkyDirection> Lookup::place(const Item& item,
   if (!name) return std::nullopt;
   const std::size_t reported = item.problems->count();
   if (auto found = find_place(item, *name)) return found;
+  // If a table could not be read, that has been reported, and the name may be right.
   if (item.problems->count() > reported) return std::nullopt;
   std::string near(nearest_word(*name, words));
   if (near.empty() && name->size() < 60) near = places_.nearest(*name);

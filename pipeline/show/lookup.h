@@ -1,4 +1,4 @@
-// Finds the files and the places on the sky that a show names.
+// A Lookup finds the files and the places on the sky that a show names.
 #pragma once
 
 #include <filesystem>
@@ -15,22 +15,24 @@ class Lookup {
   // `folder` is that of the show file, empty if the file was named without one.
   explicit Lookup(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // A regular, readable file of that name beside the show or, failing that, in the working folder.
+  // Finds a regular, readable file of that name beside the show or, failing that, in the working
+  // folder.
   std::optional<std::filesystem::path> find(const std::string& name) const;
-  // The same; reports a file that is not found, which another machine may have, and what can be no
-  // file of a show.
+  // Finds a file in the same way, and reports one that is not found.  Another machine may have a
+  // file that is missing here, but a folder can be no file of a show anywhere.
   std::optional<std::filesystem::path> file(const Item& item, const std::string& name) const;
-  // One of the files that come with Domefall.  Reports one that is missing at `item`, which needs
-  // it.
+  // Finds one of the files that come with Domefall.  A missing one is reported at `item`, which
+  // needs it.
   std::optional<std::filesystem::path> shipped(const Item& item, std::string_view name) const;
 
-  // The catalogue that fetch_stars makes, beside the show, in the working folder or among the
-  // shipped files; where it is in none of them, the one that comes with Domefall.
+  // Finds the catalogue that fetch_stars makes, beside the show, in the working folder or among the
+  // shipped files.  If it is in none of them, the one that comes with Domefall stands in.
   std::optional<std::filesystem::path> deepest_stars(const Item& item) const;
 
-  // The place of a name: of a star of the shipped catalogue, which is read when the first
-  // place is named, or else of the shipped table of places, which is read when a name is no star's.
-  // `words` are what the item could have been besides, for the message about an unknown name.
+  // Returns the place of a name: that of a star of the shipped catalogue, or else that of an entry
+  // of the shipped table of places.  The catalogue is read when the first place is named, and the
+  // table when a name is no star's.  `words` are what the item could have been besides, for the
+  // message about an unknown name.
   std::optional<SkyDirection> place(const Item& item, std::span<const std::string_view> words = {});
 
  private:
@@ -47,6 +49,7 @@ class Lookup {
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,
                                            std::span<const std::string_view> words = {});
 
+// Converts degrees; the factor is pi/180.
 inline constexpr double radians(double degrees) { return degrees * 0.017453292519943295; }
 
 }  // namespace domefall

@@ -7,6 +7,7 @@
 namespace domefall {
 namespace {
 
+// Returns a word in lower case, with '_' in the place of '-' and blanks.
 std::string folded(std::string_view word) {
   std::string out;
   for (const char c : word)
@@ -16,8 +17,10 @@ std::string folded(std::string_view word) {
   return out;
 }
 
+// Returns a key without its last part, which is the unit in keys such as from_r.
 std::string_view without_unit(std::string_view key) { return key.substr(0, key.rfind('_')); }
 
+// Returns the word that is the fewest edits away, of those that are near enough.
 std::string_view fewest_edits(std::string_view wanted, std::span<const std::string_view> known) {
   std::string_view nearest;
   std::size_t least = 4;
@@ -32,6 +35,8 @@ std::string_view fewest_edits(std::string_view wanted, std::span<const std::stri
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // The rows hold the distances from the beginnings of b: `row` for the first i letters of a,
+  // `last` for one letter fewer and `before` for two fewer, which a swap of neighbours needs.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

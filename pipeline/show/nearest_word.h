@@ -1,4 +1,4 @@
-// Finds the known word that the author of a show probably meant.
+// These functions find the known word that the author of a show probably meant.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// The known word that is probably meant by another; empty if none is near.  The first rule that
-// fits decides:
+// Returns the known word that is probably meant by another, or an empty text if none is near.  The
+// first rule that fits decides:
 // - it is equal but for case, '-' and blanks;
 // - it is equal but for a unit that was left out (fov for fov_deg);
 // - it is at most three insertions, deletions, replacements and swaps of neighbours away, and fewer
@@ -17,13 +17,13 @@ namespace domefall {
 // - it begins with the given word, which has three letters at least.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
-// "; did you mean X?", or an empty text if no word is near.
+// Returns "; did you mean X?", or an empty text if no word is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
-// The optimal string alignment distance (restricted Damerau-Levenshtein).
+// Returns the optimal string alignment distance (restricted Damerau-Levenshtein).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The words as a list for a sentence: "a, b or c".
+// Returns the words as a list for a sentence: "a, b or c".
 std::string listed(std::span<const std::string_view> words);
 
 }  // namespace domefall

@@ -9,11 +9,11 @@
 namespace domefall {
 namespace {
 
-// The tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
+// Returns the tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
 double tortoise_of(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
 
-// What must be added to the null time of a trajectory, so that it goes on from the joint.  Between
-// v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
+// Returns what must be added to the null time of a trajectory, so that it goes on from the joint.
+// Between v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
 DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   DoubleDouble reached = joint.null_time;
   if (start.tetrad != joint.tetrad) {
@@ -28,7 +28,7 @@ OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
   return placed(point_at(s.trajectory, tau), s.placement);
 }
 
-// What the segment hands over where its observer is at `point`.
+// Returns the joint as the segment hands it over where its observer is at `point`.
 Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
   const OrbitPoint start = point_of(s, s.timing.tau_begin);
   joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
@@ -38,6 +38,8 @@ Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
   return joint;
 }
 
+// Returns the joint of a segment, which is followed from the start in a show that has not stored
+// it.
 Joint joint_of(const Show& show, int segment) {
   if (!show.joints.empty()) return show.joints[static_cast<std::size_t>(segment)];
   Joint joint = first_joint(show, show.timeline.front());
@@ -46,22 +48,22 @@ Joint joint_of(const Show& show, int segment) {
   return joint;
 }
 
-// From one time to another, in equal factors.
+// Returns the value that lies a part of the way from one to another in equal factors.
 double ratio_between(double from, double to, double part) {
   return part < 1 ? from * std::pow(to / from, part) : to;
 }
 
-// The time when `done` of what lies between has passed and `left` = 1 - done is to come.  Next to
-// the end it counts back from there: the end may be closer to a singularity than the rounding of
-// the whole time.
+// Returns the time when `done` of what lies between has passed and `left` = 1 - done is to come.
+// Next to the end it counts back from there, since the end may be closer to a singularity than the
+// rounding of the whole time.
 ProperTime part_between(const ProperTime& from, const ProperTime& to, double done, double left) {
   constexpr double kNextToTheEnd = 1e-3;
   const double span = double(to - from);
   return left < kNextToTheEnd ? to - span * left : from + span * done;
 }
 
-// The time at which r has changed by `part` of the way, in equal factors.  Rounding of r can move a
-// passage next to the beginning out of the segment.
+// Returns the time at which r has gone `part` of its way in equal factors.  Rounding of r can move
+// a passage next to the beginning out of the segment, and then the time itself is divided.
 ProperTime time_of_even_log_r(const Segment& s, double part) {
   const ProperTime &from = s.timing.tau_begin, &to = s.timing.tau_end;
   if (!(part > 0)) return from;
@@ -93,6 +95,7 @@ ProperTime proper_time_at(const Segment& s, double part) {
       break;
   }
   const double begins = s.timing.rate_begin, ends = s.timing.rate_end;
+  // The part to come has a law of its own, since 1 - x would lose its digits next to the end.
   return part_between(from, to, part_passed(begins, ends, part),
                       part_passed(ends, begins, 1 - part));
 }
@@ -159,6 +162,7 @@ ObserverState observer_at(const Show& show, int segment, double part) {
 
 int segment_at(const Show& show, double show_time_s) {
   const double t = show_time_s + kCutTolerance / show.frames_per_second;
+  // Bisection finds the last segment that has begun.
   int begun = 0, later = static_cast<int>(show.timeline.size());
   while (later - begun > 1) {
     const int middle = begun + (later - begun) / 2;

@@ -1,4 +1,4 @@
-// The observer's place and motion along the timeline.
+// These functions give the observer's place and motion along the timeline.
 #pragma once
 
 #include "pipeline/show/show.h"
@@ -6,38 +6,42 @@
 
 namespace domefall {
 
-// The proper time of a segment's trajectory when `part` of the segment's duration, 0 to 1, has
-// passed.  At both ends it is that of the segment's timing.
+// Returns the proper time of a segment's trajectory when `part` of the segment's duration, 0 to 1,
+// has passed.  At both ends it is that of the segment's timing.
 ProperTime proper_time_at(const Segment& segment, double part);
 
-// What the first segment of a show sets out with, except for its instant.
+// Returns the joint with which the first segment of a show sets out.  Here and in the next two
+// functions its begin_s is left to join_segments().
 Joint first_joint(const Show& show, const Segment& first);
-// What `segment` hands over at its end, and what `next` makes of it.
+// Returns the joint that `segment` hands over at its end.
 Joint joint_after(const Joint& joint, const Segment& segment);
+// Returns what `next` makes of that joint, since it may have a beginning of its own.
 Joint joint_into(const Joint& reached, const Segment& next);
 
-// The v of a joint in region I or II; 0 in the others, which have none.
+// Returns the v of a joint in region I or II, or 0 in the other regions, which have none.
 double rain_time(const Joint& joint);
 
-// Sets the joints of a show, so that a state costs the same in a show of any length.
+// Sets the joints of a show, so that a state takes the same time to compute in a show of any
+// length.
 void join_segments(Show& show);
 
-// The show second at which a segment begins.
+// Returns the show second at which a segment begins.
 double begin_of(const Show& show, int segment);
 
-// The observer's state when `part` of a segment, 0 to 1, has passed.  It has no camera yet:
-// tetrad_from_camera is the identity.  The axes on the sky, the azimuth and the null time run on
-// from segment to segment.
+// Returns the observer's state when `part` of a segment, 0 to 1, has passed.  It has no camera yet,
+// so that tetrad_from_camera is the identity.  The axes on the sky, the azimuth and the null time
+// run on from segment to segment.
 ObserverState observer_at(const Show& show, int segment, double part);
 
-// In frames.  Durations such as 0.1 s add up to a little more than they mean, and the frame at a
-// cut must still belong to the segment that follows it.
+// A frame belongs to the segment after a cut from this many frames before the cut on.  Durations
+// such as 0.1 s add up to a little more than they mean, and the frame at a cut must still belong to
+// the segment that follows it.
 inline constexpr double kCutTolerance = 1e-6;
 
-// The index of the segment seen at an instant; during a dissolve that of the later one.
+// Returns the index of the segment seen at an instant, which is the later one during a dissolve.
 int segment_at(const Show& show, double show_time_s);
 
-// The part of a segment that has passed at an instant, 0 to 1.
+// Returns the part of a segment that has passed at an instant, 0 to 1.
 double part_at(const Show& show, int segment, double show_time_s);
 
 }  // namespace domefall

@@ -16,9 +16,9 @@ namespace {
 constexpr Range kMomentum = Range{"units of M"}.within(0, 1e9);
 constexpr Range kExcess = kPureNumber.within(1e-20, 1e9);
 constexpr Range kSpeed = Range{"speed of light = 1"}.above(0).below(1);
-constexpr double kFallEnd = 0.05;
+constexpr double kFallEnd = 0.05;  // M; where falls end by default
 
-// A section with the keys of every orbit and those of one type.
+// Returns a section with the keys of every orbit and those of one type.
 Section orbit_section(const Item& item, std::initializer_list<std::string_view> own) {
   std::vector<std::string_view> keys{"type",         "region",     "from_r", "from_leg",
                                      "from_tau_m",   "to_r",       "to_leg", "to_tau_m",
@@ -28,8 +28,8 @@ Section orbit_section(const Item& item, std::initializer_list<std::string_view> 
 }
 
 // Reports that an orbit does not exist.  Trajectories begin their messages with the name of the
-// quantity that is out of bounds.  If the show gives that quantity, its key is blamed, else the key
-// `asked`.
+// quantity that is out of bounds.  If the show gives that quantity, its key is blamed, and else the
+// key `asked`.
 void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
   const std::size_t space = message.find(' ');
   const std::string_view quantity = std::string_view(message).substr(0, space);
@@ -40,7 +40,7 @@ void fail_impossible(const Section& s, const Item& asked, const std::string& mes
     asked.fail("asks for what does not exist: " + message);
 }
 
-// What make() returns, unless it throws because the orbit does not exist.
+// Returns what make() returns, or reports the error that it throws if the orbit does not exist.
 template <class Make>
 std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& make) {
   try {
@@ -58,6 +58,7 @@ std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const
   return std::nullopt;
 }
 
+// Reads a parabolic orbit, which one quantity gives.
 std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
   if (const auto r = s.number("periastron", kRadius); r && &by == s.find("periastron"))
     return made(s, by, [&] { return parabolic_by_periastron(*r); });
@@ -68,6 +69,8 @@ std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
   return std::nullopt;
 }
 
+// Reads a hyperbolic orbit, which two quantities give.  An excess stands for the speed beside a
+// periastron, and for the impact parameter beside a speed.
 std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
   const Item* excess_item = s.find("excess");
   const auto excess = s.number("excess", kExcess);
@@ -92,6 +95,8 @@ std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
   return std::nullopt;
 }
 
+// Reads a bound orbit by its two turning points, or by its eccentricity with a semilatus rectum or
+// an excess.
 std::optional<Geodesic> read_ellipse(const Section& s) {
   if (s.find("periastron") || s.find("apoastron")) {
     const auto low = s.required_number("periastron", kRadius);
@@ -110,7 +115,7 @@ std::optional<Geodesic> read_ellipse(const Section& s) {
   return made(s, *s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
 }
 
-// Reads a fall from infinity.  Its tau is 0 at from_r.
+// Reads a fall from infinity, whose tau is 0 at from_r.
 std::optional<Geodesic> read_captured(const Section& s) {
   const auto from_r = s.required_number("from_r", kRadius);
   if (s.find("v_inf")) {
@@ -140,8 +145,9 @@ std::optional<Geodesic> read_dropped(const Section& s) {
   return made(s, *blamed, [&] { return fall_from_rest(*rest_r, momentum); });
 }
 
-// The placement of an orbit that sets out with this celerity, which may leave the plane of the
-// orbit before.
+// Returns the placement of an orbit that sets out with this celerity, which may leave the plane of
+// the orbit before.  The plane turns by a right angle at most, since an orbit can run backward in
+// it.
 Placement placement_of(const V3d& celerity, bool mirrored) {
   Placement placement{mirrored};
   const double north = -celerity.y, forward = celerity.z;
@@ -182,6 +188,7 @@ std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage) 
   const bool mirrored = is_in_region_three(s);
   const auto orbit = read_ellipse(s);
   if (!orbit) return std::nullopt;
+  // By default the orbit begins at the apoastron before the periastron of tau = 0.
   const double apoastron = -orbit->radial_period() / 2;
   return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
 }
@@ -215,6 +222,8 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   }
   const auto own = read_own_celerity(s, stage, *frame, lookup);
   if (!own) return std::nullopt;
+  // A throw against the static observer is given as it is.  A throw against another one, whose
+  // celerity against the rain is known, is brought to the rain.
   const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
   const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
   const double across = std::hypot(celerity.y, celerity.z);
@@ -238,6 +247,8 @@ std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage
   const auto orbit =
       made(s, *blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });
   if (!orbit) return std::nullopt;
+  // By default the crossing begins just outside the past singularity.  It ends as near to the
+  // future one, if it falls into that.
   Defaults start;
   start.leg = Leg::kOutward;
   start.tau = orbit->time_at(kFallEnd, Leg::kOutward);

@@ -9,6 +9,7 @@
 namespace domefall {
 namespace {
 
+// Returns p = a (1 - e^2), where a follows from Kepler's third law.
 double semi_latus_rectum(const OrbitalElements& elements) {
   const double e = elements.eccentricity;
   return std::pow(elements.period / (2 * std::numbers::pi), 2.0 / 3) * (1 - e) * (1 + e);
@@ -20,11 +21,12 @@ double semi_latus_rectum(const OrbitalElements& elements) {
 //     N: r (cos Omega cos u - sin Omega sin u cos i),
 //     E: r (sin Omega cos u + cos Omega sin u cos i),
 //     Z: r sin u sin i,
-// u being its angle from the node: the rotations by u, i and Omega.
+// where u is its angle from the node.  These are the rotations by u, i and Omega, one after the
+// other.
 void set_orbit(const OrbitalElements& elements, const SkyDirection& line_of_sight, Body& body) {
   body.trajectory = bound_by_shape(semi_latus_rectum(elements), elements.eccentricity);
   body.start = 0;
-  // The tangents of the sky there, as at an observer's own place (placement.h).
+  // The tangents of the sky there are found like those at an observer's own place (placement.h).
   const M33d sky = place_tetrad({-line_of_sight.v}, std::numbers::pi / 2, 0);
   const V3d away = column(sky, 0), north = -column(sky, 1), east = column(sky, 2);
   const double cos_i = std::cos(elements.inclination), sin_i = std::sin(elements.inclination);

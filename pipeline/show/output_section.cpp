@@ -8,7 +8,8 @@ namespace {
 std::optional<GradedFormat> read_graded_format(const Section& s) {
   enum class Word { kNone, kPng16, kPng8, kJpeg, kTiff16, kTiff8 };
   using enum Word;
-  // Without their bits, which earlier versions did not know, they are of 16.
+  // The words png and tiff come from earlier versions, which did not know the numbers of bits, and
+  // mean 16 bits.
   const Word word = s.word<Word>("graded", {{"png16", kPng16},
                                             {"png8", kPng8},
                                             {"jpeg", kJpeg},

@@ -1,4 +1,4 @@
-// The show's `output`: the files that are made of its frames.
+// The section `output` of a show says which files are made of its frames.
 #pragma once
 
 #include "pipeline/show/section.h"

@@ -1,4 +1,4 @@
-// What may be drawn over frames for review and for teaching, never unless it is asked for.
+// Overlays are drawn over frames for review and for teaching, never unless they are asked for.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace domefall {
 
-// In the order in which they are drawn.
+// The kinds stand in the order in which they are drawn.
 enum class OverlayKind {
   kGrid,
   kRim,
@@ -31,11 +31,11 @@ inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 8> kOverla
      {OverlayKind::kStarNames, "star_names"},
      {OverlayKind::kBurnIn, "burn_in"}}};
 
-// The overlays of a list "rim,grid", each once, in the order of drawing.
-// Throws InputError naming the word that is none of them, with the nearest one.
+// Returns the overlays of a list "rim,grid", each once, in the order of drawing.  Throws InputError
+// for a word that names none of them, with the nearest word that does.
 std::vector<OverlayKind> parse_overlays(std::string_view list);
 
-// The list of their names.
+// Returns the list of their names.
 std::string overlay_names(const std::vector<OverlayKind>& overlays);
 
 }  // namespace domefall

@@ -14,8 +14,9 @@ namespace {
 constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetrad::kRainOfThree,
                                          Tetrad::kOutgoingToThree};
 
-// Sets dr/dtau and dphi/dtau from a celerity c against a tetrad.  With u = gamma T + c, dr/dtau is
-// c_R - sqrt(2/r) gamma for rain, along whose T r falls, and c_R + sqrt(2/r) gamma for outgoing.
+// Sets dr/dtau and dphi/dtau from a celerity c against a tetrad, with u = gamma T + c.  Along the T
+// of rain dr/dtau is -sqrt(2/r), and along that of the outgoing tetrad +sqrt(2/r), so that c_R -
+// sqrt(2/r) gamma and c_R + sqrt(2/r) gamma result.
 void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
   const double gamma = std::sqrt(1 + celerity.length2()), s = std::sqrt(2 / key.r);
   key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
@@ -39,6 +40,7 @@ void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup
     s.find("direction")->fail("leaves the plane of the path; give radial and phi only");
     return;
   }
+  // The R of the static observer is sqrt(1 - 2/r) d/dr.
   key.radial_rate = own->x * std::sqrt(1 - 2 / key.r);
   key.azimuth_rate = own->z / key.r;
 }
@@ -70,12 +72,13 @@ Tetrad tetrad_named(const CsvFile& table) {
              std::string(name) + "'");
 }
 
+// A Table is what a file says of a path, which has one tetrad throughout.
 struct Table {
   std::vector<PathKey> keys;
   Tetrad tetrad = Tetrad::kRain;
 };
 
-// Reads what `domefall states` writes, or any table with some of its columns.
+// Reads the table that `domefall states` writes, or any table with some of its columns.
 Table read_table(const std::filesystem::path& file) {
   CsvFile csv(file, {"proper_time", "r"});
   Table table;

@@ -1,4 +1,4 @@
-// Trajectories of type `path`, which are given point by point.
+// Trajectories of type `path` are given point by point.
 #pragma once
 
 #include "pipeline/show/trajectory_section.h"

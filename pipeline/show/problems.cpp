@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostListed = 100;
 
-// Whether a byte of UTF-8 goes on with the character of the byte before.
+// Says whether a byte of UTF-8 continues the character of the byte before, as all 10xxxxxx do.
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 }  // namespace
@@ -34,7 +34,7 @@ void Problems::add_missing_file(TextPlace at, const std::string& what) {
 }
 
 std::string Problems::place(TextPlace at) const {
-  // yaml-cpp places what it misses at the end of the file beyond the last line.
+  // yaml-cpp reports what is missing at the end of the file at a place beyond the last line.
   const bool at_end = at.line >= static_cast<int>(lines_.size());
   const std::size_t line = at_end ? lines_.size() - 1 : static_cast<std::size_t>(at.line);
   const std::size_t bytes = at_end ? lines_[line].size() : static_cast<std::size_t>(at.column);

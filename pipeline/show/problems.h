@@ -1,4 +1,4 @@
-// The mistakes in a show file, gathered so that its author can mend all of them at once.
+// Problems gathers the mistakes in a show file, so that its author can mend all of them at once.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// A place in the text, counted from 0 as yaml-cpp does, with the column in bytes.
+// A TextPlace is counted from 0 as yaml-cpp does, with the column in bytes.
 struct TextPlace {
   int line = 0, column = 0;
 };
@@ -17,9 +17,9 @@ class Problems {
   // `file` is the name that the user gave, and `text` the file's content.
   Problems(std::string file, std::string text);
 
-  // A mistake of the show's author.
+  // Adds a mistake of the show's author.
   void add(TextPlace at, const std::string& what);
-  // A file that is missing or cannot be read, though another machine may have it.
+  // Adds a file that is missing or cannot be read, though another machine may have it.
   void add_missing_file(TextPlace at, const std::string& what);
 
   std::size_t count() const { return problems_.size(); }
@@ -39,11 +39,11 @@ class Problems {
   std::string file_;
   std::vector<std::string> lines_;
   std::vector<Problem> problems_;
-  bool mistaken_ = false;  // whether one of them is a mistake
+  bool mistaken_ = false;  // true if one of them is no missing file
 };
 
-// A piece of the user's text for a message.  It is cut after 40 characters, and control characters
-// become blanks.
+// Returns a piece of the user's text for a message.  It is cut after 40 characters, and control
+// characters become blanks.
 std::string shown(std::string_view text);
 
 }  // namespace domefall

@@ -43,7 +43,7 @@ int read_one_size(const Item* size, int fallback, int most, std::string_view why
             fmt::format("must be at most {} (pixels; {}), got {}", most, why, kSizeNames[k]));
       return pixels;
     }
-  // For a word, and for '3k', the message names the sizes; for a number it names the bounds.
+  // For a word, and for '3k', the message names the sizes.  For a number it names the bounds.
   if (size->node.Scalar().find_first_not_of("+-.0123456789") == std::string::npos)
     return read_whole_number(*size, range).value_or(fallback);
   size->fail(fmt::format("must be 1k, 2k, 4k, 8k or a number of pixels from {} to {}, got '{}'{}",
@@ -71,7 +71,7 @@ PictureSides read_flat_size(const Item* size) {
   return sides;
 }
 
-// A fisheye is a square, or lower where a part of it is cut off.
+// Reads the size of a fisheye, which is a square, or lower where a part of it is cut off.
 PictureSides read_fisheye_size(const Item* size) {
   if (!size || !size->node.IsSequence() || size->node.size() != 2) {
     const int side =
@@ -98,6 +98,7 @@ Projection read_equirectangular(const Item* size) {
       read_one_size(size, 4096, kMostPixels, "the width; a whole sphere is half as high as wide");
   if (size && width % 2 != 0)
     size->fail(fmt::format("must be even (a whole sphere is half as high as wide), got {}", width));
+  // An odd width has been reported, and the rest of the show is checked with an even one.
   return Equirectangular{width + width % 2};
 }
 

@@ -1,4 +1,5 @@
-// The keys of a show that say what its pictures are: camera.projection with camera.cut, and size.
+// These functions read the keys that say what a show's pictures are: camera.projection with
+// camera.cut, and size.
 #pragma once
 
 #include "pipeline/show/section.h"
@@ -6,11 +7,12 @@
 
 namespace domefall {
 
-// Reads the projection with the show's `size`, whose form depends on it.  Its opening angle, where
-// there are several, is the default: 90 degrees of a flat picture, 180 of a fisheye.
+// Reads the projection with the show's `size`, whose form depends on it.  A variable opening angle
+// has its default, which is 90 degrees of a flat picture and 180 of a fisheye.
 Projection read_projection(const Section& show, const Section& camera);
 
-// The bounds of an opening angle, degrees; nothing if the projection has one only.
+// Returns the bounds of an opening angle in degrees, or nothing if the projection has only one
+// angle.
 std::optional<Range> fov_range(const Projection& projection);
 
 }  // namespace domefall

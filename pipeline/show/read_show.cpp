@@ -21,10 +21,10 @@
 namespace domefall {
 namespace {
 
-// The place of Sagittarius A*.
+// The origin of galactic coordinates (J2000) lies 0.07 degrees from Sagittarius A*.
 constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936;
 constexpr double kHeadingDeg = 90, kMostSolarMasses = 1e13;
-// A mass that keeps proper times finite.  Holes as light as this have long evaporated.
+// This mass still keeps proper times finite.  Holes as light as this have long evaporated.
 constexpr double kFewestSolarMasses = 1e-20;
 
 void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
@@ -33,7 +33,8 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (const Item* at = s.find("at"))
     show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
   show.heading = radians(s.number("heading_deg", kDegrees.within(-360, 360), kHeadingDeg));
-  // With a mass that is misspelt or in error the rest of the show is still checked for a hole.
+  // With a mass that is misspelt or in error, the rest of the show is still checked as one with a
+  // hole.
   if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return;
   const auto mass =
       s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
@@ -74,7 +75,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);
   show.timeline = read_timeline(section, show, camera, lookup);
-  // Where there is no timeline its own message is enough.
+  // A timeline that is missing has a message of its own, which is enough.
   if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show);
   show.grade.dome = read_dome(section, show.projection);
   show.output = read_output(section);
@@ -97,6 +98,7 @@ Show read_show(const std::filesystem::path& file) {
   const Item root{node, start, "", &problems};
   read_sections(root, lookup, show);
   problems.raise();
+  // From here on the observer is followed along the timeline, which must be free of mistakes.
   join_segments(show);
   check_effects(root, show);
   problems.raise();

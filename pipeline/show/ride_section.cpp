@@ -24,7 +24,8 @@ std::optional<TimedTrajectory> read_ride(const Item& item, const Stage& stage) {
   const double behind = s.number("behind_m", kUnitsOfM.within(-kFarthest, kFarthest), 0);
   if (!body) return std::nullopt;
   Defaults defaults;
-  // In the light that falls straight in, the observer goes on where the segment before ended.
+  // Light that falls straight in keeps its v, and in that light the observer goes on where the
+  // segment before ended.
   if (const auto tau = time_of_null(*body, stage.null_time - behind)) {
     defaults.tau = body->start + *tau;
   } else if (!s.find("from_r") && !s.find("from_tau_m")) {

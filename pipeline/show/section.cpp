@@ -38,6 +38,7 @@ void Section::add(const YAML::Node& key, const YAML::Node& value,
   const std::string path = join(item_->path, shown(name));
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     const std::string_view nearest = nearest_word(name, known);
+    // The key that was probably meant is not to be reported as missing besides.
     misspelt_.insert(std::string(nearest));
     problems.add(place_of(key),
                  path + " is an unknown key; " +
@@ -50,6 +51,7 @@ void Section::add(const YAML::Node& key, const YAML::Node& value,
                                             first->second.line + 1));
     return;
   }
+  // An empty value has no place in the text, so that the key's stands in.
   const bool empty = !value.IsMap() && !value.IsSequence() && !value.IsScalar();
   const TextPlace at = place_of(empty ? key : value);
   entries_.emplace(name, Entry{key.Mark().line, Item{value, at, path, &problems}});

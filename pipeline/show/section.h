@@ -1,4 +1,4 @@
-// A map in a show file, checked against the keys that it may have.
+// A Section is a map in a show file, checked against the keys that it may have.
 #pragma once
 
 #include <initializer_list>
@@ -12,30 +12,32 @@ namespace domefall {
 
 class Section {
  public:
-  // A section that the show leaves out, so that none of its keys is given.
+  // Makes a section that the show leaves out, so that none of its keys is given.
   Section() = default;
-  // Reports an item that is no map, unknown keys, each with the nearest known one, and repeated
-  // keys, which yaml-cpp would accept.
+  // Reports an item that is no map, each unknown key with the nearest known one, and repeated keys,
+  // which yaml-cpp would accept.
   Section(const Item& item, std::span<const std::string_view> known);
   Section(const Item& item, std::initializer_list<std::string_view> known)
       : Section(item, std::span(known.begin(), known.size())) {}
 
-  // The value of a key, or null if the key is not given.
+  // Returns the value of a key, or null if the key is not given.
   const Item* find(std::string_view key) const;
-  // Whether an unknown key was reported for which this one was probably meant.
+  // Says whether an unknown key was reported for which this one was probably meant.
   bool is_misspelt(std::string_view key) const { return misspelt_.contains(key); }
-  // The same, but reports a key that is missing, unless a misspelling of it was reported.
+  // Finds a key in the same way, and reports one that is missing, unless a misspelling of it was
+  // reported.
   const Item* require(std::string_view key, const std::string& what) const;
-  // The first of the keys that is given, or null.  Reports each further one, since they exclude
-  // each other.
+  // Returns the value of the first of the keys that is given, or null.  Reports each further one,
+  // since they exclude each other.
   const Item* one_of(std::initializer_list<std::string_view> keys) const;
 
-  // The number under a key; nothing if the key is not given or its value is wrong.
+  // Returns the number under a key, or nothing if the key is not given or its value is wrong.
   std::optional<double> number(std::string_view key, const Range& range) const;
-  // The same, with a fallback in the same unit.
+  // Returns the fallback, which is in the same unit, in the place of nothing.
   double number(std::string_view key, const Range& range, double fallback) const;
   std::optional<double> required_number(std::string_view key, const Range& range) const;
-  // What the word under a key stands for; nothing if the key is not given or its word is not known.
+  // Returns what the word under a key stands for, or nothing if the key is not given or its word is
+  // not known.
   template <class T, std::size_t N>
   std::optional<T> word(std::string_view key,
                         const std::pair<std::string_view, T> (&words)[N]) const {
@@ -57,15 +59,15 @@ class Section {
   std::set<std::string, std::less<>> misspelt_;
 };
 
-// The value of a key, read before it is known which keys the map may have; nothing if there is no
-// such key, or no map.
+// Returns the value of a key before it is known which keys the map may have.  Returns nothing if
+// there is no such key, or no map.
 std::optional<Item> peek(const Item& map, std::string_view key);
 
-// All entries of a map whose keys are names that the user chose, in the order of the file.  Reports
-// repeated names.
+// Returns all entries of a map whose keys are names that the user chose, in the order of the file.
+// Reports repeated names.
 std::vector<std::pair<std::string, Item>> entries_of(const Item& map);
 
-// The section under a key; an empty one if the key is not given.
+// Returns the section under a key, or an empty one if the key is not given.
 Section subsection(const Section& parent, std::string_view key,
                    std::span<const std::string_view> known);
 inline Section subsection(const Section& parent, std::string_view key,

@@ -21,6 +21,7 @@ std::vector<double> segment_times(const Show& show) {
   times.reserve(show.timeline.size() + 1);
   double end = 0;
   for (const Segment& segment : show.timeline) {
+    // During its dissolve a segment runs beside the last seconds of the one before.
     times.push_back(end - segment.dissolve_s);
     end = times.back() + segment.duration_s;
   }

@@ -1,5 +1,5 @@
-// A show as data: all that a show file says, checked, in the units of the program (M, radians) and
-// with every default filled in.  docs/show-format.md describes the file key by key.
+// A Show is all that a show file says, checked, in the units of the program (M, radians) and with
+// every default filled in.  docs/show-format.md describes the file key by key.
 #pragma once
 
 #include <filesystem>
@@ -34,25 +34,26 @@ namespace domefall {
 struct BlackSky {
   bool operator==(const BlackSky&) const = default;
 };
-// The built-in test sky of [Riazuelo] sec. ssec_bckgsky: a checkerboard with squares of 5 degrees,
-// all blackbodies of 8000 K and a factor of 4 apart in intensity, and polar discs of 2000 K, 5
-// degrees wide.
+// GridSky is the built-in test sky of [Riazuelo] sec. ssec_bckgsky: a checkerboard with squares of
+// 5 degrees, and polar discs of 2000 K, 5 degrees wide.  The squares are blackbodies of 8000 K in
+// two intensities, a factor of 4 apart.
 struct GridSky {
   bool operator==(const GridSky&) const = default;
 };
-// An equirectangular image in equatorial coordinates (J2000), as seen from inside.
+// PanoramaSky is an equirectangular image in equatorial coordinates (J2000), as seen from inside.
 struct PanoramaSky {
   std::filesystem::path image;
-  // A factor on the luminance that the file's values stand for by themselves.
+  // The luminance that the file's values stand for by themselves is multiplied by this factor.
   double brightness = 1;
-  // The luminance (cd/m^2, before the gain) that is taken from the light of a map, so that what has
-  // no more of it is black.  Where nothing is given it is the map's own dark level.
+  // This luminance (cd/m^2, before the gain) is taken from the light of a map, so that what has no
+  // more of it is black.  If none is given, it is the map's own dark level.
   std::optional<double> black{};
 
   bool operator==(const PanoramaSky&) const = default;
 };
-// Light from the past singularity that left it at t glows with 1 + cos(2 pi t/period): "a series of
-// rings of variable t", [Riazuelo] sec. sec_Kruskal.  Only region IV has this background.
+// In a RingsSky, light from the past singularity that left it at t glows with 1 + cos(2 pi
+// t/period):  "a series of rings of variable t", [Riazuelo] sec. sec_Kruskal.  Only region IV has
+// this background.
 struct RingsSky {
   double period = 4;  // M, > 0
 
@@ -62,7 +63,7 @@ using SkyBackground = std::variant<BlackSky, GridSky, PanoramaSky, RingsSky>;
 
 // ---- the timeline ----
 
-// How proper time runs from a segment's first to its last instant.
+// A Pace says how proper time runs from a segment's first to its last instant.
 enum class Pace {
   kSteady,  // evenly, or by a rate that changes smoothly from the first instant's to the last one's
   kEased,   // from standstill to standstill
@@ -72,34 +73,36 @@ enum class Pace {
   kLogRadius    // so that log r changes evenly; r goes one way
 };
 
-// Which part of its trajectory a segment shows, and how the observer's clock runs meanwhile.
+// A Timing says which part of its trajectory a segment shows, and how the observer's clock runs
+// meanwhile.
 struct Timing {
-  // Proper time of the trajectory at the segment's first and last instant.
+  // The segment's first and last instant have these proper times of the trajectory.
   ProperTime tau_begin, tau_end;
   Pace pace = Pace::kSteady;
-  // How fast proper time runs at both ends for kSteady, as parts of the mean (part_passed).
+  // With kSteady, proper time runs so fast at both ends, as parts of the mean rate (part_passed).
   double rate_begin = 1, rate_end = 1;
 };
 
-// A camera's attitude at an instant, which holds or turns into the next one's.
+// An AttitudeKey is a camera's attitude at an instant, which holds or turns into the next one's.
 struct AttitudeKey {
   double at_s;  // show seconds
   Attitude attitude;
   Ease ease = Ease::kSmooth;  // of the turn that ends here
-  // The rotation vectors (axis times angle, radians) from the attitude before to this one, at equal
-  // steps of the way.  They tell which of the rotations that lead to the same axes, whole turns
-  // apart, goes on from the step before.  While this is empty they are found anew for every frame.
+  // These rotation vectors (axis times angle, radians) lead from the attitude before to this one,
+  // at equal steps of the way.  Rotations that are whole turns apart lead to the same axes, and the
+  // vectors tell which of them continues the step before.  While the list is empty, they are found
+  // anew for every frame.
   std::vector<V3d> turns{};
 };
 
-// A text on the dome.
+// A Title is a text on the dome.
 struct Title {
   std::string text;  // UTF-8; lines end in '\n'
   LetterStyle style;
   double begin_s = 0, end_s = 0;  // show seconds
   Fades fades;
-  // The place of its middle (radians): to the right of the audience's front, and above their
-  // horizon or, on a flat picture, above the line of sight.
+  // The middle of the text stands at this place (radians): to the right of the audience's front,
+  // and above their horizon or, on a flat picture, above the line of sight.
   double azimuth = 0, elevation = 0;
   double height = 0;          // of a capital H, radians
   WorkingRgb light{1, 1, 1};  // pixel values, which no exposure or fade of the show acts on
@@ -108,14 +111,15 @@ struct Title {
 struct Segment {
   std::string type = "static";  // of its trajectory, in the words of show files
   double duration_s = 0;        // show seconds, > 0
-  // Its first seconds are also the last ones of the segment before, which fades into this one.
+  // The segment's first seconds are also the last ones of the segment before, which fades into this
+  // one.
   double dissolve_s = 0;
   Fades fades;
   Trajectory trajectory;
   Timing timing;
   Placement placement;
   Camera camera;  // holds wherever nothing is keyframed
-  // Keyframes in ascending order.  Where there are none the camera keeps its attitude.
+  // The keys stand in ascending order.  Where there are none, the camera keeps its attitude.
   std::vector<AttitudeKey> attitudes;
   std::vector<Title> titles;
   // A channel has a curve if the show or the segment keyframes it, or if the segment has a value of
@@ -142,19 +146,19 @@ struct RegionSky {
   bool operator==(const RegionSky&) const = default;
 };
 
-// The intensity of a panorama, which has no spectra, at the frequency ratio g = 1/(1+z): g^power
-// for blueshift, and exp(1 - 1/g) for redshift.  [Riazuelo] sec. ssec_rgb.
+// A panorama has no spectra.  At the frequency ratio g = 1/(1+z) its intensity is multiplied by
+// g^power for blueshift, and by exp(1 - 1/g) for redshift.  [Riazuelo] sec. ssec_rgb.
 struct PanoramaShift {
   double blueshift_power = 2;
 };
 
-// The default of Show::least_star_radius: a ninth of a pixel of a 4k dome.
+// The default of Show::least_star_radius is a ninth of a pixel of a 4k dome.
 inline constexpr double kLeastStarRadiusDeg = 0.005;
 
-// The law by which stars are spread over pixels.  Each is a truncated Gaussian in angle.  Without a
-// halo its width grows with its observed magnitude m,
+// A PointSpreadLaw says how the light of stars is spread over pixels.  A star is a truncated
+// Gaussian in angle.  Without a halo its width grows with its observed magnitude m,
 //     sigma = min_sigma max(1, 10^(0.4 growth (reference_magnitude - m))),
-// up to max_sigma.  With a halo every star has the width min_sigma, and bright ones show it.
+// up to max_sigma.  With a halo every star has the width min_sigma, and bright ones show the halo.
 struct PointSpreadLaw {
   double min_sigma = 0;            // radians; the renderer takes 0.9 pixel where that is wider
   double growth = 0.2;             // with 0 all stars have the same size, with 0.5 the same peak
@@ -167,15 +171,14 @@ struct PointSpreadLaw {
 
 struct Exposure {
   double ev = 0;  // stops; pixel value 1 is kReferenceLuminance / 2^ev
-  // The part of the time between two frames for which the shutter is open, about each frame's
-  // instant.  A frame is the mean of what is seen meanwhile, and with 0 what is seen at that
-  // instant.
+  // The shutter is open for this part of the time between two frames, about each frame's instant.
+  // A frame is the mean of what is seen meanwhile, and with 0 it is what is seen at that instant.
   double shutter = 0;
 };
 
 // ---- the physics ----
 
-// What is brightened by the magnification f of [Riazuelo] eq. eq_ampl.
+// An Amplification says what is brightened by the magnification f of [Riazuelo] eq. eq_ampl.
 enum class Amplification {
   kNone,        // nothing, so that a star keeps its flux however large its image would be
   kStars,       // point sources, as in nature
@@ -183,8 +186,8 @@ enum class Amplification {
                 // solid angle stays the same
 };
 
-// Effects that a show may leave out, to show the others one at a time ([Riazuelo] app. app_img).
-// The default is nature, and docs/show-format.md says what each means.
+// A show may leave out effects, to show the others one at a time ([Riazuelo] app. app_img).  The
+// default is nature, and docs/show-format.md says what each effect means.
 struct Effects {
   bool aberration = true;
   bool doppler_colour = true;  // the colour of every frequency shift, gravitational ones too
@@ -197,13 +200,13 @@ struct Effects {
 
 // ---- the whole ----
 
-// An instant of the show that bears a name.
+// A Marker is an instant of the show that bears a name.
 struct Marker {
   std::string name;
   double at_s = 0;  // show seconds
 };
 
-// How the files of frames are called: NAME_00000 and so on.
+// FrameNames say how the files of frames are called: NAME_00000 and so on.
 struct FrameNames {
   std::string name;    // empty: as the show's file
   int start = 0;       // the number of frame 0
@@ -211,15 +214,15 @@ struct FrameNames {
   int per_folder = 0;  // frames that share a folder of their own; 0: all are in one
 };
 
-// The files that are made of a frame, at least one.
+// An Output says which files are made of a frame, at least one.
 struct Output {
   std::optional<ExrFormat> linear = ExrFormat{};        // nothing: none
   std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
   FrameNames names;
-  std::string owner;  // whose the pictures are, in the scene-linear files; empty: nothing is said
+  std::string owner;  // of the pictures, named in the scene-linear files; empty: not named
 };
 
-// What a segment takes over from those before it.
+// A Joint is what a segment takes over from those before it.
 struct Joint {
   double begin_s = 0;  // the show second at which the segment begins
   M33d axes;           // of the observer's tetrad on the sky
@@ -235,9 +238,9 @@ struct Show {
   double frames_per_second = 30;
   Projection projection = Domemaster{4096};
   std::optional<double> mass_solar;  // none in flat space
-  // Where the hole stands on the sky at the start, and the position angle (radians, from north
-  // through east) in which an orbit's motion (Phi) sets out.  placement.h says how they place an
-  // orbit.
+  // At the start the hole stands at `hole_at` on the sky, and the motion of an orbit (Phi) sets out
+  // at the position angle `heading` (radians, from north through east).  placement.h says how they
+  // place an orbit.
   SkyDirection hole_at;
   double heading = 0;
   std::vector<Segment> timeline;
@@ -245,29 +248,31 @@ struct Show {
   std::vector<Title> titles;          // beside those of segments
   std::vector<OverlayKind> overlays;  // which no show file asks for
   Fades fades;
-  // One for each segment, found once when a show is read (join_segments in observer_track.h).  A
-  // show that is put together otherwise has none, and each of its states follows the timeline from
-  // its start.  Whoever moves or alters a segment clears them.
+  // There is one joint for each segment, found once when a show is read (join_segments in
+  // observer_track.h).  A show that is put together otherwise has none, and each of its states
+  // follows the timeline from its start.  Whoever moves or alters a segment must clear the joints.
   std::vector<Joint> joints;
   PerSky<RegionSky> sky;  // that of region IV, the past singularity, has no stars and no redshift
   std::vector<Body> bodies;
-  // The Julian year for whose places stars are drawn, if their catalogue knows their proper motion.
+  // Stars are drawn in their places of this Julian year, if their catalogue knows their proper
+  // motion.
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
   std::optional<Disc> disc;  // only where there is a hole
   Effects effects;
   PointSpreadLaw point_spread;
-  // How far the colours of stars are from grey: 0 grey, 1 as the CIE's standard observer sees them.
+  // The colours of stars are grey with 0, and as the CIE's standard observer sees them with 1.
   double star_saturation = 1;
-  // The angular radius that a star has at least, in radians.  It bounds the light of one on the
-  // axis of the lens, and makes an arc or a ring of one that stays there.
+  // A star has at least this angular radius, in radians.  It bounds the light of a star on the axis
+  // of the lens, and makes an arc or a ring of one that stays there.
   double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;
   Exposure exposure;
   GradeSettings grade;
   Output output;
 };
 
-// GM/c^3 of the sun (IAU 2015 nominal GM): the seconds in one M of a hole of one solar mass.
+// GM/c^3 of the sun (IAU 2015 nominal GM) is the length in seconds of one M of a hole of one solar
+// mass.
 inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
 
 inline constexpr int kMostFrames = 10'000'000;
@@ -276,24 +281,26 @@ inline const Segment& segment_of(const Show& show, int k) {
   return show.timeline[static_cast<std::size_t>(k)];
 }
 
-// The background that a segment has in a region: its own one, or else the show's.
+// Returns the background that a segment has in a region: its own one, or else the show's.
 const SkyBackground& background_of(const Show& show, int segment, SkyRegion region);
 
-// The value of a channel t seconds into the show: that of its curve, or else `constant`.
+// Returns the value of a channel t seconds into the show: that of its curve, or else `constant`.
 double value_at(const Segment& segment, Channel channel, double t, double constant);
 
-// The show seconds at which each segment begins and, as the last element, at which the show ends.
+// Returns the show seconds at which each segment begins and, as the last element, at which the show
+// ends.
 std::vector<double> segment_times(const Show& show);
 
-// The frame whose instant is nearest to a time; the last one for the end.
+// Returns the frame whose instant is nearest to a time, which is the last one for the end.
 int nearest_frame(const Show& show, double time_s);
 
-// The show second at which the show ends.
+// Returns the show second at which the show ends.
 double end_of(const Show& show);
 
-// The number of frames: the show's length times the frame rate, rounded to the nearest whole number
-// (halves away from zero), but at least 1.  Frame n shows the instant n / frames_per_second, so a
-// show of 2 s at 30 frames per second has the frames 0 to 59 and ends just before the instant 2 s.
+// Returns the number of frames: the show's length times the frame rate, rounded to the nearest
+// whole number (halves away from zero), but at least 1.  Frame n shows the instant n /
+// frames_per_second, so a show of 2 s at 30 frames per second has the frames 0 to 59 and ends just
+// before the instant 2 s.
 int frame_count(const Show& show);
 
 }  // namespace domefall

@@ -18,7 +18,7 @@ bool is_digits(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The number that a text of digits, perhaps with a decimal part, stands for.
+// Returns the number that a text of digits, perhaps with a decimal part, stands for.
 std::optional<double> parse_decimal(std::string_view text) {
   const std::string_view whole = text.substr(0, text.find('.'));
   const std::string_view rest = text.substr(whole.size());
@@ -34,6 +34,7 @@ const Marker* find_marker(std::string_view name, const std::vector<Marker>& mark
   return found == markers.end() ? nullptr : &*found;
 }
 
+// Returns a marker's time in seconds since `start`, or reports one out of range.
 std::optional<double> read_marked(const Item& item, const Marker& marker, const Range& range,
                                   double start) {
   const double seconds = marker.at_s - start;
@@ -116,6 +117,7 @@ std::optional<double> read_time(const Item& item, const Range& range,
                 "'");
       return std::nullopt;
     }
+    // A text that does not begin as a number does can only be the name of a marker.
     const bool word = !text.empty() && text.find_first_of("0123456789+-.") != 0;
     if (word && !markers.empty()) {
       std::vector<std::string_view> names;

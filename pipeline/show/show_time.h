@@ -1,4 +1,4 @@
-// Times of a show as people write them: seconds, minutes and seconds, or the name of a marker.
+// People write times of a show as seconds, as minutes and seconds, or as the name of a marker.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace domefall {
 
-// The seconds of "M:SS", "M:SS.s" or "H:MM:SS"; nothing for any other text.
+// Returns the seconds of "M:SS", "M:SS.s" or "H:MM:SS", or nothing for any other text.
 std::optional<double> parse_clock_time(std::string_view text);
 
-// Seconds as "1:02.5", to the thousandth.
+// Writes seconds as "1:02.5", to the thousandth.
 std::string clock_text(double seconds);
 
-// The seconds of a number, a clock time or a marker's name; nothing for any other text.
+// Returns the seconds of a number, a clock time or a marker's name, or nothing for any other text.
 std::optional<double> parse_time(std::string_view text, const std::vector<Marker>& markers);
 
 // Reads the show's `markers`.

@@ -29,6 +29,7 @@ std::string folded_place_name(std::string_view name) {
   std::string folded;
   for (const char c : folded_star_name(name)) {
     if (std::string_view("-'.*").find(c) != std::string_view::npos) continue;
+    // A zero at the front of a number goes when another digit follows.
     const bool leading_zero =
         folded.ends_with('0') && (folded.size() == 1 || !is_digit(folded[folded.size() - 2]));
     if (leading_zero && is_digit(c)) folded.pop_back();
@@ -62,7 +63,9 @@ std::string SkyPlaces::nearest(std::string_view name) const {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const std::string& known = folded_[k];
     const std::size_t longer = std::max(known.size(), wanted.size());
+    // The distance is at least the difference of the lengths.
     if (longer - std::min(known.size(), wanted.size()) >= least) continue;
+    // In catalogues another number is another object.
     if (digits_of(known) != digits) continue;
     const std::size_t distance = edit_distance(known, wanted);
     if (distance < least) least = distance, nearest = places_[k].name;

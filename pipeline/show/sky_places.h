@@ -1,4 +1,5 @@
-// The places on the sky that bear names: stars, constellations, nebulae, clusters, galaxies.
+// SkyPlaces know the places on the sky that bear names: stars, constellations, nebulae, clusters,
+// galaxies.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +13,23 @@
 
 namespace domefall {
 
-// A name as places are compared by: in lower case; without blanks, '_', '-', apostrophes, full
-// stops and '*'; "messier" before a number as "m"; "center" at the end as "centre"; numbers without
-// leading zeros.  So "Messier 31", "m_31" and "M031" are one.
+// Returns a name in the form in which places are compared: in lower case, without blanks, '_', '-',
+// apostrophes, full stops and '*', and without the leading zeros of numbers.  "messier" before a
+// number becomes "m", and "center" at the end becomes "centre".  So "Messier 31", "m_31" and "M031"
+// are one.
 std::string folded_place_name(std::string_view name);
 
 class SkyPlaces {
  public:
-  // Where two places have the same folded name, the one that was added first is found.
+  // Adds places.  Where two places have the same folded name, the one that was added first is
+  // found.
   void add(const std::vector<NamedStar>& places);
 
+  // Returns the place of a name, whose folded form is looked up.
   std::optional<SkyDirection> find(std::string_view name) const;
-  // The name nearest to a misspelt one; empty if none is nearer than a third of its letters (at
-  // least two) inserted, deleted, replaced or swapped.  A name with other digits is never near.
+  // Returns the name nearest to a misspelt one, or an empty text if none is near.  A near name has
+  // at most a third of its letters (at least two) inserted, deleted, replaced or swapped.  A name
+  // with other digits is never near.
   std::string nearest(std::string_view name) const;
 
  private:

@@ -19,12 +19,12 @@ std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   return std::nullopt;
 }
 
-// So many stars are those of V < 10.3.  With more of them, milky_way is the map that has no star of
-// kDeepestStars in it.
+// This is the number of stars of V < 10.3.  With more stars than that, milky_way is the map that
+// has no star of kDeepestStars in it.
 constexpr std::size_t kDeepCount = 500'000;
 
-// What is asked of a catalogue's header.  A damaged one says nothing here: it is told when its
-// stars are read, with the byte.
+// Returns what `ask` finds in a catalogue's header, or nothing for a damaged one.  The damage is
+// reported, with its byte, when the stars are read.
 template <class Ask>
 auto of_header(const Ask& ask) -> decltype(ask()) {
   try {
@@ -35,7 +35,7 @@ auto of_header(const Ask& ask) -> decltype(ask()) {
 }
 
 // Gives a background that is the shipped Milky Way the map that suits the region's stars, so that
-// none is seen both as a star and in the map.
+// no star is seen both as a star and in the map.
 void suit_milky_way(const Item& item, const Lookup& lookup, const std::optional<StarField>& stars,
                     SkyBackground& background) {
   auto* panorama = std::get_if<PanoramaSky>(&background);
@@ -58,10 +58,11 @@ constexpr Range kEpochs = Range{"Julian years"}.within(-10000, 30000);
 constexpr Range kLuminance = Range{"cd/m^2, or auto, or none"}.within(0, 1e6);
 constexpr Range kPeriod = Range{"M"}.within(1e-3, 1e9);
 constexpr Range kWhiteLuminance = Range{"cd/m^2"}.above(0).at_most(1e12);
-// What the white of a show's own image is unless the show says otherwise: pixel value 1 at 0 EV.
+// The white of a show's own image has this luminance (cd/m^2) unless the show says otherwise.  It
+// is that of pixel value 1 at 0 EV.
 constexpr double kShownWhite = 1e-3;
 
-// Reads a background as a word or as a file.  Only the past singularity may have rings.
+// Reads a background, which is a word or a file.  Only the past singularity may have rings.
 std::optional<SkyBackground> read_background(const Item& item, const Lookup& lookup,
                                              bool singularity = false) {
   static constexpr std::array<std::string_view, 4> kAllWords{"milky_way", "grid", "black", "rings"};
@@ -82,8 +83,8 @@ std::optional<SkyBackground> read_background(const Item& item, const Lookup& loo
   return std::nullopt;
 }
 
-// Whether a background is an image of the show's, whose values have no unit of their own.  Those
-// that come with Domefall have.
+// Says whether a background is an image of the show's own, whose values have no unit.  The images
+// that come with Domefall have one, and so have .sky files.
 bool is_own_image(const SkyBackground& background) {
   const auto* panorama = std::get_if<PanoramaSky>(&background);
   std::error_code error;
@@ -92,13 +93,14 @@ bool is_own_image(const SkyBackground& background) {
          !is_sky_file(panorama->image);
 }
 
-// What a show or a segment says of the background of one region.  Each item may be null.
+// BackgroundKeys hold what a show or a segment says of the background of one region.  Each item may
+// be null.
 struct BackgroundKeys {
   const Item *background = nullptr, *white = nullptr, *black = nullptr, *period = nullptr;
   bool singularity = false;  // region IV alone may have rings
 };
 
-// Sets what the value 1 of an image is.  Other backgrounds have a light of their own.
+// Sets the luminance of an image's value 1.  Other backgrounds have a light of their own.
 void read_white(const Item* white, SkyBackground& background) {
   if (!is_own_image(background)) {
     if (white) white->fail("is the white of an image; this background has its own light, see gain");
@@ -108,7 +110,8 @@ void read_white(const Item* white, SkyBackground& background) {
   std::get<PanoramaSky>(background).brightness = luminance.value_or(kShownWhite) / kPanoramaUnit;
 }
 
-// Sets what is black on a map.  Formulas have no floor to take away.
+// Sets the luminance that is black on a map.  A background that is a formula has no dark level to
+// take away.
 void read_black(const Item& item, SkyBackground& background) {
   auto* panorama = std::get_if<PanoramaSky>(&background);
   if (!panorama) {
@@ -122,7 +125,8 @@ void read_black(const Item& item, SkyBackground& background) {
   }
 }
 
-// Reads the keys into a background, which stays where they do not name another.
+// Reads the keys into a background, which stays where they do not name another.  If the background
+// itself is in error, the keys that depend on it are not judged.
 void read_background_keys(const BackgroundKeys& keys, const Lookup& lookup,
                           SkyBackground& background) {
   const auto found =
@@ -144,7 +148,8 @@ std::optional<StarField> field_of(const std::optional<std::filesystem::path>& ca
   return StarField{*catalogue, max_magnitude};
 }
 
-// All stars of a .stars file, and of a table those of the limit that a show has without one.
+// Returns all stars of a .stars file, and of a table those of the limit that a show has without
+// one.
 std::optional<StarField> whole_field(const std::optional<std::filesystem::path>& catalogue) {
   if (!catalogue) return std::nullopt;
   return field_of(catalogue, of_header([&] {
@@ -152,7 +157,7 @@ std::optional<StarField> whole_field(const std::optional<std::filesystem::path>&
                              }).value_or(kStandardLimit));
 }
 
-// Reads a catalogue, with the faintest stars that it stands for.
+// Reads the word or the file of a catalogue, with the faintest magnitude that goes with it.
 std::optional<StarField> read_catalogue(const Item& item, const Lookup& lookup) {
   static constexpr std::array<std::string_view, 4> kWords{"standard", "naked_eye", "deepest",
                                                           "none"};
@@ -168,6 +173,7 @@ std::optional<StarField> read_catalogue(const Item& item, const Lookup& lookup) 
   return std::nullopt;
 }
 
+// Reads `stars`, which is a catalogue alone or a section, into `sky`.
 void read_catalogue(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (item.node.IsScalar()) {
     if (item.node.Scalar() == "none") {
@@ -198,7 +204,7 @@ void read_region(const Section& section, const Lookup& lookup, RegionSky& sky) {
   if (const Item* stars = section.find("stars")) read_catalogue(*stars, lookup, sky);
 }
 
-// Reads the sky of the past singularity, which is a background alone: a word, or a map.
+// Reads the sky of the past singularity, which is a background alone, given by a word or a section.
 void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
   if (!item.node.IsMap()) {
     read_background_keys({&item, nullptr, nullptr, nullptr, true}, lookup, sky.background);
@@ -211,8 +217,8 @@ void read_region_four(const Item& item, const Lookup& lookup, RegionSky& sky) {
                        lookup, sky.background);
 }
 
-// The sky of region I where the show says nothing else.  The shipped files are asked for only where
-// it does not name others.
+// Returns the sky of region I where the show says nothing else.  The shipped files are asked for
+// only where the show does not name others.
 RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup) {
   RegionSky sky;
   if (!own.find("background"))
@@ -228,7 +234,7 @@ RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
   const Section sky = subsection(
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
-  RegionSky before;  // region III has what region I has, but for what its own section names
+  RegionSky before;  // region III begins with what region I has
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
     const Section own = subsection(sky, kSkyKeys[region],
                                    {"background", "gain", "black_cd_m2", "stars", "white_cd_m2"});

@@ -1,4 +1,4 @@
-// The show's `sky`: one for each region.
+// The section `sky` of a show gives each region its sky.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -12,7 +12,7 @@ namespace domefall {
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show);
 
 // Reads the backgrounds that a segment's `sky` gives.  Those of the show stand for what it leaves
-// out.  Unknown keys are reported elsewhere.
+// out.  Unknown keys are reported by read_values (channel_values.h).
 void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<RegionSky>& of_show,
                       PerSky<std::optional<SkyBackground>>& backgrounds);
 

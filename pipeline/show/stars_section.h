@@ -1,4 +1,4 @@
-// The show's `stars`: how stars are drawn.
+// The section `stars` of a show says how stars are drawn.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -7,11 +7,12 @@
 
 namespace domefall {
 
-// Sets the law of point spread, with the defaults of its two forms, `law: size` and `law: psf`, the
-// least radius of stars, and the gain that the skies have where read_sky finds none.
+// Sets the point-spread law, with the defaults of its two forms, `law: size` and `law: psf`.  Sets
+// also the saturation and the least radius of stars, and the gain that they have in skies for which
+// read_sky finds none.
 void read_stars(const Section& show, Show& to);
 
-// The gain that stars have under a law where a show names none.
+// Returns the gain that stars have under a law where a show names none.
 double default_star_gain(const PointSpreadLaw& law);
 
 }  // namespace domefall

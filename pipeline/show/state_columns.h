@@ -1,4 +1,4 @@
-// The state of a frame as a row of a table, for other programs.
+// These columns give the state of a frame as a row of a table, for other programs.
 #pragma once
 
 #include <array>
@@ -8,18 +8,20 @@
 
 namespace domefall {
 
-// r and null_time are in M, and so is proper_time where there is a hole, else it is in seconds.
-// celerity (gamma v) is against the tetrad, along R, Theta and Phi.  ra_deg and dec_deg are the
-// observer's place as seen from the hole, azimuth_deg was swept in the planes of its orbits since
-// the start of the show, x, y and z are the camera's axes in the boosted (R, Theta, Phi), and
-// null_time is v = t + r* where the tetrad is rain and u = t - r* where it is outgoing.
+// The columns have these units and meanings:
+// - r and null_time are in M.  proper_time is in M where there is a hole, and else in seconds.
+// - celerity (gamma v) is against the tetrad, along R, Theta and Phi.
+// - ra_deg and dec_deg are the observer's place as seen from the hole.
+// - azimuth_deg was swept in the planes of the observer's orbits since the start of the show.
+// - x, y and z are the camera's axes in the boosted (R, Theta, Phi).
+// - null_time is v = t + r* where the tetrad is rain, and u = t - r* where it is outgoing.
 inline constexpr std::array kStateColumns{
     "frame",       "show_time_s", "segment",        "region",       "tetrad",   "r",
     "proper_time", "celerity_r",  "celerity_theta", "celerity_phi", "ra_deg",   "dec_deg",
     "azimuth_deg", "x_r",         "x_theta",        "x_phi",        "y_r",      "y_theta",
     "y_phi",       "z_r",         "z_theta",        "z_phi",        "null_time"};
 
-// A number and how many digits of it a text has.
+// A StateNumber is a number with the count of its digits in a text.
 struct StateNumber {
   double value;
   int digits;
@@ -28,6 +30,7 @@ struct StateNumber {
 // A segment is counted from 1.  Each column holds one of the three kinds in all frames.
 using StateCell = std::variant<int, const char*, StateNumber>;
 
+// Returns the cells of a frame in the order of the columns.
 std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state);
 
 }  // namespace domefall

@@ -19,7 +19,7 @@ constexpr Range kSeconds{"seconds"};
 constexpr double kTimeRounding = 1e-9;
 constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
 
-// Whether the observer rests in the static frame, to rounding.
+// Says whether the observer rests in the static frame, to rounding.
 bool is_at_rest(const Trajectory& trajectory) {
   if (std::holds_alternative<StaticObserver>(trajectory)) return true;
   const auto* given = std::get_if<GivenVelocity>(&trajectory);
@@ -29,8 +29,8 @@ bool is_at_rest(const Trajectory& trajectory) {
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
-// Whether the camera of a segment, which lasts from `begin` to `end`, ever has an attitude of this
-// kind.
+// Says whether the camera of a segment, which lasts from `begin` to `end`, ever has an attitude of
+// this kind.
 template <class Kind>
 bool ever_has(const Segment& s, double begin, double end) {
   if (s.attitudes.empty()) return std::holds_alternative<Kind>(s.camera.attitude);
@@ -45,7 +45,7 @@ bool ever_has(const Segment& s, double begin, double end) {
   return false;
 }
 
-// Reads segment after segment, since each begins where the one before ends.
+// A TimelineReader reads segment after segment, since each begins where the one before ends.
 class TimelineReader {
  public:
   TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
@@ -89,7 +89,7 @@ class TimelineReader {
     return 0;
   }
 
-  // A marker says when the segment ends.
+  // Reads the duration.  A marker in its place says when the segment ends.
   double read_duration(const Section& section, double begin) const {
     const Item* item = section.require("duration_s", " (seconds)");
     const auto seconds =
@@ -98,8 +98,8 @@ class TimelineReader {
     return seconds.value_or(1);
   }
 
-  // At most two segments are seen at a time, so that a dissolve begins after that of the segment
-  // before has ended.
+  // Says whether a dissolve is short enough.  At most two segments are seen at a time, so that a
+  // dissolve begins after that of the segment before has ended.
   bool fits_dissolve(const Section& section, double dissolve, const Segment& segment) const {
     if (dissolve == 0) return true;
     const Segment& before = segments_.back();
@@ -113,7 +113,8 @@ class TimelineReader {
     return false;
   }
 
-  // The values of the show, which hold wherever neither a segment nor a keyframe says otherwise.
+  // Returns the values of the show, which hold wherever neither a segment nor a keyframe says
+  // otherwise.
   PerChannel<double> constants(const Camera& camera) const {
     PerChannel<double> values;
     values[Channel::kRoll] = camera.roll;
@@ -154,6 +155,7 @@ class TimelineReader {
                              of_segment = constants(segment.camera);
     for (const Channel channel : kEveryChannel) {
       std::optional<Curve>& curve = segment.curves[channel];
+      // A value of the segment's own is a constant curve, which hides the show's keyframes.
       curve = values[channel] ? Curve{{{begin, *values[channel]}}}
                               : curve_through(keyframes_, channel, 0, of_show[channel]);
       const double base = value_at(segment, channel, begin, of_segment[channel]);
@@ -167,8 +169,8 @@ class TimelineReader {
       segment.attitudes = std::move(through);
   }
 
-  // The attitude of the last keyframe before an instant, from which the segment's own keyframes
-  // turn away.
+  // Returns the attitude of the last keyframe before an instant, from which the segment's own
+  // keyframes turn away.
   static Attitude attitude_at(const Segment& segment, double t) {
     Attitude attitude = segment.camera.attitude;
     for (const AttitudeKey& key : segment.attitudes)
@@ -209,6 +211,7 @@ class TimelineReader {
     return segments_.empty() ? place_tetrad(show_.hole_at, show_.heading, 0) : joint_.axes;
   }
 
+  // Reports a camera whose target does not exist in the segment.
   static void check_targets(const Item& item, const Segment& segment, double begin) {
     const double end = begin + segment.duration_s;
     const auto region_at = [&segment](const ProperTime& tau) {
@@ -246,7 +249,7 @@ void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, d
     if (keyframes[k].at_s > end) fail_behind_the_end(*peek((*read_list(list))[k], "at_s"), end);
 }
 
-// Reports markers there.
+// Reports markers behind the end of the show.
 void check_markers(const Section& section, const std::vector<Marker>& markers, double end) {
   for (const Marker& marker : markers)
     if (marker.at_s > end) fail_behind_the_end(*peek(*section.find("markers"), marker.name), end);

@@ -16,6 +16,7 @@ constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
 std::string leg_name(Leg leg) { return leg == Leg::kInward ? "inward" : "outward"; }
 
+// Reads the leg on which a radius lies, which must be given too.
 std::optional<Leg> read_leg(const Section& s, std::string_view key, std::string_view radius) {
   const Item* item = s.find(key);
   if (!item) return std::nullopt;
@@ -26,6 +27,7 @@ std::optional<Leg> read_leg(const Section& s, std::string_view key, std::string_
   return s.word<Leg>(key, {{"inward", Leg::kInward}, {"outward", Leg::kOutward}});
 }
 
+// Reports a radius that the trajectory does not pass, with the range of those that it does.
 void fail_unreached(const Item& item, const Trajectory& trajectory, std::optional<Leg> leg,
                     const char* when) {
   const auto [low, high] = reach(trajectory);
@@ -37,7 +39,8 @@ void fail_unreached(const Item& item, const Trajectory& trajectory, std::optiona
                         leg ? fmt::format("on the {} leg ", leg_name(*leg)) : "", when, range));
 }
 
-// What is wrong with an instant at which the trajectory is nearer or farther than shows may be.
+// Says what is wrong with an instant at which the trajectory is nearer or farther than shows may
+// be.
 std::optional<std::string> leaves_shows(const Trajectory& trajectory, const ProperTime& tau) {
   constexpr double kRounding = 1e-9;
   const double r = point_at(trajectory, tau).r;
@@ -46,7 +49,7 @@ std::optional<std::string> leaves_shows(const Trajectory& trajectory, const Prop
                      short_number(kNearest), short_number(kFarthest));
 }
 
-// Reads from_tau_m.
+// Reads from_tau_m, which must lie within the trajectory.
 std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& trajectory) {
   const auto tau = s.number("from_tau_m", kClock);
   if (!tau) return std::nullopt;
@@ -64,6 +67,7 @@ std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& tr
   return *tau;
 }
 
+// Reads where the segment begins, which may have a default.
 std::optional<ProperTime> read_begin(const Section& s, const Trajectory& trajectory,
                                      const Defaults& start) {
   const Item* given = s.one_of({"from_r", "from_tau_m"});
@@ -80,7 +84,8 @@ std::optional<ProperTime> read_begin(const Section& s, const Trajectory& traject
   return tau;
 }
 
-// Whether a passage of r is the beginning itself, which rounding of r has moved.
+// Says whether a passage of r is the beginning itself, which rounding of r has moved.  Then r has
+// not changed halfway between the two either.
 bool is_same_passage(const Trajectory& trajectory, double r, const ProperTime& begin,
                      const ProperTime& passed) {
   constexpr double kSameRadius = 1e-12, kSoon = 1e-3;  // of r
@@ -91,7 +96,7 @@ bool is_same_passage(const Trajectory& trajectory, double r, const ProperTime& b
   return later < kSoon * r && is_there(begin) && is_there(begin + later / 2);
 }
 
-// Proper time of the first passage of r after the beginning, on one leg or on either.
+// Returns the proper time of the first passage of r after the beginning, on one leg or on either.
 std::optional<ProperTime> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
                                   const ProperTime& begin) {
   constexpr double kRounding = 1e-12;  // of proper time
@@ -130,6 +135,7 @@ std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& traj
   return std::nullopt;
 }
 
+// Reads the rate of a segment that has no other end, and which must not outlast the trajectory.
 std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                  const ProperTime& begin) {
   const auto rate = read_rate(s, stage);
@@ -148,7 +154,7 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   return std::nullopt;
 }
 
-// Reports an end outside the radii that shows may have.
+// Returns true if the end lies within the radii that shows may have, and reports one that does not.
 bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime& tau) {
   const auto what = leaves_shows(trajectory, tau);
   if (!what) return true;
@@ -167,12 +173,13 @@ bool has_two_rates(const Section& s) {
   return rate && rate->node.IsSequence();
 }
 
-// Whether r only falls or only rises between two instants, so that each r has one time.
+// Says whether r only falls or only rises between two instants, so that each r has one time.
 bool goes_one_way(const Trajectory& trajectory, const Timing& timing) {
   const ProperTime &from = timing.tau_begin, &to = timing.tau_end;
   const double span = double(to - from), end = point_at(trajectory, to).r;
   double r = point_at(trajectory, from).r;
   const bool inward = end < r;
+  // The samples stand evenly, and close behind the beginning, which may be next to a turning point.
   constexpr double kSoon[] = {1e-6, 1e-3};
   constexpr int kSamples = 64;
   const auto goes_on = [&](double part) {
@@ -189,7 +196,7 @@ bool goes_one_way(const Trajectory& trajectory, const Timing& timing) {
   return !first || double(to - *first) < kRounding * span;
 }
 
-// The words of `pace`.
+// These are the words of `pace`.
 enum class Word {
   kSteady,
   kEased,
@@ -283,6 +290,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
       timing.pace = Pace::kEased;
       break;
     case Word::kEasedIn:
+      // Rates of 0 and 2 have the mean 1, so that the rate rises steadily (rate_law.h).
       timing.rate_begin = 0, timing.rate_end = 2;
       break;
     case Word::kEasedOut:
@@ -325,6 +333,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
   const Item* given = find_end(s, {"to_r", "to_tau_m"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");
+  // A frozen segment ends at the instant at which it begins.
   if (pace && is_word(*pace, "frozen")) {
     if (!read_pace(s, trajectory, timing)) return std::nullopt;
     return timing;

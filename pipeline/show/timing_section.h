@@ -1,5 +1,5 @@
-// The keys of a trajectory that name the part of it that a segment shows, and how the observer's
-// clock runs meanwhile.
+// These functions read the keys of a trajectory that name the part of it that a segment shows, and
+// how the observer's clock runs meanwhile.
 #pragma once
 
 #include <initializer_list>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// What a trajectory must know of the segment that it belongs to.
+// A Stage is what a trajectory must know of the segment that it belongs to.
 struct Stage {
   std::optional<double> mass_solar;  // none in flat space
   M33d axes;                         // of the reference tetrad on the sky, where the segment begins
@@ -20,51 +20,52 @@ struct Stage {
   double null_time = 0;  // v where the segment begins, counted from the show's start, M
 };
 
-// The proper time (units of M; seconds in flat space) that passes in `seconds` of the observer's
-// clock.
+// Returns the proper time (units of M; seconds in flat space) that passes in `seconds` of the
+// observer's clock.
 double proper_time_in(const Stage& stage, double seconds);
 
 inline constexpr double kNearest = 1e-6, kFarthest = 1e9;  // the radii of shows, units of M
 inline constexpr Range kRadius = kUnitsOfM.within(kNearest, kFarthest);
-inline constexpr double kMostOrbits = 1e6;  // in a segment
+// A segment has at most this many orbits.  Their azimuth still has nine digits behind the point.
+inline constexpr double kMostOrbits = 1e6;
 
-// How proper time runs in the segment.
+// A Rate says how proper time runs in the segment.
 struct Rate {
   double span = 0;            // proper time that passes in the whole segment
   double begin = 1, end = 1;  // how fast it runs at both ends, as parts of the mean
 };
 
 // Reads `rate_m_per_s` (one number, or those at begin and end), `time_lapse` or `orbits`, which
-// counts in the given period.  Without any of them 1 M passes per second.  Nothing is returned for
-// an error.
+// counts in the given period.  Without any of them 1 M passes per second.  Returns nothing for an
+// error.
 std::optional<Rate> read_rate(const Section& s, const Stage& stage,
                               std::optional<double> period = std::nullopt);
 
-// The key that says where a segment ends, one of `ends`, or else how fast its clock runs; null
-// without either.  Reports keys that exclude each other.  Only the two rates of `rate_m_per_s:
-// [a, b]` go with an end.
+// Returns the key that says where a segment ends, one of `ends`, or else the key that says how fast
+// its clock runs, or null without either.  Reports keys that exclude each other.  Only the two
+// rates of `rate_m_per_s: [a, b]` go with an end.
 const Item* find_end(const Section& s, std::initializer_list<std::string_view> ends);
 
-// Reads two rates into a timing whose ends are fixed, if there are any.  Returns whether there was
+// Reads two rates, if there are any, into a timing whose ends are fixed.  Returns true if there was
 // no mistake.
 bool read_end_rates(const Section& s, const Stage& stage, Timing& timing);
 
-// Reads `pace` into a timing whose ends are fixed.  Reports a pace that the trajectory cannot have,
-// and returns whether there was no mistake.
+// Reads `pace` into a timing whose ends are fixed.  Reports a pace that the trajectory cannot have.
+// Returns true if there was no mistake.
 bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing);
 
-// Where a segment of a world line begins and ends if the show does not say so.
+// Defaults say where a segment of a world line begins and ends if the show does not say so.
 struct Defaults {
   std::optional<ProperTime> tau;  // of the beginning; none if it must be given
   Leg leg = Leg::kInward;         // on which from_r is sought
   ProperTime after = -std::numeric_limits<double>::infinity();  // tau from which on it is sought
-  // The end; with neither 1 M of proper time passes per second.
+  // The segment ends at one of these.  With neither, 1 M of proper time passes per second.
   std::optional<double> to_r;
   std::optional<ProperTime> to_tau;
 };
 
 // Reads the beginning (from_r, from_leg, from_tau_m), the end (to_r, to_leg, to_tau_m,
-// rate_m_per_s, time_lapse) and the pace.  Nothing is returned for an error.
+// rate_m_per_s, time_lapse) and the pace.  Returns nothing for an error.
 std::optional<Timing> read_timing(const Section& s, const Stage& stage,
                                   const Trajectory& trajectory, const Defaults& defaults);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Range kTitleSeconds{"seconds"};
 constexpr double kHeightDeg = 2, kMostHeightDeg = 60;
-// Where the audience of a dome looks without leaning back.
+// The audience of a dome looks there without leaning back.
 constexpr double kTitleElevationDeg = 30;
 constexpr double kBrightest = 1e4;
 constexpr std::size_t kLongestText = 2000;
@@ -38,6 +38,7 @@ void read_title_place(const Section& s, const Projection& projection, Title& tit
       radians(s.number("height_deg", kDegrees.above(0).at_most(kMostHeightDeg), kHeightDeg));
 }
 
+// Reads the light of a title, whose colour is given in linear Rec. 709.
 void read_title_light(const Section& s, Title& title) {
   const double brightness = s.number("brightness", Range{"pixel values"}.within(0, kBrightest), 1);
   V3d colour(1, 1, 1);
@@ -49,7 +50,7 @@ void read_title_light(const Section& s, Title& title) {
                  static_cast<float>(light.z)};
 }
 
-// A marker as a duration says when the title ends.
+// Reads when a title is seen.  A marker in the place of its duration says when it ends.
 void read_title_times(const Section& s, const TitleSpan& span, const Show& show, Title& title) {
   const double length = span.end_s - span.begin_s;
   const Item* at = s.find("at_s");

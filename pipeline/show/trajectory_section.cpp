@@ -14,8 +14,7 @@
 namespace domefall {
 namespace {
 
-constexpr double kDefaultEnd = 0.05;
-// The azimuth of this many orbits still has nine digits behind the point.
+constexpr double kDefaultEnd = 0.05;  // M; where a fall ends by default
 
 std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& trajectory, Timing timing,
                                      bool mirrored) {
@@ -23,7 +22,7 @@ std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& traject
   return TimedTrajectory{trajectory, timing, {mirrored}};
 }
 
-// The timing of a trajectory that is given by a rate, from tau = 0 on.
+// Returns the timing of a trajectory that is given by a rate, from tau = 0 on.
 Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
 
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage) {
@@ -39,7 +38,8 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage)
       "r", kUnitsOfM.above(kStaticInnermost, "nothing holds still at or inside the horizon")
                .at_most(kFarthest));
   const bool mirrored = is_in_region_three(s);
-  // Its clock runs in real time unless something that moves wants another.
+  // The observer's clock runs in real time, unless a show in which other things move wants another
+  // rate.
   if (find_end(s, {})) {
     const auto rate = read_rate(s, stage);
     if (!rate) return std::nullopt;
@@ -85,6 +85,8 @@ std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const R
   return std::nullopt;
 }
 
+// Reads a radial fall from rest at infinity, whose keys include those that only other falls have,
+// since a fall that gives one of them is read elsewhere (is_curved).
 std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "region",
                          "rest_r", "angular_momentum", "v_inf", "impact_parameter", "from_leg",
@@ -121,6 +123,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   return paced(s, fall, timing, mirrored);
 }
 
+// Reads an observer whose velocity is given, and who moves against no hole in flat space.
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
   const Section s(
       item, {"type", "r", "region", "speed", "lorentz_factor", "against", "direction", "pace"});
@@ -150,12 +153,13 @@ std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stag
   const auto timing = read_end(s, stage, stage.before->trajectory, stage.before->timing.tau_end);
   if (!timing) return std::nullopt;
   Placement placement = stage.before->placement;
+  // The orbit stays in its plane and begins where it has ended.
   placement.turn = 0;
   placement.beginning.reset();
   return TimedTrajectory{stage.before->trajectory, *timing, placement};
 }
 
-// Whether a fall has keys that RadialInfall does not cover.
+// Says whether a fall has keys that RadialInfall does not cover.
 bool is_curved(const Item& item) {
   static constexpr std::array<std::string_view, 8> kKeys{
       "rest_r",   "angular_momentum", "v_inf",  "impact_parameter",
@@ -168,14 +172,14 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
   return is_curved(item) ? read_curved_infall(item, stage) : read_radial_infall(item, stage);
 }
 
-// What a trajectory may be: the word for its type, whether flat space has it, and its reader.
+// A Type of trajectory has a word for it, says whether flat space has it, and has a reader.
 struct Type {
   std::string_view name;
   bool in_flat_space;
   std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
 };
 
-// The reader of a type that names neither files nor stars.
+// Reads a trajectory of a type that names neither files nor stars.
 template <std::optional<TimedTrajectory> (*Read)(const Item&, const Stage&)>
 std::optional<TimedTrajectory> without_lookup(const Item& item, const Stage& stage, Lookup&) {
   return Read(item, stage);

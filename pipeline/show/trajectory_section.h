@@ -1,4 +1,4 @@
-// The section `trajectory` of a segment.
+// The section `trajectory` of a segment says how its observer moves.
 #pragma once
 
 #include "pipeline/show/lookup.h"
@@ -13,10 +13,10 @@ struct TimedTrajectory {
   Placement placement;
 };
 
-// Reads `region`, which is I or III.  Both have the same orbits.
+// Reads `region`, which is I or III, and says whether it is III.  Both have the same orbits.
 bool is_in_region_three(const Section& s);
 
-// Reads a trajectory of any type.  Nothing is returned for an error, which is reported.
+// Reads a trajectory of any type, or reports an error and returns nothing.
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
                                                Lookup& lookup);
 

@@ -1,4 +1,4 @@
-// The observers for whom a frame is drawn that leaves some effects out.
+// A Vantage holds the observers for whom a frame is drawn that leaves some effects out.
 //
 // Without aberration, directions are those of the observer at rest at the same place.  Outside a
 // horizon and in flat space that observer rests in r, and inside in t (T_II and T_IV of [Riazuelo]
@@ -15,19 +15,19 @@
 namespace domefall {
 
 struct Vantage {
-  // gamma v of the observer whose directions are drawn, and of the one at rest, against the
-  // reference tetrad.
+  // `celerity` is gamma v of the observer whose directions are drawn, and `rest` that of the
+  // observer at rest, both against the reference tetrad.
   V3d celerity, rest;
-  // gamma v of the observer that measures frequencies, against the one whose directions are drawn
-  // and along the axes of the latter (those of the tetrad, boosted).  There is none if they are the
-  // same.
+  // `measured` is gamma v of the observer that measures frequencies, against the one whose
+  // directions are drawn and along the axes of the latter (those of the tetrad, boosted).  There is
+  // none if they are the same.
   std::optional<V3d> measured;
 };
 
-// The two observers for a state under the effects that a show keeps.
+// Returns the two observers for a state under the effects that a show keeps.
 Vantage vantage_of(const ObserverState& observer, const Effects& effects);
 
-// The frequency of light from infinity for the observer at rest, over that at infinity:
+// Returns the frequency of light from infinity for the observer at rest, over that at infinity:
 // 1/(1 + z_grav) = 1/sqrt(1 - 2/r), [Riazuelo] eq. zgrav, for r > 2 or kFlatSpace.
 double gravitational_ratio(double r);
 

@@ -16,6 +16,7 @@ constexpr Range kFactors = kPureNumber.within(1, kMostLorentzFactor);
 constexpr Range kSpeeds = Range{"speed of light = 1"}.at_least(0).below(1);
 
 // Velocities are held as gamma v, since a speed in double precision has no Lorentz factor of 1e9.
+// gamma^2 - 1 = (gamma v)^2 and 1 - v^2 = 1/gamma^2 are taken as products, which do not cancel.
 double gamma_v_of_factor(double factor) { return std::sqrt((factor - 1) * (factor + 1)); }
 double gamma_v_of_speed(double v) { return v / std::sqrt((1 - v) * (1 + v)); }
 
@@ -29,13 +30,14 @@ std::optional<double> read_gamma_v(const Section& s) {
   return v ? std::optional(gamma_v_of_speed(*v)) : std::nullopt;
 }
 
+// Returns the key that gives the speeds at both ends, or null if one speed holds.
 const Item* two_speeds(const Section& s) {
   for (const char* key : {"speed", "lorentz_factor"})
     if (const Item* item = s.find(key); item && item->node.IsSequence()) return item;
   return nullptr;
 }
 
-// The rapidity of what starts from rest.  It is not 0, so that there is a direction.
+// What starts from rest has this rapidity, which is not 0, so that there is a direction.
 constexpr double kLeastRapidity = 1e-8;
 
 std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Item& item) {
@@ -54,6 +56,7 @@ std::optional<V3d> read_components(const Item& item) {
   const Section s(item, {"radial", "theta", "phi"});
   const Range range = kPureNumber.within(-1e9, 1e9);
   const V3d v(s.number("radial", range, 0), s.number("theta", range, 0), s.number("phi", range, 0));
+  // The largest component is taken out first, so that the squares of small ones do not vanish.
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (size > 0) return (v / size).normalized();
   item.fail("must not be the zero vector; give radial, theta or phi");
@@ -64,7 +67,7 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-// The direction in which an observer sees a place on its home sky.
+// Returns the direction in which an observer sees a place on its home sky.
 V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
   const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
@@ -97,7 +100,7 @@ const Item* require_direction(const Section& s) {
 
 enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
 
-// Whether a region has observers of that kind.
+// Says whether a region has observers of that kind.
 bool is_found_in(Against against, Region region) {
   switch (against) {
     case Against::kStatic:
@@ -112,7 +115,7 @@ bool is_found_in(Against against, Region region) {
   return region == Region::kII || region == Region::kIV;
 }
 
-// The radii at which an observer of that kind can be, in that region if one is named.
+// Returns the radii at which an observer of that kind can be, in that region if one is named.
 Range radii(Against against, std::optional<Region> region) {
   if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(2);
   if (against == Against::kStatic && !region)
@@ -126,13 +129,15 @@ Range radii(Against against, std::optional<Region> region) {
   return kUnitsOfM.at_least(kNearest).at_most(2);
 }
 
-// The region that the show names, or that of a free fall from region I or of a rise to it.
+// Returns the region that the show names, or else that of a free fall from region I or of a rise to
+// it.
 Region region_of(const std::optional<Region>& named, Against against, double r) {
   if (named) return *named;
   if (r > 2) return Region::kI;
   return against == Against::kOutgoing ? Region::kIV : Region::kII;
 }
 
+// Returns the tetrad of region and observer, which inside the hole only depends on the region.
 Tetrad tetrad_of(Region region, Against against) {
   if (region == Region::kIV) return Tetrad::kOutgoing;
   if (region == Region::kII) return Tetrad::kRain;

@@ -1,4 +1,5 @@
-// The keys that give a velocity: how fast, where to, and against which observer.
+// These functions read the keys that give a velocity: how fast, where to, and against which
+// observer.
 #pragma once
 
 #include "pipeline/show/trajectory_section.h"
@@ -10,8 +11,8 @@ namespace domefall {
 std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radius_key = "r");
 
 // Reads gamma v against the observer `frame`, along the axes of frame.tetrad, from `speed` or
-// `lorentz_factor` and `direction`.  A place on the sky is the direction in which that observer
-// sees its primary image, so that it lies dead ahead.
+// `lorentz_factor` and `direction`.  A direction that is a place on the sky is the one in which
+// that observer sees its primary image, so that the place lies dead ahead.
 std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
                                      const GivenVelocity& frame, Lookup& lookup);
 

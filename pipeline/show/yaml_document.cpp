@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
 
-// The length of the well-formed UTF-8 character at the start of the text; 0 if there is none.
-// Overlong forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
+// Returns the length of the well-formed UTF-8 character at the start of the text, or 0 if there is
+// none.  Overlong forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode
+// table 3-7).
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t k) {
     return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
@@ -26,6 +27,7 @@ std::size_t character_length(std::string_view text) {
   if (first < 0x80) return 1;
   const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
   if (length == 0 || first > 0xF4) return 0;
+  // The first byte can narrow the range of the second one, but not those of the others.
   const unsigned low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
   const unsigned high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
   if (byte(1) < low || byte(1) > high) return 0;
@@ -34,6 +36,7 @@ std::size_t character_length(std::string_view text) {
   return length;
 }
 
+// Reports the first character that has no place in a show.
 void check_characters(std::string_view text, Problems& problems) {
   TextPlace at;
   for (std::size_t k = 0; k < text.size();) {
@@ -57,8 +60,8 @@ void check_characters(std::string_view text, Problems& problems) {
   }
 }
 
-// The column of a tab in the indentation of a line.  yaml-cpp reports such a tab only some way
-// behind it.
+// Returns the column of a tab in the indentation of a line.  yaml-cpp reports such a tab only some
+// way behind it.
 std::optional<int> tab_in_indentation(const std::string& text, int line) {
   std::size_t start = 0;
   for (int k = 0; k < line && start != std::string::npos; ++k) {
@@ -71,6 +74,7 @@ std::optional<int> tab_in_indentation(const std::string& text, int line) {
   return static_cast<int>(at - start);
 }
 
+// Adds a syntax error, in words of our own where its cause is a common one.
 void add_syntax_error(const YAML::ParserException& error, const std::string& text,
                       Problems& problems) {
   const TextPlace at{error.mark.line, error.mark.column};
@@ -82,7 +86,7 @@ void add_syntax_error(const YAML::ParserException& error, const std::string& tex
     problems.add(at, "this is not valid YAML: " + error.msg);
 }
 
-// Keeps the place of a document's root.
+// A Root keeps the place of a document's root.
 class Root : public YAML::EventHandler {
  public:
   TextPlace at() const { return {mark_.line, mark_.column}; }
@@ -116,8 +120,8 @@ class Root : public YAML::EventHandler {
   YAML::Mark mark_;
 };
 
-// Whether there is a document; reports a second one.  yaml-cpp 0.7 makes documents without end of a
-// text that begins with a comma, all at one place, so that no more than two are asked for.
+// Says whether there is a document, and reports a second one.  yaml-cpp 0.7 makes documents without
+// end of a text that begins with a comma, all at one place, so that no more than two are asked for.
 bool check_documents(const std::string& text, Problems& problems) {
   std::istringstream in(text);
   YAML::Parser parser(in);
