@@ -96,8 +96,8 @@ V3d direct_image(const Body& body, const ObserverState& o) {
 
 V3d motion_direction(const ObserverState& o) {
   // d/dt = T + sqrt(2/r) R in rain and T - sqrt(2/r) R in the outgoing tetrad.  The boost into the
-  // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into k - c (1 - c.k/(1 +
-  // gamma)), where c = gamma v.
+  // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into
+  // k - c (1 - c.k/(1 + gamma)), where c = gamma v.
   const double s = std::sqrt(2 / o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));

@@ -115,6 +115,7 @@ double near_magnitude(double absolute, double mass_solar) {
   return absolute + 5 * std::log10(distance / kTenParsecs);
 }
 
+// Reads the light of a body.  Its magnitude is V at kBodyMagnitudeDistance, or an absolute one.
 void read_light(const Section& s, const Show& to, Body& body) {
   constexpr Range kMagnitudes = Range{"magnitudes"}.within(kBrightestMagnitude, kFaintestMagnitude);
   body.temperature = s.number("temperature_k", Range{"kelvin"}.within(kCoolestBodyK, kHottestBodyK),
@@ -128,6 +129,7 @@ void read_light(const Section& s, const Show& to, Body& body) {
   body.radius = s.number("radius", kUnitsOfM.above(0).at_most(kLargestBody), body.radius);
 }
 
+// Reads one body, whose orbit is given by elements, by a trajectory or by the radius of a circle.
 Body read_body(const std::string& name, const Item& item, const Show& to,
                std::optional<double> year, Lookup& lookup) {
   const Section s(item,
@@ -136,6 +138,7 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
   Body body;
   body.name = name;
   if (const Item* elements = s.find("elements")) {
+    // Elements exclude the keys that give an orbit in another way.
     for (const std::string_view key :
          {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
       s.one_of({"elements", key});

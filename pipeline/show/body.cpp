@@ -10,10 +10,10 @@
 namespace domefall {
 namespace {
 
-// Brings a point of region I from the outgoing tetrad to rain; all other points stay as they are.
+// Brings a point of region I from the outgoing tetrad to rain.  All other points stay as they are.
 // With the radial celerity w, E = gamma + s w and u^r = w + s gamma in the outgoing tetrad.  In
-// rain both signs are minus, which gives w = (u^r + s E)/(1 - s^2).  The null times differ by v - u
-// = 2 r*.
+// rain both signs are minus, which gives w = (u^r + s E)/(1 - s^2).  The null times differ by
+// v - u = 2 r*.
 OrbitPoint in_rain(OrbitPoint point) {
   if (!is_outgoing(point.tetrad) || point.region != Region::kI) return point;
   const double s = std::sqrt(2 / point.r), lapse = 1 - 2 / point.r;

@@ -25,7 +25,8 @@ struct Body {
   double azimuth = 0, null_time = 0;
   bool shines_before = true;  // else it begins to shine at that instant
   double temperature = 6000;  // of a blackbody, K
-  // V, as the body would have it at rest at a distance of kBodyMagnitudeDistance without a hole.
+  // The magnitude is V as the body would have it at rest at a distance of kBodyMagnitudeDistance
+  // without a hole.
   double magnitude = 0;
   double radius = 0;  // of a glowing sphere, M; 0 of a point
 };

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-constexpr double kDomeElevationDeg = 45;
+constexpr double kDomeElevationDeg = 45;  // default of elevation_deg
 
 constexpr std::array<std::string_view, 8> kKeys{"projection",    "cut",          "fov_deg",
                                                 "look_at",       "euler_deg",    "roll_deg",
@@ -31,6 +31,7 @@ std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& n
   return body ? std::optional<Attitude>(LookAtBody{*body}) : std::nullopt;
 }
 
+// Reads a target, which is a word, another keyframe's, a body or a place on the sky.
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
   static const Words<Attitude, 3> kWords{
       {{"hole", LookAtHole{}}, {"motion", LookAlongMotion{}}, {"outward", LookOutward{}}}};
@@ -55,11 +56,13 @@ std::optional<Attitude> read_attitude(const Section& camera, const NamedCameras&
   return look_at ? read_look_at(*look_at, named, lookup) : std::nullopt;
 }
 
+// Reads an angle in degrees and returns it in radians.
 std::optional<double> read_angle(const Section& camera, std::string_view key, const Range& range) {
   const auto degrees = camera.number(key, range);
   return degrees ? std::optional(radians(*degrees)) : std::nullopt;
 }
 
+// Reads the keys that every camera may have.  Which of them make sense depends on the projection.
 CameraKeys read_camera_keys(const Section& camera, const Projection& projection,
                             const NamedCameras& named, Lookup& lookup) {
   CameraKeys keys;
@@ -100,6 +103,7 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
   return own;
 }
 
+// Reads the show's `cameras`, which segments and keyframes name.
 void read_named_cameras(const Item& item, ShowCamera& show, Lookup& lookup) {
   if (!item.node.IsMap()) {
     item.fail("must be a map of names and cameras, got " + kind_of(item));
@@ -120,6 +124,7 @@ ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies
   result.keys = read_camera_keys(camera, result.projection, result.named, lookup);
   if (const auto fov = result.keys.values[Channel::kFov])
     result.projection = with_field_of_view(result.projection, *fov);
+  // The named cameras come last, since they are checked against the show's own.
   if (const Item* cameras = show.find("cameras")) read_named_cameras(*cameras, result, lookup);
   return result;
 }

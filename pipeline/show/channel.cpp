@@ -20,6 +20,7 @@ std::string key_of(Channel channel) {
       return "dome_tilt_deg";
     case Channel::kFov:
       return "fov_deg";
+    // The three colours of a triple share one key.
     case Channel::kSlopeR:
     case Channel::kSlopeG:
     case Channel::kSlopeB:

@@ -49,6 +49,7 @@ ChannelValues read_values(const Section& section, bool has_backgrounds) {
     values[star_gain_channel(region)] = stars.number("gain", kGain);
     values[max_magnitude_channel(region)] = stars.number("max_magnitude", kMagnitudes);
   }
+  // Region IV has no stars.
   values[gain_channel(SkyRegion::kIV)] =
       subsection(sky, kSkyKeys[SkyRegion::kIV],
                  std::span(kSingularityKeys.data(), has_backgrounds ? 5 : 1))

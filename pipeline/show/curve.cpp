@@ -29,8 +29,8 @@ double slope_at(const Keys& keys, std::size_t k) {
 }
 
 // Returns the slope at an end of a stretch whose secant is `chord`.  The slope of a linear
-// neighbour could carry the cubic beyond its ends, so that it is cut to three secants, with which
-// the cubic is still monotone (Fritsch and Carlson 1980).
+// neighbour could carry the cubic beyond its ends.  It is cut to three secants, with which the
+// cubic is still monotone (Fritsch and Carlson 1980).
 double tamed(double slope, double chord) {
   if (!(slope * chord > 0)) return 0;
   return std::abs(slope) > 3 * std::abs(chord) ? 3 * chord : slope;

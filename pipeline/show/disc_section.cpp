@@ -93,6 +93,7 @@ PatternKind read_spot(const Item& item) {
   return pattern;
 }
 
+// Reads the pattern of a disc, by the reader that its type has.
 std::optional<PatternKind> read_pattern(const Item& item) {
   using Reader = PatternKind (*)(const Item&);
   // The word none has no reader, and so leaves the disc without a pattern.

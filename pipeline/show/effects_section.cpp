@@ -10,6 +10,7 @@
 namespace domefall {
 namespace {
 
+// Reads a switch, which is on as in nature unless the show turns it off.
 bool read_switch(const Section& section, std::string_view key) {
   return section.word<bool>(key, {{"true", true}, {"false", false}}).value_or(true);
 }
@@ -31,6 +32,7 @@ std::optional<FrameState> frame_within(const Show& show) {
     ends.push_back(ends[k] + show.timeline[k].dissolve_s);
   for (const double seconds : ends) {
     const int end = static_cast<int>(std::lround(seconds * show.frames_per_second));
+    // The nearest frame and its neighbours lie on both sides of the end.
     for (int frame = std::max(end - 1, 0); frame <= std::min(end + 1, last); ++frame) {
       const FrameState state = frame_state(show, frame);
       if (const FrameState* found = within(state)) return *found;

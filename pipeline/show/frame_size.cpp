@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kSmallest = 16, kLargest = 16384;
+constexpr int kSmallest = 16, kLargest = 16384;  // pixels
 
 // Returns the number that a text is, or -1 if it is no whole number.
 int whole_number(std::string_view text) {
@@ -55,6 +55,7 @@ Projection resized(const Projection& projection, const std::string& size, const 
     if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
       pixels = thousands * 1024;
   }
+  // The faces of a cubemap lie three abreast, which bounds their edge to a third of the width.
   if (cube) {
     if (!is_frame_size(pixels) || 3 * pixels > kLargest)
       throw InputError(

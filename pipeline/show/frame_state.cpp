@@ -9,6 +9,7 @@
 namespace domefall {
 namespace {
 
+// Returns exposure and skies of a segment at t, where curves go before the values of the show.
 FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   FrameSettings settings;
   settings.ev = value_at(s, Channel::kEv, t, show.exposure.ev);
@@ -26,6 +27,7 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   return settings;
 }
 
+// Returns the CDL of a segment at t in the same way.
 Cdl cdl_at(const Show& show, const Segment& s, double t) {
   const Cdl& of_show = show.grade.cdl;
   Cdl cdl;
@@ -51,6 +53,7 @@ Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
   return between;
 }
 
+// Returns the part of the light that the fades of the segment and of the show leave together.
 double fade_at(const Show& show, int segment, double t) {
   const Segment& s = segment_of(show, segment);
   const double begin = begin_of(show, segment), end = begin + s.duration_s;
@@ -145,6 +148,7 @@ void take_size(const FrameState& state, FrameState& other) {
   const auto fov = field_of_view(other.projection);
   other.projection = fov ? with_field_of_view(state.projection, *fov) : state.projection;
   if (!other.vanishing) return;
+  // The state that vanishes may be shared, so that a copy takes the size.
   auto vanishing = std::make_shared<FrameState>(*other.vanishing);
   take_size(state, *vanishing);
   other.vanishing = std::move(vanishing);

@@ -17,6 +17,7 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup) {
   if (const Item* view = s.find("view")) grade.view = read_text(*view).value_or("");
   ChannelValues values;
   read_cdl(s, values);
+  // Numbers that the show does not give leave the picture as it is.
   grade.cdl =
       cdl_from([&](Channel channel, double neutral) { return values[channel].value_or(neutral); });
   return grade;

@@ -17,6 +17,7 @@ namespace {
 // yaml-cpp gives the tag "!" to quoted text, and "?" to text without quotes.
 bool is_quoted(const Item& item) { return item.node.Tag() == "!"; }
 
+// Returns the unit of a range for a message, such as " (degrees)".
 std::string in_unit(const Range& range) {
   return range.unit.empty() ? "" : fmt::format(" ({})", range.unit);
 }
@@ -95,6 +96,7 @@ bool is_text_or_number(const Item& item) { return item.node.IsScalar(); }
 
 namespace {
 
+// Says whether a byte is a control character, as a line end and a tab are.
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
 }  // namespace

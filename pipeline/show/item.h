@@ -84,7 +84,7 @@ bool is_word(const Item& item, std::string_view word);
 // Returns the index of the word that the item is, or reports an item that is none of them.
 std::optional<std::size_t> read_choice(const Item& item, std::span<const std::string_view> words);
 
-// Words are those of show files, each with what it stands for.
+// Words pair the words of show files with what they stand for.
 template <class T, std::size_t N>
 using Words = std::array<std::pair<std::string_view, T>, N>;
 

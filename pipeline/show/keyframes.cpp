@@ -5,6 +5,7 @@
 namespace domefall {
 namespace {
 
+// Reads one keyframe, whose time may be a marker's name.
 Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
                        const std::vector<Marker>& markers, ShowCamera& camera, Lookup& lookup) {
   const Section s(item, {"at_s", "name", "ease", "camera", "exposure", "grade", "sky"});
@@ -13,6 +14,8 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
   const auto at =
       time ? read_time(*time, Range{"seconds"}.within(0, span.latest), markers, span.start)
            : std::nullopt;
+  // A keyframe whose time is in error counts as the first instant, so that the rest of it is
+  // checked.
   keyframe.at_s = span.start + at.value_or(0);
   keyframe.ease =
       s.word<Ease>("ease",
@@ -56,6 +59,7 @@ std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Chann
   for (const Keyframe& keyframe : keyframes) {
     const std::optional<double>& value = keyframe.values[channel];
     if (!value) continue;
+    // Without a key at its start the curve would have the first keyframe's value before it already.
     if (curve.keys.empty() && keyframe.at_s > start) curve.keys.push_back({start, value_there});
     curve.keys.push_back({keyframe.at_s, *value, keyframe.ease});
   }

@@ -57,6 +57,7 @@ bool Lookup::read_places(const Item& item, int table) {
   const auto file = shipped(item, stars ? kStandardStars : kSkyPlaces);
   if (!file) return false;
   try {
+    // A show can name a star of any magnitude.
     places_.add(stars ? read_star_catalogue(*file, std::numeric_limits<double>::infinity()).names
                       : read_sky_places(*file));
   } catch (const InputError& error) {

@@ -24,6 +24,7 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   return reached - start.null_time;
 }
 
+// Returns the point of a segment's trajectory at tau, as it is placed in the show.
 OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
   return placed(point_at(s.trajectory, tau), s.placement);
 }
@@ -80,10 +81,12 @@ ProperTime proper_time_at(const Segment& s, double part) {
   const ProperTime &from = s.timing.tau_begin, &to = s.timing.tau_end;
   switch (s.timing.pace) {
     case Pace::kSlowing: {
+      // The time that is left to the trajectory shrinks by equal factors.
       const ProperTime end = lifetime(s.trajectory);
       return end - ratio_between(double(end - from), double(end - to), part);
     }
     case Pace::kQuickening: {
+      // The time since the trajectory began grows by equal factors.
       const ProperTime start = birth(s.trajectory);
       return start + ratio_between(double(from - start), double(to - start), part);
     }

@@ -15,7 +15,7 @@ ProperTime proper_time_at(const Segment& segment, double part);
 Joint first_joint(const Show& show, const Segment& first);
 // Returns the joint that `segment` hands over at its end.
 Joint joint_after(const Joint& joint, const Segment& segment);
-// Returns what `next` makes of that joint, since it may have a beginning of its own.
+// Returns the joint with which `next` begins, which may have a beginning of its own.
 Joint joint_into(const Joint& reached, const Segment& next);
 
 // Returns the v of a joint in region I or II, or 0 in the other regions, which have none.
@@ -33,9 +33,9 @@ double begin_of(const Show& show, int segment);
 // run on from segment to segment.
 ObserverState observer_at(const Show& show, int segment, double part);
 
-// A frame belongs to the segment after a cut from this many frames before the cut on.  Durations
-// such as 0.1 s add up to a little more than they mean, and the frame at a cut must still belong to
-// the segment that follows it.
+// A frame that lies at most this many frames before a cut belongs to the segment after the cut.
+// Durations such as 0.1 s add up to a little more than they mean, and the frame at a cut must still
+// belong to the segment that follows it.
 inline constexpr double kCutTolerance = 1e-6;
 
 // Returns the index of the segment seen at an instant, which is the later one during a dissolve.

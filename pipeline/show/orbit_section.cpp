@@ -51,6 +51,7 @@ std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& ma
   }
 }
 
+// Returns an orbit with the timing that its section gives.
 std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
                                      const Defaults& start, Placement placement = {}) {
   if (const auto timing = read_timing(s, stage, orbit, start))

@@ -5,8 +5,8 @@
 
 namespace domefall {
 
-// The elements are those of visual binaries, and of the stars about Sagittarius A* (Gillessen et
-// al.  2009, ApJ 692, 1075; 2017, ApJ 837, 30).  Angles are in radians.
+// The elements are those of visual binaries, and of the stars about Sagittarius A* (Gillessen
+// et al. 2009, ApJ 692, 1075; 2017, ApJ 837, 30).  Angles are in radians.
 struct OrbitalElements {
   double period;        // of the ellipse, M
   double eccentricity;  // [0, 1)
@@ -16,10 +16,10 @@ struct OrbitalElements {
 };
 
 // Lays the orbit into space as it is seen along `line_of_sight`.  Sets the trajectory, whose tau is
-// 0 at the pericentre, its plane, and the azimuth of the pericentre.  Its semilatus rectum is p = a
-// (1 - e^2), where a is Kepler's, a^3 = (period/2 pi)^2, so that from pericentre to pericentre it
-// takes longer than the period by a part of about 3/a.  Throws std::domain_error where the
-// trajectory does (bound_orbit.h).
+// 0 at the pericentre, its plane, and the azimuth of the pericentre.  The semilatus rectum is
+// p = a (1 - e^2), where a is Kepler's, a^3 = (period/2 pi)^2.  From pericentre to pericentre the
+// orbit therefore takes longer than the period by a part of about 3/a.  Throws std::domain_error
+// where the trajectory does (bound_orbit.h).
 void set_orbit(const OrbitalElements& elements, const SkyDirection& line_of_sight, Body& body);
 
 }  // namespace domefall

@@ -36,6 +36,7 @@ std::optional<GradedFormat> read_graded_format(const Section& s) {
   return std::nullopt;
 }
 
+// Reads the quality, which only JPEGs have.
 void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
   const Item* item = s.find("quality");
   if (!item) return;
@@ -46,6 +47,7 @@ void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
     graded->quality = *quality;
 }
 
+// Reads the format of the scene-linear files, or returns nothing if there are to be none.
 std::optional<ExrFormat> read_linear(const Section& s) {
   using enum ExrCompression;
   enum class Word { kNone, kHalf, kFloat };
@@ -63,6 +65,7 @@ std::optional<ExrFormat> read_linear(const Section& s) {
   return std::nullopt;
 }
 
+// Reads the name that the files of frames begin with, which must name a visible file and no folder.
 void read_name(const Section& s, FrameNames& names) {
   const Item* item = s.find("name");
   const auto name = item ? read_text(*item) : std::nullopt;
@@ -78,6 +81,7 @@ void read_name(const Section& s, FrameNames& names) {
     names.name = *name;
 }
 
+// Reads how the files of frames are called.  A key in error leaves its default.
 FrameNames read_names(const Section& s) {
   FrameNames names;
   read_name(s, names);

@@ -9,6 +9,7 @@
 namespace domefall {
 namespace {
 
+// Returns the overlay of a name, or throws InputError with the nearest name.
 OverlayKind overlay_named(std::string_view word) {
   std::vector<std::string_view> known;
   for (const auto& [kind, name] : kOverlays) {
@@ -28,6 +29,7 @@ std::vector<OverlayKind> parse_overlays(std::string_view list) {
     overlays.push_back(overlay_named(list.substr(0, comma)));
     if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
   }
+  // The kinds are declared in the order of drawing.
   std::ranges::sort(overlays);
   overlays.erase(std::unique(overlays.begin(), overlays.end()), overlays.end());
   return overlays;

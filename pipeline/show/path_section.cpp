@@ -15,8 +15,8 @@ constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetra
                                          Tetrad::kOutgoingToThree};
 
 // Sets dr/dtau and dphi/dtau from a celerity c against a tetrad, with u = gamma T + c.  Along the T
-// of rain dr/dtau is -sqrt(2/r), and along that of the outgoing tetrad +sqrt(2/r), so that c_R -
-// sqrt(2/r) gamma and c_R + sqrt(2/r) gamma result.
+// of rain dr/dtau is -sqrt(2/r), and along that of the outgoing tetrad +sqrt(2/r), so that dr/dtau
+// is c_R - sqrt(2/r) gamma against rain and c_R + sqrt(2/r) gamma against outgoing.
 void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
   const double gamma = std::sqrt(1 + celerity.length2()), s = std::sqrt(2 / key.r);
   key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
@@ -45,6 +45,8 @@ void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup
   key.azimuth_rate = own->z / key.r;
 }
 
+// Reads the keys of a path from a list in the show file.  All keys are checked before an error
+// gives up the path.
 std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage& stage,
                                                    Lookup& lookup) {
   const auto items = read_list(list);
@@ -64,6 +66,7 @@ std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage
   return good ? std::optional(keys) : std::nullopt;
 }
 
+// Returns the tetrad that a row of a table names.
 Tetrad tetrad_named(const CsvFile& table) {
   const std::string_view name = table.text("tetrad");
   for (const Tetrad tetrad : kTetrads)
@@ -82,6 +85,7 @@ struct Table {
 Table read_table(const std::filesystem::path& file) {
   CsvFile csv(file, {"proper_time", "r"});
   Table table;
+  // Without celerities the path chooses the rates itself (accelerated_path.h).
   const bool moving = csv.has("celerity_r") && csv.has("celerity_phi");
   while (csv.next()) {
     PathKey key{csv.number("proper_time"), csv.number("r"), 0, {}, {}};
@@ -127,6 +131,7 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
       table = read_table(*file);
     }
     const AcceleratedPath path(table.keys, table.tetrad);
+    // By default the segment shows the whole path.
     const Defaults whole{path.begin(), Leg::kInward, path.begin(), {}, path.end()};
     const auto timing = read_timing(s, stage, path, whole);
     if (!timing) return std::nullopt;

@@ -7,25 +7,30 @@ namespace domefall {
 M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth) {
   const V3d r0 = -hole_at.v;
   const bool at_pole = std::hypot(r0.x, r0.y) < 1e-12;
+  // The tangent of growing right ascension at R0 is (-y, x, 0), and (0, 1, 0) at RA 0.
   const V3d east = at_pole ? V3d(0, 1, 0) : V3d(-r0.y, r0.x, 0).normalized();
   const V3d north = r0.cross(east);
   const V3d t = north * std::cos(heading) + east * std::sin(heading);
+  // R0 x (-R0 x t) = t, so that the columns are right-handed.
   return moved_on(from_columns(r0, -r0.cross(t), t), azimuth);
 }
 
 M33d moved_on(const M33d& axes, double azimuth) {
+  // R turns towards Phi about the orbit's north, -Theta, which stays.
   const V3d r0 = column(axes, 0), t = column(axes, 2);
   const double c = std::cos(azimuth), s = std::sin(azimuth);
   return from_columns(r0 * c + t * s, column(axes, 1), t * c - r0 * s);
 }
 
 M33d turned(const M33d& axes, double turn) {
+  // Phi turns towards the north, -Theta, about R, which stays.
   const V3d south = column(axes, 1), t = column(axes, 2);
   const double c = std::cos(turn), s = std::sin(turn);
   return from_columns(column(axes, 0), south * c + t * s, t * c - south * s);
 }
 
 OrbitPoint placed(OrbitPoint point, const Placement& placement) {
+  // The null time of a mirrored tetrad counts after t -> -t (orbit_point.h), and so stays.
   if (placement.mirrored) {
     point.region = mirror_of(point.region);
     point.tetrad = mirror_of(point.tetrad);

@@ -31,8 +31,9 @@ struct Beginning {
 struct Placement {
   bool mirrored = false;  // t -> -t, so that what happens in region I happens in region III
   bool backward = false;  // it moves against the sense of Phi
-  double turn = 0;  // radians from Phi through north by which its plane leaves that of the orbit
-                    // before, about R
+  // The plane turns by this angle about R out of that of the orbit before, in radians from Phi
+  // through north.
+  double turn = 0;
   std::optional<Beginning> beginning{};  // none where it begins at the end of the segment before
 };
 

@@ -21,6 +21,7 @@ bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0)
 Problems::Problems(std::string file, std::string text) : file_(std::move(file)) {
   std::istringstream in(std::move(text));
   for (std::string line; std::getline(in, line);) lines_.push_back(std::move(line));
+  // Even an empty text has the place of its beginning.
   if (lines_.empty()) lines_.emplace_back();
 }
 
@@ -39,6 +40,7 @@ std::string Problems::place(TextPlace at) const {
   const std::size_t line = at_end ? lines_.size() - 1 : static_cast<std::size_t>(at.line);
   const std::size_t bytes = at_end ? lines_[line].size() : static_cast<std::size_t>(at.column);
   const std::string before = lines_[line].substr(0, bytes);
+  // Editors count characters, so that only the first byte of each counts.
   const auto column =
       before.size() - static_cast<std::size_t>(std::ranges::count_if(before, continues_character));
   return fmt::format("{}:{}:{}: ", file_, line + 1, column + 1);
@@ -47,6 +49,7 @@ std::string Problems::place(TextPlace at) const {
 void Problems::raise() const {
   if (problems_.empty()) return;
   std::vector<Problem> sorted = problems_;
+  // Problems of one place stay in the order in which they were found.
   std::ranges::stable_sort(sorted, [](const Problem& a, const Problem& b) {
     return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
   });

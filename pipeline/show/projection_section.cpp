@@ -63,6 +63,7 @@ PictureSides read_sides(const Item& size, PictureSides sides) {
   return sides;
 }
 
+// Reads the size of a flat picture, which is a list of width and height.
 PictureSides read_flat_size(const Item* size) {
   const PictureSides sides{1920, 1080};
   if (!size) return sides;
@@ -85,14 +86,17 @@ PictureSides read_fisheye_size(const Item* size) {
   return {sides.width, sides.width};
 }
 
+// Reads a fisheye.  The key `cut` says where the rows that a lower picture lacks are cut off.
 Projection read_fisheye(const Item* size, const Section& camera) {
   const PictureSides sides = read_fisheye_size(size);
+  // This part of the missing rows is cut off at the back of the dome, and the rest at the front.
   const auto cut_back = camera.word<double>("cut", {{"back", 1.0}, {"front", 0.0}, {"both", 0.5}});
   if (const Item* cut = camera.find("cut"); cut && sides.height == sides.width)
     cut->fail("is for a size of [width, height] that is lower than wide; this one is a square");
   return Fisheye{sides.width, sides.height, radians(kDomeFovDeg), cut_back.value_or(1)};
 }
 
+// Reads a whole sphere, whose width is even since it is half as high as wide.
 Projection read_equirectangular(const Item* size) {
   const int width =
       read_one_size(size, 4096, kMostPixels, "the width; a whole sphere is half as high as wide");

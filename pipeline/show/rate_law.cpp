@@ -11,9 +11,9 @@ namespace {
 double ramp(double a, double b, double x) { return x * (a + (b - a) * x * x * (1 - x / 2)); }
 
 // Returns the integral from 0 to x of (1 - t)^n (1 + n t).  This rate falls from 1 to 0 with a
-// slope of 0 at both ends, and is 1 - 3 t^2 + 2 t^3 for n = 2.  With U = 1 - x the integral is (2 -
-// U^(n+1) (2 + n x))/(n + 2), whose difference cancels for small x unless it is formed by expm1 and
-// log1p.
+// slope of 0 at both ends, and is 1 - 3 t^2 + 2 t^3 for n = 2.  With U = 1 - x the integral is
+// (2 - U^(n+1) (2 + n x))/(n + 2), whose difference cancels for small x unless it is formed by
+// expm1 and log1p.
 double falling(double n, double x) {
   const double exponent = (n + 1) * std::log1p(-x);
   return (-2 * std::expm1(exponent) - n * x * std::exp(exponent)) / (n + 2);

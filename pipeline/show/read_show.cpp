@@ -27,6 +27,7 @@ constexpr double kHeadingDeg = 90, kMostSolarMasses = 1e13;
 // This mass still keeps proper times finite.  Holes as light as this have long evaporated.
 constexpr double kFewestSolarMasses = 1e-20;
 
+// Reads the hole and how the first orbit lies about it.  Without a mass the show is in flat space.
 void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   const Section s = subsection(section, "black_hole", {"mass_solar", "at", "heading_deg"});
   show.hole_at = sky_direction(kGalacticCentreRaDeg, kGalacticCentreDecDeg);
@@ -45,6 +46,8 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   if (mass.value_or(1) > 0) show.mass_solar = mass.value_or(1);
 }
 
+// Reads all sections of a show.  A section in error leaves its defaults, so that those after it are
+// still checked.
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(root, {"title",       "frames_per_second",
                                "size",        "black_hole",
@@ -62,6 +65,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   if (const Item* title = section.find("title")) show.title = read_text(*title).value_or("");
   show.frames_per_second =
       section.number("frames_per_second", Range{"frames per second"}.within(1, 240), 30);
+  // The order matters: bodies need the hole, cameras the bodies, and segments all that a show
+  // gives.
   show.markers = read_markers(section);
   show.fades = read_fades(section);
   read_black_hole(section, lookup, show);

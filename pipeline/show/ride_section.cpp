@@ -7,6 +7,7 @@
 namespace domefall {
 namespace {
 
+// Returns the body that the observer rides, or reports that the show has none of that name.
 const Body* find_body(const Section& s, const Stage& stage) {
   if (!s.require("body", ": the name of the body with which the observer moves")) return nullptr;
   std::map<std::string, const Body*, std::less<>> bodies;

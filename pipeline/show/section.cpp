@@ -11,6 +11,7 @@ namespace {
 
 TextPlace place_of(const YAML::Node& node) { return {node.Mark().line, node.Mark().column}; }
 
+// Returns the path of a key below another path, which is empty for the whole show.
 std::string join(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
@@ -21,6 +22,7 @@ Section::Section(const Item& item, std::span<const std::string_view> known) {
   item_.emplace(item);
   if (!item.node.IsMap()) {
     item.fail(std::string("must be a map of keys (") + listed(known) + "), got " + kind_of(item));
+    // A section without an item finds no keys, and reports none as missing.
     item_.reset();
     return;
   }
@@ -38,7 +40,7 @@ void Section::add(const YAML::Node& key, const YAML::Node& value,
   const std::string path = join(item_->path, shown(name));
   if (std::find(known.begin(), known.end(), name) == known.end()) {
     const std::string_view nearest = nearest_word(name, known);
-    // The key that was probably meant is not to be reported as missing besides.
+    // The key that was probably meant must not be reported as missing too.
     misspelt_.insert(std::string(nearest));
     problems.add(place_of(key),
                  path + " is an unknown key; " +
@@ -64,6 +66,7 @@ const Item* Section::find(std::string_view key) const {
 
 const Item* Section::require(std::string_view key, const std::string& what) const {
   const Item* found = find(key);
+  // A section that the show leaves out misses none of its keys.
   if (!found && item_ && !is_misspelt(key))
     item_->problems->add(item_->at, join(item_->path, key) + " is missing" + what);
   return found;
@@ -98,6 +101,7 @@ std::optional<double> Section::required_number(std::string_view key, const Range
 
 std::optional<Item> peek(const Item& map, std::string_view key) {
   if (!map.node.IsMap()) return std::nullopt;
+  // Of a repeated key, which Section reports, the first one counts.
   for (const auto& entry : map.node)
     if (entry.first.IsScalar() && entry.first.Scalar() == key)
       return Item{entry.second, place_of(entry.second), join(map.path, key), map.problems};

@@ -33,7 +33,7 @@ class Section {
 
   // Returns the number under a key, or nothing if the key is not given or its value is wrong.
   std::optional<double> number(std::string_view key, const Range& range) const;
-  // Returns the fallback, which is in the same unit, in the place of nothing.
+  // Returns the number in the same way, or else the fallback, which has the same unit.
   double number(std::string_view key, const Range& range, double fallback) const;
   std::optional<double> required_number(std::string_view key, const Range& range) const;
   // Returns what the word under a key stands for, or nothing if the key is not given or its word is

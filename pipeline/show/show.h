@@ -51,9 +51,9 @@ struct PanoramaSky {
 
   bool operator==(const PanoramaSky&) const = default;
 };
-// In a RingsSky, light from the past singularity that left it at t glows with 1 + cos(2 pi
-// t/period):  "a series of rings of variable t", [Riazuelo] sec. sec_Kruskal.  Only region IV has
-// this background.
+// RingsSky is lit by "a series of rings of variable t", [Riazuelo] sec. sec_Kruskal: light that
+// left the past singularity at t glows with 1 + cos(2 pi t/period).  Only region IV has this
+// background.
 struct RingsSky {
   double period = 4;  // M, > 0
 
@@ -79,7 +79,8 @@ struct Timing {
   // The segment's first and last instant have these proper times of the trajectory.
   ProperTime tau_begin, tau_end;
   Pace pace = Pace::kSteady;
-  // With kSteady, proper time runs so fast at both ends, as parts of the mean rate (part_passed).
+  // These are the rates of proper time at both ends with kSteady, as parts of the mean rate
+  // (part_passed).
   double rate_begin = 1, rate_end = 1;
 };
 
@@ -249,8 +250,9 @@ struct Show {
   std::vector<OverlayKind> overlays;  // which no show file asks for
   Fades fades;
   // There is one joint for each segment, found once when a show is read (join_segments in
-  // observer_track.h).  A show that is put together otherwise has none, and each of its states
-  // follows the timeline from its start.  Whoever moves or alters a segment must clear the joints.
+  // observer_track.h).  A show that is assembled in another way has none, and each of its states
+  // follows the timeline from its start.  Code that moves or alters a segment must clear the
+  // joints.
   std::vector<Joint> joints;
   PerSky<RegionSky> sky;  // that of region IV, the past singularity, has no stars and no redshift
   std::vector<Body> bodies;

@@ -66,6 +66,7 @@ std::optional<double> parse_clock_time(std::string_view text) {
       return std::nullopt;
     seconds = seconds * kSixty + *value;
     if (!last) text.remove_prefix(colon + 1);
+    // Without a colon the text is a plain number and no clock time.
     if (last) return parts > 0 ? std::optional(seconds) : std::nullopt;
   }
   return std::nullopt;
@@ -76,6 +77,7 @@ std::string clock_text(double seconds) {
   const long thousandths = std::lround(seconds * kThousand);
   const long minutes = thousandths / kMinute, rest = thousandths % kMinute;
   std::string text = fmt::format("{}:{:02}.{:03}", minutes, rest / kThousand, rest % kThousand);
+  // Zeros at the end behind the point are left out, and so is a point that then stands last.
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;

@@ -65,7 +65,7 @@ std::string SkyPlaces::nearest(std::string_view name) const {
     const std::size_t longer = std::max(known.size(), wanted.size());
     // The distance is at least the difference of the lengths.
     if (longer - std::min(known.size(), wanted.size()) >= least) continue;
-    // In catalogues another number is another object.
+    // Two catalogue numbers that differ name two objects, however near they are.
     if (digits_of(known) != digits) continue;
     const std::size_t distance = edit_distance(known, wanted);
     if (distance < least) least = distance, nearest = places_[k].name;

@@ -14,13 +14,14 @@
 namespace domefall {
 namespace {
 
+// Returns the shipped Milky Way.  suit_milky_way() may put the other of its two maps in its place.
 std::optional<SkyBackground> milky_way(const Item& item, const Lookup& lookup) {
   if (const auto file = lookup.shipped(item, kMilkyWay)) return PanoramaSky{*file};
   return std::nullopt;
 }
 
-// This is the number of stars of V < 10.3.  With more stars than that, milky_way is the map that
-// has no star of kDeepestStars in it.
+// This is the number of stars of V < 10.3.  With more stars than that, the word milky_way means the
+// map that has no star of kDeepestStars in it.
 constexpr std::size_t kDeepCount = 500'000;
 
 // Returns what `ask` finds in a catalogue's header, or nothing for a damaged one.  The damage is
@@ -73,6 +74,7 @@ std::optional<SkyBackground> read_background(const Item& item, const Lookup& loo
   if (*text == kWords[1]) return GridSky{};
   if (*text == kWords[2]) return BlackSky{};
   if (singularity && *text == kWords[3]) return RingsSky{};
+  // A text with a dot or a slash is meant as a file, even where there is none.
   const bool looks_like_file = text->find_first_of("./") != std::string::npos;
   if (looks_like_file || lookup.find(*text)) {
     if (const auto file = lookup.file(item, *text)) return PanoramaSky{*file};
@@ -186,6 +188,8 @@ void read_catalogue(const Item& item, const Lookup& lookup, RegionSky& sky) {
   const Section section(item, {"catalogue", "max_magnitude", "gain"});
   StarField field = sky.stars.value_or(StarField{});
   const Item* catalogue = section.find("catalogue");
+  // A section that names no catalogue keeps that of the region, and has the standard one where
+  // there is none.
   if (catalogue || field.catalogue.empty())
     field = (catalogue ? read_catalogue(*catalogue, lookup)
                        : field_of(lookup.shipped(item, kStandardStars), kStandardLimit))

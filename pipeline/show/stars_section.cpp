@@ -14,16 +14,18 @@ namespace {
 constexpr double kPaperWhiteCore = 10, kSaturation = 0.8;
 constexpr double kMinSigmaDeg = 0.04, kMaxSigmaDeg = 0.3;
 constexpr double kHalo = 0.12, kHaloSigmaDeg = 0.08;
-// This gain makes stars one magnitude fainter than in nature against the sky between them.  Without
-// it, a dome of 4096 pixels shows stars of V = 9 as bright as the heart of the Milky Way, and the
-// fields of stars are even.  The law of the paper has its own balance.
+// This gain makes stars one magnitude fainter than in nature against the sky between them, since
+// 10^-0.4 is about 0.4.  Without it, a dome of 4096 pixels shows stars of V = 9 as bright as the
+// heart of the Milky Way, and fields of stars look uniform.  The law of the paper has its own
+// balance.
 constexpr double kStarGain = 0.4;
 constexpr std::array<std::string_view, 3> kKeysOfSize{"growth", "reference_magnitude",
                                                       "max_sigma_deg"};
 constexpr std::array<std::string_view, 2> kKeysOfPsf{"halo", "halo_sigma_deg"};
 
+// Reads the point-spread law.  Keys that only the other law has are reported.
 PointSpreadLaw read_point_spread(const Section& s) {
-  // A show that names no law has that of the size if it gives a key of it.
+  // Without `law`, a key that only the law of the size has chooses that law.
   const bool sized = std::any_of(kKeysOfSize.begin(), kKeysOfSize.end(),
                                  [&](std::string_view key) { return s.find(key) != nullptr; });
   const bool psf = s.word<bool>("law", {{"size", false}, {"psf", true}}).value_or(!sized);

@@ -7,8 +7,8 @@
 
 namespace domefall {
 
-// Sets the point-spread law, with the defaults of its two forms, `law: size` and `law: psf`.  Sets
-// also the saturation and the least radius of stars, and the gain that they have in skies for which
+// Sets the point-spread law, with the defaults of its two forms, `law: size` and `law: psf`.  Also
+// sets the saturation and the least radius of stars, and the gain that they have in skies for which
 // read_sky finds none.
 void read_stars(const Section& show, Show& to);
 

@@ -7,6 +7,7 @@
 namespace domefall {
 
 std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state) {
+  // Seventeen digits give back every double exactly.
   constexpr int kTime = 9, kAngle = 15, kAll = 17;
   const ObserverState& o = state.observer;
   const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});

@@ -16,7 +16,7 @@ namespace domefall {
 namespace {
 
 constexpr Range kSeconds{"seconds"};
-constexpr double kTimeRounding = 1e-9;
+constexpr double kTimeRounding = 1e-9;    // of sums of seconds
 constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
 
 // Says whether the observer rests in the static frame, to rounding.
@@ -95,6 +95,7 @@ class TimelineReader {
     const auto seconds =
         item ? read_time(*item, kSeconds.above(0).at_most(kLongest), show_.markers, begin)
              : std::nullopt;
+    // A duration in error counts as 1 s, so that the rest of the segment is still checked.
     return seconds.value_or(1);
   }
 
@@ -161,6 +162,7 @@ class TimelineReader {
       const double base = value_at(segment, channel, begin, of_segment[channel]);
       if (auto through = curve_through(keyframes, channel, begin, base)) curve = through;
     }
+    // A segment whose camera looks somewhere itself is not turned by the show's keyframes.
     if (!own.attitude)
       segment.attitudes =
           attitudes_through(keyframes_, 0, camera_.keys.attitude.value_or(LookAtHole{}));
@@ -217,6 +219,7 @@ class TimelineReader {
     const auto region_at = [&segment](const ProperTime& tau) {
       return point_at(segment.trajectory, tau).region;
     };
+    // Nothing returns to region IV, so an observer who ends there has been there throughout.
     const bool sees_no_sky = region_at(segment.timing.tau_begin) == Region::kIV &&
                              region_at(segment.timing.tau_end) == Region::kIV;
     if (sees_no_sky && ever_has<LookAtSky>(segment, begin, end))
@@ -292,6 +295,7 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
     if (fitted && frames > kMostFrames)
       item.fail(fmt::format("brings the show to {} frames; at most {} are possible",
                             short_number(frames), kMostFrames));
+    // Only the segment with which the show becomes too long is blamed.
     fitted = frames <= kMostFrames;
   }
   if (reader.end() * show.frames_per_second < 0.5)

@@ -84,8 +84,8 @@ std::optional<ProperTime> read_begin(const Section& s, const Trajectory& traject
   return tau;
 }
 
-// Says whether a passage of r is the beginning itself, which rounding of r has moved.  Then r has
-// not changed halfway between the two either.
+// Says whether a passage of r is the beginning itself, which rounding of r has moved.  In that case
+// r is the same halfway between the two.
 bool is_same_passage(const Trajectory& trajectory, double r, const ProperTime& begin,
                      const ProperTime& passed) {
   constexpr double kSameRadius = 1e-12, kSoon = 1e-3;  // of r
@@ -100,6 +100,7 @@ bool is_same_passage(const Trajectory& trajectory, double r, const ProperTime& b
 std::optional<ProperTime> passage(const Trajectory& trajectory, double r, std::optional<Leg> leg,
                                   const ProperTime& begin) {
   constexpr double kRounding = 1e-12;  // of proper time
+  // An orbit passes r on either leg, and the earlier passage counts.
   std::optional<ProperTime> first;
   for (const Leg each : {Leg::kInward, Leg::kOutward}) {
     if (leg && *leg != each) continue;
@@ -111,6 +112,7 @@ std::optional<ProperTime> passage(const Trajectory& trajectory, double r, std::o
   return first;
 }
 
+// Reads to_r: the segment ends where r is passed for the first time after its beginning.
 std::optional<ProperTime> read_passage(const Section& s, const Trajectory& trajectory,
                                        const ProperTime& begin) {
   const auto leg = read_leg(s, "to_leg", "to_r");
@@ -121,6 +123,7 @@ std::optional<ProperTime> read_passage(const Section& s, const Trajectory& traje
   return tau;
 }
 
+// Reads to_tau_m, which must lie within the trajectory and not before the segment's beginning.
 std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& trajectory,
                                         const ProperTime& begin) {
   const auto tau = s.number("to_tau_m", kClock);
@@ -135,7 +138,7 @@ std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& traj
   return std::nullopt;
 }
 
-// Reads the rate of a segment that has no other end, and which must not outlast the trajectory.
+// Reads the rate of a segment that has no other end.  The segment must not outlast the trajectory.
 std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                  const ProperTime& begin) {
   const auto rate = read_rate(s, stage);
@@ -159,6 +162,7 @@ bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime&
   const auto what = leaves_shows(trajectory, tau);
   if (!what) return true;
   const Item* given = nullptr;
+  // The last of these keys that is given decided the end, since to_r and to_tau_m take precedence.
   for (const char* key : {"time_lapse", "rate_m_per_s", "to_tau_m", "to_r"})
     if (const Item* item = s.find(key)) given = item;
   if (given)
@@ -168,6 +172,7 @@ bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime&
   return false;
 }
 
+// Says whether `rate_m_per_s` is a list, which gives the rates at both ends.
 bool has_two_rates(const Section& s) {
   const Item* rate = s.find("rate_m_per_s");
   return rate && rate->node.IsSequence();
@@ -242,6 +247,7 @@ std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optiona
   if (rate->node.IsSequence()) {
     const auto ends = read_numbers(*rate, 2, kRateRange);
     if (!ends) return std::nullopt;
+    // Over their mean the two rates add up to 2, so that part_passed() ramps smoothly between them.
     const double mean = ((*ends)[0] + (*ends)[1]) / 2;
     if (!(mean > 0)) return Rate{0};
     return Rate{mean * stage.duration_s, (*ends)[0] / mean, (*ends)[1] / mean};
@@ -268,6 +274,7 @@ bool read_end_rates(const Section& s, const Stage& stage, Timing& timing) {
   const Item& item = *s.find("rate_m_per_s");
   const auto ends = read_numbers(item, 2, kRateRange);
   if (!ends) return false;
+  // The fixed ends give the mean rate, and part_passed() bends the rate between its two ends to it.
   const double mean = double(timing.tau_end - timing.tau_begin) / stage.duration_s;
   if (!(mean > 0)) {
     item.fail("needs an end behind the segment's beginning");
@@ -339,6 +346,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
     return timing;
   }
   std::optional<ProperTime> end;
+  // A leg without a radius is reported.
   if (!s.find("to_r")) read_leg(s, "to_leg", "to_r");
   if (s.find("to_r")) {
     end = read_passage(s, trajectory, begin);
@@ -347,6 +355,7 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
     end = read_end_time(s, trajectory, begin);
     if (!end) return std::nullopt;
   } else if (!given && defaults.to_r) {
+    // A default end that is never passed leaves the end to the default rate.
     end = passage(trajectory, *defaults.to_r, std::nullopt, begin);
   } else if (!given) {
     end = defaults.to_tau;

@@ -13,9 +13,10 @@ constexpr Range kTitleSeconds{"seconds"};
 constexpr double kHeightDeg = 2, kMostHeightDeg = 60;
 // The audience of a dome looks there without leaning back.
 constexpr double kTitleElevationDeg = 30;
-constexpr double kBrightest = 1e4;
-constexpr std::size_t kLongestText = 2000;
+constexpr double kBrightest = 1e4;          // pixel value
+constexpr std::size_t kLongestText = 2000;  // bytes
 
+// Reads the text of a title and how it is set.
 void read_words(const Section& s, Title& title) {
   const Item* item = s.require("text", ", e.g. text: Sagittarius A*");
   const auto text = item ? read_lines(*item) : std::nullopt;
@@ -29,6 +30,8 @@ void read_words(const Section& s, Title& title) {
           .value_or(kCentre);
 }
 
+// Reads where a title stands and how large it is, with a default elevation that suits the
+// projection.
 void read_title_place(const Section& s, const Projection& projection, Title& title) {
   const bool dome = has_zenith(projection);
   title.azimuth = radians(s.number("azimuth_deg", kDegrees.within(-360, 360), 0));
@@ -59,6 +62,7 @@ void read_title_times(const Section& s, const TitleSpan& span, const Show& show,
                .value_or(0)
          : 0;
   title.begin_s = span.begin_s + begin;
+  // By default a title stays to the end of the span.
   const Item* lasts = s.find("duration_s");
   const double duration = lasts ? read_time(*lasts, kTitleSeconds.above(0).at_most(length - begin),
                                             show.markers, title.begin_s)

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kDefaultEnd = 0.05;  // M; where a fall ends by default
 
+// Returns a trajectory with the pace that its section gives.
 std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& trajectory, Timing timing,
                                      bool mirrored) {
   if (!read_pace(s, trajectory, timing)) return std::nullopt;
@@ -49,6 +50,7 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage)
   return TimedTrajectory{StaticObserver{*r}, timing, {mirrored}};
 }
 
+// Reads a circular orbit, whose end is given as a number of orbits or follows from a rate.
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "r", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"});
   find_end(s, {"orbits"});
@@ -85,8 +87,8 @@ std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const R
   return std::nullopt;
 }
 
-// Reads a radial fall from rest at infinity, whose keys include those that only other falls have,
-// since a fall that gives one of them is read elsewhere (is_curved).
+// Reads a radial fall from rest at infinity.  The keys of other falls, which read_infall() sends
+// elsewhere, are known here so that a misspelling of one gets the right hint.
 std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "from_r", "to_r", "pace", "rate_m_per_s", "time_lapse", "region",
                          "rest_r", "angular_momentum", "v_inf", "impact_parameter", "from_leg",
@@ -123,7 +125,8 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   return paced(s, fall, timing, mirrored);
 }
 
-// Reads an observer whose velocity is given, and who moves against no hole in flat space.
+// Reads an observer who holds a given velocity.  In flat space this needs neither a radius nor a
+// region.
 std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
   const Section s(
       item, {"type", "r", "region", "speed", "lorentz_factor", "against", "direction", "pace"});
@@ -168,11 +171,12 @@ bool is_curved(const Item& item) {
                      [&item](std::string_view key) { return peek(item, key).has_value(); });
 }
 
+// Reads a fall, by the closed form of RadialInfall where its keys allow that.
 std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage) {
   return is_curved(item) ? read_curved_infall(item, stage) : read_radial_infall(item, stage);
 }
 
-// A Type of trajectory has a word for it, says whether flat space has it, and has a reader.
+// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its reader.
 struct Type {
   std::string_view name;
   bool in_flat_space;
@@ -185,6 +189,7 @@ std::optional<TimedTrajectory> without_lookup(const Item& item, const Stage& sta
   return Read(item, stage);
 }
 
+// These are the types of trajectory that a show can name.
 constexpr std::array kTypes{Type{"static", true, without_lookup<read_static>},
                             Type{"circular", false, without_lookup<read_circular>},
                             Type{"parabolic", false, without_lookup<read_parabolic>},

@@ -20,6 +20,7 @@ constexpr Range kSpeeds = Range{"speed of light = 1"}.at_least(0).below(1);
 double gamma_v_of_factor(double factor) { return std::sqrt((factor - 1) * (factor + 1)); }
 double gamma_v_of_speed(double v) { return v / std::sqrt((1 - v) * (1 + v)); }
 
+// Reads gamma v from either `speed` or `lorentz_factor`.
 std::optional<double> read_gamma_v(const Section& s) {
   s.one_of({"speed", "lorentz_factor"});
   if (s.find("lorentz_factor")) {
@@ -40,6 +41,7 @@ const Item* two_speeds(const Section& s) {
 // What starts from rest has this rapidity, which is not 0, so that there is a direction.
 constexpr double kLeastRapidity = 1e-8;
 
+// Returns the rapidities asinh(gamma v) at both ends.
 std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Item& item) {
   const bool by_factor = &item == s.find("lorentz_factor");
   const auto ends = read_numbers(item, 2, by_factor ? kFactors : kSpeeds);
@@ -52,6 +54,7 @@ std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Ite
   return rapidities;
 }
 
+// Reads a direction by its components along R, Theta and Phi, of any length but 0.
 std::optional<V3d> read_components(const Item& item) {
   const Section s(item, {"radial", "theta", "phi"});
   const Range range = kPureNumber.within(-1e9, 1e9);
@@ -63,6 +66,7 @@ std::optional<V3d> read_components(const Item& item) {
   return std::nullopt;
 }
 
+// Says whether a map is a place on the sky and not a direction by components.
 bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
@@ -73,6 +77,7 @@ V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVeloc
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
 }
 
+// Reads the direction of a velocity: a word, components or a place on the sky.
 std::optional<V3d> read_direction(const Item& item, const Stage& stage, const GivenVelocity& frame,
                                   Lookup& lookup) {
   static const Words<V3d, 6> kWords{{{"inward", V3d(-1, 0, 0)},
@@ -98,6 +103,7 @@ const Item* require_direction(const Section& s) {
       ": a word such as inward or forward, {radial, theta, phi} or a place on the sky");
 }
 
+// An Against is the kind of observer against whom a velocity is given.
 enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
 
 // Says whether a region has observers of that kind.
@@ -137,7 +143,7 @@ Region region_of(const std::optional<Region>& named, Against against, double r) 
   return against == Against::kOutgoing ? Region::kIV : Region::kII;
 }
 
-// Returns the tetrad of region and observer, which inside the hole only depends on the region.
+// Returns the tetrad for a region and a kind of observer.  Inside the hole only the region matters.
 Tetrad tetrad_of(Region region, Against against) {
   if (region == Region::kIV) return Tetrad::kOutgoing;
   if (region == Region::kII) return Tetrad::kRain;
@@ -170,6 +176,7 @@ std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radiu
   frame.r = *r;
   frame.region = region_of(region, against, *r);
   frame.tetrad = tetrad_of(frame.region, against);
+  // Observers at rest in r or in t move against the tetrad.  The other two kinds are at rest in it.
   if (against == Against::kStatic || against == Against::kConstantT)
     frame.celerity = resting_celerity(*r, frame.tetrad);
   return frame;
@@ -178,6 +185,7 @@ std::optional<GivenVelocity> read_frame(const Section& s, std::string_view radiu
 std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
                                      const GivenVelocity& frame, Lookup& lookup) {
   const auto gamma_v = read_gamma_v(s);
+  // An observer at rest needs no direction.
   if (gamma_v && *gamma_v == 0 && !s.find("direction")) return V3d(0, 0, 0);
   const Item* item = require_direction(s);
   const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;

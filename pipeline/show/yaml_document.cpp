@@ -112,6 +112,7 @@ class Root : public YAML::EventHandler {
 
  private:
   void begin(const YAML::Mark& mark) {
+    // The first event of a document is that of its root.
     if (!begun_) mark_ = mark;
     begun_ = true;
   }
