@@ -54,6 +54,7 @@ constexpr const char* kRaysMeasured =
     "and *rkf78*\nintegrate the same equations by Dormand-Prince 5(4) and Fehlberg 7(8), "
     "*binet-...* the orbit's equation by the\nsame two.\n\n";
 
+// Returns the largest value of a column over all classes of rays, at the method's default setting.
 double worst_of(const std::vector<RayErrorRow>& rows, const std::string& method,
                 double RayErrorRow::*value) {
   double worst = 0;
@@ -62,6 +63,7 @@ double worst_of(const std::vector<RayErrorRow>& rows, const std::string& method,
   return worst;
 }
 
+// Returns the mean of a column over the same rows.
 double mean_of(const std::vector<RayErrorRow>& rows, const std::string& method,
                double RayErrorRow::*value) {
   double sum = 0;
@@ -72,7 +74,7 @@ double mean_of(const std::vector<RayErrorRow>& rows, const std::string& method,
 }
 
 std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
-  constexpr double kPixel8k = std::numbers::pi / 8192;
+  constexpr double kPixel8k = std::numbers::pi / 8192;  // a dome shows pi radians across
   const double sky = worst_of(rows, "table", &RayErrorRow::sky_worst);
   const double ns = mean_of(rows, "table", &RayErrorRow::ns_per_ray);
   const double exact_ns = mean_of(rows, "exact", &RayErrorRow::ns_per_ray);
@@ -100,9 +102,9 @@ std::string class_table(const std::vector<RayErrorRow>& rows, const RayClass& of
   return table + "\n";
 }
 
-// The quickest method whose displacement on the sky is at most `wanted` for 99 of 100 rays, with
-// none undecided.  Each method competes with its coarsest setting that will do, which is the first
-// of its rows.
+// Returns the quickest method whose displacement on the sky is at most `wanted` for 99 of 100 rays,
+// with none undecided.  Each method competes with its coarsest setting that will do.  The rows of a
+// method go from coarse to fine, so that is the first of them.
 std::string quickest(const std::vector<RayErrorRow>& rows, const RayClass& of, double wanted) {
   const RayErrorRow* best = nullptr;
   std::string seen;
@@ -197,7 +199,7 @@ const FrameErrorRow* row_of(const std::vector<FrameErrorRow>& rows, const std::s
 }
 
 // Compares another setting with the default.  Its error and its time are given in units of the
-// default's, as geometric means over the scenes.
+// default's.  Geometric means over the scenes suit ratios, of which 2 and 1/2 must balance.
 std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& other) {
   double log_rms = 0, log_time = 0;
   int scenes = 0;

@@ -19,7 +19,7 @@ FollowedRay by_integral(const RayRequest& q, double) { return follow(q, TraceMet
 FollowedRay by_steps(const RayRequest& q, TraceMethod method, double tolerance) {
   TraceOptions options;
   options.tolerance = tolerance;
-  options.slope = false;
+  options.slope = false;  // an integrator would follow four more rays to find it
   return follow(q, method, options);
 }
 
@@ -43,7 +43,7 @@ std::vector<RayMethod> compared_methods(bool quick) {
       {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
       {"exact", "", {0}, 0, false, by_integral}};
   for (const auto& [name, method] : kTraceMethods)
-    if (is_integrator(method))
+    if (is_integrator(method))  // the two others stand in the list already
       methods.push_back({name, "tolerance", tolerances(quick), kDefaultTolerance, false,
                          [method = method](const RayRequest& q, double tolerance) {
                            return by_steps(q, method, tolerance);

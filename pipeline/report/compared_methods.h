@@ -1,5 +1,5 @@
-// The methods to follow a ray that the report compares, and the settings of each.  A new method is
-// added to this list only.
+// The report compares several methods of following a ray, each at several settings.  A new method
+// needs to be added to the list of compared_methods() only.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,20 @@ namespace domefall {
 
 struct FollowedRay {
   std::optional<SkyRegion> origin;  // none if the method does not decide
-  double phi;
+  double phi;                       // swept azimuth, radians
 };
 
+// A RayMethod is one way to follow a ray, with the settings at which the report tries it.
 struct RayMethod {
   std::string name;              // as in `domefall trace --method`
   std::string setting_name;      // bits of a table, tolerance of a step, or empty
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
-  bool keeps_tables;             // the first ray at a radius pays for those that follow
+  bool keeps_tables;             // whether the first ray at a radius builds tables for all others
   std::function<FollowedRay(const RayRequest&, double setting)> follow;
 };
 
-// If quick, each method has few settings.
+// Returns the methods.  If quick, none of them has more than two settings.
 std::vector<RayMethod> compared_methods(bool quick);
 
 }  // namespace domefall

@@ -13,7 +13,7 @@ double drawn(double error) { return std::max(error, kFloor); }
 
 constexpr double kMicro = 1e-3;  // microseconds in a nanosecond
 
-// Adds the point to the curve of that name, which its first point creates.
+// Adds the point to the curve of that name.  The first point of a name creates its curve.
 void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
   auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
                             [&](const PlotCurve& c) { return c.name == name; });
@@ -33,6 +33,7 @@ Plot log_plot(const std::string& title, const std::string& x, const std::string&
   return plot;
 }
 
+// A member of the row says which error is drawn.
 using RayValue = double RayErrorRow::*;
 
 Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const char* what,
@@ -46,8 +47,9 @@ Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const ch
 }
 
 // Supersampling every pixel is another method than supersampling the difficult ones, so it has a
-// dashed curve of its own in the scene's colour.  So does interpolating nothing, whose one setting
-// is a point.
+// dashed curve of its own in the scene's colour, which begins with one view ray for each pixel.
+// Interpolating nothing is a third method, but it has one setting and so is a single point.  The
+// scenes have the same colours in all three plots because each plot meets them in the same order.
 Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
                 double FrameErrorRow::*error) {
   Plot plot = log_plot("Frames by the renderer's anti-aliasing (dashed: in every pixel)",
@@ -70,6 +72,7 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
   return plot;
 }
 
+// Orbits that are not integrated have a single method and so no plot.
 void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<NamedPlot>& plots) {
   constexpr double kStates = 1000, kMicroseconds = 1e6;
   std::vector<std::string> orbits;

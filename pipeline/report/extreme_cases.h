@@ -1,6 +1,6 @@
-// Stiff and extreme cases: what a ray or a frame does where something diverges, cancels or
-// degenerates, and the bound that its error must keep there.  The tests hold every case to its
-// bound, and docs/accuracy.md shows the same list.
+// An extreme case is a set of rays, images or frames where something diverges, cancels or
+// degenerates, with a bound on the error there.  The tests hold every case to its bound, and
+// docs/accuracy.md shows the same list.
 #pragma once
 
 #include <functional>
@@ -22,18 +22,20 @@ struct ExtremeCase {
   std::function<ExtremeResult()> measure;
 };
 
-// The azimuth of rays against the 100-digit reference.
+// Returns the cases that compare the azimuth of rays with the 100-digit reference.
 std::vector<ExtremeCase> extreme_rays();
-// Images of stars by the tables, against limits in closed form and the exact integral.  All rays
-// and images together take about 2 s.
+// Returns the cases that compare images of stars, as the tables give them, with limits in closed
+// form and with the exact integral.  All rays and images together take about 2 s.
 std::vector<ExtremeCase> extreme_images();
-// Frames of 96 pixels with every sky and stars, whose pixels must be finite.  measure() throws
-// InputError if the shipped catalogue cannot be read.
+// Returns the cases of frames of 96 pixels with every sky and stars, whose pixels must be finite.
+// measure() throws InputError if the shipped catalogue cannot be read.
 std::vector<ExtremeCase> extreme_frames();
-// Frames of that size whose light or whose places are known.  All frames together take about 3 s.
+// Returns the cases of frames of that size in which the light or the places are known.  All frames
+// together take about 3 s.
 std::vector<ExtremeCase> extreme_frame_errors();
 
-// All cases as a table in Markdown: what is tried, what happens, quantity, worst, bound.
+// Measures all cases and returns them as a table in Markdown.  Its columns are the name, what is
+// tried, what happens, the worst value, its quantity and its bound.
 std::string extreme_table();
 
 }  // namespace domefall

@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 // ---- light ----
 
-constexpr int kSteps = 4;  // of a series, from 1e-4 to 1e-9
+constexpr int kSteps = 4;  // frames of a series, whose step falls from 1e-4 to 1e-9
 
 struct Series {
   const char* name;
@@ -40,7 +40,8 @@ GivenVelocity moving_fast(double slowness) {
   return {Region::kI, Tetrad::kRain, 10, V3d(0, 0.6, 0.8) / slowness};
 }
 
-// The Milky Way in an intensity that grows like the square of the frequency.
+// Returns a show of the Milky Way whose intensity grows like the square of the frequency, by the
+// default of PanoramaShift.  Without stars or a grid all light in the frames comes from that sky.
 Show show_of_series(const Series& series) {
   Show show = extreme_show(StaticObserver{10}, Domemaster{kExtremeSize + 1}, series.attitude);
   show.sky[SkyRegion::kI] = RegionSky{PanoramaSky{shipped_asset(kMilkyWay)}, 1, std::nullopt, 1};
@@ -57,7 +58,7 @@ Show show_of_series(const Series& series) {
   return show;
 }
 
-// The sum of all values of each frame.
+// Returns the sum of all pixel values of each frame.
 std::array<double, kSteps> light_of_frames(const Show& show) {
   Renderer renderer(show, 0);
   std::array<double, kSteps> light{};
@@ -68,10 +69,10 @@ std::array<double, kSteps> light_of_frames(const Show& show) {
 }
 
 // Three skies shrink to a point, or gather in one, and become ever brighter: region III after the
-// crossing, a static observer's sky above the horizon, and what lies ahead at ever higher speed.
-// With an intensity that grows like the square of the frequency, what the light gains by blueshift
-// it loses by size, so each frame of a series brings the same light.  The change from any frame to
-// the last is measured.
+// crossing, a static observer's sky above the horizon, and the sky ahead at ever higher speed.  A
+// blueshift by a factor D shrinks the solid angle by D^2.  The intensity grows like the square of
+// the frequency and so by D^2, so each frame of a series receives the same light.  The case
+// measures the change from any frame to the last.
 ExtremeResult crowded_skies() {
   const std::array<Series, 3> all{{{"region III", below_the_horizon, LookAtHole{}, false},
                                    {"static", at_rest_above_the_horizon, EulerAngles{}, true},
@@ -93,9 +94,10 @@ ExtremeResult crowded_skies() {
 constexpr double kExtremeRadius = 30;
 constexpr double kMilliarcsecond = pi / 180 / 3600e3;
 
-// The worst displacement of the view rays through the middle row, in pixels of the middle.  The
-// edge of the silhouette lies `aside` from the middle of the frame; each view ray is held against
-// the exact integral at the offset from that edge which the projection gives it.
+// Returns the worst displacement of the view rays through the middle row, in units of a pixel in
+// the middle of the frame.  The edge of the silhouette lies at the angle `aside` from the middle.
+// Each view ray is compared with the exact integral, at the offset from that edge that the
+// projection gives to the ray.
 double worst_displacement(const Show& show, int size, double fov, double aside) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(kExtremeRadius, Tetrad::kRain, {});
@@ -103,13 +105,18 @@ double worst_displacement(const Show& show, int size, double fov, double aside) 
   const double middle = (size + 1) / 2.0;
   double worst = 0;
   for (int i = 1; i <= size; ++i) {
-    // X runs along increasing vartheta, towards the hole.
+    // X runs along increasing vartheta, towards the hole.  The stereographic projection puts an
+    // angle from the middle at a distance proportional to the tangent of its half, and fov/2 at the
+    // border.
     const double turn = 2 * std::atan((i - middle) * 2 * std::tan(fov / 4) / size);
     const ViewRay ray =
         tracer.trace(direction_at(show.projection, {static_cast<double>(i), middle}));
     if (ray.sky != SkyRegion::kI || aside - turn <= 0) continue;
     const double phi = exact_azimuth(ray_off_edge(kExtremeRadius, Critical::kFirst, aside - turn));
     const V3d seen = apply_transposed(state.observer.sky_from_tetrad, ray.sky_direction);
+    // The ray's plane contains R, so its direction has the component cos(phi) along R and
+    // |sin(phi)| across.  The displacement on the sky over d phi/d delta is the angle in the
+    // picture.
     const double off =
         std::hypot(seen.x - std::cos(phi), std::hypot(seen.y, seen.z) - std::abs(std::sin(phi)));
     worst = std::max(worst, off / ray.radial_scale / (fov / size));
@@ -117,8 +124,8 @@ double worst_displacement(const Show& show, int size, double fov, double aside) 
   return worst;
 }
 
-// [Riazuelo] fig. fig_z: eight views from 90 degrees to 160 milliarcseconds wide at the
-// silhouette's edge seen from 30 M, in the last of which the seventh ghost is visible.
+// These are the eight views of [Riazuelo] fig. fig_z, from 90 degrees to 160 milliarcseconds wide,
+// at the silhouette's edge seen from 30 M.  The seventh ghost is visible in the last of them.
 ExtremeResult zoom_to_the_seventh_ghost() {
   const int size = kExtremeSize + 1;
   const double last = 160 * kMilliarcsecond, zoom = std::pow(pi / 2 / last, 1.0 / 7);

@@ -22,6 +22,7 @@ ExtremeResult lorentz_factor_of_a_million() {
         GivenVelocity{Region::kI, Tetrad::kRain, 2.001, V3d(0, 0, 0)},
         GivenVelocity{Region::kII, Tetrad::kRain, 0.5, V3d(0, 0, 0)},
         GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, V3d(0, 0, 0)}})
+    // The 26 directions lead from the middle of a cube to its faces, edges and corners.
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
@@ -48,6 +49,7 @@ ExtremeResult frames_at(std::initializer_list<double> radii, const char* outcome
 
 ExtremeResult white_hole_frames() {
   FrameTally frames;
+  // The first observers move freely outwards.  The others rest in t, by T_IV and T_II.
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-15, 2.0})
     add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, V3d(0, 0, 0)});
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-12})

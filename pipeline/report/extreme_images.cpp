@@ -15,8 +15,9 @@ namespace {
 using std::numbers::pi;
 
 // Behind the hole, the primary and the secondary image of a star on the axis meet in a ring, whose
-// light is bounded by the star's size.  In front of the hole the star is seen undeflected, and the
-// limit of its amplification is 1/slope^2.
+// light is bounded by the star's size.  In front of the hole the star is seen undeflected.  There
+// sin(phi)/sin(delta) tends to the slope d phi/d delta, so the amplification sin(delta)/|sin(phi)
+// slope| tends to 1/slope^2.
 ExtremeResult star_on_the_axis() {
   const double size = 1e-8;
   double worst = 0;
@@ -45,8 +46,10 @@ ExtremeResult star_on_the_axis() {
                   ring, front)};
 }
 
-// Images up to order 7 from 30 M, which [Riazuelo] fig. fig_z zooms into.  The table finds the ray
-// of each, and the exact integral says which azimuth that ray sweeps.
+// [Riazuelo] fig. fig_z zooms into the images up to order 7, seen from 30 M.  The table finds the
+// ray of each image, and the exact integral says which azimuth that ray sweeps.  A star at the
+// angle phi_star has images where the swept azimuth is phi_star plus whole turns (even orders) and
+// where it is whole turns minus phi_star (odd orders).
 ExtremeResult seventh_ghost() {
   const double r = 30;
   const SkyTable table(r, Critical::kFirst);

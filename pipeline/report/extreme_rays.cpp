@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 constexpr double kPhiBound = 1e-8;  // for the tables, which frames are made with
 
-// The worst error of the table and of the exact integral over many rays.  The result is the
-// table's.  The case also fails if the integral does not keep its own bound.
+// A Worst collects the largest errors of the table and of the exact integral over many rays.  Its
+// result is the table's error, or infinity if the integral exceeds its own bound.
 class Worst {
  public:
   void add(const RayRequest& q) {
@@ -65,7 +65,7 @@ RayRequest off_edge(TraceObserver observer, long double r, Edge edge, double off
   return q;
 }
 
-// Angles over the whole view, some of them next to the axis on either side.
+// Returns angles over the whole view, some of which lie next to the axis at either end.
 const std::vector<double>& everywhere() {
   static const std::vector<double> angles{1e-9, 1e-5, 0.01, 0.3, 0.7,       1.1,      pi / 2,
                                           1.9,  2.3,  2.8,  3.1, pi - 1e-5, pi - 1e-9};
@@ -76,6 +76,7 @@ void add_everywhere(Worst& worst, TraceObserver observer, long double r) {
   for (const double delta : everywhere()) worst.add(at_delta(observer, r, delta));
 }
 
+// Adds rays on both sides of an edge, at offsets from `most` down to 1e-15 of it.
 void add_beside(Worst& worst, TraceObserver observer, long double r, Edge edge, double most) {
   for (int decade = 0; decade <= 15; ++decade)
     for (const double side : {-1.0, 1.0})
@@ -86,7 +87,8 @@ ExtremeResult critical_impact_parameter() {
   Worst worst;
   for (const long double r : {0.5L, 2.5L, 10.0L})
     add_beside(worst, TraceObserver::kRain, r, Edge::kSilhouette, 1e-2);
-  // These offsets are too small for any angle to hold.  A ray nearer to the edge must turn farther.
+  // These offsets are too small for any angle to hold.  A ray nearer to the edge must turn farther,
+  // which is all that is checked.
   double before = 0;
   bool growing = true;
   for (double offset = 1e-16; offset > 1e-307; offset *= 1e-3) {
@@ -126,6 +128,7 @@ ExtremeResult beside_the_horizon() {
 ExtremeResult static_at_the_horizon() {
   Worst worst;
   const long double r = 2 + 1e-12L;
+  // The whole sky is 3.7e-6 radians wide, so the offsets from its edge are smaller than that.
   add_everywhere(worst, TraceObserver::kStatic, r);
   add_beside(worst, TraceObserver::kStatic, r, Edge::kSilhouette, 1e-7);
   const double one_plus_z =
@@ -187,10 +190,11 @@ ExtremeResult resting_in_t_beside_the_horizon() {
   return worst.result("Both skies shrink to points, and almost the whole view shows the antipode");
 }
 
-// The observer at constant t sees a ray with E = 0 at delta = pi/2.  It has swept phi = arcsin(r -
-// 1) + pi/2 in region IV ([Riazuelo] fig. fig_IV_dev) and 2 pi minus that in region II, so phi must
-// come to pi from both sides at the sphere where the horizons cross.  With r = 2 - d the distance
-// pi - phi is arccos(1 - d) = 2 arcsin(sqrt(d/2)), in which nothing cancels.
+// The observer at constant t sees a ray with E = 0 at delta = pi/2.  From the singularity it has
+// swept int dr/sqrt(2 r - r^2) = arcsin(r - 1) + pi/2 in region IV ([Riazuelo] fig. fig_IV_dev),
+// and 2 pi minus that in region II.  So phi must come to pi from both sides at the sphere where the
+// horizons cross.  With r = 2 - d the distance pi - phi is arccos(1 - d) = 2 arcsin(sqrt(d/2)), in
+// which nothing cancels.
 ExtremeResult bifurcation() {
   double worst = 0;
   for (const double depth : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {

@@ -33,6 +33,7 @@ void FrameTally::add(const Show& show) {
   ++frames_;
   try {
     const HalfFrame frame = Renderer(show, 0).render(frame_state(show, 0));
+    // A half float beyond 65504 is infinite, so this also catches light without bound.
     for (const Imath::half value : frame.pixels) {
       if (!std::isfinite(static_cast<float>(value)) || value < 0) ++bad_;
       brightest_ = std::max(brightest_, static_cast<double>(value));

@@ -1,4 +1,4 @@
-// Shows of one held instant, for the extreme cases.
+// The extreme cases are rendered from shows that hold one instant.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@ namespace domefall {
 
 inline constexpr int kExtremeSize = 96;  // pixels along an edge of a frame
 
-// A show in which every sky is lit: the grid in all regions, and stars in I and III.  The hole is
-// at the pole of the grid, where right ascension has no value, which is the worst place for it.
-// Throws InputError if the shipped catalogue cannot be read.
+// Returns a show in which every sky is lit: all regions have the grid, and I and III have stars.
+// The hole stands at the pole of the grid, which is the worst place because right ascension has no
+// value there.  Throws InputError if the shipped catalogue cannot be read.
 Show extreme_show(const Trajectory& trajectory, const Projection& projection,
                   const Attitude& attitude);
 
-// Renders frames and counts the pixel values that are not finite or are negative.
+// A FrameTally renders frames and counts the pixel values that are not finite or are negative.
 class FrameTally {
  public:
-  // Renders frame 0.  A frame that the renderer refuses, since a pixel is not finite, counts as
-  // one.
+  // Renders frame 0 of the show.  If the renderer throws, as it does for a pixel that is not
+  // finite, the frame counts as one bad value.
   void add(const Show& show);
 
-  // worst: the count.  outcome: how many frames there were and their brightest value, before
-  // `more`.
+  // Returns the count as `worst`.  The outcome gives the number of frames and their brightest
+  // value, and `more` after them.
   ExtremeResult result(const std::string& more) const;
 
  private:

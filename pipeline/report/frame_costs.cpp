@@ -43,7 +43,8 @@ Sizes sizes(bool quick) {
           {9, 4}};
 }
 
-// Shows with the brightest stars of one catalogue, in a folder of their own.
+// The class Shows makes shows with the brightest stars of one catalogue, and keeps their files in a
+// folder of its own.
 class Shows {
  public:
   explicit Shows(std::size_t most_stars) {
@@ -52,6 +53,7 @@ class Shows {
 
   Show show(Place place, Background background, double stars, const Projection& projection) const {
     const bool flat = place == Place::kFlat;
+    // The limiting magnitude lies between the star of this rank and the next one.
     const std::string limit = fmt::format("{{catalogue: {}, max_magnitude: {:.9g}}}", kCatalogue,
                                           magnitude_of_rank(stars + 0.5));
     Show read = read_show(written(fmt::format(
@@ -67,8 +69,8 @@ class Shows {
     return read;
   }
 
-  // The number of stars that such a show has.  Of two stars whose magnitudes are the same float, a
-  // show has both or neither.
+  // Returns the number of stars that such a show has.  It may differ from `stars`, because of two
+  // stars whose magnitudes are the same float a show has both or neither.
   double count(double stars) const {
     if (stars <= 0) return 0;
     return static_cast<double>(
@@ -99,7 +101,8 @@ double pixels_inside(const Projection& projection) {
   return count;
 }
 
-// The same frame without its stars.  A renderer keeps what it has read for both frames.
+// Returns the state of the same frame without its stars.  It belongs to the same show, so a
+// renderer reads the files once for both frames.
 FrameState starless(FrameState state) {
   state.settings.sky[SkyRegion::kI].star_gain = 0;
   return state;
@@ -158,6 +161,8 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
   const Projection flat = Stereographic{sizes.benchmark, sizes.benchmark, kFov};
   const Show show =
       shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.benchmark_stars, flat);
+  // The whole frame is timed.  Errors are measured without stars: they are drawn as the same blobs
+  // with every setting.
   const FrameState whole = frame_state(show, 0), sky = starless(whole);
   const Grader grader(show.grade);
   const std::string scene = fmt::format("flat picture at 7 M, Milky Way, {:.0f} stars",

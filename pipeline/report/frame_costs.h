@@ -1,4 +1,5 @@
-// How the cost of a frame grows with the number of its stars and of its pixels.
+// measure_frame_costs() shows how the cost of a frame grows with the number of its stars and of its
+// pixels.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,8 @@
 
 namespace domefall {
 
-// One frame.  The rows of one scene ascend in stars alone or in pixels alone.
+// A FrameCostRow is the cost of one frame.  The rows of one scene ascend in stars or in pixels, and
+// the other number stays the same.
 struct FrameCostRow {
   std::string scene;
   int size;        // pixels along an edge of the dome
@@ -22,30 +24,32 @@ struct FrameCostRow {
 struct FrameCosts {
   std::vector<FrameCostRow> stars;   // against the number of stars, without any background
   std::vector<FrameCostRow> pixels;  // against the number of pixels
-  // The paper's own task ([Riazuelo] sec. sec_data): a frame of a million pixels, as good as one
-  // made at twice the resolution, with the 250,000 stars of the Henry Draper catalogue.  The rows
-  // are of one scene and one thread.  Their errors are those of the sky, measured without stars.
+  // The benchmark is the paper's own task ([Riazuelo] sec. sec_data): a frame of a million pixels,
+  // as good as one made at twice the resolution, with the 250,000 stars of the Henry Draper
+  // catalogue.  All rows are of one scene and one thread.  Their errors are those of the sky,
+  // without stars.
   std::vector<FrameErrorRow> benchmark;
 };
 
-// The observer falls freely at 7 M and faces the hole, or is in flat space.  The stars are made up
-// with the numbers of Tycho-2 (made_up_stars.h).  Both the catalogue and the shows are read from
-// files, so that all that a show does not say has a show's default.  quick: frames are small and
-// stars are few.  Throws InputError if a shipped asset cannot be read, TemporaryError if there is
-// no room for the catalogue (82 MB).
+// Measures frames of an observer who falls freely at 7 M and faces the hole, or who is in flat
+// space.  The stars are made up with the numbers of Tycho-2 (made_up_stars.h).  Both the catalogue
+// and the shows are read from files, so everything that a show does not say has its default.  If
+// quick, the frames are small and the stars are few.  Throws InputError if a shipped asset cannot
+// be read, and TemporaryError if there is no room for the catalogue (82 MB).
 FrameCosts measure_frame_costs(bool quick);
 
-// Nanoseconds for each further star or pixel, from each row to the next one of its scene.
+// A CostSlope is the time that each further star or pixel takes, from one row of a scene to the
+// next.
 struct CostSlope {
   std::string scene;
   double from, to;  // stars, or pixels
-  double ns;
+  double ns;        // for each
 };
 std::vector<CostSlope> slopes(const std::vector<FrameCostRow>& rows, double FrameCostRow::*counted);
 
-// The largest ratio of a slope to the one before it in its scene, which would reveal a cliff.
-// There is none if no scene has two slopes, or if any slope is not positive, as in frames too small
-// to be timed.
+// A SteepestRise is the largest ratio of a slope to the one before it in its scene.  A large one
+// would reveal a cliff.  There is none if no scene has two slopes, or if any slope is not positive,
+// as happens in frames too small to be timed.
 struct SteepestRise {
   std::string scene;
   double at;  // stars or pixels between the two slopes
@@ -53,8 +57,8 @@ struct SteepestRise {
 };
 std::optional<SteepestRise> steepest_rise(const std::vector<CostSlope>& of);
 
-// The slope from the first row of a scene to its last.  It is 0 if the scene has fewer than two
-// rows.
+// Returns the slope (ns) from the first row of a scene to its last, or 0 if the scene has fewer
+// than two rows.
 double mean_slope(const std::vector<FrameCostRow>& rows, double FrameCostRow::*counted,
                   const std::string& scene);
 

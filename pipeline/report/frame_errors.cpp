@@ -21,7 +21,7 @@ struct View {
 };
 
 std::vector<View> views(bool quick) {
-  // The first two are those of the quick report.
+  // A quick report has only the first two.
   std::vector<View> all{
       {"30 M, grid", StaticObserver{30}, LookAtHole{}, true, true},
       {"10 M, Milky Way", StaticObserver{10}, LookAtHole{}, false, true},
@@ -55,14 +55,15 @@ std::vector<Setting> settings(bool quick) {
 }
 
 Show show_of_view(const View& view, int size) {
-  // The silhouette has 18.4 degrees across.
+  // The silhouette is 19.3 degrees wide for an observer at rest at 30 M.  There the sine of its
+  // radius is L/r with L = sqrt(27) E and E = sqrt(1 - 2/r).
   constexpr double kFlatView = 24 * kDegree;
   Show show;
   if (view.dome)
     show.projection = Domemaster{size};
   else
     show.projection = Stereographic{size, size, kFlatView};
-  // Sagittarius A*, so that the Milky Way's heart is behind the hole.
+  // The hole stands where Sagittarius A* is, so that the centre of the Milky Way is behind it.
   constexpr double kRa = 266.417 * kDegree, kDec = -29.008 * kDegree;
   show.hole_at = {
       V3d(std::cos(kDec) * std::cos(kRa), std::cos(kDec) * std::sin(kRa), std::sin(kDec))};

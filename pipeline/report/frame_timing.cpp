@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWhite = 65535;  // in graded frames
 
-// CPU time of all threads.  It wraps after 71 minutes where clock_t has 32 bits.
+// Returns the CPU time of all threads.  It wraps after 71 minutes where clock_t has 32 bits.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -35,8 +35,8 @@ TimedFrame time_frame(const Show& show, AntiAliasing anti_aliasing, int threads,
 }
 
 double copy_seconds(const HalfFrame& frame) {
-  // One copy of a small frame is shorter than a tick of the clock.  64 copies of a large one would
-  // take seconds.
+  // One copy of a small frame is shorter than a tick of the clock, but 64 copies of a large one
+  // would take seconds.  So a series copies as many frames as make up a fixed number of bytes.
   constexpr std::size_t kRows = 7, kMostCopies = 64, kBytesOfRow = std::size_t{1} << 28;
   const std::size_t bytes = frame.pixels.size() * sizeof(Imath::half);
   const std::size_t copies = std::clamp<std::size_t>(kBytesOfRow / bytes, 1, kMostCopies);

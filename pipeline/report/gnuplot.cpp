@@ -22,7 +22,8 @@ struct Outcome {
   std::string out, said;  // standard output and standard error
 };
 
-// It reads and writes files in memory alone: folders could not be removed while it writes there.
+// Runs gnuplot with its three standard streams on files in memory.  Files in a temporary folder
+// would be in the way if the folder had to be removed while gnuplot still writes there.
 Outcome gnuplot(std::string option, const std::string& script) {
   const MemoryFile in("the script for gnuplot"), out("gnuplot's drawing"), said("gnuplot's words");
   in.append(script);
@@ -44,7 +45,7 @@ Outcome gnuplot(std::string option, const std::string& script) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) throw std::runtime_error("gnuplot was lost");
-  constexpr int kNotFound = 127;  // the status where it is the child that finds no program
+  constexpr int kNotFound = 127;  // the child's status if it finds no program
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound) throw InputError(kMissing);
   return {WIFEXITED(status) && WEXITSTATUS(status) == 0, out.contents(), said.contents()};
 }

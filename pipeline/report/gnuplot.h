@@ -1,17 +1,18 @@
-// Runs gnuplot as a program of its own: a script goes in, and the drawing comes out.
+// gnuplot draws the report's plots.  It runs as a program of its own, which reads a script from its
+// standard input and writes the drawing to its standard output.
 #pragma once
 
 #include <string>
 
 namespace domefall {
 
-// For example "gnuplot 5.4 patchlevel 4".  Throws InputError if there is no gnuplot among the
-// programs.
+// Returns gnuplot's name and version, for example "gnuplot 5.4 patchlevel 4".  Throws InputError if
+// gnuplot is not installed or does not work, and TemporaryError if there is no memory for it.
 std::string gnuplot_version();
 
-// Returns what the script writes to its standard output.  Throws InputError if there is no gnuplot,
-// std::runtime_error with gnuplot's own words if it finds a fault in the script, and TemporaryError
-// if there is no memory for either.
+// Returns what the script writes to standard output.  Throws InputError if gnuplot is not
+// installed, std::runtime_error with gnuplot's message if the script is faulty or draws nothing,
+// and TemporaryError if there is no memory for gnuplot or its files.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace domefall

@@ -20,18 +20,20 @@ constexpr double kSingular = 1e-6;  // M
 constexpr double kFirstStep = 0.01;
 constexpr int kMostSteps = 20'000'000;
 
-// x, y, the celerity along both, and gamma.  They are 0 at first, since Odeint copies its spare
-// ones.
+// The Numbers of a body are x, y, the celerity along both axes, and gamma.  They begin as 0 because
+// Odeint also copies buffers that it has not filled yet.
 struct Numbers : std::array<double, 5> {
   Numbers() : std::array<double, 5>{} {}
 };
 
-// Turns place and celerity into their radial and tangential parts.
+// Returns the state in polar form: the celerity by its parts along n and at right angles to it.
 FallState polar(const Numbers& y, double azimuth) {
   const double r = std::hypot(y[0], y[1]);
   return {r, azimuth, y[4], (y[0] * y[2] + y[1] * y[3]) / r, (y[0] * y[3] - y[1] * y[2]) / r};
 }
 
+// Evaluates the equations of integrated_fall.h.  A trial step may come nearer to the centre than
+// the singular radius, where r is held so that all rates stay finite.
 void geodesic(const Numbers& y, Numbers& rate, double /*tau*/) {
   const double r = std::max(std::hypot(y[0], y[1]), kSingular), gamma = y[4];
   const double nx = y[0] / r, ny = y[1] / r, s = std::sqrt(2 / r);
@@ -41,7 +43,8 @@ void geodesic(const Numbers& y, Numbers& rate, double /*tau*/) {
   rate[4] = s / r * (y[2] * y[2] + y[3] * y[3] - 1.5 * w * w);
 }
 
-// A longer step could pass the centre, or lose count of a turn.
+// A longer step could pass the centre, or lose count of a turn.  By x' = c - s gamma n the radius
+// changes at the rate c.n - s gamma.
 double longest_step(const FallState& p) {
   const double speed = p.radial - std::sqrt(2 / p.r) * p.gamma;
   return 0.5 * p.r / (std::abs(speed) + std::abs(p.tangential) / 4);
@@ -80,7 +83,8 @@ class Fall {
     return last;
   }
 
-  // Takes one step of at most `most`, or refuses it and shortens the next.
+  // Tries one step of at most `most`.  If its error is too large, the state stays and the next step
+  // is shorter.  The angle between the two places is added, so that whole turns are counted.
   void advance(double most) {
     if (++steps_ > kMostSteps)
       throw std::runtime_error(fmt::format("a fall takes more than {} steps", kMostSteps));

@@ -9,6 +9,8 @@
 namespace domefall {
 namespace {
 
+// Linux describes every logical processor by lines of the form "model name : ...".  The first one
+// counts.
 std::string processor_model() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {

@@ -1,4 +1,4 @@
-// The machine that the report was measured on.
+// Timings compare only within one machine, so the report says on which one it was measured.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace domefall {
 
 struct Machine {
   std::string processor;  // its model, as the system calls it
-  unsigned cores;         // as many as the system shows
+  unsigned cores;         // logical processors, as the system counts them
   std::string compiler;
   std::string version;  // of Domefall
   std::string date;     // of today, in UTC
@@ -15,7 +15,7 @@ struct Machine {
 
 Machine this_machine();
 
-// The same as a table in Markdown, one line for each.
+// Returns the members of this_machine() as a table in Markdown.
 std::string machine_table();
 
 }  // namespace domefall

@@ -8,6 +8,7 @@
 namespace domefall {
 namespace {
 
+// A StarCount is the number of stars as bright as a magnitude or brighter.
 struct StarCount {
   double magnitude, stars;
 };
@@ -42,6 +43,7 @@ RawCatalogue made_up_stars(std::size_t count) {
   catalogue.text = {"made up, as many by magnitude as Tycho-2 has", "none", "domefall report"};
   catalogue.stars.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
+    // By Archimedes, equal steps of z cut the sphere into zones of equal area.
     const double z = from(-1, 1), phi = from(0, kTwoPi), rho = std::sqrt(1 - z * z);
     CatalogueStar& star = catalogue.stars[k];
     star.direction = {V3d(rho * std::cos(phi), rho * std::sin(phi), z)};

@@ -41,6 +41,7 @@ ExactPlace place(const RadialInfall& fall, double tau) {
   return {root * root, 0};
 }
 
+// The energy of an observer at rest is u_t = sqrt(1 - 2/r).
 Constants constants(const StaticObserver& observer) { return {sqrt(1 - 2 / Real(observer.r)), 0}; }
 ExactPlace place(const StaticObserver& observer, double /*tau*/) { return {observer.r, 0}; }
 
@@ -76,8 +77,9 @@ OrbitCase circle(std::string name, double r, int turns, int states, bool integra
 
 // ---- geodesics without a closed form ----
 
-// The trajectory is asked at the proper times of the reference as doubles hold them.  What rounding
-// took from tau is added to the place by the reference's speed.  way is +1 outwards, -1 inwards.
+// The trajectory is evaluated at the reference's proper times, rounded to double.  The rounding of
+// tau moves the true place by the rounding times the reference's speed, to first order.  `way` is
+// +1 outwards and -1 inwards.
 OrbitCase geodesic_case(std::string name, const Geodesic& geodesic, const ReferenceOrbit& reference,
                         const std::vector<ReferencePlace>& path, int way, bool integrated) {
   OrbitCase orbit{std::move(name),
@@ -97,7 +99,7 @@ OrbitCase geodesic_case(std::string name, const Geodesic& geodesic, const Refere
   return orbit;
 }
 
-// Radii outside the turning point `turn`, whose distances from it are a geometric series.
+// Returns radii outside the turning point `turn`, whose distances from it form a geometric series.
 std::vector<Real> radii_beyond(const Real& turn, double first, double last, int states) {
   std::vector<Real> radii;
   radii.reserve(static_cast<std::size_t>(states));
@@ -106,7 +108,7 @@ std::vector<Real> radii_beyond(const Real& turn, double first, double last, int 
   return radii;
 }
 
-// Radii that are a geometric series themselves.
+// Returns radii that form a geometric series themselves, from after `from` to `to`.
 std::vector<Real> radii_to(double from, double to, int states) {
   std::vector<Real> radii;
   radii.reserve(static_cast<std::size_t>(states));
@@ -137,7 +139,9 @@ OrbitCase hyperbola(int states) {
       reference_leg(reference, r, radii_beyond(r, kBesideTheTurn, kFarAway, states)), 1, true);
 }
 
-// Every turn has equally many states, all on the way out between 11 and 15 M.
+// Every turn has equally many states, all on the way out between 10.2 and 15 M.  Half a turn is the
+// time and the azimuth from 10 to 15 M and from there to 20 M.  The second leg is computed from its
+// turning point, from 20 down to 15 M, and takes as long by symmetry.
 OrbitCase ellipse(int states) {
   const Real near = 10, far = 20;
   const ReferenceOrbit reference = orbit_between(near, far);
@@ -159,7 +163,8 @@ OrbitCase ellipse(int states) {
                        reference, path, 1, true);
 }
 
-// The orbit turns at p/(1 + e) and p/(1 - e).  With p = 6 + 2e it would whirl for ever.
+// The orbit turns at p/(1 + e) and p/(1 - e).  With p = 6 + 2e it would whirl for ever at its
+// periastron.
 OrbitCase whirl(int states) {
   const double e = 0.5, excess = 1e-8;
   const Real p = 6 + 2 * Real(e) + Real(excess), near = p / (1 + Real(e));
@@ -169,6 +174,7 @@ OrbitCase whirl(int states) {
                        reference, path, 1, true);
 }
 
+// With E = 1 and L < 4 M there is no turning point, so the body falls to the singularity.
 OrbitCase plunge(int states) {
   const ReferenceOrbit reference{0, 3.9};
   return geodesic_case("fall with L = 3.9 M from 30 M to 0.001 M", fall_from_infinity(3.9, 30),
@@ -176,8 +182,9 @@ OrbitCase plunge(int states) {
                        -1, true);
 }
 
-// The orbit is not integrated: integrate_fall works in the rain tetrad, which region IV does not
-// have.
+// Proper time and azimuth count from the horizon, so both are negative in region IV.  The orbit is
+// not integrated, because integrate_fall works in the rain tetrad, which does not exist in region
+// IV.
 OrbitCase crossing(int states) {
   const double energy = 1.25, momentum = 1;
   const ReferenceOrbit reference{Real(energy) * energy - 1, momentum};

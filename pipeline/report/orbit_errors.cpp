@@ -30,7 +30,8 @@ void raise(double& largest, const Real& value) {
   largest = std::max(largest, static_cast<double>(abs(value)));
 }
 
-// own_gamma says whether the method emits gamma itself.
+// Raises the errors of the row to those of these states.  own_gamma says whether the method emits
+// gamma itself.
 void raise_errors(const OrbitCase& orbit, const std::vector<FallState>& states, bool own_gamma,
                   OrbitErrorRow& row) {
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -48,7 +49,9 @@ void raise_errors(const OrbitCase& orbit, const std::vector<FallState>& states, 
   }
 }
 
-// CPU seconds of one call, by the quickest of several rounds of a millisecond or more each.
+// Returns the CPU seconds of one call, by the quickest of several rounds.  A round lasts a
+// millisecond or more, which is long against a tick of the clock, unless it would take too many
+// calls.
 template <class Function>
 double seconds_of(const Function& function) {
   constexpr int kRounds = 3;

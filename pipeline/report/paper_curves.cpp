@@ -13,14 +13,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A part of the view ends at an edge between skies, where the azimuth diverges, or on the axis.
+// An End bounds a part of the view: an edge between skies, where the azimuth diverges, or the axis.
 struct End {
   double delta;
   std::optional<Edge> edge;
 };
 
-// Distances from an end, so spaced that a logarithm and a cube root are both drawn as smooth
-// curves.
+// Returns distances from an end.  Some are evenly spaced in their logarithm and some in themselves,
+// so that the azimuth is drawn as a smooth curve whether it goes like a logarithm (next to an edge)
+// or like a cube root (on the axis, for light from the past singularity).
 std::vector<double> distances(double reach) {
   constexpr int kLog = 160, kEven = 120;
   constexpr double kLeast = 1e-9;
@@ -32,7 +33,8 @@ std::vector<double> distances(double reach) {
   return d;
 }
 
-// The swept azimuth against delta, between two ends of the view.
+// Returns the swept azimuth against delta between two ends of the view.  Each half of the curve is
+// traced by offsets from its own end, so that its rays are exact next to an edge.
 std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, const End& high) {
   const auto azimuth = [&](const End& end, double offset) {
     RayRequest q{observer, r, end.delta + offset, end.edge, offset};
@@ -47,13 +49,15 @@ std::vector<PlotPoint> sweep(TraceObserver observer, double r, const End& low, c
   return points;
 }
 
-// The deviation function for sign -1, the azimuth with the sign of L for sign +1.
+// Returns the deviation function for sign -1, and the azimuth with the sign of L for sign +1.
 std::vector<PlotPoint> signed_curve(const std::vector<PlotPoint>& swept, double sign) {
   std::vector<PlotPoint> points = swept;
   for (PlotPoint& p : points) p.y *= sign;
   return points;
 }
 
+// Continues a curve from [0, pi] to [pi, 2 pi].  The function is odd about pi, so delta becomes
+// 2 pi - delta, and the azimuth changes its sign.
 std::vector<PlotPoint> continued(const std::vector<PlotPoint>& points) {
   std::vector<PlotPoint> other;
   other.reserve(points.size());
@@ -101,6 +105,7 @@ Plot rain_plot(const std::string& title, double r, const Regions& seen) {
   return plot;
 }
 
+// At 30 M the deviation function is compared with a ray that is neither bent nor aberrated.
 Plot deviation_far_away() {
   Plot plot = rain_plot("Deviation function, free fall at r = 30 M", 30, {});
   plot.curves.front().name = "φ_∞(δ)";
@@ -125,7 +130,8 @@ Plot white_hole_from_within() {
   return plot;
 }
 
-// The angle of an edge in degrees against r.
+// Returns the angle of an edge, in degrees, against r.  The angle changes like sqrt(r) towards the
+// singularity, so the radii grow like the squares of evenly spaced numbers.
 std::vector<PlotPoint> edge_curve(Edge edge, double r_end) {
   constexpr int kPoints = 400;
   constexpr double kDegrees = 180 / kPi, kRight = 90;
@@ -147,6 +153,8 @@ Plot what_is_seen() {
   constexpr double kFar = 10, kHorizon = 2, kAll = 180;
   const std::vector<PlotPoint> silhouette = edge_curve(Edge::kSilhouette, kFar);
   const std::vector<PlotPoint> third = edge_curve(Edge::kRegionThree, kHorizon);
+  // The dark area lies between the edges: out along the silhouette, back along the axis to the
+  // horizon, and inwards along the edge of region III.
   std::vector<PlotPoint> dark = silhouette;
   dark.push_back({kFar, 0});
   dark.insert(dark.end(), third.rbegin(), third.rend());

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// Okabe and Ito's colours, which the colour-blind can tell apart too.
+// These are Okabe and Ito's colours, which colour-blind readers can tell apart too.
 constexpr std::array kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000"};
 
@@ -19,6 +19,8 @@ const char* colour(int index) {
   return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
 }
 
+// Border 3 is the sum of 1 (the bottom) and 2 (the left side).  `clip one` also draws the segments
+// of which only one end lies within the axes' ranges.
 constexpr const char* kStyle = R"(set encoding utf8
 set terminal svg size 960,640 dynamic enhanced font "sans-serif,17" linewidth 1.4 background "#ffffff"
 set border 3 linewidth 0.8 linecolor rgb "#444444"
@@ -38,10 +40,10 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-// Writes 1.5 as 3π/2.
+// Writes a multiple of pi as a reduced fraction: 1.5 becomes 3π/2.
 std::string parts_of_pi(double part) {
   if (part == 0) return "0";
-  constexpr double kFinest = 4;  // the finest parts are quarters
+  constexpr double kFinest = 4;  // the finest fractions are quarters
   int above = static_cast<int>(std::lround(std::abs(part) * kFinest)), below = 4;
   while (below > 1 && above % 2 == 0) above /= 2, below /= 2;
   std::string text = part < 0 ? "−" : "";
@@ -50,6 +52,7 @@ std::string parts_of_pi(double part) {
   return below > 1 ? fmt::format("{}/{}", text, below) : text;
 }
 
+// A mark at an end of the axis stays on it by kSlack, whichever way the quotient is rounded.
 std::string marks_of_pi(const Axis& axis) {
   constexpr double kPi = std::numbers::pi, kSlack = 1e-9;
   std::string marks;
@@ -80,6 +83,7 @@ bool can_be_drawn(const Axis& axis, double value) {
   return std::isfinite(value) && (axis.scale != Axis::Scale::kLog || value > 0);
 }
 
+// Returns a named block of data, $c0 and so on, which lets one script hold all its curves.
 std::string data_block(const Plot& plot, const PlotCurve& curve, const std::string& name) {
   std::string block = name + " << EOD\n";
   for (const PlotPoint& p : curve.points)
@@ -108,7 +112,7 @@ std::string drawn_with(const PlotCurve& curve) {
 
 std::string key_script(const std::string& place) {
   if (place.empty()) return "unset key\n";
-  // gnuplot's own "below" would run into the label of the axis.
+  // gnuplot's own "below" would run into the label of the axis, so a wider margin is made for it.
   if (place == "below")
     return "set bmargin 9.5\nset key at screen 0.98,0.03 right bottom maxrows 4\n";
   return "set key " + place + " opaque\n";

@@ -1,4 +1,5 @@
-// A plot as data, and the one style that all of them are drawn in.
+// A Plot is one figure of the report as data: axes, curves and labels.  All plots are drawn in one
+// style.
 #pragma once
 
 #include <string>
@@ -11,19 +12,19 @@ struct PlotPoint {
 };
 
 struct PlotCurve {
-  // kPoints joins its points by lines, kArea fills a closed curve.
+  // kPoints marks its points and joins them by lines.  kArea fills a closed curve.
   enum class Style { kLine, kDashed, kDotted, kPoints, kArea };
   std::string name;  // a curve without one is not in the legend
   std::vector<PlotPoint> points;
-  int colour = 0;  // in the palette, which repeats
+  int colour = 0;  // index into the palette, which repeats
   Style style = Style::kLine;
 };
 
 struct Axis {
-  enum class Scale { kLinear, kLog, kOfPi };  // kOfPi is radians, marked in parts of pi
+  enum class Scale { kLinear, kLog, kOfPi };  // kOfPi: radians, marked in parts of pi
   std::string label;
   Scale scale = Scale::kLinear;
-  double least = 0, most = 0;  // where they are equal, the data decide
+  double least = 0, most = 0;  // the range; if both are equal, gnuplot fits it to the data
   double mark_every = 0;       // in units of pi for kOfPi; 0 leaves it to gnuplot
 };
 
@@ -41,17 +42,17 @@ struct Plot {
   std::string legend = "top right";  // a place in gnuplot's words, or "below"; empty for none
 };
 
-// A plot with the name of its file, without a suffix.
+// A NamedPlot is a plot with the name of its file, which has no suffix here.
 struct NamedPlot {
   std::string name;
   Plot plot;
 };
 
-// The script by which gnuplot writes the plot to its standard output as SVG.  Points that are not
-// finite, or not positive on a logarithmic axis, are left out.
+// Returns the script by which gnuplot writes the plot to its standard output as SVG.  The script
+// leaves out points that are not finite, or not positive on a logarithmic axis.
 std::string gnuplot_script(const Plot& plot);
 
-// The plot as an SVG document.  Throws what run_gnuplot throws.
+// Returns the plot as an SVG document.  Throws what run_gnuplot throws.
 std::string draw(const Plot& plot);
 
 }  // namespace domefall

@@ -16,7 +16,7 @@
 namespace domefall {
 namespace {
 
-// A place to be found, and the truth.
+// A SamplePlace is a place to be found on the ray of a request, with the truth.
 struct SamplePlace {
   RayRequest request;
   double psi;
@@ -26,6 +26,7 @@ struct SamplePlace {
 std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
   const int radii = quick ? 3 : 12, per_radius = quick ? 4 : 16;
   constexpr double kFirst = 0.02, kRange = 0.96, kGolden = 0.6180339887498949;
+  // Multiples of the golden ratio, modulo 1, fill the range evenly, however many they are.
   std::vector<SamplePlace> places;
   double part = 0;
   for (const RayClass& of : ray_classes()) {
@@ -76,6 +77,7 @@ PositionErrorRow measured_errors(bool at_edge, const std::vector<SamplePlace>& p
           passed.count() / static_cast<double>(places.size())};
 }
 
+// Returns the wall-clock time of `work` for one ray of a full batch, by the best of several passes.
 template <class Work>
 double best_ns_of_a_ray(Work work) {
   constexpr int kRounds = 200, kPasses = 7;
@@ -110,6 +112,7 @@ std::vector<PositionErrorRow> measure_positions(bool quick) {
 
 PositionSpeed measure_position_speed() {
   constexpr double kRadius = 10, kPsi = 1;
+  // The angles of the rays, of which the columns hold the halves, are spread over the whole view.
   RayPlaces::Column sine, cosine, psi, times;
   for (int k = 0; k < RayOrbits::kSize; ++k) {
     const double half = std::numbers::pi / 2 * (k + 0.5) / RayOrbits::kSize;

@@ -30,6 +30,7 @@ Pass trace_group(const RayGroup& group, const RayMethod& method, double setting)
 
 double worst(const std::vector<double>& sorted) { return sorted.empty() ? 0 : sorted.back(); }
 
+// Returns the least of the values that at least 99 of 100 do not exceed.
 double percentile_99(const std::vector<double>& sorted) {
   if (sorted.empty()) return 0;
   const auto count = static_cast<double>(sorted.size());
@@ -53,7 +54,7 @@ struct Errors {
     }
     const double off = std::abs(followed.phi - truth.phi);
     phi.push_back(off / std::max(1.0, truth.phi));
-    sky.push_back(off / std::abs(truth.slope));
+    sky.push_back(off / std::abs(truth.slope));  // d phi/d delta turns phi into delta
   }
   void sort() {
     std::sort(phi.begin(), phi.end());
@@ -70,6 +71,8 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
   std::vector<double> build_ns;
   std::size_t rays = 0;
   for (const RayGroup& group : groups) {
+    // The first pass also builds the tables of this radius, so what it takes beyond the best pass
+    // is the time of building.
     const Pass first = trace_group(group, method, setting);
     for (std::size_t k = 0; k < group.size(); ++k) errors.add(first.rays[k], group[k]);
     double best = repeats > 0 ? std::numeric_limits<double>::infinity() : first.ns;

@@ -41,12 +41,13 @@ std::vector<TraceObserver> observers_in(std::string_view region) {
   return found;
 }
 
-// Even numbers from the bits themselves, since the distributions of the standard library differ
-// from library to library.
+// Dice makes evenly distributed numbers from the generator's bits itself, because the distributions
+// of the standard library differ from library to library.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
   double even(double least, double most) {
+    // The upper 53 bits choose one of 2^53 equal steps, and the number lies in its middle.
     constexpr double kStep = 0x1p-53;
     return least + (most - least) * (static_cast<double>(bits_() >> 11) + 0.5) * kStep;
   }
@@ -59,8 +60,8 @@ class Dice {
   std::mt19937_64 bits_;
 };
 
-// A double still holds the least offset beside any angle.  The largest is below every edge's
-// distance from the axis.
+// The least offset is still resolved when a double adds it to an angle.  The largest is smaller
+// than the distance of every edge from the axis.
 constexpr double kLeastOffset = 1e-12, kMostOffset = 1e-3;
 constexpr double kFarReach = 1000;  // in radii of the silhouette
 
@@ -93,7 +94,7 @@ std::span<const RayClass> ray_classes() { return kClasses; }
 
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
   const std::vector<TraceObserver> observers = observers_in(of.region);
-  constexpr std::uint64_t kSeed = 1511'06025;
+  constexpr std::uint64_t kSeed = 1511'06025;  // arXiv:1511.06025 is the paper
   Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
   std::vector<RayGroup> groups(static_cast<std::size_t>(radii));
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -1,5 +1,5 @@
-// The random rays that the report measures with, each with its truth from reference_ray.  They are
-// grouped by the region of the observer and a kind of difficulty.
+// The report measures with random rays, each of which has its truth from reference_ray().  They are
+// classed by the region of the observer and by a kind of difficulty.
 #pragma once
 
 #include <span>
@@ -30,12 +30,12 @@ struct SampleRay {
   double phi, slope;  // the truth, rounded to double
 };
 
-// The rays of one observer at one radius, as a frame has them.
+// A RayGroup holds rays of one observer at one radius, as a frame does.
 using RayGroup = std::vector<SampleRay>;
 
 // Returns the same rays whenever and wherever it is called.  ln r is distributed evenly, and so is
-// delta but for what Difficulty says.  Offsets from an edge lie on both sides, evenly in their
-// logarithm.
+// delta unless Difficulty says otherwise.  Offsets from an edge lie on both sides, and their
+// logarithms are distributed evenly.
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius);
 
 }  // namespace domefall

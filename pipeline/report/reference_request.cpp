@@ -5,6 +5,7 @@
 namespace domefall {
 namespace {
 
+// Next to 2 and 3 the distance has the digits that r itself has lost.
 Wide exact_radius(const Radius& at) {
   if (std::abs(at.above_horizon) < 0.1) return 2 + Wide(at.above_horizon);
   if (std::abs(at.above_light_circle) < 0.1) return 3 + Wide(at.above_light_circle);

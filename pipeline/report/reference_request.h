@@ -1,4 +1,5 @@
-// Puts a request to trace_ray as the same request to the reference.
+// These functions translate a request to trace_ray() into the same request to the reference, and
+// the reference's origins into those of trace_ray().
 #pragma once
 
 #include "pipeline/optics/traced_ray.h"
@@ -6,8 +7,8 @@
 
 namespace domefall {
 
-// The same ray, from the doubles as they are.  Where r is given more finely by its distance from
-// the horizon or from the light circle, it is taken from that.
+// Returns a request for the same ray, whose numbers have the exact values of the doubles.  Where
+// the distance from the horizon or from the light circle gives r more finely, r is taken from that.
 ReferenceRequest reference_request(const RayRequest& q);
 
 SkyRegion origin_from(ReferenceOrigin origin);

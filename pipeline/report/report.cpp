@@ -33,6 +33,7 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
   report.frames = measure_frames(quick);
   progress("costs of frames");
   report.costs = measure_frame_costs(quick);
+  // The tests hold the same cases to their bounds, so a quick report can do without them.
   if (!quick) {
     progress("extreme cases");
     report.extremes = extreme_table();

@@ -1,4 +1,5 @@
-// Everything that `domefall report` measures, and the files that it is written to.
+// `domefall report` measures the errors and the costs of rays, places, orbits and frames.  A Report
+// holds its results, and the functions below write them as tables, plots and pages.
 #pragma once
 
 #include <functional>
@@ -27,33 +28,36 @@ struct Report {
   std::string extremes;  // from extreme_table(); empty if quick
 };
 
-// Measures on one thread, but for the errors of frames.  `progress` is called with the name of each
-// measurement as it begins.  It takes 18 s of CPU time if quick, else 7 minutes.  Throws InputError
-// if a shipped asset cannot be read.
+// Measures on one thread, except for the errors of frames, which use all threads.  Calls `progress`
+// with the name of each measurement as it begins.  This takes 18 s of CPU time if quick, else 7
+// minutes.  Throws InputError if a shipped asset cannot be read.
 Report measure_report(bool quick, const std::function<void(const std::string&)>& progress);
 
-// One line of names and one line for each row.  The columns are the members of the row's structure.
+// Returns a table in CSV, with a line of column names and one line for each row.  The columns are
+// the members of the row's structure.
 std::string csv_of(const std::vector<RayErrorRow>& rows);
 std::string csv_of(const std::vector<PositionErrorRow>& rows);
 std::string csv_of(const std::vector<FrameErrorRow>& rows);
 std::string csv_of(const std::vector<OrbitErrorRow>& rows);
-// The rows of both series, which the column `against` names.  The benchmark's rows are written as
-// rows of frames.
+// Returns the rows of both series in one table, in which the column `against` names the series.
+// The benchmark is not in this table: its rows are FrameErrorRows, for which there is a function
+// above.
 std::string csv_of(const FrameCosts& costs);
 
-// Plots of error against time.  Their names are rays_REGION_DIFFICULTY for the azimuth, the same
-// with _sky for the error on the sky, frames_rms and frames_worst, and orbit_NAME for every orbit
-// that is integrated as well.
+// Returns the plots of error against time.  A plot of the azimuth is named rays_REGION_DIFFICULTY,
+// and _sky is appended for the error on the sky.  The plots of frames are frames_rms and
+// frames_worst, and every orbit that is also integrated has a plot orbit_NAME.
 std::vector<NamedPlot> error_plots(const Report& report);
 
-// Plots of cost against size, named costs_stars and costs_pixels.
+// Returns the plots of cost against size, which are named costs_stars and costs_pixels.
 std::vector<NamedPlot> cost_plots(const FrameCosts& costs);
 
-// docs/accuracy.md.  It links to the plots in plots/ and to the figures in figures/.
+// Returns the text of docs/accuracy.md, which links to the plots in plots/ and to the figures in
+// figures/.
 std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& plots,
                           const std::vector<NamedPlot>& figures);
 
-// docs/costs.md.  It links to the two plots in plots/.
+// Returns the text of docs/costs.md, which links to the two plots of costs in plots/.
 std::string costs_page(const Report& report);
 
 }  // namespace domefall

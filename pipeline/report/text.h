@@ -1,4 +1,4 @@
-// Numbers, cells and file names as the report writes them.
+// These functions write numbers, table cells and file names as the report needs them.
 #pragma once
 
 #include <fmt/core.h>
@@ -8,14 +8,14 @@
 
 namespace domefall {
 
-// Three significant digits, or all digits before the point where there are more of them.
+// Returns the value with three significant digits if it is below 100, else rounded to an integer.
 inline std::string amount(double value) {
   constexpr double kWhole = 100;
   return value < kWhole ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-// A cell of a CSV file, quoted as RFC 4180 says if it holds a comma, a quotation mark or a new
-// line.
+// Returns a cell of a CSV file.  A cell that holds a comma, a quotation mark or a new line is
+// quoted as RFC 4180 prescribes.
 inline std::string csv_cell(const std::string& cell) {
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
   std::string quoted = "\"";
@@ -23,7 +23,8 @@ inline std::string csv_cell(const std::string& cell) {
   return quoted + "\"";
 }
 
-// Part of a file's name: "Circular, 10 M" becomes "circular-10-m".
+// Makes a name fit for a file: letters become small, and whatever else stands between letters and
+// digits becomes one hyphen.  "Circular, 10 M" becomes "circular-10-m".
 inline std::string slug(const std::string& name) {
   std::string out;
   for (const char c : name) {

@@ -31,6 +31,7 @@ double nanoseconds(const Observer& observer) {
   state.observer.r = observer.r;
   const HoleOptics optics = make_hole_optics(observer.r, observer.tetrad, {true, true, true});
   const ViewTracer tracer(state, optics);
+  // The directions are collected first, so that tracing alone is timed.
   std::vector<CameraDirection> directions;
   for (int row = 0; row < kSize; ++row) {
     const ColumnRange inside = inside_columns(state.projection, row);

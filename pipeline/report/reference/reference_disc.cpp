@@ -12,7 +12,8 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-// Light that left gas nearer to the past horizon is redder by its inverse.
+// Light that left gas nearer than this to the past horizon (M) is not looked for.  Its redshift is
+// about the inverse, a million or more.
 constexpr double kPastHorizon = 1e-6;
 
 double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -25,7 +26,7 @@ Vector3 sum(const Vector3& a, double by, const Vector3& b) {
 
 // ---- The ray ----
 
-// x, its rate against the light's sense, and the v that has passed.
+// A Light is the state of a ray: x, its rate of change back in time, and the change of v so far.
 struct Light : std::array<double, 7> {
   Light() : std::array<double, 7>{} {}
   Vector3 place() const { return {(*this)[0], (*this)[1], (*this)[2]}; }
@@ -34,8 +35,9 @@ struct Light : std::array<double, 7> {
   double outwards() const { return dot(place(), rate()) / r(); }  // -k^r
 };
 
-// The wave vector in the frame of radial free fall, (frequency, direction of travel times it), of
-// light that the observer sees with frequency 1 from `direction`: a Lorentz boost of (1, -m).
+// Returns the wave vector, as frequency and frequency times direction of travel, in the frame of
+// radial free fall.  The observer sees this light with frequency 1 from the direction m, so it is a
+// Lorentz boost of (1, -m).
 std::array<double, 4> boosted(const Vector3& celerity, const Vector3& m) {
   const double gamma = std::sqrt(1 + dot(celerity, celerity)), along = dot(celerity, m);
   std::array<double, 4> k{gamma - along, 0, 0, 0};
@@ -52,7 +54,8 @@ class IntegratedGeodesic {
   IntegratedGeodesic(const ReferenceDiscView& view, const Vector3& direction) {
     const auto k = boosted(view.celerity, direction);
     const double s = std::sqrt(2 / view.r) * (view.outgoing ? -1 : 1);
-    // d/dt = T + s R, and the frame itself moves by -s against spheres of constant r.
+    // The Killing vector is d/dt = T + s R, and E is its product with the wave vector.  The frame
+    // itself moves by -s against spheres of constant r, which gives k^r.
     energy_ = k[0] - s * k[1];
     const double radial = k[1] - s * k[0];
     light_[0] = view.r;
@@ -73,17 +76,18 @@ class IntegratedGeodesic {
       rate[i] = y[i + 3];
       rate[i + 3] = pull * y[i];
     }
-    // dv/dlambda = (E + k^r)/(1 - 2/r), which for light that falls is L^2/(r^2 (E - k^r)).
+    // Along the light dv/dlambda = (E + k^r)/(1 - 2/r).  For light that falls this is 0/0 at r = 2,
+    // so L^2/(r^2 (E - k^r)) is used, which is the same because E^2 - (k^r)^2 = (1 - 2/r) L^2/r^2.
     const double radial = -y.outwards();
     rate[6] =
         radial < 0 ? -spin2_ / (r * r * (energy_ - radial)) : -(energy_ + radial) / (1 - 2 / r);
   }
 
-  // Goes back along the ray by one step, and returns where it was before.
+  // Goes back along the ray by one step, and returns the state before it.
   Light step() {
     const Light before = light_;
-    // No step passes more than a part of the way to the hole's centre or, of light that comes out
-    // of the past horizon at v = -infinity, to that.
+    // No step covers more than a part of the way to the hole's centre.  Light that moves outwards
+    // came from the past horizon, where v = -infinity, so its steps cover a part of that way.
     const double speed = std::sqrt(dot(light_.rate(), light_.rate()));
     const double way = light_.outwards() < 0 ? light_.r() - 2 : light_.r();
     length_ = std::min(length_, 0.3 * way / speed);
@@ -96,8 +100,9 @@ class IntegratedGeodesic {
     }
     throw std::runtime_error("a ray beside the disc could not be followed");
   }
-  // How long the last step was.
+  // Returns the length of the last step in lambda.
   double taken() const { return taken_; }
+  // Returns the state after one step of any length up to the last one's, which is as exact as that.
   Light after(const Light& start, double length) const {
     Fehlberg78 one;
     Light out;
@@ -114,7 +119,8 @@ class IntegratedGeodesic {
   Stepper stepper_ = Stepper(Stepper::error_checker_type(kTolerance, kTolerance));
 };
 
-// The place on the plane between two ends of a step, by bisection.
+// Returns the state where the ray meets the plane between the two ends of a step, by bisection.  60
+// halvings leave less than a double's last bit.
 Light on_plane(const IntegratedGeodesic& ray, const Light& from, double length,
                const Vector3& normal) {
   double low = 0, high = length;
@@ -128,8 +134,9 @@ Light on_plane(const IntegratedGeodesic& ray, const Light& from, double length,
 
 // ---- The gas ----
 
-// What gas loses on its way from r = 6 to r, plus what the plunging gas pulls: the integral
-// of [Page & Thorne 1974], of (E - Omega L) dL/dr = (r - 6)/(2 sqrt r (r - 3)), by quadrature.
+// The gas radiates what it loses between r and the last stable orbit, which is the integral of
+// (E - Omega L) dL/dr = (r - 6)/(2 sqrt r (r - 3)) in [Page & Thorne 1974], here by quadrature.
+// The pull of plunging gas adds a constant (page_thorne.h).
 double flux(double r, bool plunging) {
   const auto lost = [](double x) { return (x - 6) / (2 * std::sqrt(x) * (x - 3)); };
   const double brought =
@@ -138,7 +145,8 @@ double flux(double r, bool plunging) {
   return (brought + (plunging ? 0.02 * std::sqrt(6.0) : 0)) / ((r - 3) * std::pow(r, 2.5));
 }
 
-// The maximum lies at 9.55 or, where gas plunges, at 6.
+// Returns the largest flux at r >= 6.  It lies at 9.55, where a search by thirds finds it, or at 6
+// if gas plunges.
 double greatest_flux(bool plunging) {
   if (plunging) return flux(6, true);
   double low = 8, high = 12;
@@ -149,6 +157,8 @@ double greatest_flux(bool plunging) {
   return flux((low + high) / 2, false);
 }
 
+// Flux goes like the fourth power of temperature.  Below 6 the plunging gas expands by the law of
+// [Mummery & Balbus 2023], as in page_thorne.h.
 double temperature(double r, bool plunging) {
   static const double greatest[] = {greatest_flux(false), greatest_flux(true)};
   if (r >= 6) return std::pow(flux(r, plunging) / greatest[plunging ? 1 : 0], 0.25);
@@ -156,6 +166,8 @@ double temperature(double r, bool plunging) {
   return std::pow(6 / r, 17.0 / 28) * std::pow(1 + std::pow(6 / r - 1, 1.5) / 0.01, -1.0 / 28);
 }
 
+// Returns 1 + z = u.k for gas on a circle, Omega = r^(-3/2), u^t = 1/sqrt(1 - 3/r).  Plunging gas
+// keeps the energy sqrt(8/9) and the angular momentum sqrt 12 of the last stable orbit.
 double shift(const IntegratedGeodesic& ray, const Light& at, const Vector3& axis) {
   const double r = at.r(), turned = ray.momentum_about(axis);
   if (r >= 6) return (ray.energy() - turned / std::pow(r, 1.5)) / std::sqrt(1 - 3 / r);
@@ -176,8 +188,10 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
                                                const Vector3& direction, int orders) {
   IntegratedGeodesic ray(view, direction);
   std::vector<ReferenceDiscPlace> found;
-  // Light of E < 0 comes from region III, and all that is before the past horizon from region IV.
+  // Light with E < 0 comes from region III.  An observer before the past horizon sees region IV
+  // alone.
   if (!(ray.energy() > 0) || (view.outgoing && view.r <= 2)) return found;
+  // An observer in the plane counts as being on the side to which the ray leads.
   double before_side = dot(ray.light().place(), view.normal);
   if (before_side == 0) before_side = dot(ray.light().rate(), view.normal);
   for (int order = 0; order < orders;) {
@@ -197,6 +211,7 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
       ++order;
     }
     before_side = side;
+    // The ray has come to the past horizon, or it leads to the sky and is beyond the disc.
     if (now.outwards() < 0 && now.r() < 2 + kPastHorizon) break;
     if (now.outwards() > 0 && now.r() > 3 && now.r() > view.outer) break;
   }

@@ -1,12 +1,13 @@
-// The truth that pictures of discs are measured against: where the light of one direction of view
-// left the disc, by following the ray step by step.  It shares no code with what it judges, which
-// knows places along rays in closed form.
+// reference_disc() is the truth that pictures of discs are measured against.  It finds where the
+// light of one direction of view left the disc, by following the ray step by step.  It shares no
+// code with the renderer, which knows places along rays in closed form.
 //
 // In Schwarzschild's metric (M = 1) the place x of light, |x| = r, as a vector of Euclidean space,
 // obeys
 //     d^2 x/d lambda^2 = -3 h^2 x/r^5,   h = |x cross dx/dlambda|,
-// with an affine lambda, in every region: its radial part is r'' = L^2/r^3 - 3 L^2/r^4 and its
-// plane is fixed.  Time along it counts by the null coordinate v = t + r*, r* = r + 2 ln|r/2 - 1|.
+// with an affine lambda, in every region: its radial part is r'' = L^2/r^3 - 3 L^2/r^4, as the
+// derivative of r'^2 = E^2 - (1 - 2/r) L^2/r^2 says, and its plane is fixed.  Time along the ray is
+// counted by the null coordinate v = t + r*, with r* = r + 2 ln|r/2 - 1|.
 #pragma once
 
 #include <array>
@@ -16,9 +17,10 @@ namespace domefall {
 
 using Vector3 = std::array<double, 3>;
 
-// The observer moves with the celerity gamma v against radial free fall: the frame that falls in
-// from rest at infinity, or with `outgoing` the one that rises to rest there.  Components are along
-// R (away from the hole outside), Theta and Phi.
+// A ReferenceDiscView is an observer and a disc.  The observer moves with the celerity gamma v
+// against a frame of radial free fall.  This frame falls in from rest at infinity or, if
+// `outgoing`, rises to rest there.  Components are along R (away from the hole outside), Theta and
+// Phi.
 struct ReferenceDiscView {
   double r = 10;  // M, > 0
   bool outgoing = false;
@@ -33,17 +35,17 @@ struct ReferenceDiscPlace {
   double r;           // M
   double azimuth;     // in the plane, from R's part in it (from Theta's if it has none), radians
   double one_plus_z;  // frequency sent over the one that the observer measures
-  // The temperature of the gas over that of the hottest ring at r >= 6.  The observer sees a
-  // blackbody of this over one_plus_z, and of the fourth power of that as bolometric radiance.
+  // This is the temperature of the gas over that of the hottest ring at r >= 6.  The observer sees
+  // a blackbody of temperature/one_plus_z, whose bolometric radiance is the fourth power of that.
   double temperature;
   double delay;  // the observer's v, or its u = t - r* if outgoing, minus the gas's t, M
 };
 
-// The places of the disc, in region I, that lie on the ray which comes in from this direction (unit
-// vector in the observer's own frame, whose axes are the boosted R, Theta and Phi), the nearest
-// first, of orders below `orders`.  Measured against the closed form of places along rays: r and
-// one_plus_z agree within a relative 1e-9 exp(pi order).  Light that set out outward from r < 2 +
-// 1e-6 is left out.
+// Returns the places of the disc, in region I, on the ray that comes in from `direction`, the
+// nearest first, of orders below `orders`.  `direction` is a unit vector in the observer's own
+// frame, whose axes are the boosted R, Theta and Phi.  Measured against the closed form of places
+// along rays: r and one_plus_z agree within a relative 1e-9 exp(pi order).  Light that set out
+// outwards from r < 2 + 1e-6 is left out.
 std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
                                                const Vector3& direction, int orders = 4);
 

@@ -11,7 +11,8 @@ struct Gained {
   Real50 tau = 0, azimuth = 0;
 };
 
-// The gain from r = from + sign low^2 to r = from + sign high^2, by 20 Gauss points.
+// Returns the gain from r = from + sign low^2 to r = from + sign high^2, by 20 Gauss points.  With
+// r = from + sign x^2, |dr| = 2 x dx.
 Gained gained(const ReferenceOrbit& orbit, const Real50& from, int sign, const Real50& low,
               const Real50& high) {
   Gained sums;

@@ -12,6 +12,7 @@ using Digits50 = boost::multiprecision::cpp_bin_float_50;
 constexpr int kTaylorOrder = 32;
 using TaylorSeries = std::array<Digits50, kTaylorOrder + 1>;
 
+// Returns the Taylor series of w in psi.  Put into w'' = 3 w^2 - w, it gives the recurrence
 // (n + 1)(n + 2) a_(n+2) = 3 sum a_k a_(n-k) - a_n.
 TaylorSeries orbit_series(const Digits50& w, const Digits50& slope) {
   TaylorSeries a{w, slope};
@@ -23,7 +24,7 @@ TaylorSeries orbit_series(const Digits50& w, const Digits50& slope) {
   return a;
 }
 
-// The step over which the last terms are 1e-40 of the first.
+// Returns the step over which the last two terms are at most 1e-40 of the first.
 double step_of(const TaylorSeries& a) {
   const double size = std::log(static_cast<double>(abs(a[0])));
   const auto allowed = [&](int n) {
@@ -39,14 +40,14 @@ Digits50 sum_at(const TaylorSeries& a, const Digits50& h) {
   return sum;
 }
 
-// The last term is 0: it would take one more of w.
+// Returns the series of the derivative.  Its last term, which would need one more term of a, is 0.
 TaylorSeries derivative(const TaylorSeries& a) {
   TaylorSeries d{};
   for (int n = 0; n < kTaylorOrder; ++n) d[n] = (n + 1) * a[n + 1];
   return d;
 }
 
-// 1/a: sum a_k q_(n-k) = 0.
+// Returns the series q of 1/a.  The product of both is 1, so sum a_k q_(n-k) = 0 for n > 0.
 TaylorSeries reciprocal(const TaylorSeries& a) {
   TaylorSeries q{1 / a[0]};
   for (int n = 1; n <= kTaylorOrder; ++n) {
@@ -59,8 +60,8 @@ TaylorSeries reciprocal(const TaylorSeries& a) {
 
 Digits50 star(const Digits50& r) { return r + 2 * log(abs(r / 2 - 1)); }
 
-// With e = E/L the metric gives dv/dpsi = -1/(e - w') and du/dpsi = -1/(e + w'), back in time.  The
-// one of them that is regular here:
+// With e = E/L the metric gives dv/dpsi = -1/(e - w') and du/dpsi = -1/(e + w'), back in time.  A
+// Clock counts the one that is regular here: its denominator is a sum of two terms of one sign.
 struct Clock {
   bool counts_v;
   TaylorSeries rate;  // of -v or -u
@@ -92,6 +93,7 @@ ReferenceRayPlace reference_position(const ReferenceRequest& q, double psi) {
     TaylorSeries passed{};
     for (int n = 0; n < kTaylorOrder; ++n) passed[n + 1] = clock.rate[n] / (n + 1);
     time -= sum_at(passed, h);
+    // v = u + 2 r* turns the passing of one coordinate into that of the other.
     if (clock.counts_v != wants_v) time += (wants_v ? 2 : -2) * (star(1 / w) - star_before);
     left -= h;
   }
