@@ -1,6 +1,6 @@
-// Inner loops are compiled for several instruction sets, and one of these is used at run time: the
-// widest that the processor has, or the one that DOMEFALL_SIMD names in the environment.  All of
-// them give the same bytes, which the tests show by running each.
+// Inner loops are compiled for several instruction sets, and one of these is used at run time.  It
+// is the widest that the processor has, or the one that DOMEFALL_SIMD names in the environment.
+// All of them give the same bytes, which the tests show by running each.
 #pragma once
 
 #include <atomic>
@@ -23,8 +23,8 @@ inline constexpr Simd kEverySimd[] = {Simd::kPortable, Simd::kAvx2, Simd::kAvx51
 // Returns the word by which DOMEFALL_SIMD names a level: portable, avx2 or avx512.
 const char* name_of(Simd level);
 
-// Every processor has kPortable; only x86-64 has the others, and those count only with F16C, which
-// comes with them unless a virtual machine hides it.
+// Says whether the processor has a level.  Every processor has kPortable, and only x86-64 has the
+// others.  Those count only with F16C, which comes with them unless a virtual machine hides it.
 bool processor_has(Simd level);
 
 // Returns the level that `word` names, or the widest that the processor has if `word` is empty.  It
@@ -36,6 +36,8 @@ void use_simd(Simd level);
 
 namespace simd_detail {
 inline constexpr signed char kUndecided = -1;
+// One level holds for the whole program.  Threads that find it undecided at the same time choose
+// the same one.
 extern std::atomic<signed char> level;
 Simd decide();
 }  // namespace simd_detail
@@ -46,14 +48,15 @@ inline Simd simd_in_use() {
   return level != simd_detail::kUndecided ? static_cast<Simd>(level) : simd_detail::decide();
 }
 
-// A loop that is compiled once for each level and called through the one in use:
+// A Dispatched loop is compiled once for each level and called through the one in use:
 //
 //     [[gnu::always_inline]] inline void add_loop(const float* a, int count, float* out) { ... }
 //     Dispatched<add_loop> add;
 //
-// Being inlined into a function for one instruction set, the loop and the inline functions that it
-// calls are compiled for that set; the body of a lambda would not be.  A loop must consist of plain
-// IEEE operations and selections, none of them fused, so that every level gives the same bits.
+// The loop and the inline functions that it calls are inlined into a function for one instruction
+// set and so are compiled for that set.  The body of a lambda would not be.  A loop must consist of
+// plain IEEE operations and selections, none of them fused, so that every level gives the same
+// bits.
 template <auto kLoop>
 class Dispatched;
 

@@ -27,8 +27,8 @@ constexpr std::int32_t kLargestHalf = 0x477fe000;  // 65504
     const auto value = std::bit_cast<std::int32_t>(values[k]);
     const std::int32_t size = value & 0x7fffffff;
     largest = std::max(largest, size);
-    // The bits of positive floats are ordered as their values are, and as integers those of
-    // negative floats are below 0, so that the clamp can be done on integers.
+    // As integers, the bits of positive floats are ordered like their values, and those of negative
+    // floats are below 0.  So the clamp can be done on integers.
     const std::int32_t bounded = std::min(std::max(value, 0), kLargestHalf);
     const auto x = std::bit_cast<float>(bounded);
     const std::int32_t exponent = bounded & kExponent;
@@ -37,6 +37,8 @@ constexpr std::int32_t kLargestHalf = 0x477fe000;  // 65504
     // those 13 bits no longer fit, so the addition itself rounds to the precision of a half.
     const std::int32_t large = octave + 13 * kOctave;
     const std::int32_t bits = std::bit_cast<std::int32_t>(x + std::bit_cast<float>(large)) - large;
+    // The rest of the sum's bits count the steps of a half from 0, as if this octave were the
+    // first.  Every octave further adds 2^10 to the bits of a half.
     out[k] = static_cast<std::uint16_t>(bits + ((octave - kSmallestNormal) >> 13));
   }
   return largest;
@@ -44,11 +46,12 @@ constexpr std::int32_t kLargestHalf = 0x477fe000;  // 65504
 
 #if DOMEFALL_X86
 
-// The processors' own conversion rounds in the same way.  What it gives is written past the caches,
-// 32 bytes at a time: a frame is larger than they are, and it is read when all of it is there.
+// The processor's own conversion rounds in the same way.  Its results are written past the caches,
+// 32 bytes at a time, because a frame is larger than the caches and is not read before it is
+// complete.
 constexpr int kAtOnce = 16;
 
-// The number of halves before the first address that such a write may go to.
+// Returns the number of halves before the first address to which such a write may go.
 int until_aligned(const std::uint16_t* out, int count) {
   const auto beyond = static_cast<int>(reinterpret_cast<std::uintptr_t>(out) / 2 % kAtOnce);
   return std::min(count, (kAtOnce - beyond) % kAtOnce);
@@ -56,7 +59,7 @@ int until_aligned(const std::uint16_t* out, int count) {
 
 [[gnu::target("avx2,f16c")]] std::int32_t convert_by_f16c(const float* values, int count,
                                                           std::uint16_t* out) {
-  // As above, floats are bounded by their bits.
+  // The bits are compared as integers, as in convert_loop().
   const __m256i none = _mm256_setzero_si256(), most = _mm256_set1_epi32(kLargestHalf);
   const __m256i size = _mm256_set1_epi32(0x7fffffff);
   int k = until_aligned(out, count);
@@ -70,7 +73,7 @@ int until_aligned(const std::uint16_t* out, int count) {
       _mm_stream_si128(reinterpret_cast<__m128i*>(out + k + half),
                        _mm256_cvtps_ph(_mm256_castsi256_ps(bounded), _MM_FROUND_TO_NEAREST_INT));
     }
-  _mm_sfence();
+  _mm_sfence();  // orders the writes past the caches before all later ones
   alignas(32) std::array<std::int32_t, 8> lanes;
   _mm256_store_si256(reinterpret_cast<__m256i*>(lanes.data()), largest);
   return std::max({before, *std::max_element(lanes.begin(), lanes.end()),

@@ -1,4 +1,4 @@
-// Vectors of eight floats, for loops over pixels and their three channels.
+// The vectors of this file serve loops over pixels and their three channels.
 #pragma once
 
 #include <bit>
@@ -9,9 +9,9 @@ namespace domefall {
 
 inline constexpr int kLanes = 8;
 
-// Eight floats, which the compiler keeps in one register or in two.  It is a type of GCC and Clang
-// and of no particular processor.  Explicit vectors are needed because compilers do not keep a
-// plain loop over triples of floats in registers.
+// Lanes are eight floats, which the compiler keeps in one register or in two.  The type is one of
+// GCC and Clang, and of no particular processor.  Explicit vectors are needed because compilers do
+// not keep a plain loop over triples of floats in registers.
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
 
 // Repeats each pixel's value for its three channels.  Reads 8 pixels for every 3 vectors, 16 at
@@ -28,9 +28,10 @@ template <int kCount>
   }
 }
 
-// exp(x) for x <= 80, where arguments below -80 count as -80.  With n = round(x / ln 2) it is 2^n,
-// which is written into the exponent's bits, times the Taylor series of exp(x - n ln 2) to the
-// fifth power.  Measured: its relative error is below 5e-6 for |x| <= 20 and 8e-6 for |x| <= 80.
+// Returns exp(x) for x <= 80, where arguments below -80 count as -80.  With n = round(x / ln 2),
+// the result is 2^n times the Taylor series of exp(x - n ln 2) to the fifth power.  n is rounded as
+// by kRounding of vector_math.h and written into the bits of the exponent.  Measured: the relative
+// error is below 5e-6 for |x| <= 20 and 8e-6 for |x| <= 80.
 [[gnu::always_inline]] inline float exponential_of_float(float x) {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
   const float bounded = x > -80.0f ? x : -80.0f;
@@ -45,9 +46,9 @@ template <int kCount>
   return p * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
 }
 
-// 2^x for x <= 120, where arguments below -120 count as -120.  Measured: its relative error is below
-// 2e-7.  What is left of x next to an integer, half at most, goes into the Taylor series to the
-// seventh power.
+// Returns 2^x for x <= 120, where arguments below -120 count as -120.  The nearest integer gives
+// the exponent.  The rest of x, half at most, goes into the Taylor series to the seventh power.
+// Measured: the relative error is below 2e-7.
 [[gnu::always_inline]] inline float power_of_two(float x) {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
   const float bounded = x > -120.0f ? x : -120.0f;
@@ -63,12 +64,13 @@ template <int kCount>
   return (p + 1.0f) * std::bit_cast<float>((std::bit_cast<std::uint32_t>(shifted) + 127) << 23);
 }
 
-// log2(x) for finite x >= 2^-126.  Measured: its error is below 1.5e-7 of max(1, |log2 x|).  With
-// x = 2^n m and m between sqrt(1/2) and sqrt(2) it is n + 2/ln 2 artanh((m - 1)/(m + 1)), whose
-// series is cut off where the next term is below 4e-9.
+// Returns log2(x) for finite x >= 2^-126.  Let x = 2^n m, with m between sqrt(1/2) and sqrt(2).
+// Then log2(x) = n + 2/ln 2 artanh((m - 1)/(m + 1)).  The series of artanh is cut off where the
+// next term is below 4e-9.  Measured: the error is below 1.5e-7 of max(1, |log2 x|).
 [[gnu::always_inline]] inline float binary_logarithm(float x) {
   constexpr std::int32_t kRootHalf = 0x3f3504f3, kMantissa = 0x007fffff;
   constexpr float kTwoOverLn2 = 2.885390082f;
+  // Less the bits of sqrt(1/2), the upper bits are n, and the lower ones say where m lies above it.
   const std::int32_t bits = std::bit_cast<std::int32_t>(x) - kRootHalf;
   const auto m = std::bit_cast<float>((bits & kMantissa) + kRootHalf);
   const float s = (m - 1.0f) / (m + 1.0f), t = s * s;

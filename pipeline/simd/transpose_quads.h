@@ -1,6 +1,6 @@
-// Rows of numbers that lie anywhere in memory, such as the coefficients of the polynomials for many
-// rays, turned into columns.  Loading whole rows and transposing them in registers is quicker than
-// gathering their numbers one by one.
+// These functions turn rows of numbers into columns.  The rows may lie anywhere in memory, such as
+// the coefficients of the polynomials for many rays.  Loading whole rows and transposing them in
+// registers is quicker than gathering their numbers one by one.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Elementary functions without branches, so that a loop over them becomes SIMD code.  They consist
-// of IEEE additions, multiplications, divisions and selections, none of them fused, so that every
-// machine gets the same bits, whatever the width of its vectors.
+// These elementary functions have no branches, so that a loop over them becomes SIMD code.  They
+// consist of IEEE additions, multiplications, divisions and selections, none of them fused.  So
+// every machine gets the same bits, whatever the width of its vectors.
 #pragma once
 
 #include <array>
@@ -17,10 +17,12 @@ struct SineCosine {
   double sine, cosine;
 };
 
-// Sine and cosine of |x| < 1e5 (radians).  Measured: the absolute error is below 2e-16.  The
-// multiple of pi/2 nearest to x is taken off in three parts (Cody and Waite's reduction), of which
-// the first two have 33 bits each, so that their multiples are exact.  The Taylor series of what is
-// left, at most pi/4, are cut off where the next term is below 1e-17.
+// Returns sine and cosine of |x| < 1e5 (radians).  Measured: the absolute error is below 2e-16.
+//
+// The multiple of pi/2 nearest to x is subtracted in three parts (Cody and Waite's reduction, with
+// the constants of fdlibm).  The first two parts have 33 bits each, so that their multiples are
+// exact.  The Taylor series of the rest, at most pi/4, are cut off where the next term is below
+// 5e-17.
 inline SineCosine sin_cos(double x) {
   constexpr double kFirst = 1.57079632673412561417e+00, kSecond = 6.07710050630396597660e-11,
                    kThird = 2.02226624879595063154e-21;
@@ -40,15 +42,18 @@ inline SineCosine sin_cos(double x) {
   for (int k = 6; k >= 0; --k) c = c * t + kCosine[k];
   const double sine = y + y * t * s;
   const double cosine = 1 + t * c;
+  // sin(y + pi/2) = cos y and cos(y + pi/2) = -sin y.  A half turn changes both signs.
   const bool swapped = (quadrant & 1) != 0;
   const double a = swapped ? cosine : sine;
   const double b = swapped ? sine : cosine;
   return {(quadrant & 2) != 0 ? -a : a, ((quadrant + 1) & 2) != 0 ? -b : b};
 }
 
-// exp(x) for x <= 700, and 0 below -700.  Measured: the relative error is below 4e-16.  With n =
-// round(x / ln 2) it is 2^n times the Taylor series of exp(x - n ln 2); n ln 2 is taken off in two
-// parts, of which the first has so few bits that its multiple is exact.
+// Returns exp(x) for x <= 700, and 0 below -700.  Measured: the relative error is below 4e-16.
+//
+// With n = round(x / ln 2), exp(x) is 2^n times the Taylor series of exp(x - n ln 2).  n ln 2 is
+// subtracted in two parts (fdlibm's), of which the first has so few bits that its multiple is
+// exact.
 inline double exponential(double x) {
   constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
   const double bounded = x < -700 ? -700 : x;
@@ -65,15 +70,17 @@ inline double exponential(double x) {
   return x < -700 ? 0 : (1 + (y + y * y * p)) * power;
 }
 
-// ln x for finite x >= 2^-1022.  Measured: the error is below 4e-16 of max(1, |ln x|).  With x =
-// 2^n m and m between sqrt(1/2) and sqrt(2), ln x = n ln 2 + 2 artanh((m - 1)/(m + 1)); the series
-// of artanh is cut off where the next term is below 1e-17.
+// Returns ln x for finite x >= 2^-1022.  Measured: the error is below 4e-16 of max(1, |ln x|).
+//
+// Let x = 2^n m, with m between sqrt(1/2) and sqrt(2), and let s = (m - 1)/(m + 1).  Then
+// ln x = n ln 2 + 2 artanh s.  The series of artanh is cut off where the next term is below 1e-17.
 inline double logarithm(double x) {
   constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
   constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcd, kMantissa = 0x000fffffffffffff;
   const auto bits = std::bit_cast<std::uint64_t>(x) - kRootHalf;
   // The exponent becomes a number by the reverse of kRounding's rule: it is put into the lowest
-  // bits of kRounding, which is then taken off.
+  // bits of kRounding, which is then subtracted.  By its 12 bits a negative exponent comes out 4096
+  // too large, which is corrected below.
   const auto shifted =
       std::bit_cast<double>(((bits >> 52) + 1024) + std::bit_cast<std::uint64_t>(kRounding));
   const double n = shifted - kRounding;
@@ -87,10 +94,13 @@ inline double logarithm(double x) {
   return exponent * kLn2High + (exponent * kLn2Low + (2 * s + 2 * s * t * p));
 }
 
-// The angle of the point (x, y), as std::atan2 has it, of finite x and y; 0 for (0, 0).  Measured:
-// the error is below 5e-16.  The ratio of the smaller to the larger is brought below tan(pi/8) by
-// atan t = pi/4 + atan((t - 1)/(t + 1)); (atan t - t)/t^3 is then a polynomial in t^2, the one that
-// interpolates it at Chebyshev's points, right to 2e-19 of atan t.
+// Returns the angle of the point (x, y), like std::atan2, for finite x and y, and 0 for (0, 0).
+// Measured: the error is below 5e-16.
+//
+// Let t be the ratio of the smaller to the larger of |x| and |y|.  By the addition theorem
+// atan t = pi/4 + atan((t - 1)/(t + 1)), which brings the argument below tan(pi/8).  As a function
+// of t^2, (atan t - t)/t^3 is then replaced by the polynomial that interpolates it at Chebyshev's
+// points.  This polynomial is right to 2e-19 of atan t.
 inline double arc_tangent2(double y, double x) {
   constexpr double kQuarter = 0.78539816339744830962, kHalf = 1.57079632679489661923,
                    kPi = 3.14159265358979323846, kTanEighth = 0.41421356237309504880;
