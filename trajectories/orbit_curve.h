@@ -5,7 +5,7 @@
 //
 //   scattered  r = r_p cosh^2 s                    from infinity to periastron at s = 0 and back
 //   bound      r = r_p + (r_a - r_p) sin^2(s/2)    periastron at s = 0, apoastron at s = +-pi
-//   returning  r = r_a / cosh^2 s                  from singularity to singularity, apoastron at s = 0
+//   returning  r = r_a / cosh^2 s                  singularity to singularity, apoastron at s = 0
 //   plunging   r = r_c exp(-2s)                    from infinity to the future singularity
 //   escaping   r = r_c exp(2s)                     from the past singularity to infinity
 //

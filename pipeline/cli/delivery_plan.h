@@ -11,8 +11,8 @@
 
 namespace domefall {
 
-// The format of the delivered frames: the show's own, with so many bits.  Throws InputError for more
-// than the frames have.
+// Returns the format of the delivered frames, which is the show's own with `bits` bits if these are
+// given.  Throws InputError if they are more than the frames have.
 GradedFormat delivered_format(const Show& show, std::optional<int> bits);
 
 // Reads the sounds and the subtitles.  Throws InputError for names that are refused, and for sounds

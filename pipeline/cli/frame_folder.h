@@ -33,8 +33,10 @@ class FrameFolder {
   // The frame with this key as the folder is to hold it.
   WantedFrame wanted(std::string key) const;
 
-  // Throws InputError if the record is of frames of another title, size or projection, or another
-  // show's of files with these names, and some are there.  A folder without a record, or with one that cannot be understood, is nobody's.
+  // Throws InputError if there are frames in the folder and they belong to another show.  They do
+  // if the folder's record gives another title, size or projection, or if another show's record
+  // claims files with these names.  A folder without a record, or with one that cannot be
+  // understood, belongs to nobody.
   void check_owner() const;
 
   // Files beside the frames that are not this show's, sorted and below the folder: beyond its end,

@@ -55,8 +55,8 @@ class Run {
     catch_interruptions();
   }
 
-  // Says what the run will do with what is there, and returns what it will make.  Throws InputError if
-  // it may not.
+  // Says what the run will do with the files that are there, and returns the frames that it will
+  // make.  Throws InputError if it may not make them.
   std::vector<int> survey() {
     const FrameSurvey found = survey_frames(folder_, run_.show, keys(), run_.frames, run_.render);
     if (!run_.replace) {

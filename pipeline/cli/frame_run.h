@@ -27,8 +27,9 @@ struct FrameRun {
   std::optional<ProgressForm> progress = std::nullopt;  // nothing: a bar on the terminal
 };
 
-// The frames of a run that it would make, judged by their heads; says on standard error what an edit of
-// the show costs, and which files are not its own.  Throws as run_frames().
+// Returns the frames that a run would make, judged by the heads of the files that are there.  Says
+// on standard error what an edit of the show costs, and which files are not its own.  Throws as
+// run_frames().
 std::vector<int> frames_to_make(const FrameRun& run);
 
 // Makes the frames.  Throws InputError, TemporaryError or Interrupted; frames finished before stay.

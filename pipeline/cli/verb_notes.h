@@ -1,5 +1,5 @@
-// What the manual says of a verb beyond its options.  It is written once: --help closes with it, and
-// the manual pages are made of it.
+// The notes on a verb are what the manual says about it beyond its options.  They are written once:
+// --help closes with them, and the manual pages are made of them.
 #pragma once
 
 #include <string>

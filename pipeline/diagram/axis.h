@@ -23,7 +23,7 @@ struct Scale {
 // are many.
 std::vector<double> axis_marks(const Scale& scale, int count);
 
-// Writes 0.05 as "0.05" and 2e6 as "2×10⁶".  Powers of ten are used from 10^5 on and below 10^-3.
+// Writes 0.05 as "0.05" and 2e6 as "2×10⁶".  Powers of ten serve from 10^5 on and below 10^-3.
 std::string number_text(double value);
 
 // Draws the frame of a box, its grid lines, and their numbers below it and to its left.

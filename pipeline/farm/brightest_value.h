@@ -20,9 +20,10 @@ double brightest_value(const HalfFrame& frame);
 // outlive the picture.
 RowPicture watched(const RowPicture& picture, std::atomic<unsigned short>& brightest);
 
-// That of a file: of light for an .exr, else a code as a part of white, which is the greatest one if
-// the frame is black and else the first that is found to exceed black.  Throws std::runtime_error
-// where it cannot be decoded, and as RegularFile.
+// Returns the brightest value of a file.  For an .exr this is its greatest absolute value, as
+// above.  Other files hold codes, which count as parts of white.  They are read until a code
+// exceeds black, and the greatest code so far is returned.  Throws std::runtime_error if the file
+// cannot be decoded, and as RegularFile.
 double brightest_in_file(const std::filesystem::path& path);
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
-// A show's ASC CDL as SIMD loops, so that a CDL which changes from frame to frame costs no more than
-// one that lasts.
+// CdlStep applies a show's ASC CDL by SIMD loops, so that a CDL which changes from frame to frame
+// costs no more than one that stays the same.
 #pragma once
 
 #include "pipeline/grade/grade_settings.h"
@@ -12,9 +12,9 @@ class CdlStep {
   explicit CdlStep(const Cdl& cdl) : cdl_(cdl) {}
 
   // Takes ACEScg through the CDL in ACEScct (S-2016-001) and back.  As in OpenColorIO nothing is
-  // clamped, and a power leaves what is negative as it is.  Black stays black, whatever the CDL
-  // makes of it.  Pixels of -1 stay so, and what becomes infinite becomes -1, too.  Measured: within
-  // 4e-6 of itself and of the largest channel.
+  // clamped, and a power leaves negative codes as they are.  Black stays black, whatever the CDL
+  // makes of it.  Pixels of -1 stay so, and pixels that become infinite become -1, too.  Measured:
+  // the error is within 4e-6 of the value itself and of the largest channel.
   void apply(PixelPlanes& planes, int count) const;
 
  private:

@@ -18,9 +18,10 @@ namespace domefall {
 DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std::string& display,
                                  const std::string& view, const std::string& file);
 
-// What the codes of that view mean; nothing if its space is not one of a display, if its light is
-// not the sum of what the three channels give by one curve, or if the curve is neither a power nor
-// that of sRGB, to a thousandth of white.  Primaries within 3e-4 of a standard's are the standard's.
+// Returns what the codes of that view mean.  Returns nothing if the view's space is not one of a
+// display, if its light is not the sum of what the three channels give by one curve, or if this
+// curve is neither a power nor that of sRGB to a thousandth of white.  Primaries within 3e-4 of a
+// standard's are taken to be the standard's.
 std::optional<DisplayColour> display_colour(const OCIO_NAMESPACE::Config& config,
                                             const std::string& display, const std::string& view);
 

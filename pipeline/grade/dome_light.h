@@ -1,19 +1,19 @@
 // The light that a dome throws upon itself, which lifts its blacks: simulated for a screen, or
 // taken away for the dome.
 //
-// Let the dome be half a sphere of radius R that reflects the part rho of what falls upon it, evenly
-// in all directions, over a floor that reflects nothing.  Of the light that a patch sends out, the
-// patch dA at a distance d receives the part cos a cos b dA/(pi d^2).  Two points of a sphere see
-// each other at equal angles to its normals, with cos a = cos b = d/(2 R), so that this part is
-// dA/(4 pi R^2) wherever the two are: light that has bounced is the same everywhere.  The dome has
-// half the sphere's area, so it receives E = <B>/2 of its mean radiosity <B>, the other half going
-// to the floor.  With B = B0 + rho E, of which B0 is the projectors' part,
+// Let the dome be half a sphere of radius R over a floor that reflects nothing.  It reflects the
+// part rho of the light that falls upon it, evenly in all directions.  Of the light that a patch
+// sends out, the patch dA at a distance d receives the part cos a cos b dA/(pi d^2).  Two points of
+// a sphere see each other at equal angles to its normals, with cos a = cos b = d/(2 R).  So this
+// part is dA/(4 pi R^2) wherever the two are, and light that has bounced is the same everywhere.
+// The dome has half the sphere's area, so it receives E = <B>/2 of its mean radiosity <B>, and the
+// other half goes to the floor.  With B = B0 + rho E, of which B0 is the projectors' part,
 //
 //     <B> = <B0> + (rho/2) <B>,   so   B = B0 + k <B0>  with  k = rho/(2 - rho):
 //
 // all bounces together add k times the mean, taken over the dome's area.  To show B a projector
-// therefore sends B0 = max(B - c, 0) with c = k <max(B - c, 0)>, which has one solution: the left
-// side rises with c from 0, and the right side falls.
+// therefore sends B0 = max(B - c, 0) with c = k <max(B - c, 0)>.  This has one solution, because
+// the left side rises with c from 0 and the right side falls.
 //
 // All this is about light that the dome sends out, so it follows the grade: codes become the
 // display's light, and that becomes codes again.  Before the view the sums would be of light that a

@@ -103,8 +103,8 @@ Dispatched<locate_cells_loop> locate_all;
 
 using Node __attribute__((vector_size(16))) = float;
 
-// Parabolas in grey and hue, a line in the largest channel.  Of four values that are stored the next
-// pixel's first overwrites the last.
+// Interpolates by parabolas in grey and hue, and by a line in the largest channel.  Four values are
+// stored for each pixel, and the first one of the next pixel overwrites the fourth.
 [[gnu::always_inline]] inline int interpolate_loop(const float* nodes, const Places& places,
                                                    int count, unsigned short* out, int* missed) {
   using Integers __attribute__((vector_size(16))) = std::int32_t;

@@ -25,8 +25,9 @@ struct WantedFrame {
   int width = 0, height = 0;
 };
 
-// What a file says that it is; only its beginning is read.  Of a name that ends in .exr, .png, .tif,
-// .tiff, .jpg or .jpeg that format is wanted.  Throws as FileBytes::open and FileBytes::at.
+// Returns what a file says that it is, of which only the beginning is read.  If its name ends in
+// .exr, .png, .tif, .tiff, .jpg or .jpeg, that format is wanted.  Throws as FileBytes::open and
+// FileBytes::at.
 FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted);
 
 // Whether the file has a digest and the bytes that it was taken of, all of which are read.  False

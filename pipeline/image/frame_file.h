@@ -45,9 +45,9 @@ void write_frame(const std::filesystem::path& path, const FloatImage& frame, con
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info);
 
-// Reads back what write_frame wrote; floats become halves as by half_frame().  Nothing is decoded before the digest of the file is right.
-// Throws InputError naming the file if it is missing, damaged or was not written by write_frame,
-// and as FileBytes::open.
+// Reads back a frame that write_frame wrote.  Floats become halves as by half_frame().  Nothing is
+// decoded unless the digest of the file is right.  Throws InputError, which names the file, if it
+// is missing, damaged or was not written by write_frame, and throws as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);
 
 }  // namespace domefall

@@ -276,9 +276,10 @@ FrameHead read_tiff_head(const FileBytes& file, bool big) {
   return head;
 }
 
-// ---- JPEG: ISO/IEC 10918-1, annex B: 0xff and a code, then a length, itself included, and data ----
+// ---- JPEG: ISO/IEC 10918-1, annex B ----
 
-// All that stands before the pixels.  Nothing but the digest holds it against damage.
+// Reads all segments before the pixels.  A segment is 0xff and a code, a length that includes
+// itself, and data.  Nothing but the file's digest reveals damage to them.
 FrameHead read_jpeg_head(const FileBytes& file) {
   constexpr unsigned char kFirstFrame = 0xc0, kLastFrame = 0xcf, kHuffman = 0xc4,
                           kArithmetic = 0xcc, kExtension = 0xc8, kScan = 0xda, kComment = 0xfe;

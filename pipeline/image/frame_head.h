@@ -29,14 +29,15 @@ struct FrameHead {
   std::uint64_t digest_at = 0, chunk_at = 0, checksum_at = 0;
 };
 
-// Nothing if the file begins neither as EXR nor as PNG, TIFF or JPEG.  Throws DamagedFile where what
-// stands before the pixels is broken off or does not fit together, and as FileBytes::at.
+// Reads the head of a file, or returns nothing if the file begins neither as EXR nor as PNG, TIFF
+// or JPEG.  Throws DamagedFile if the part before the pixels is broken off or does not fit
+// together, and throws as FileBytes::at.
 std::optional<FrameHead> read_frame_head(const FileBytes& file);
 
-// Of a file without a readable head: whether it may be what is left of a frame.  It is empty,
-// begins with zeros, as after a power cut, or as a frame does, or holds a field of Domefall's.  Many
-// programs write files that begin as a JPEG, so that beginning counts only where a JPEG is wanted.
-// Throws as FileBytes::at.
+// Says whether a file without a readable head may be the rest of a frame.  Such a file is empty,
+// begins with zeros (as after a power cut), begins as a frame does, or holds a field of Domefall's.
+// Many programs write files that begin as a JPEG, so that beginning counts only where a JPEG is
+// wanted.  Throws as FileBytes::at.
 bool may_be_rest_of_frame(const FileBytes& file, FrameFormat wanted);
 
 // A title as it stands in a description, where each line is a field.

@@ -1,9 +1,10 @@
 // Graded frames on the disk, for projectors and encoders: RGB of 8 or 16 bits as PNG, TIFF or JPEG.
 //
-// Lines of the file's description ("name: value"; in a JPEG, its comment) carry the fields of
-// GradedInfo and the digest of the file (frame_seal.h).  What the codes mean stands there as readers
-// look for it: in chunks of a PNG, in an ICC profile of the others.  The same frame has the same bytes wherever
-// and whenever it is written, and with any number of threads (set_file_threads in frame_file.h).
+// The fields of GradedInfo and the digest of the file (frame_seal.h) are lines "name: value" of the
+// file's description, which in a JPEG is its comment.  The meaning of the codes is written where
+// readers look for it: a PNG has it in chunks, and the others in an ICC profile.  The same frame
+// has the same bytes wherever and whenever it is written, and with any number of threads
+// (set_file_threads in frame_file.h).
 #pragma once
 
 #include <filesystem>

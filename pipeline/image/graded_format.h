@@ -22,8 +22,8 @@ const char* extension_of(GradedKind kind);
 // which hold all of the grade.
 std::string format_id(const GradedFormat& format);
 
-// The kind of 16 bits that a file's extension asks for (.png; .tif, .tiff), or a JPEG (.jpg, .jpeg).
-// Throws InputError for another.
+// Returns the format that a file's extension asks for.  This is PNG (.png) or TIFF (.tif, .tiff) of
+// 16 bits, or JPEG (.jpg, .jpeg).  Throws InputError for any other extension.
 GradedFormat format_by_name(const std::filesystem::path& path);
 
 }  // namespace domefall

@@ -10,10 +10,9 @@
 
 namespace domefall {
 
-// Subtitles in the ASS format, by which each of the frames, in their order, has a tenth of a
-// second.
-// The corners have the texts of burn_in_text.h.  Empty for a show whose overlays write them into the
-// frames already.
+// Returns subtitles in the ASS format, in which each of the frames, in their order, has a tenth of
+// a second.  The corners have the texts of burn_in_text.h.  The result is empty for a show whose
+// overlays write them into the frames already.
 std::string burn_in(const Show& show, const std::vector<int>& frames, const MovieSize& size);
 
 }  // namespace domefall

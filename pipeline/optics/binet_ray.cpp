@@ -103,9 +103,10 @@ Arc arc_at(double r, double steepness, double energy_over_l, Form form, Counted 
           {1, inverse ? slope : -slope / 2, time}};
 }
 
-// What is counted is v or u less that coordinate `began` of the observer, and beyond a change 2 r* of
-// the place more or less: an observer's own r* is infinite on the horizon.  The place's null
-// coordinates less the observer's:
+// Returns the null coordinates of the place less those of the observer.  arc.y[2] is v or u of the
+// place, whichever is counted now, less the coordinate `began` of the observer: a change of
+// coordinate adds or subtracts 2 r* = v - u of the place.  The observer's own r*, which is infinite
+// on the horizon, enters only the other one of the two results.
 NullTimes passed_times(const Arc& arc, Counted began, double observer_star) {
   const double there = 2 * tortoise(arc.equation.radius(arc.y)), time = arc.y[2];
   const bool counts_v = arc.equation.counted == Counted::kV;

@@ -1,6 +1,6 @@
-// The cubic P(w) = 1/b^2 - w^2 + 2 w^3 = (dw/dpsi)^2 of a ray's orbit, w = 1/r, and its roots, in x =
-// w - 1/3 and eps = 1/b^2 - 1/27, where P = 2 x^3 + x^2 + eps.  M = 1.  No difference of roots
-// cancels: exact_azimuth.h says why that matters.
+// A ray's orbit obeys (dw/dpsi)^2 = P(w), where w = 1/r and P(w) = 1/b^2 - w^2 + 2 w^3 (M = 1).
+// This file gives P and its roots in terms of x = w - 1/3 and eps = 1/b^2 - 1/27, in which
+// P = 2 x^3 + x^2 + eps.  No difference of roots cancels, for the reason in exact_azimuth.h.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,8 @@
 
 namespace domefall {
 
-// A ray is as good as radial where L/|E| is so small that its square would leave the double's range.
+// Says whether a ray is as good as radial.  It is if L/|E| is so small that its square would leave
+// the range of a double.
 inline bool is_nearly_radial(const RayInvariants& k) {
   return k.angular_momentum < 1e-100 * std::abs(k.energy);
 }

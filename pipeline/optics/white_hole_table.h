@@ -2,16 +2,17 @@
 // silhouette seen from outside, the shell between the two skies inside, and all directions in
 // region IV.  [Riazuelo] sec. sec_Kruskal, figs. dev_wh_0, dev_wh and fig_IV_dev.
 //
-// The coordinate s is made of ratios of T = tan(alpha/2), which radial boosts only scale, so that
-// none of the structure is lost however close the horizon is:
-//   outside      s = T_edge/T - 1 (outgoing frame: T/T_edge - 1) from 0 at the silhouette, where
-//                phi diverges like -ln s, to infinity on the axis, where phi is odd in the cube root of
-//                y = 1/(1 + s).
-//   region II    s = T/T_3 - 1 from the edge of region III (s = T_1/T - 1 from the silhouette) to
-//                E = 0, where phi has its minimum 2 pi - (arcsin(r - 1) + pi/2): phi is even in E,
-//                so one curve serves both halves.  Every source beyond the minimum has two images.
-//   region IV    s = y = T/T_0 (T_0/T) from 0 on the axis, again like a cube root, to 1, T_0 where
-//                E = 0 and phi has its maximum arcsin(r - 1) + pi/2.
+// The coordinate s is made of ratios of T = tan(alpha/2).  Radial boosts only scale T, so that none
+// of the structure is lost however close the horizon is:
+//   outside      s = T_edge/T - 1 (outgoing frame: T/T_edge - 1) goes from 0 at the silhouette,
+//                where phi diverges like -ln s, to infinity on the axis, where phi is odd in the
+//                cube root of y = 1/(1 + s).
+//   region II    s = T/T_3 - 1 from the edge of region III (s = T_1/T - 1 from the silhouette) goes
+//                to E = 0, where phi has its minimum 2 pi - (arcsin(r - 1) + pi/2).  phi is even in
+//                E, so one curve serves both halves.  Every source beyond the minimum has two
+//                images.
+//   region IV    s = y = T/T_0 (T_0/T) goes from 0 on the axis, where phi again goes like a cube
+//                root, to 1 at T_0, where E = 0 and phi has its maximum arcsin(r - 1) + pi/2.
 #pragma once
 
 #include <array>

@@ -66,8 +66,8 @@ std::string icc_profile(const DisplayColour& colour) {
   require_lcms(cmsSaveProfileToMem(profile.get(), nullptr, &size) != 0);
   std::string bytes(size, '\0');
   require_lcms(cmsSaveProfileToMem(profile.get(), bytes.data(), &size) != 0);
-  // The moment of its making would make every file different.  ICC.1, 7.2: 12 bytes, and the midnight
-  // before 1970.
+  // A profile's header holds the time of its creation in 12 bytes (ICC.1, 7.2), which would make
+  // every file different.  It is replaced by the first midnight of 1970.
   constexpr std::size_t kDate = 24;
   constexpr char kMidnight[] = {0x07, '\xb2', 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
   bytes.replace(kDate, sizeof kMidnight, kMidnight, sizeof kMidnight);

@@ -24,8 +24,9 @@ inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
     kDciP3Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.314, 0.351},
     kP3D65Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
 
-// gAMA and cHRM, and sRGB where it is that.  There is no cICP: it could say no more of these colours,
-// and programs of before PNG's third edition (pngcheck 3) take it for damage.
+// Returns gAMA and cHRM, and also sRGB if the colour is that.  There is no cICP, which could say no
+// more about these colours.  Programs from before PNG's third edition (pngcheck 3) would take it
+// for damage.
 std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour);
 
 // An ICC profile of a matrix and a curve, for TIFF and JPEG.  The same colour has the same bytes.

@@ -28,7 +28,8 @@ constexpr std::uint8_t rounded(std::uint32_t value, std::uint32_t noise) {
   return static_cast<std::uint8_t>(steps_in(value + first + (inside ? second - kHalf : 0)));
 }
 
-// One row.  It is compiled for two instruction sets: the products of the noise are slow without AVX2.
+// Dithers one row.  The loop is compiled for two instruction sets, because the products of the
+// noise are slow without AVX2.
 [[gnu::always_inline]] inline void dither_loop(const unsigned short* rgb, std::uint32_t count,
                                                std::uint32_t seed, std::uint8_t* out) {
   for (std::uint32_t k = 0; k < count; ++k) out[k] = rounded(rgb[k], scrambled(seed + k));
