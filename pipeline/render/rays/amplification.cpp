@@ -9,14 +9,14 @@ namespace {
 
 using std::numbers::pi;
 
-// 1 - cos x = 2 sin^2(x/2), which does not cancel.
+// Returns 1 - cos x as 2 sin^2(x/2), which does not cancel near x = 0.
 double versine(double x) {
   const double s = std::sin(x / 2);
   return 2 * s * s;
 }
 
-// The mean of |sin| over [x - h, x + h].  Its integral over a whole arch, from one zero to the
-// next, is 2, and 1 - cos t over the part of an arch from a zero to t.
+// Returns the mean of |sin| over [x - h, x + h].  The integral of |sin| is 2 over a whole arch,
+// from one zero to the next, and 1 - cos t over the part of an arch from a zero to the distance t.
 double mean_abs_sine(double x, double h) {
   if (h >= pi / 2) {
     const auto integral = [](double t) {  // from 0 to t
@@ -25,6 +25,8 @@ double mean_abs_sine(double x, double h) {
     };
     return (integral(x + h) - integral(x - h)) / (2 * h);
   }
+  // An interval without a zero inside has cos(x - h) - cos(x + h) = 2 sin x sin h as its integral.
+  // One with a zero has parts of two arches.
   const double off = std::abs(std::remainder(x, pi));  // the distance of x from the nearest zero
   if (off >= h) return std::sin(off) * std::sin(h) / h;
   return (versine(h + off) + versine(h - off)) / (2 * h);
@@ -33,6 +35,8 @@ double mean_abs_sine(double x, double h) {
 }  // namespace
 
 double amplification(const RayBundle& b, double width) {
+  // Angles in the tetrad are `doppler` times those in the view, and azimuths `slope` times as
+  // large.
   const double half = b.doppler * width / 2;
   return mean_abs_sine(b.angle, half) /
          (mean_abs_sine(b.azimuth, b.slope * half) * b.slope * b.doppler * b.doppler);

@@ -9,13 +9,16 @@ namespace {
 constexpr int kTerms = OctaveCurve::kTerms;
 using Curves = std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves>;
 
-// The polynomials of a batch of rays: where they stand in memory, and their coefficients by power.
+// Polynomials holds, for each ray of a batch, where the coefficients of its polynomial stand in
+// memory, its position u in the interval, du/dx, and the coefficients by power.
 struct Polynomials {
   alignas(64) AzimuthBatch::Column<const double*> row;
   alignas(64) AzimuthBatch::Column<double> u, inverse_width;
   alignas(64) std::array<AzimuthBatch::Column<double>, kTerms> coefficient;
 };
 
+// Finds the polynomial of each ray.  The curve is one of three copies, chosen by selections rather
+// than by an index, so that the loop becomes SIMD code.
 [[gnu::always_inline]] inline void locate_loop(const Curves& curves, int count,
                                                const AzimuthBatch& __restrict in,
                                                Polynomials& __restrict out) {
@@ -30,13 +33,13 @@ struct Polynomials {
 }
 Dispatched<locate_loop> locate_pieces;
 
-// Copies a whole cache line of coefficients for each ray.
+// Copies the coefficients of each ray, which fill a whole cache line, into columns.
 [[gnu::always_inline]] inline void fetch_loop(int count, Polynomials& polynomials) {
   transpose_rows(polynomials.row, count, polynomials.coefficient);
 }
 Dispatched<fetch_loop> fetch;
 
-// Horner's scheme for the polynomial and its derivative.
+// Evaluates each polynomial and its derivative by Horner's scheme.
 [[gnu::always_inline]] inline void evaluate_loop(const Polynomials& __restrict in, int count,
                                                  AzimuthBatch& __restrict out) {
   for (int k = 0; k < count; ++k) {

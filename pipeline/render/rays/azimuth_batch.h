@@ -1,4 +1,5 @@
-// The azimuths that many rays sweep, each tabulated by one of three curves.
+// Finds the azimuths that many rays sweep.  Each ray reads its own from one of three tabulated
+// curves.
 #pragma once
 
 #include <array>
@@ -8,7 +9,8 @@
 
 namespace domefall {
 
-// A batch of rays: the curve that each belongs to, its coordinate there, and what the curve gives.
+// An AzimuthBatch holds many rays: the curve that each belongs to, its coordinate on the curve, and
+// what the curve gives there.
 struct AzimuthBatch {
   static constexpr int kSize = 128, kCurves = 3;
   template <class T>
@@ -21,8 +23,8 @@ struct AzimuthBatch {
 // Sets azimuth and slope of the first `count` rays by SIMD code.  An x outside its curve counts as
 // the nearer end of the curve.  All three curves must exist, even if no ray belongs to one of them.
 // The azimuth equals OctaveCurve::value to the last bit, and the slope differs from OctaveCurve::at
-// by less than a relative 1e-13, both of which the tests show.  Columns up to the next multiple of
-// four are written too.
+// by less than a relative 1e-13.  The tests show both.  Columns up to the next multiple of four are
+// written too.
 void find_azimuths(const std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves>& curves, int count,
                    AzimuthBatch& batch);
 

@@ -12,6 +12,7 @@ namespace {
   for (int k = 0; k < count; ++k) {
     const double sx = b.sky_x[k], sy = b.sky_y[k], sz = b.sky_z[k];
     const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
+    // The other axis of the ellipse lies along the vector product of `along` and the direction.
     const double across_x = y * sz - z * sy, across_y = z * sx - x * sz, across_z = x * sy - y * sx;
     const double r = b.radial_scale[k], t = b.tangential_scale[k];
     const bool radial = r >= t;

@@ -1,16 +1,19 @@
-// Directions of view in the frame in which light's ways are known, by SIMD code.
+// Brings directions of view into the frame in which the paths of light are known, by SIMD code.
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/simd/dispatch.h"
 
 namespace domefall {
 namespace {
 
-// What the loop needs of the observer; it copies it, as those of lensed_rays.cpp do.
+// A MovingCamera holds what the loop needs to know of the observer.  The loop copies it, as the
+// loops of lensed_rays.cpp copy theirs.
 struct MovingCamera {
   M33d tetrad_from_camera;
   Aberration aberration;
 };
 
+// A boost that multiplies frequencies by D divides small angles by D, so one number serves as scale
+// and as frequency.
 [[gnu::always_inline]] inline void into_frame_loop(const MovingCamera& camera,
                                                    const CameraDirection* n, int count,
                                                    FrameRayBatch& batch) {

@@ -1,4 +1,4 @@
-// Batches of view rays that a hole lenses, or that cross flat space, by SIMD code.
+// Traces batches of view rays that a hole lenses, or that cross flat space, by SIMD code.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,8 +12,8 @@
 namespace domefall {
 namespace {
 
-// What the loops need of the observer.  Each loop copies it, so that the compiler knows that no
-// store of the loop alters it.
+// An Observer holds what the loops need to know of the observer.  Each loop copies it, so that the
+// compiler knows that no store of the loop alters it.
 struct Observer {
   M33d tetrad_from_camera, sky_from_tetrad;
   Aberration aberration;
@@ -21,28 +21,29 @@ struct Observer {
   double inward;          // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
 };
 
-// Rays as the reference tetrad sees them: the direction, the sine of alpha, alpha/2, and the
-// frequency in the tetrad over the observer's with its inverse.
+// TetradRays holds rays as the reference tetrad sees them: the direction, the sine of alpha, and
+// the sine and cosine of alpha/2.  `doppler` is the frequency in the tetrad over the observer's.
 struct TetradRays {
   ViewRayBatch::Column<double> x, y, z, sine, sin_half, cos_half, doppler, inverse_doppler;
 };
 
-// The rays' azimuths, and how fast these change with alpha.
+// LensedRays holds the azimuths of rays and how fast these change with alpha.
 struct LensedRays {
   AzimuthBatch azimuths;
   ViewRayBatch::Column<double> rate;   // d s/d alpha of the white hole's coordinate s
   ViewRayBatch::Column<double> slope;  // |d phi/d alpha|
 };
 static_assert(AzimuthBatch::kSize == ViewRayBatch::kSize);
-// The curves of an AzimuthBatch, in the order in which a ray is assigned to them: the two skies,
-// and the past singularity of the white hole for all other rays.
+// These are the curves of an AzimuthBatch, in the order in which rays are assigned to them: the two
+// skies, and the past singularity of the white hole for all rays that neither sky has.
 constexpr int kHome = 0, kFar = 1, kHole = 2;
 
 // ---- from the camera to the tetrad ----
 
-// The energy is |E| = 1 + z of the free-fall observer, with
-// E = 1 - s cos(alpha) = (1 + s) sin^2(alpha/2) + (1 - s) cos^2(alpha/2),
-// where 1 - s comes from the altitude above the horizon and so keeps its digits near r = 2.
+// Brings view rays into the tetrad, and sets the frequency ratio of light from infinity.  For the
+// observer in free fall its inverse is 1 + z = |E|, with
+//     E = 1 - s cos(alpha) = (1 + s) sin^2(alpha/2) + (1 - s) cos^2(alpha/2).
+// Here 1 - s comes from the altitude above the horizon and so keeps its digits near r = 2.
 [[gnu::always_inline]] inline void into_tetrad_loop(const Observer& observer,
                                                     const CameraDirection* n, int count,
                                                     TetradRays& rays, ViewRayBatch& batch) {
@@ -68,7 +69,7 @@ constexpr int kHome = 0, kFar = 1, kHole = 2;
 }
 Dispatched<into_tetrad_loop> into_tetrad;
 
-// In flat space the tetrad's directions are those of the sky.
+// In flat space light keeps its direction, so the directions in the tetrad are those on the sky.
 [[gnu::always_inline]] inline void cross_flat_space_loop(const Observer& observer,
                                                          const TetradRays& rays, int count,
                                                          ViewRayBatch& batch) {
@@ -88,13 +89,16 @@ Dispatched<cross_flat_space_loop> cross_flat_space;
 
 // ---- which sky a ray comes from ----
 
-// The edge of a sky.  It counts as one in the image unless both sides of it are dark.
+// EdgeValues holds the edge of a sky.  It counts as an edge in the image unless both sides of it
+// are dark.
 struct EdgeValues {
   SkyEdge edge;
   bool counts;
 };
 
-// Assigns rays on the home sky's side of its edge to that sky and all others to the hole.
+// Assigns the rays on the home sky's side of its edge to that sky, and all others to the hole.  The
+// coordinate x is half the angle to the edge to first order, which the boost multiplies by
+// `doppler`.
 [[gnu::always_inline]] inline void assign_home_loop(const EdgeValues& home,
                                                     const TetradRays& __restrict rays, int count,
                                                     LensedRays& __restrict lensed,
@@ -110,7 +114,7 @@ struct EdgeValues {
 }
 Dispatched<assign_home_loop> assign_home;
 
-// Assigns rays on the far sky's side of its edge to that sky, unless the home sky has them.
+// Assigns the rays on the far sky's side of its edge to that sky, unless the home sky has them.
 [[gnu::always_inline]] inline void assign_far_loop(const EdgeValues& far,
                                                    const TetradRays& __restrict rays, int count,
                                                    LensedRays& __restrict lensed,
@@ -127,7 +131,7 @@ Dispatched<assign_home_loop> assign_home;
 }
 Dispatched<assign_far_loop> assign_far;
 
-// Sets the coordinate of the hole's rays, and its rate for all rays.
+// Sets the coordinate s of the rays that belong to the hole, and d s/d alpha of all rays.
 [[gnu::always_inline]] inline void locate_in_hole_loop(const WhiteHolePlace& white_hole,
                                                        const TetradRays& __restrict rays, int count,
                                                        LensedRays& __restrict lensed) {
@@ -143,8 +147,8 @@ Dispatched<locate_in_hole_loop> locate_in_hole;
 
 // ---- azimuths from the tables ----
 
-// Turns d phi/d x of the skies' curves into |d phi/d alpha|: x = 2 tan(|alpha - edge|/4), therefore
-// |d x/d alpha| = (1 + x^2/4)/2.
+// Turns d phi/d x of the skies' curves into |d phi/d alpha|.  From x = 2 tan(|alpha - edge|/4)
+// follows |d x/d alpha| = (1 + x^2/4)/2.
 [[gnu::always_inline]] inline void set_slopes_loop(int count, LensedRays& __restrict lensed) {
   for (int k = 0; k < count; ++k) {
     const double x = lensed.azimuths.x[k], slope = std::abs(lensed.azimuths.slope[k]);
@@ -153,7 +157,8 @@ Dispatched<locate_in_hole_loop> locate_in_hole;
 }
 Dispatched<set_slopes_loop> set_slopes;
 
-// Does the same for the hole's rays, and gives their light, which has no redshift, a ratio of 1.
+// Does the same for the rays of the hole.  Their light has no redshift, so its frequency ratio
+// becomes 1.
 [[gnu::always_inline]] inline void set_hole_slopes_loop(int count, LensedRays& __restrict lensed,
                                                         double* __restrict frequency_ratio) {
   for (int k = 0; k < count; ++k) {
@@ -166,7 +171,7 @@ Dispatched<set_slopes_loop> set_slopes;
 }
 Dispatched<set_hole_slopes_loop> set_hole_slopes;
 
-// The coordinates between which each curve is tabulated.
+// CurveRanges holds the coordinates between which each curve is tabulated.
 struct CurveRanges {
   std::array<double, AzimuthBatch::kCurves> low, high;
 };
@@ -183,7 +188,7 @@ CurveRanges ranges_of(const HoleOptics& optics) {
   return ranges;
 }
 
-// Returns whether any ray lies outside the range of its curve.
+// Says whether any ray lies outside the range of its curve.
 [[gnu::always_inline]] inline bool any_outside_loop(const CurveRanges& ranges,
                                                     const AzimuthBatch& azimuths, int count) {
   const CurveRanges r = ranges;
@@ -199,8 +204,8 @@ CurveRanges ranges_of(const HoleOptics& optics) {
 }
 Dispatched<any_outside_loop> any_outside;
 
-// Where a table is missing another one takes its place, since find_azimuths needs all three;
-// nothing reads what it finds there.
+// Returns the three curves that find_azimuths needs.  Another table takes the place of a missing
+// one, and nothing reads the azimuths that are found there.
 std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptics& optics) {
   const auto& any = optics.home_sky ? optics.home_sky : optics.far_sky;
   std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves;
@@ -210,8 +215,8 @@ std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptic
   return curves;
 }
 
-// Outside the curves, next to an edge or the axis, the tables go on with fitted laws.  Such rays
-// are few and are taken one by one.
+// Sets the azimuths of rays that lie outside the curves, next to an edge or the axis, where the
+// tables go on with fitted laws.  Such rays are few and are taken one by one.
 void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const TetradRays& rays,
                 int count, LensedRays& lensed) {
   for (int k = 0; k < count; ++k) {
@@ -232,6 +237,7 @@ void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const Tetra
 
 void set_azimuths(const HoleOptics& optics, const TetradRays& rays, int count, LensedRays& lensed,
                   ViewRayBatch& batch) {
+  // Without a table all skies are black.  Zeros keep finite what is still computed.
   if (!optics.home_sky && !optics.far_sky && !optics.white_hole) {
     std::fill_n(lensed.azimuths.azimuth.begin(), count, 0.0);
     std::fill_n(lensed.slope.begin(), count, 0.0);
@@ -258,8 +264,9 @@ void add_emission_times(const HoleOptics& optics, const TetradRays& rays, const 
 
 // ---- onto the sky ----
 
-// Light that sweeps the azimuth phi in the plane of R and the ray starts at
-// cos(phi) R + sin(phi) (unit vector across R).
+// Finds where on the sky the light started.  Light that sweeps the azimuth phi in the plane of R
+// and the ray comes from cos(phi) R + sin(phi) e, with e the part of the ray across R made a unit
+// vector.  The derivative of this by phi is the direction `along`.
 [[gnu::always_inline]] inline void onto_sky_loop(const Observer& observer, const TetradRays& rays,
                                                  const LensedRays& lensed, int count,
                                                  ViewRayBatch& batch) {
@@ -267,6 +274,7 @@ void add_emission_times(const HoleOptics& optics, const TetradRays& rays, const 
   for (int k = 0; k < count; ++k) {
     const SineCosine phi = sin_cos(lensed.azimuths.azimuth[k]);
     const double sine = rays.sine[k];
+    // On the axis e does not exist.  SIMD code divides there all the same, hence by 1.
     const double inverse = sine > 0 ? 1 / (sine > 0 ? sine : 1) : 0;
     const double across = phi.sine * inverse;
     const double back = phi.cosine * inverse;

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// x, y: pixels from the middle, as the views of inside_direction.h take them.
+// The views take x and y in pixels from the middle, as those of inside_direction.h do.
 
 struct RectilinearView {
   double scale;  // tan(theta) per pixel
@@ -18,7 +18,8 @@ struct RectilinearView {
     const double u = x * scale, v = y * scale, cosine = 1 / std::sqrt(1 + u * u + v * v);
     return {{u * cosine, v * cosine, cosine}};
   }
-  // Across the direction to the middle it covers more than along it.
+  // A pixel covers scale cos(theta) across the direction to the middle, which is more than the
+  // scale cos^2(theta) along it.
   double pixel_angle(double x, double y) const {
     return scale / std::sqrt(1 + (x * x + y * y) * scale * scale);
   }
@@ -30,7 +31,7 @@ struct FisheyeView {
   CameraDirection direction(double x, double y) const {
     const double r = std::sqrt(x * x + y * y);
     const SineCosine theta = sin_cos(r * scale);
-    const double k = r > 1e-6 ? theta.sine / r : scale;
+    const double k = r > 1e-6 ? theta.sine / r : scale;  // the limit of sin(theta)/r
     return {{x * k, y * k, theta.cosine}};
   }
   double pixel_angle(double, double) const { return scale; }
@@ -46,7 +47,7 @@ struct EquirectangularView {
   double pixel_angle(double, double) const { return scale; }
 };
 
-// Positions in a picture, and what is found for them.
+// Positions says for which places of a picture directions are wanted, and where to write them.
 struct Positions {
   PixelPosition middle;
   const double *i, *j;
@@ -72,7 +73,7 @@ Dispatched<find_directions_loop<RectilinearView>> find_on_rectilinear;
 Dispatched<find_directions_loop<FisheyeView>> find_on_fisheye;
 Dispatched<find_directions_loop<EquirectangularView>> find_on_sphere;
 
-// Finds directions in the one picture or another.
+// A Finder finds directions in a picture of whatever projection.
 struct Finder {
   Positions at;
 
@@ -87,7 +88,7 @@ struct Finder {
   void operator()(const Equirectangular& e) const {
     find_on_sphere(EquirectangularView{central_pixel_angle(e)}, at);
   }
-  // The renderer draws a cube face by face.
+  // The renderer draws a cube face by face, so this function need not be fast.
   void operator()(const Cubemap& c) const {
     for (int k = 0; k < at.count; ++k) {
       at.n[k] = direction_at(c, {at.i[k], at.j[k]});
@@ -101,6 +102,7 @@ struct Finder {
 void find_directions(const Projection& projection, const double* i, const double* j, int count,
                      CameraDirection* n, double* angle) {
   PixelPosition middle{(columns(projection) + 1) / 2.0, (rows(projection) + 1) / 2.0};
+  // The circle of a truncated dome need not have its middle in that of the picture.
   if (std::holds_alternative<Fisheye>(projection)) middle = *pixel_of(projection, {{0, 0, 1}});
   std::visit(Finder{{middle, i, j, count, n, angle}}, projection);
 }

@@ -12,19 +12,21 @@ namespace domefall {
 namespace {
 
 // Turns gamma v against the outgoing frame into gamma v against rain, for r > 2.  The two frames
-// move at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).
+// move at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).  The
+// gamma of this velocity is (1 + s^2)/(1 - s^2).
 V3d in_rain(const V3d& c, double s) {
   const double below = (1 - s) * (1 + s), gamma = std::sqrt(1 + c.length2());
   return {((1 + s * s) * c.x + 2 * s * gamma) / below, c.y, c.z};
 }
 
-// The plane of R and c, in which the angle of a direction is measured from R.
+// This is the plane of R and c, in which the angle of a direction is measured from R.
 struct Plane {
   double gamma, radial, across, s;
 
-  // gamma + c.m cancels behind a fast observer.  With 1/(gamma + |c|) for gamma - |c| it is a sum
-  // of positive terms: gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2), x the angle between
-  // c and m.
+  // Returns the frequency ratio in a direction of the plane.  gamma + c.m cancels behind a fast
+  // observer.  Since gamma - |c| = 1/(gamma + |c|), it is also the sum of positive terms
+  //     gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2),
+  // where x is the angle between c and m.
   double ratio(double angle) const {
     const double length = std::hypot(radial, across);
     const double half = std::cos((angle - std::atan2(across, radial)) / 2);
@@ -36,8 +38,8 @@ struct Plane {
 
 V3d static_celerity(const ObserverState& o) {
   if (is_flat(o)) return o.celerity;
-  // The reference frame falls with -s or rises with s, so dr/dtau = c_R -+ s gamma.  The static
-  // observer measures dr/dtau over sqrt(1 - 2/r).
+  // The reference frame falls at -s or rises at s, so dr/dtau = c_R -+ s gamma.  For the static
+  // observer dr is the length dr/sqrt(1 - 2/r).
   const double s = std::sqrt(2 / o.r), gamma = std::sqrt(1 + o.celerity.length2());
   const double rate = o.celerity.x + (is_outgoing(o.tetrad) ? s * gamma : -s * gamma);
   return {rate / std::sqrt((o.r - 2) / o.r), o.celerity.y, o.celerity.z};
@@ -46,6 +48,7 @@ V3d static_celerity(const ObserverState& o) {
 std::optional<ShiftRange> frequency_range(const ObserverState& o, bool far, bool straight) {
   if (o.region == Region::kIV || (far && !(o.r < 2))) return std::nullopt;
   if (straight || is_flat(o)) {
+    // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
     const double hole = is_flat(o) ? 1 : gravitational_ratio(o.r);
     return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
@@ -53,9 +56,10 @@ std::optional<ShiftRange> frequency_range(const ObserverState& o, bool far, bool
   const double s = std::sqrt(2 / o.r);
   const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
   const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
-  // The home sky reaches from R to the silhouette, the far one from its own edge to -R.
+  // The home sky extends from R to the silhouette, and the far sky from its own edge to -R.
   const double edge = std::numbers::pi - (far ? region_three_edge(o.r) : silhouette_edge(o.r));
   std::vector<double> angles{edge, -edge, far ? std::numbers::pi : 0};
+  // The equation of the header for the extremes is solved as length cos(a - axis) = -s c_t.
   const double b = s * plane.gamma - plane.radial, length = std::hypot(plane.across, b);
   const double cosine = -s * plane.across / length;
   if (length > 0 && std::abs(cosine) <= 1) {

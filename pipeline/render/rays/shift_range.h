@@ -1,4 +1,4 @@
-// How far the light of a whole sky is shifted for one observer.
+// Finds how far the light of a whole sky is shifted for one observer.
 #pragma once
 
 #include <optional>
@@ -7,20 +7,21 @@
 
 namespace domefall {
 
-// Observed over emitted frequency.
+// The bounds of a ShiftRange are frequency ratios, observed over emitted.
 struct ShiftRange {
   double least, largest;
 };
 
-// The range of g = observed/emitted frequency, for light from infinity, over all directions in
-// which an observer sees a sky.  With `far` that is the sky of the other side, which is seen only
-// inside the horizon; else that of the observer's own side.
+// Returns the range of g = observed/emitted frequency, for light from infinity, over all directions
+// in which an observer sees a sky.  With `far` this is the sky of the other side, which is seen
+// only inside the horizon.  Otherwise it is the sky of the observer's own side.
 //
 // A view ray along the unit vector m of the rain frame has, with c = gamma v and s = sqrt(2/r),
-//     g(m) = (gamma + c.m)/(1 + s m_R):
-// the Doppler factor, and the conserved energy of light in rain ([Riazuelo] eq. nprime_aber and eq.
-// omprime_aber).  The extremes lie in the plane of R and c.  With m = (cos a, sin a) there, dg/da =
-// 0 leads to
+//     g(m) = (gamma + c.m)/(1 + s m_R).
+// The numerator is the Doppler factor ([Riazuelo] eq. nprime_aber and eq. omprime_aber).  The
+// denominator is the conserved energy of light in the rain frame (null_ray.h).  At a given m_R the
+// product c.m is extreme in the plane of R and c, so the extremes of g lie in this plane.  There m
+// is (cos a, sin a) and c is (c_R, c_t), and dg/da = 0 leads to
 //     c_t cos a + (s gamma - c_R) sin a + s c_t = 0.
 // Where neither solution belongs to the sky, the extremes lie at its edges.
 //
@@ -29,8 +30,8 @@ struct ShiftRange {
 // approaches 0.
 std::optional<ShiftRange> frequency_range(const ObserverState& observer, bool far, bool straight);
 
-// gamma v against the static observer of the same r > 2, or against flat space: components along R,
-// Theta and Phi of the state's tetrad, R growing with r.
+// Returns gamma v against the static observer of the same r > 2, or against flat space.  The
+// components are along R, Theta and Phi of the state's tetrad, and R points to growing r.
 V3d static_celerity(const ObserverState& observer);
 
 }  // namespace domefall

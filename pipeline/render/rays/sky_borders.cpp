@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// A circle with a smaller radius, in pixels, is not resolved.
+// A circle of a smaller radius, in pixels, is not resolved.
 constexpr double kLeastRadius = 4;
 
 }  // namespace
@@ -16,6 +16,8 @@ SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const 
   for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge}) {
     if (!*edge) continue;
     const ViewCircle c = view_circle((*edge)->half, state.observer, vantage.celerity);
+    // If the sky lies at smaller alpha, the reversed axis and cosine describe the same circle with
+    // the sky where n.axis < cosine.
     const double sign = (*edge)->sign;
     circles_.push_back({c.axis * sign, sign * c.cosine, c.sine});
     usable_ = usable_ && c.sine > kLeastRadius * central_pixel_angle(state.projection);
@@ -24,7 +26,7 @@ SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const 
   if (usable_) find_box(state.projection);
 }
 
-// Directions an angle apart have components along an axis that differ by the angle at most.
+// The components of two directions along an axis differ by no more than the angle between them.
 SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
   bool dark = true;
   for (const ViewCircle& c : circles_) {
@@ -36,6 +38,8 @@ SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reac
 }
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
+  // A small step away from the axis changes the cosine by the sine times the step, so `beyond` is
+  // the distance of the pixel's middle from the border, in pixels.
   double part = 0;
   for (const ViewCircle& c : circles_) {
     const double beyond = (n.v.dot(c.axis) - c.cosine) / (c.sine * pixel_angle);
@@ -44,16 +48,18 @@ double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) c
   return std::min(part, 1.0);
 }
 
-// What is without a sky lies inside the first circle, where the home sky ends.  If that is less
-// than a hemisphere, the image of its rim bounds it.
+// All pixels without a sky lie inside the first circle, where the home sky ends.  If the circle
+// encloses less than a hemisphere, the image of its rim bounds them.
 void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
-  // A rim across the seam of a whole sphere, or around a pole, is no closed curve in the picture.
+  // A rim that crosses the seam of a whole sphere, or goes around a pole, is no closed curve in the
+  // picture.
   if (std::holds_alternative<Equirectangular>(projection)) return;
   const ViewCircle& c = circles_.front();
-  // A rim around the one direction without an image, -Z, has what it holds outside its image.
+  // If the rim goes around -Z, the one direction without an image, what the rim encloses lies
+  // outside its image.
   if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;
   const V3d e1 = c.axis.cross(std::abs(c.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d e2 = c.axis.cross(e1);
@@ -66,7 +72,8 @@ void SkyBorders::find_box(const Projection& projection) {
     left = std::min(left, pixel->i - 1), right = std::max(right, pixel->i - 1);
     top = std::min(top, pixel->j - 1), bottom = std::max(bottom, pixel->j - 1);
   }
-  // Between two places a rim of this radius bulges by less than a thousandth of it.
+  // Between two of the places the rim bulges by 1 - cos(pi/kPlaces) of its radius, which is less
+  // than a thousandth.
   const double margin = kMargin + 1e-3 * (right - left + bottom - top);
   const auto within = [](double v, int last) {
     return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(last)));

@@ -1,4 +1,4 @@
-// Where the skies end in the camera's view, which is where blobs of stars must end too.
+// Finds where the skies end in the camera's view.  Blobs of stars must end there too.
 #pragma once
 
 #include <optional>
@@ -12,34 +12,36 @@
 
 namespace domefall {
 
-// A part of a frame's pixels, both ends included.
+// A PixelBox is a rectangle of a frame's pixels, which are counted from 0.  Both ends belong to it.
 struct PixelBox {
   int first_column, last_column, first_row, last_row;
 };
 
-// The borders are circles about the line through the hole, and a boost makes circles of circles.
+// SkyBorders holds the borders of the skies as circles in the view.  In the tetrad they are circles
+// about the line through the hole, and a boost turns circles into circles.
 class SkyBorders {
  public:
-  // The borders of a lensed view.
+  // Finds the borders of a lensed view.
   SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage);
 
-  // Whether there is a border, and none is so small that a pixel might hold all of it.
+  // Says whether there is a border, and whether all are so large that no pixel holds a whole one.
   bool usable() const { return usable_; }
-  // What all pixels see whose squares lie within an angle `reach` (radians) of a direction: a sky,
-  // or none, each of them as a whole.  kBoth may also stand for one of the two.
+  // A Sight says what pixels see: every one of them a sky as a whole (kSky), or none of them any
+  // (kNoSky).  kBoth stands for all else, and may be given in the other two cases too.
   enum class Sight { kSky, kNoSky, kBoth };
+  // Returns the sight of all pixels whose squares lie within an angle `reach` (radians) of n.
   Sight sight_around(const CameraDirection& n, double reach) const;
-  // The part of a pixel, 0 to 1, that sees a sky, where its direction is n and it covers an angle
-  // in radians.  A border counts as straight within a pixel.
+  // Returns the part of a pixel, 0 to 1, that sees a sky.  The pixel lies in the direction n and
+  // covers `pixel_angle` radians.  A border counts as straight within a pixel.
   double part_in_skies(const CameraDirection& n, double pixel_angle) const;
-  // The pixels among which are all that do not see a sky as a whole, or nothing if the frame has
-  // none.
+  // Returns a box that contains all pixels that do not see a sky as a whole, or nothing if the
+  // frame has no such pixel.
   std::optional<PixelBox> box_without_sky() const { return box_; }
 
  private:
   void find_box(const Projection& projection);
 
-  std::vector<ViewCircle> circles_;  // each with its sky where n.axis < cosine
+  std::vector<ViewCircle> circles_;  // the sky of each lies where n.axis < cosine
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };

@@ -4,8 +4,7 @@
 
 namespace domefall {
 
-// Veltkamp's splitting: multiplied by 2^12 + 1 and subtracted from itself, a number loses its last
-// 12 bits by rounding.
+// By Veltkamp's splitting, x (2^12 + 1) - (x (2^12 + 1) - x) is x rounded to 53 - 12 bits.
 double steady(double value) {
   constexpr double kSplit = 4097;
   const double scaled = kSplit * value, high = scaled - (scaled - value);
@@ -13,6 +12,7 @@ double steady(double value) {
 }
 
 void add_rotation(Digest& digest, const M33d& m) {
+  // Adding 0.0 turns -0 into 0, which has other bits.
   constexpr double kUnitSteps = 1e12;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) digest.add(std::round(m[i][j] * kUnitSteps) + 0.0);

@@ -1,4 +1,4 @@
-// Numbers as the keys of frames hold them, without the bits in which processors differ.
+// Rounds numbers for the keys of frames, so that the bits in which processors differ drop out.
 #pragma once
 
 #include "pipeline/image/digest.h"
@@ -6,12 +6,12 @@
 
 namespace domefall {
 
-// The value rounded to 41 bits, a relative 2e-13.  The last bits of sines and powers differ between
-// processors, and a frame that another node made must be recognized on this one.
+// Returns the value rounded to 41 bits, a relative 2e-13.  The last bits of sines and powers differ
+// between processors, but a frame that another node made must be recognized on this one.
 double steady(double value);
 
-// Adds a rotation, whose elements are rounded to 1e-12, since one that is 0 on one processor may be
-// 1e-17 on another.
+// Adds a rotation with its elements rounded to multiples of 1e-12.  A relative rounding would not
+// do, since an element that is 0 on one processor may be 1e-17 on another.
 void add_rotation(Digest& digest, const M33d& m);
 
 }  // namespace domefall

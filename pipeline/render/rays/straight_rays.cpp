@@ -1,5 +1,5 @@
-// View rays of shows that leave effects out: without lensing, or with frequencies that another
-// observer measures.
+// Traces the view rays of shows that leave effects out: of those without lensing, and of those
+// whose frequencies another observer measures.
 #include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
@@ -15,7 +15,7 @@ ViewRay ViewTracer::trace(const CameraDirection& n) const {
   return ray;
 }
 
-// Without lensing, light near a hole keeps to straight lines in the frame of the observer at rest.
+// Without lensing, light near a hole goes straight in the frame of the observer at rest.
 ViewRay ViewTracer::straight_ray(const CameraDirection& n) const {
   const AberratedLight in = Aberration(vantage_.celerity).to_rest(apply(tetrad_from_camera_, n.v));
   const AberratedLight rest = to_rest_->to_rest(in.direction);

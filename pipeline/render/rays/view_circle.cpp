@@ -6,7 +6,8 @@
 namespace domefall {
 
 // Directions n with n.u = cos(alpha) are those whose light ray (1, -n) is orthogonal to the vector
-// (cos(alpha), -u) of space-time, so the circle goes through the boost as that vector does.
+// (cos(alpha), -u) of space-time.  So the boost changes the circle as it changes that vector.  The
+// square of the vector, -sin^2(alpha), stays the same and gives the sine of the new circle.
 ViewCircle view_circle(const HalfAngle& alpha, const ObserverState& observer, const V3d& celerity) {
   const V3d inward(is_outgoing(observer.tetrad) ? 1 : -1, 0, 0);
   const double sine = 2 * alpha.sine * alpha.cosine;

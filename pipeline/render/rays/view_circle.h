@@ -1,4 +1,4 @@
-// Circles about the axis through the hole, as an observer in motion sees them.
+// Computes how an observer in motion sees circles about the axis through the hole.
 #pragma once
 
 #include <vector>
@@ -9,23 +9,25 @@
 
 namespace domefall {
 
-// The directions n, of the camera's axes, with n.axis = cosine.
+// A ViewCircle consists of the directions n, along the camera's axes, with n.axis = cosine.
 struct ViewCircle {
   V3d axis;  // unit vector
   double cosine, sine;
 };
 
-// The circle whose angle in the reference tetrad counts from the direction of the hole or, for the
-// outgoing tetrad, from the opposite one (alpha of null_ray.h).  An observer with gamma v
-// `celerity` against the tetrad sees a circle, too, since a boost makes circles of circles.
+// Returns how the circle of all directions at the angle alpha in the reference tetrad is seen.
+// alpha counts from the direction of the hole or, for the outgoing tetrad, from the opposite
+// direction (null_ray.h).  The observer moves with gamma v = `celerity` against the tetrad and sees
+// a circle too, since a boost turns circles into circles.
 ViewCircle view_circle(const HalfAngle& alpha, const ObserverState& observer, const V3d& celerity);
 
-// The silhouette: the edges of the skies that are seen, outside one, inside two, in region IV and
-// flat space none.
+// Returns the silhouette, that is, the edges of the skies that are seen.  There is one outside, two
+// inside, and none in region IV or flat space.
 std::vector<ViewCircle> silhouette_circles(const ObserverState& observer, const V3d& celerity);
 
-// Where what lies straight behind the hole is seen: light that has swept an azimuth of pi, one
-// circle for each sky that is seen.  It makes its tables anew, in half a millisecond.
+// Returns the circles on which the point straight behind the hole is seen, by light that has swept
+// an azimuth of pi.  There is one for each sky that is seen.  Each call makes its tables anew,
+// which takes half a millisecond.
 std::vector<ViewCircle> einstein_circles(const ObserverState& observer, const V3d& celerity);
 
 }  // namespace domefall

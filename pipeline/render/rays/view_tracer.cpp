@@ -41,6 +41,8 @@ ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
   const HalfAngle half = half_angle(outgoing_ ? d.x : -d.x, sin_alpha);
   const SkyTable* table = nullptr;
   double x = -1;
+  // A ray on a sky's side of its edge comes from that sky.  A ray that no sky has comes from the
+  // past singularity.  An edge counts unless both of its sides are dark.
   const auto try_sky = [&](const std::optional<SkyEdge>& edge, const std::optional<SkyTable>& its,
                            SkyRegion name) {
     if (!edge) return;
@@ -70,11 +72,13 @@ ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
     phi = table->azimuth(x);
     slope = table->slope(x);
     ray.bundle = {2 * std::atan2(half.sine, half.cosine), phi, slope, 1 / in.frequency_ratio};
+    // |E| = |1 - s cos(alpha)| is written by half of alpha, so that it does not cancel near r = 2.
     const double energy =
         std::abs((1 + s_) * half.sine * half.sine + one_minus_s_ * half.cosine * half.cosine);
     ray.frequency_ratio = 1 / (energy * in.frequency_ratio);
   }
   ray.known = true;
+  // The light started at cos(phi) R + sin(phi) e, with e the part of d across R made a unit vector.
   const double across = sin_alpha > 0 ? std::sin(phi) / sin_alpha : 0;
   ray.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), d.y * across, d.z * across));
   ray.radial_scale = slope / in.frequency_ratio;
