@@ -11,8 +11,9 @@
 namespace domefall {
 namespace {
 
-// Whether the observer is outside a body of that radius.  The lens makes an image behind the hole
-// longer about the axis, but not within the ray's plane.
+// Says whether the observer is outside a body of that radius, which then has an angular radius
+// below 1.  The size within the ray's plane decides, since the lens stretches an image behind the
+// hole about the axis only.
 bool is_outside(const BodyImage& image, double radius) {
   return image.angle_per_length * radius < 1;
 }
@@ -32,7 +33,8 @@ SceneStar BodySight::star_of(const Body& body) {
   return SceneStars({star})[0];
 }
 
-// A body without a size of its own is as large as its light needs, and not too small for a lens.
+// Returns the radius of a body, M.  A body without a size of its own is as large as its light
+// needs.  Like a star, it has a least size, which bounds its light on the axis of the lens.
 double BodySight::radius_of(const Body& body) const {
   if (body.radius > 0) return body.radius;
   return std::max(star_of(body).angular_radius, show_.least_star_radius) * kBodyMagnitudeDistance;
@@ -59,7 +61,8 @@ std::optional<BodySight::Image> BodySight::image(const Body& body, int order) co
 }
 
 std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, double sigma) const {
-  // A row of Gaussians at this distance is even to 3e-4.
+  // By Poisson's sum formula a row of Gaussians, d sigma apart, ripples by 2 exp(-2 pi^2/d^2) of
+  // its mean, which is 3e-4 here.
   constexpr double kSpacing = 1.5;
   const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance;
   const auto spacing = [&](const V3d& direction) {

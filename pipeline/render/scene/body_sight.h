@@ -1,5 +1,5 @@
-// Where one observer sees the images of a show's bodies: for the renderer, and for questions about
-// single ones.
+// Finds where one observer sees the images of a show's bodies.  It serves the renderer, and
+// questions about single images.
 #pragma once
 
 #include <optional>
@@ -18,34 +18,37 @@ class BodySight {
   // The show and the state must outlive this.
   BodySight(const Show& show, const FrameState& state);
 
-  // Whether bodies, which are in region I, are seen at all.
+  // Says whether bodies, which are in region I, are seen at all.
   bool sees() const;
 
-  // As many orders as are looked for at most, and so many in succession that are too faint end the
-  // search: each second one is fainter by e^(-2 pi), and either side of the hole may be bright.
+  // At most kMostOrders orders are looked for, and kFaintOrders in succession that are too faint
+  // end the search.  An image is fainter by e^(-2 pi) than the one two orders before it, which is
+  // on the same side of the hole, but one side may be bright while the other is faint.
   static constexpr int kMostOrders = 24, kFaintOrders = 3;
 
-  // The star that has the body's light at kBodyMagnitudeDistance.
+  // Returns the star that has the light of the body at kBodyMagnitudeDistance.
   static SceneStar star_of(const Body& body);
 
-  // The first order that is seen.  Who rides a body of no size does not see it, but for the light
-  // that it sent around the hole before; who is within a sphere sees nothing of it.
+  // Returns the first order that is seen.  An observer who rides a body of no size sees only the
+  // light that it sent around the hole before.  One who is within a sphere sees nothing of it.
   int first_order(const Body& body) const;
 
-  // The image of an order in the tetrad; its amplification is over the light of that star.
+  // An Image is the image of one order in the tetrad.  Its amplification refers to the light of
+  // star_of(body).
   struct Image {
     SkyImage at;
     BodyImage traced;
   };
   std::optional<Image> image(const Body& body, int order) const;
 
-  // The pieces of which an image is drawn that is too large for one blob of width sigma (radians,
-  // for the camera): of a sphere, an arc, a part of a ring.  None where one blob is enough, and
-  // where images are not amplified.
+  // Returns the pieces in which an image is drawn that is too large for one blob of width sigma
+  // (radians, for the camera).  Such an image is that of a sphere, an arc or a part of a ring.
+  // There are no pieces where one blob is enough, nor where images are not amplified.
   std::vector<SkyImage> pieces(const Body& body, const Image& image, double sigma) const;
 
-  // The same for the camera, with the flux over that star's as the renderer draws it, and the
-  // frequency ratio that is measured.
+  // A Seen describes an image as the camera receives it.  `brightening` is the flux, as the
+  // renderer draws it, over that of star_of(body).  The frequency ratio is the one that is
+  // measured.
   struct Seen {
     CameraDirection direction;
     double brightening, frequency_ratio;

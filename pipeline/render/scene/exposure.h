@@ -1,4 +1,4 @@
-// The one scale on which skies and stars become pixel values.
+// Defines the one scale on which skies and stars become pixel values.
 #pragma once
 
 #include <cmath>
@@ -7,17 +7,16 @@
 
 namespace domefall {
 
-// The luminance (cd/m^2) of pixel value 1 at 0 EV, ten times that of the Milky Way's brightest
+// The luminance (cd/m^2) of pixel value 1 at 0 EV is ten times that of the Milky Way's brightest
 // part.
 inline constexpr double kReferenceLuminance = 1e-3;
 
-// The pixel value of 1 cd/m^2.
+// Returns the pixel value of 1 cd/m^2.
 inline double exposure_scale(const FrameSettings& settings) {
   return std::exp2(settings.ev) / kReferenceLuminance;
 }
 
-// The illuminance (lux) of a star of magnitude 0.  It enters only the size at which stars are
-// drawn.
+// The illuminance (lux) of a star of magnitude 0 enters only the size at which stars are drawn.
 inline constexpr double kMagnitudeZeroLux = 2.63e-6;
 
 }  // namespace domefall

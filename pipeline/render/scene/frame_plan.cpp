@@ -30,13 +30,14 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const bool inside = o.region == Region::kII && o.r < 2;
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
-  // Who falls from region I has its light on the horizon itself, too.
+  // An observer who falls from region I receives its light on the horizon itself too.
   const bool sees_one = inside || (o.region == Region::kII && !is_mirrored(o.tetrad));
   plan.disc = show.disc && !is_flat(o) && (o.region == Region::kI || sees_one);
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);
   };
+  // No light of a sky enters region IV.
   if (o.region != Region::kIV) add(home_sky(o.tetrad));
   if (inside) add(far_sky(o.tetrad));
   if (plan.gravity) add(SkyRegion::kIV);

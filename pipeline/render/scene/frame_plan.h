@@ -1,4 +1,5 @@
-// What one frame of a show needs.  Nothing else is loaded, tabulated or drawn for it.
+// A FramePlan says what one frame of a show needs.  Nothing else is loaded, tabulated or drawn for
+// it.
 #pragma once
 
 #include "pipeline/show/frame_state.h"
@@ -7,12 +8,13 @@
 namespace domefall {
 
 struct FramePlan {
-  bool gravity = false;  // whether light is bent, which takes tables
+  bool gravity = false;  // whether light is bent, which needs tables
   struct Sky {
     bool background = false;  // whether it shows anything but stars
     bool stars = false;
     bool rings = false;  // whether its light depends on when it started
-    // The segment's, which the show owns; null where the plan is not made of a show.
+    // This is the background of the segment, which the show owns.  It is null where the plan was
+    // not made from a show.
     const SkyBackground* shown = nullptr;
 
     bool lit() const { return background || stars; }
@@ -24,8 +26,8 @@ struct FramePlan {
   bool has_background() const;
 };
 
-// Follows from the observer's region, the show's skies and the gains at this instant, without
-// loading anything.
+// Makes the plan from the observer's region, the show's skies and the gains at this instant,
+// without loading anything.
 FramePlan plan_frame(const Show& show, const FrameState& state);
 
 }  // namespace domefall

@@ -14,7 +14,7 @@ PerSky<const SceneStars*> stars_of_skies(const FramePlan& plan, const PerSky<con
   return stars;
 }
 
-// How much brighter a background is than its file says.
+// Returns the factor by which a background is brighter than its file says.
 double brightness_of(const FramePlan::Sky& sky) {
   const auto* panorama = sky.shown ? std::get_if<PanoramaSky>(sky.shown) : nullptr;
   return panorama ? panorama->brightness : 1;

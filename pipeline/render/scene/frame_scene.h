@@ -1,6 +1,6 @@
-// One instant of a show as every stage of its frame reads it: the observer and the camera, how
-// light reaches them, the skies that are seen, and how light becomes pixel values.  The renderer
-// makes one for each frame; nothing is derived from the show again below it.
+// A FrameScene is one instant of a show as every stage of its frame reads it: the observer and the
+// camera, how light reaches them, the skies that are seen, and how light becomes pixel values.  The
+// renderer makes one for each frame, and no later stage derives anything from the show again.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,21 @@
 
 namespace domefall {
 
-// How the sky moves while a frame lasts.
+// SkyMotion says how the sky moves while a frame lasts.
 struct SkyMotion {
-  // By what it turns against the axes R, Theta, Phi of the tetrad from frame to frame: the rotation
-  // vector, radians.
+  // The rotation vector by which the sky turns against the axes R, Theta, Phi of the tetrad from
+  // frame to frame, radians.
   V3d turn{0, 0, 0};
-  // Frames to the next instant that is seen: 1 with a closed shutter, less with an open one.
+  // The number of frames to the next instant that is seen is 1 with a closed shutter and less with
+  // an open one.
   double gap = 1;
 };
 
 struct FrameScene {
-  // `skies` has null for a sky that the plan leaves out.  Everything that is passed, but for the
-  // plan, must outlive the scene.  If the frame is a part of a picture, `whole` is the picture's
-  // projection, by which blobs have their widths.  `disc_light` is that of the show's disc, or null
-  // where the plan has none.
+  // `skies` has null for a sky that the plan leaves out.  All arguments except the plan must
+  // outlive the scene.  If the frame is a part of a picture, `whole` is the projection of the
+  // picture, which sets the widths of blobs.  `disc_light` is the light of the show's disc, or null
+  // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
              SkyMotion sky_motion = {}, const Projection* whole = nullptr,
@@ -43,12 +44,13 @@ struct FrameScene {
   const double least_star_radius;  // angular radius that each star has at least, radians
   const SkyMotion motion;
   const PerSky<const SceneStars*> stars;  // null where the plan has none
-  // Empty for a sky that is black or has stars only.
+  // empty for a sky that is black or has stars only
   const PerSky<std::optional<SkyLight>> background;
   const DiscLight* disc;  // null where none is seen
 
   const Projection& projection() const { return state.projection; }
-  // Whether the lens brightens backgrounds as it does stars, which it does not in nature.
+  // Says whether the lens brightens backgrounds as it does stars.  In nature it does not, since a
+  // lens leaves the brightness of surfaces as it is.
   bool amplifies_backgrounds() const { return effects.amplification == Amplification::kEverything; }
 };
 

@@ -1,4 +1,4 @@
-// The tables of light for one radius, which are kept while frames stay there.
+// An OpticsStore keeps the tables of light for one radius while frames stay there.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@ namespace domefall {
 
 class OpticsStore {
  public:
-  // The optics at a frame's observer, with the tables that its plan asks for.  The reference is
-  // valid until the next call.
+  // Returns the optics at a frame's observer, with the tables that its plan asks for.  The
+  // reference is valid until the next call.
   const HoleOptics& optics_for(const ObserverState& observer, const FramePlan& plan);
 
-  // How many tables the last call made.  The others were kept from before.
+  // Returns how many tables the last call made.  The others were kept from before.
   int tables_made() const { return tables_made_; }
 
  private:

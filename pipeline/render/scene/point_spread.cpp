@@ -15,20 +15,21 @@ using std::numbers::pi;
 
 // A Gaussian of a halo is drawn if the pixel value of its peak is above this.
 constexpr double kFaintestHalo = 0.02;
-// The widths of a halo's Gaussians, against its first, and their shares of its light.  From one to
-// the next the peak falls to a ninth, so that together they fall off like the power -2.4 of the
-// distance.  The glare of a lens or an eye falls with its square (CIE 146:2002).
+// These are the widths of a halo's Gaussians in units of the first one's, and their shares of its
+// light.  From one to the next the peak falls to about a tenth.  Together they fall off like the
+// power -2.4 of the distance from 1 to 10 of the units, while the glare of a lens or an eye falls
+// with its square (CIE 146:2002).
 constexpr std::array<double, 3> kHaloSigma{1, 2.5, 6}, kHaloShare{0.5, 0.3, 0.2};
 
-// A law gives widths for a dome, whose frame is 180 degrees wide.  In a flat frame of another field
-// of view a blob takes the same part of the frame's width.  Around an audience it has the same
-// angle in every frame.
+// Returns the factor to the widths of a law, which are those for a dome, whose frame is 180 degrees
+// wide.  In a flat frame of another field of view a blob takes the same part of the frame's width.
+// Around an audience it has the same angle in every frame.
 double width_factor(const Projection& p) {
   return has_zenith(p) ? 1 : field_of_view(p).value_or(pi) / pi;
 }
 
-// The light of an image's brightest channel for which the peak of a Gaussian with this share of it
-// is kFaintestHalo.  The peak of a Gaussian of light 1 is 1/(2 pi sigma^2).
+// Returns the light of an image's brightest channel for which a Gaussian with this share of it has
+// a peak of kFaintestHalo.  The peak of a Gaussian of light 1 is 1/(2 pi sigma^2).
 double least_halo_light(double share, double sigma) {
   return kFaintestHalo * 2 * pi * sigma * sigma / share;
 }
@@ -48,11 +49,13 @@ PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection
       paling_(law.white_core > 0 ? static_cast<float>(1 / law.white_core) : 0.0f) {}
 
 double PointSpread::reach() const {
-  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));  // in units of sigma
+  // A Gaussian exp(-x^2/2) has fallen to the cut at this x, in units of sigma.
+  static const double farthest = std::sqrt(-2 * std::log(kLowestCut));
   return farthest * std::max(most_, law_.halo > 0 ? kHaloSigma.back() * halo_sigma_ : 0.0);
 }
 
 double PointSpread::sigma_of(const StarImage& image) const {
+  // A law with halos spreads the light of bright stars by these, and keeps their middles narrow.
   if (law_.halo > 0) return least_;
   const double brightness = luminance({image.rgb[0], image.rgb[1], image.rgb[2]}) / reference_;
   if (!(brightness > 1)) return least_;

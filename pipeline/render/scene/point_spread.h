@@ -1,5 +1,5 @@
-// How large the stars of a frame are drawn: the Gaussians that stand for an image of a given
-// brightness.
+// Says how large the stars of a frame are drawn, by the Gaussians that stand for an image of a
+// given brightness.
 #pragma once
 
 #include <array>
@@ -21,35 +21,36 @@ inline constexpr double kUnseen = 4.4e-5;
 inline constexpr double kHighestCut = 0.002187491118182885;  // exp(-3.5^2 / 2)
 inline constexpr double kLowestCut = 2.061153622438558e-09;  // exp(-20)
 
-// The cut of a blob with this pixel value in its middle.
+// Returns the cut of a blob with this pixel value in its middle.
 inline double cut_of(double peak) {
   const double cut = kUnseen / peak;
   const double low = cut < kHighestCut ? cut : kHighestCut;
   return low > kLowestCut ? low : kLowestCut;
 }
 
-// The Gaussians that together draw one image: its middle, and three for the halo of a bright one.
+// PointSpreadParts holds the Gaussians that together draw one image: its middle, and three for the
+// halo of a bright image.
 struct PointSpreadParts {
-  StarImage image;  // the middle, whose light is what the halo leaves
+  StarImage image;  // the middle, which has the light that the halo leaves
   double sigma;     // radians; width of the middle
   struct Halo {
     double sigma;  // radians
-    double share;  // part of the image's light; 0 where the halo would not be seen
+    double share;  // of the image's light; 0 where the halo would not be seen
   };
   std::array<Halo, 3> halo;
 };
 
-// A show's point-spread law at the size and exposure of one frame.
+// A PointSpread is a show's point-spread law at the size and exposure of one frame.
 class PointSpread {
  public:
   // `exposure` is the pixel value of 1 cd/m^2.
   PointSpread(const PointSpreadLaw& law, const Projection& projection, double exposure);
 
-  // The smallest sigma of the frame, in radians.  It is at least kLeastSigmaPixels.
+  // Returns the smallest sigma of the frame, in radians.  It is at least kLeastSigmaPixels.
   double least() const { return least_; }
-  // The farthest that any blob or halo of the frame extends from its middle, in radians.
+  // Returns how far a blob or halo of the frame extends from its middle at most, in radians.
   double reach() const;
-  // The sigma, in radians, of the middle of an image.
+  // Returns the sigma, in radians, of the middle of an image.
   double sigma_of(const StarImage& image) const;
   PointSpreadParts parts(const StarImage& image) const;
   // An image whose brightest channel is at most this is a single blob of the least width.
@@ -61,7 +62,7 @@ class PointSpread {
  private:
   PointSpreadLaw law_;
   double least_, most_;       // bounds of sigma, radians
-  double reference_;          // luminance of the light of an image, beyond which its blob grows
+  double reference_;          // the luminance of an image's light beyond which its blob grows
   double halo_sigma_;         // radians
   double single_blob_light_;  // as a value of StarImage::rgb
   float paling_;

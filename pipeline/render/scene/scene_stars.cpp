@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// bolometric_flux_at_v_zero(T), from a table that is linear in the logarithms of both.  Measured:
-// the relative error is below 4e-5 from 1000 K on.
+// Returns bolometric_flux_at_v_zero(T) from a table that is linear in the logarithms of T and of
+// the flux.  The measured relative error is below 4e-5 from 1000 K on.
 class FluxOfVZero {
  public:
   double operator()(double temperature) const {
@@ -42,7 +42,7 @@ const FluxOfVZero& flux_of_v_zero() {
   return table;
 }
 
-// A disc of angular radius rho and radiance B brings the flux B pi rho^2.
+// Returns the angular radius rho of a star.  A disc of radiance B brings the flux B pi rho^2.
 double angular_radius(double flux, double temperature) {
   return std::sqrt(flux / (blackbody_radiance(temperature) * std::numbers::pi));
 }
@@ -99,6 +99,7 @@ void SceneStars::find_bounds() {
   most_flux_.assign(size() / kBlock + 1, 0);
   for (std::size_t k = 0; k < size(); ++k)
     most_flux_[k / kBlock] = std::max(most_flux_[k / kBlock], double{flux_[k]});
+  // A block's bound holds for the blocks after it too.
   for (std::size_t b = most_flux_.size() - 1; b-- > 0;)
     most_flux_[b] = std::max(most_flux_[b], most_flux_[b + 1]);
 }
@@ -111,7 +112,7 @@ SceneStar SceneStars::operator[](std::size_t k) const {
           angular_radius_[k]};
 }
 
-// Magnitudes are floats, so the limit is rounded as they were, lest a star on the limit be lost.
+// Magnitudes are floats.  The limit is rounded as they were, so that no star on the limit is lost.
 std::size_t SceneStars::count_to_magnitude(double limit) const {
   const auto end = std::partition_point(magnitude_.begin(), magnitude_.end(), [limit](float v) {
     return v <= static_cast<float>(limit);

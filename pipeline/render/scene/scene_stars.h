@@ -1,4 +1,5 @@
-// The stars of one sky as columns of numbers, in the units in which their images are computed.
+// Holds the stars of one sky as columns of numbers, in the units in which their images are
+// computed.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 namespace domefall {
 
-// One star as it is without any redshift.
+// A SceneStar is one star as it is without any redshift.
 struct SceneStar {
   SkyDirection direction;
   double magnitude;       // V
@@ -29,9 +30,9 @@ class SceneStars {
   std::size_t size() const { return magnitude_.size(); }
   bool empty() const { return magnitude_.empty(); }
   SceneStar operator[](std::size_t k) const;
-  // The number of stars with V <= limit, which are the first ones.
+  // Returns the number of stars with V <= limit, which are the first ones.
   std::size_t count_to_magnitude(double limit) const;
-  // An upper bound of the flux of the star `first` and all that follow.
+  // Returns an upper bound of the flux of the star `first` and of each one that follows it.
   double most_flux_from(std::size_t first) const { return most_flux_[first / kBlock]; }
 
   double most_angular_radius() const { return most_angular_radius_; }
@@ -55,9 +56,9 @@ class SceneStars {
   double most_angular_radius_ = 0;
 };
 
-// Gives a unit vector whose components were rounded to floats the length 1 again, within 2e-14.  It
-// is one step of Newton's iteration for 1/sqrt(length2), whose error is 3/8 of the square of that
-// of length2.
+// Gives the length 1 again, within 2e-14, to a unit vector whose components were rounded to floats.
+// This is one step of Newton's iteration for 1/sqrt(length2), which leaves an error of 3/8 of the
+// square of the error of length2.
 inline V3d renormalized(const V3d& v) { return v * (1.5 - 0.5 * v.length2()); }
 
 }  // namespace domefall

@@ -18,16 +18,16 @@ WorkingRgb operator*(const WorkingRgb& c, double k) {
   return {c.r * f, c.g * f, c.b * f};
 }
 
-// The factors to the intensity of a panorama without spectra, on both sides of g = 1: it falls by
-// an exponential of the redshift and grows by a power of the blueshift ([Riazuelo] sec. ssec_rgb).
-// Both are 1 at g = 1.
+// These are the factors to the intensity of a panorama without spectra, on both sides of g = 1.  It
+// falls by an exponential of the redshift and grows by a power of the blueshift ([Riazuelo] sec.
+// ssec_rgb).  Both factors are 1 at g = 1.
 double redshifted(double g) { return exponential(1 - 1 / g); }
 double blueshifted(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
 }
 
-// A gain beyond this is white in any frame.  As a bound it keeps the product with a texel and a
-// colour finite.
+// A gain beyond this is white in any frame.  The bound keeps the product with a texel and a colour
+// finite.
 constexpr double kMostGain = 1e28;
 
 // Computes gain_of(redshifted(g)) for many frequency ratios.
@@ -56,9 +56,9 @@ Dispatched<square_gains_loop> square_gains;
 }
 Dispatched<choose_side_loop> choose_side;
 
-// The blackbodies of a thermal map are seen at g T, as stars are.  The product stays a double until
-// the end, since g^4 may be far too large for a float where the colour per unit of light is far too
-// small.
+// Returns thermal light as it is seen: the blackbodies of a map are seen at g T, as stars are.  The
+// product stays a double until the end, since g^4 may be far too large for a float where the colour
+// per unit of light is far too small.
 WorkingRgb thermal_light(const ThermalLight& light, const Effects& effects, double g) {
   const double ratio = colour_ratio(effects, g), ratio2 = ratio * ratio;
   const WorkingRgb c = blackbody_colours().per_flux(light.temperature * ratio);
@@ -103,6 +103,7 @@ WorkingRgb SkyLight::at(const V3d& sky_direction, double footprint, double g) co
       return thermal_light(light, effects_, g) * scale_;
     }
     const WorkingRgb light = map_->sample(sky_direction, footprint);
+    // All three channels shrink by one factor, which keeps the hue.
     const double seen = luminance(light);
     if (!(seen > black)) return {0, 0, 0};
     return light * ((1 - black / seen) * (intensity(g) * scale_));

@@ -11,7 +11,9 @@
 namespace domefall {
 namespace {
 
-// The microwave background is a glow of its own, whose darkest parts are no floor of a picture.
+// Returns what is subtracted from a map's light as its black: the level that the show gives, or
+// else the map's own dark level.  The microwave background has no such level, since it is a glow of
+// its own, whose darkest parts are no floor of a picture.
 DarkLevel black_of(const PanoramaSky& sky, const SkyMap& map) {
   if (sky.black) return {light_of_luminance(map, *sky.black / sky.brightness), *sky.black};
   if (is_microwave_background(sky.image)) return {};
@@ -24,7 +26,7 @@ std::optional<SkyBackground> shown_in(const FramePlan::Sky& plan) {
   return plan.background ? std::optional(*plan.shown) : std::nullopt;
 }
 
-// The file of a sky that is a map; empty for another.
+// Returns the file of a sky that is a map, or an empty path for another sky.
 std::filesystem::path map_file_of(const std::optional<SkyBackground>& background) {
   const auto* panorama = background ? std::get_if<PanoramaSky>(&*background) : nullptr;
   return panorama ? panorama->image : std::filesystem::path();
@@ -69,7 +71,7 @@ void SkyStore::load_background(Kept& kept) {
   kept.sky.black = black_of(*panorama, *map);
 }
 
-// Stars that another sky has loaded already are shared with it.
+// Stars that another sky has loaded already are shared.
 void SkyStore::load_stars(SkyRegion which, Kept& kept) {
   const RegionSky& own = show_.sky[which];
   if (!own.stars) return;
@@ -104,9 +106,10 @@ bool SkyStore::has_room() const {
   return sum + largest_map <= detail_.most_made_bytes;
 }
 
-// The map that was shown longest ago goes first.
+// The map that was shown longest ago is dropped first.
 void SkyStore::make_room() {
   while (!has_room()) {
+    // A map that no plan showed counts as one of plan 0.
     std::map<std::filesystem::path, std::uint64_t> last_plan;
     for (const auto& file : made_) last_plan[file] = 0;
     for (const SkyRegion which : kEverySky)
@@ -116,6 +119,7 @@ void SkyStore::make_room() {
           found->second = std::max(found->second, kept.plan);
     const auto oldest = std::ranges::min_element(
         last_plan, {}, &std::pair<const std::filesystem::path, std::uint64_t>::second);
+    // Skies that the last two plans were given may still be in use.
     if (oldest->second + 1 >= plans_) return;
     for (const SkyRegion which : kEverySky)
       for (Kept& kept : skies_[which])

@@ -1,4 +1,5 @@
-// The backgrounds and stars of a show's skies, each loaded when a frame first needs it.
+// A SkyStore holds the backgrounds and stars of a show's skies.  Each is loaded when a frame first
+// needs it.
 #pragma once
 
 #include <cstddef>
@@ -25,23 +26,24 @@ struct Grid {};
 struct Black {};
 using Rings = RingsSky;
 
-// The sky of one region as it is loaded.
+// A Sky is the sky of one region as it is loaded.
 struct Sky {
   std::variant<Black, Grid, std::shared_ptr<const SkyMap>, Rings> background;
   std::shared_ptr<const SceneStars> stars;  // never null, but empty if there are none
-  // What is taken from a map's light as its black (PanoramaSky::black), in the unit of its texels
-  // and as luminance.
+  // The black of a map (PanoramaSky::black) is subtracted from its light.  It is given in the unit
+  // of the map's light and as luminance.
   DarkLevel black;
 };
 
-// How much of the files is loaded.  A frame of few pixels needs less than is there.
+// SkyDetail says how much of the files is loaded.  A frame of few pixels needs less than is there.
 struct SkyDetail {
   int largest_face = kLargestFace;  // no level of a map has more texels along an edge (read_sky)
-  // That many stars are loaded as they are, and fewer of the rest (thinned), unless a show changes
-  // the faintest magnitude as it goes on; 0 for all as they are.
+  // This many of the brightest stars are loaded as they are, and fewer of the rest (thinned).  All
+  // are loaded as they are if the show keyframes the faintest magnitude, or with 0.
   std::size_t whole_stars = 0;
-  // Maps that are made of images, a gigabyte of one that is 8192 pixels wide, are dropped beyond so
-  // many bytes, unless one of the last two plans shows them: a frame in a dissolve has two.
+  // Maps that are made of images are dropped to keep their sum within this many bytes, except those
+  // that one of the last two plans shows.  A frame in a dissolve has two plans.  The map of an
+  // image that is 8192 pixels wide takes a gigabyte.
   std::size_t most_made_bytes = std::size_t{2} << 30;
 };
 
@@ -50,16 +52,17 @@ class SkyStore {
   // The show must outlive the store.
   explicit SkyStore(const Show& show, SkyDetail detail = {}) : show_(show), detail_(detail) {}
 
-  // A sky with this background, if any, and with its stars.  What an earlier call loaded is kept as
-  // long as there is room for it, and a file that several skies name is loaded once.  The reference
-  // is valid until the plan after the next is asked for.  Throws InputError if a file cannot be
-  // read.
+  // Returns a sky with this background, if any, and with its stars if `stars` is set.  What an
+  // earlier call loaded is kept as long as there is room for it, and a file that several skies name
+  // is loaded once.  The reference is valid until the plan after the next is asked for.  Throws
+  // InputError if a file cannot be read.
   const Sky& sky(SkyRegion which, const std::optional<SkyBackground>& background, bool stars);
   // Loads all that any frame of the show may need of a region's sky.
   void load(SkyRegion which);
-  // The skies that a plan asks for, and null for the others.
+  // Returns the skies that a plan asks for, and null for the others.
   PerSky<const Sky*> skies_of(const FramePlan& plan);
-  // Loads what a plan asks for as far as there is room, and otherwise sees that it can be read.
+  // Loads what a plan asks for.  A map for which there is no room is only tested for being
+  // readable.
   void load(const FramePlan& plan);
 
  private:
@@ -67,25 +70,26 @@ class SkyStore {
     std::optional<SkyBackground> background;
     Sky sky{Black{}, std::make_shared<const SceneStars>(), {}};
     bool has_background = false, has_stars = false;  // whether they are loaded
-    std::uint64_t plan = 0;                          // the last one that showed it
+    std::uint64_t plan = 0;                          // the last plan that showed this sky
   };
   Kept& kept_sky(SkyRegion which, const std::optional<SkyBackground>& background);
   void load_background(Kept& kept);
-  // Whether another made map of usual size fits, and makes it fit if it can.
+  // Says whether another map fits that is as large as the largest one that is kept.
   bool has_room() const;
+  // Drops maps until another one fits, as long as there is one that may be dropped.
   void make_room();
   void load_stars(SkyRegion which, Kept& kept);
   bool limit_changes(SkyRegion which) const;
-  // The magnitude of the faintest stars that any frame of the show draws.
+  // Returns the magnitude of the faintest stars that any frame of the show draws.
   double faintest_magnitude(SkyRegion which) const;
 
   const Show& show_;
   SkyDetail detail_;
   std::mutex loading_;
-  PerSky<std::deque<Kept>> skies_;  // whose elements stay where they are
+  PerSky<std::deque<Kept>> skies_;  // a deque, so that elements stay where they are
   std::map<std::filesystem::path, std::shared_ptr<const SkyMap>> maps_;
-  std::set<std::filesystem::path> made_;  // those of the maps that are made of images
-  std::set<std::filesystem::path> tried_;
+  std::set<std::filesystem::path> made_;   // the files of maps that are made of images
+  std::set<std::filesystem::path> tried_;  // the files that were tested and not loaded
   std::uint64_t plans_ = 0;
 };
 

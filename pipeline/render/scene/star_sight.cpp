@@ -9,6 +9,8 @@ namespace {
 constexpr double kLeastSource = 1e-4;  // radians; it bounds the light of a star on the axis
 constexpr int kMostOrders = 24;        // as many as the renderer tries
 
+// Returns the image of a source without lensing.  The boost from the observer at rest to the tetrad
+// multiplies the frequency by `ratio` and divides solid angles by its square.
 SkyImage straight_image(const Vantage& vantage, double r, const V3d& source) {
   const AberratedLight at = to_tetrad(vantage.rest, source);
   const double ratio = at.frequency_ratio;

@@ -1,5 +1,6 @@
-// Where one observer sees the images of a star, by the exact inverse of the tables: for names and
-// questions about single stars.  The renderer's StarImageFinder finds those of millions.
+// Finds where one observer sees the images of a star, by the exact inverse of the tables.  It
+// serves names and questions about single stars, while the renderer's StarImageFinder finds the
+// images of millions.
 #pragma once
 
 #include "pipeline/optics/hole_optics.h"
@@ -14,18 +15,18 @@ class StarSight {
   // The show and the state must outlive this.
   StarSight(const Show& show, const FrameState& state);
 
-  // Whether stars of that sky are seen at all.
+  // Says whether stars of that sky are seen at all.
   bool sees(SkyRegion sky) const;
-  // The number of images that a star has and the renderer looks for: 1 where light goes straight,
-  // and 2 where all are equally bright.
+  // Returns the number of images of a star that the renderer looks for.  It is 1 where light goes
+  // straight, and 2 where all images are equally bright.
   int orders() const;
 
   struct Image {
     CameraDirection direction;
-    // The flux, as the renderer draws it under the show's effects, over the star's.
+    // the flux, as the renderer draws it under the show's effects, over the star's own
     double brightening;
   };
-  // The image of an order (image_of) below orders().
+  // Returns the image of an order (image_of) below orders().
   Image image(SkyRegion sky, const SkyDirection& star, int order) const;
 
  private:
