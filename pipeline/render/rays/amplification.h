@@ -16,8 +16,9 @@ struct RayBundle {
 // Returns f of [Riazuelo] eq. eq_ampl, the solid angle of an image over that of its source, for an
 // image of `width` (radians in the view, > 0):
 //     f = |sin angle| / (|sin azimuth| slope doppler^2).
-// The lens turns a ring of solid angle 2 pi sin(azimuth) d azimuth into one of 2 pi sin(angle) d
-// angle, and the boost from the tetrad to the view divides solid angles by doppler^2.
+// The lens turns a ring of solid angle 2 pi sin(azimuth) d azimuth into a ring of solid angle
+// 2 pi sin(angle) d angle.  The boost from the tetrad to the view divides solid angles by
+// doppler^2.
 //
 // Both sines are averaged, the first over the width and the second over the azimuths that the width
 // sweeps.  So 1/f is the mean of its values across the image: the part of the sky that the image

@@ -15,6 +15,7 @@ namespace {
     // The other axis of the ellipse lies along the vector product of `along` and the direction.
     const double across_x = y * sz - z * sy, across_y = z * sx - x * sz, across_z = x * sy - y * sx;
     const double r = b.radial_scale[k], t = b.tangential_scale[k];
+    // The ellipse is longer along the azimuth where the radial scale is the larger one.
     const bool radial = r >= t;
     const double wide = angle[k] * (radial ? r : t), narrow = angle[k] * (radial ? t : r);
     out.x[k] = static_cast<float>(sx);

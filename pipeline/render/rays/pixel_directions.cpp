@@ -41,6 +41,7 @@ struct EquirectangularView {
   double scale;  // radians per pixel
 
   CameraDirection direction(double x, double y) const {
+    // Rows are counted downwards, and latitudes upwards.
     const SineCosine longitude = sin_cos(x * scale), latitude = sin_cos(-y * scale);
     return {{longitude.sine * latitude.cosine, longitude.cosine * latitude.cosine, latitude.sine}};
   }

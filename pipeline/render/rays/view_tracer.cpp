@@ -19,6 +19,7 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const 
       far_(far_sky(state.observer.tetrad)),
       s_(std::sqrt(2 / state.observer.r)),
       one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {
+  // The boost to an observer with celerity c is that to rest with -c (aberration.h).
   if (vantage_.measured) to_measured_.emplace(-*vantage_.measured);
   if (effects.lensing || flat_) return;
   to_rest_.emplace(-vantage_.rest);

@@ -55,6 +55,7 @@ int BodySight::first_order(const Body& body) const {
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
   const auto image = traced(body, order);
   if (!image || !is_outside(*image, radius_of(body))) return std::nullopt;
+  // At kBodyMagnitudeDistance an area has the solid angle 1/distance^2 of itself.
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
   return Image{{{image->direction}, image->frequency_ratio, light}, *image};
@@ -72,6 +73,7 @@ std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, do
       size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
     return {};
   std::vector<SkyImage> pieces = image_of_sphere(image.traced, radius, spacing);
+  // The pieces have their solid angles, which become amplifications of the whole disc of the star.
   for (SkyImage& piece : pieces) piece.amplification /= std::numbers::pi * whole * whole;
   return pieces;
 }

@@ -15,7 +15,7 @@ namespace domefall {
 
 class BodySight {
  public:
-  // The show and the state must outlive this.
+  // The show and the state must outlive this object.
   BodySight(const Show& show, const FrameState& state);
 
   // Says whether bodies, which are in region I, are seen at all.

@@ -40,6 +40,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   // No light of a sky enters region IV.
   if (o.region != Region::kIV) add(home_sky(o.tetrad));
   if (inside) add(far_sky(o.tetrad));
+  // Rays that neither sky has come from the past singularity.
   if (plan.gravity) add(SkyRegion::kIV);
   return plan;
 }

@@ -20,6 +20,7 @@ double brightness_of(const FramePlan::Sky& sky) {
   return panorama ? panorama->brightness : 1;
 }
 
+// The exposure, the gain at this instant and the brightness of a panorama become one scale.
 PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameState& state,
                                                const FramePlan& plan,
                                                const PerSky<const Sky*>& skies, double exposure) {

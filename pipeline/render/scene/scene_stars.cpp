@@ -55,6 +55,7 @@ SceneStars::SceneStars(const std::vector<Star>& stars) {
   const auto brighter = [&](std::uint32_t a, std::uint32_t b) {
     return stars[a].v_magnitude < stars[b].v_magnitude;
   };
+  // Catalogues are sorted as a rule, so that the test saves time.
   if (!std::is_sorted(order.begin(), order.end(), brighter))
     std::stable_sort(order.begin(), order.end(), brighter);
   reserve(stars.size());
@@ -73,6 +74,7 @@ SceneStars::SceneStars(std::vector<SceneStar> stars) {
   reserve(stars.size());
   for (const SceneStar& s : stars) {
     push_back(s.direction.v, s.magnitude, s.flux, s.temperature);
+    // The star's own radius takes the place of the one that follows from its flux.
     angular_radius_.back() = static_cast<float>(s.angular_radius);
   }
   find_bounds();

@@ -19,8 +19,8 @@ WorkingRgb operator*(const WorkingRgb& c, double k) {
 }
 
 // These are the factors to the intensity of a panorama without spectra, on both sides of g = 1.  It
-// falls by an exponential of the redshift and grows by a power of the blueshift ([Riazuelo] sec.
-// ssec_rgb).  Both factors are 1 at g = 1.
+// falls by an exponential of the redshift and grows by a power of the blueshift
+// ([Riazuelo] sec. ssec_rgb).  Both factors are 1 at g = 1.
 double redshifted(double g) { return exponential(1 - 1 / g); }
 double blueshifted(const PanoramaShift& shift, double g) {
   return shift.blueshift_power == 2 ? g * g : std::pow(g, shift.blueshift_power);
@@ -30,7 +30,8 @@ double blueshifted(const PanoramaShift& shift, double g) {
 // finite.
 constexpr double kMostGain = 1e28;
 
-// Computes gain_of(redshifted(g)) for many frequency ratios.
+// Computes gain_of(redshifted(g)) for many frequency ratios.  The factors stand in the order of
+// gain_of, so that both give the same bits.
 [[gnu::always_inline]] inline void red_gains_loop(const double* g, int count, double unit,
                                                   double scale, float* gain) {
   for (int k = 0; k < count; ++k) {
@@ -130,6 +131,8 @@ WorkingRgb SkyLight::rings_at(double phase, double width) const {
 
 LightShift SkyLight::shift(double g) const {
   if (map_->kind() == SkyMapKind::kColour) return {gain_of(intensity(g)), 0};
+  // Of a thermal map the colour is looked up by the shifted temperature, per unit of bolometric
+  // light, so that the gain has the whole fourth power.
   const double ratio = colour_ratio(effects_, g), ratio2 = ratio * ratio;
   return {gain_of(ratio2 * ratio2 * surface_brightness_ratio(effects_, g)),
           static_cast<float>(std::log2(ratio))};

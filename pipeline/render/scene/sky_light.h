@@ -25,11 +25,11 @@ class SkyLight {
            double scale);
 
   const Sky& sky() const { return *sky_; }
-  // Null unless the background is a map.
+  // Returns null unless the background is a map.
   const SkyMap* map() const { return map_; }
 
   bool is_grid() const { return std::holds_alternative<Grid>(sky_->background); }
-  // Null unless the background is rings.
+  // Returns null unless the background is rings.
   const Rings* rings() const { return std::get_if<Rings>(&sky_->background); }
 
   // Returns what is subtracted from the map's light before anything else is done to it, in units of

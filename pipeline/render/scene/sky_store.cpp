@@ -84,6 +84,7 @@ void SkyStore::load_stars(SkyRegion which, Kept& kept) {
         return;
       }
   StarCatalogue catalogue = read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch);
+  // Where the limit changes, a star that stands for others would come and go with the light of all.
   if (detail_.whole_stars > 0 && !limit_changes(which))
     catalogue.stars = thinned(catalogue.stars, detail_.whole_stars);
   kept.sky.stars = std::make_shared<const SceneStars>(catalogue.stars);
@@ -157,6 +158,7 @@ void SkyStore::load(const FramePlan& plan) {
     if (!plan[which].lit()) continue;
     const std::optional<SkyBackground> shown = shown_in(plan[which]);
     const auto* panorama = shown ? std::get_if<PanoramaSky>(&*shown) : nullptr;
+    // A map for which another one must go is loaded when its frame comes, and not before.
     if (!panorama || maps_.contains(panorama->image) || has_room())
       sky(which, shown, plan[which].stars);
     else if (tried_.insert(panorama->image).second)

@@ -43,6 +43,8 @@ StarSight::Image StarSight::image(SkyRegion sky, const SkyDirection& star, int o
                           ? image_of(optics_.table_of(sky), source, order, kLeastSource)
                           : straight_image(vantage_, observer_.r, source);
   const AberratedLight seen = to_observer(vantage_.celerity, at.direction.v);
+  // The frequency changes from the star to the tetrad, from there to the observer whose directions
+  // are drawn, and from this one to the observer who measures it.
   double g = at.frequency_ratio * seen.frequency_ratio;
   if (vantage_.measured) g *= to_observer(*vantage_.measured, seen.direction).frequency_ratio;
   return {{apply_transposed(observer_.tetrad_from_camera, seen.direction)},

@@ -12,7 +12,7 @@ namespace domefall {
 
 class StarSight {
  public:
-  // The show and the state must outlive this.
+  // The show and the state must outlive this object.
   StarSight(const Show& show, const FrameState& state);
 
   // Says whether stars of that sky are seen at all.
