@@ -6,6 +6,7 @@ namespace domefall {
 
 FileStamp::FileStamp(const std::filesystem::path& file) {
   struct stat status {};
+  // A path without a file keeps a stamp of zeros.
   if (stat(file.c_str(), &status) != 0) return;
   device = status.st_dev;
   number = status.st_ino;

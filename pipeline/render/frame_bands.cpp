@@ -14,11 +14,12 @@
 namespace domefall {
 namespace {
 
+// Stars and skies are drawn in the same bands.
 static_assert(kBandRows == RayGrid::kStep);
 
-// The number of bands that one thread draws in succession where there are splats.  The splats at
-// both ends of such a run are added by its neighbours too, so a run is long.  But each thread has
-// several runs, so that none waits long for another at the end.
+// Returns the number of bands that one thread draws in succession where there are splats.  The
+// splats at both ends of such a run are added by its neighbours too, so a run is long.  But each
+// thread has several runs, so that none waits long for another at the end.
 int bands_in_a_run(int bands) {
   constexpr int kRuns = 8, kLeast = 8;
   const int threads = tbb::this_task_arena::max_concurrency();
@@ -50,6 +51,7 @@ void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame
   }
   std::fill(out, out + first, T(0));
   std::fill(out + end, out + 3 * frame.width, T(0));
+  // Only a row that failed is searched for the pixel.
   if (store(rgb + first, end - first, out + first)) return;
   for (int k = 0; k < 3 * frame.width; ++k)
     if (!std::isfinite(rgb[k]))
@@ -57,12 +59,13 @@ void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame
           fmt::format("pixel ({}, {}) is not a finite number", k / 3 + 1, row + 1));
 }
 
-// Ends the stars of a band at the borders of the skies.  Nearly all of a band sees a sky as a whole
-// and costs nothing: only blocks of columns that see none, or a border, are looked at.
+// A StarsEnd ends the stars of a band at the borders of the skies.  Nearly all of a band sees a sky
+// as a whole and costs nothing, since only blocks of columns that see no sky, or a border, are
+// visited.
 class StarsEnd {
  public:
-  // Looks which blocks of the band's columns within the box do not see a sky as a whole, and keeps
-  // their pixels as they are without stars.
+  // Finds the blocks of the band's columns within the box that do not see a sky as a whole, and
+  // keeps their pixels as they are without stars.
   StarsEnd(const SkyBorders& borders, const Projection& projection, const PixelBox& box, int first,
            int end, const float* rgb, std::vector<float>& kept)
       : borders_(borders), projection_(projection), first_(first), end_(end), kept_(kept) {
@@ -72,7 +75,7 @@ class StarsEnd {
     directions_along(projection,
                      {box.first_column + 1 + (kColumns - 1) / 2.0, first + 0.5 + half_rows},
                      kColumns, blocks, middles.data());
-    // No pixel is wider than the central one.
+    // No pixel is wider than the central one, so half of the block's diagonal is a safe reach.
     const double reach = central_pixel_angle(projection) * std::hypot(kColumns / 2.0, half_rows);
     kept_.clear();
     for (int k = 0; k < blocks; ++k) {
@@ -87,7 +90,7 @@ class StarsEnd {
     }
   }
 
-  // Takes the light of stars off the pixels that see no sky, and a part of it off those on a
+  // Removes the light of stars from the pixels that see no sky, and a part of it from those on a
   // border.
   void end_stars(float* rgb) const {
     const float* before = kept_.data();
@@ -108,7 +111,8 @@ class StarsEnd {
     SkyBorders::Sight sight;
   };
 
-  // Calls what(row, where its floats of the block begin in a band, their number) for each row.
+  // Calls what(row, at, count) for each row of a block.  Its floats are the `count` floats of the
+  // band from `at` on.
   template <class What>
   void each_row(const Block& block, const What& what) const {
     const auto width = static_cast<std::size_t>(columns(projection_));
@@ -147,12 +151,14 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
   const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
   const auto draw_band = [&](int band, SplatBuffer& splats) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
+    // SkyPass may overwrite one float behind the last row.
     std::vector<float>& rgb = memory.rows.local();
     rgb.resize(stride * kBandRows + 1);
     if (lit)
       sky.fill_band(band, rgb.data());
     else
       std::fill(rgb.begin(), rgb.end(), 0.0f);
+    // The order matters: stars end before the disc and the bodies, which are nearer, are drawn.
     const bool bordered = box && first <= box->last_row && end > box->first_row;
     std::optional<StarsEnd> stars_end;
     if (bordered)

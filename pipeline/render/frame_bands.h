@@ -1,4 +1,4 @@
-// The pixels of a frame, in bands of rows.  Each band is shaded, covered with stars and stored
+// Draws the pixels of a frame in bands of rows.  Each band is shaded, covered with stars and stored
 // while it is in the cache of one thread.
 #pragma once
 
@@ -16,26 +16,26 @@
 
 namespace domefall {
 
-// What rendering throws when it was told to stop.
+// Rendering throws RenderStopped when it was told to stop.
 struct RenderStopped {};
 
-// The memory of each thread, kept from frame to frame, since new memory costs more time than
-// writing into it.
+// BandMemory is the memory of each thread.  It is kept from frame to frame, since getting new
+// memory takes more time than writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatBuffer> splats{};
   tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{};
-  const std::atomic<bool>* stop = nullptr;  // set by whoever wants no more of the frame; or null
+  const std::atomic<bool>* stop = nullptr;  // set to end the frame early; or null
 
   void throw_if_stopped() const {
     if (stop && *stop) throw RenderStopped{};
   }
 };
 
-// Draws skies and stars, the disc before them and bodies, unless these are null, into a
-// frame of the projection's size, by all threads of the arena that calls.  Where there are borders,
-// stars end at them, and bodies do not.  In a half frame, a value beyond the largest
-// half (65504) is stored as that.  T is Imath::half or float.  Throws std::runtime_error, naming
-// the pixel, if a value is not finite, and RenderStopped once `stop` is set.
+// Draws skies and stars, the disc in front of them, and bodies into a frame of the projection's
+// size, by all threads of the arena that calls.  The disc and the bodies may be null.  If borders
+// are given, stars end at them, but bodies do not.  In a half frame, a value beyond the largest
+// half (65504) is stored as the largest.  T is Imath::half or float.  Throws std::runtime_error,
+// naming the pixel, if a value is not finite, and RenderStopped once `stop` is set.
 template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
                 const DiscPass* disc, const std::optional<SkyBorders>& borders,

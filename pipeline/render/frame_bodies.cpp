@@ -9,7 +9,7 @@ namespace domefall {
 
 namespace {
 
-// Draws one image.  Returns whether it is bright enough.
+// Appends one image, and says whether it is bright enough.
 bool append_body(const BodySight& sight, const Body& body, const BodySight::Image& image,
                  const DiscPass* disc, const FrameScene& scene, const StarImageFinder& finder,
                  std::vector<StarImage>& images) {
@@ -17,6 +17,7 @@ bool append_body(const BodySight& sight, const Body& body, const BodySight::Imag
   std::vector<SkyImage> pieces = sight.pieces(body, image, scene.point_spread.least());
   const bool is_one = pieces.empty();
   if (is_one) pieces.push_back(image.at);
+  // The disc hides each piece by itself, since the edge of its image may cross that of the body.
   if (disc)
     for (SkyImage& piece : pieces)
       piece.amplification *= disc->left_before(sight.seen(piece).direction, image.traced.psi);
@@ -32,6 +33,7 @@ void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc,
   if (sight.sees()) {
     const StarImageFinder finder(scene, SkyRegion::kI);
     for (const Body& body : show.bodies) {
+      // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
       int faint = 0;
       for (int order = sight.first_order(body);
            order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {

@@ -1,4 +1,4 @@
-// The bodies of a frame, laid out as blobs that are ready to be drawn.
+// Lays out the bodies of a frame as blobs that are ready to be drawn.
 #pragma once
 
 #include "pipeline/render/blobs/blob_layer.h"
@@ -8,7 +8,7 @@
 namespace domefall {
 
 // Adds all images of the show's bodies that are bright enough to an empty layer.  Each is dimmed by
-// what its light has met of the disc, which is null where there is none.
+// the parts of the disc that its light has crossed.  `disc` is null where there is none.
 void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc, BlobLayer& layer);
 
 }  // namespace domefall

@@ -23,6 +23,7 @@ void in_parts(int rows, int parts, const Step& step) {
 
 void FrameGrading::grade(const HalfFrame& frame, const FrameState& state,
                          const std::function<void(const RowPicture&)>& use) {
+  // The grader of the frame before is used again if its CDL is the same.
   of_frame_ = of_frame_.value_or(of_show_).with(state.cdl);
   if (!of_show_.dome_light())
     return use({frame.width, frame.height, [&](int first, int end, unsigned short* rgb) {
@@ -34,6 +35,8 @@ void FrameGrading::grade(const HalfFrame& frame, const FrameState& state,
        }});
 }
 
+// Each part measures the areas of the codes in its own rows.  Their sums say how much light the
+// dome sends onto itself, and the map that follows from them then changes all rows.
 GradedFrame FrameGrading::with_dome_light(const HalfFrame& frame) const {
   GradedFrame whole(frame.width, frame.height);
   std::vector<DomeCodes> parts(static_cast<std::size_t>(threads_));

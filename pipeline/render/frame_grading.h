@@ -1,4 +1,4 @@
-// Grades rendered frames for a run: row by row where that can be, and by all threads.
+// Grades the rendered frames of a run, row by row where this is possible, and by all threads.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,18 @@ namespace domefall {
 
 class FrameGrading {
  public:
-  // The grade of the show must outlive this.
+  // The grade of the show must outlive this object.
   FrameGrading(const Grader& of_show, int threads) : of_show_(of_show), threads_(threads) {}
 
-  // Calls `use` with the graded frame, whose rows are graded as they are asked for.  With the dome's
-  // own light all are graded before the first, since the light of each falls on all others.  Not
-  // for two threads at once.  Throws as Grader::with, and what `use` throws.
+  // Calls `use` with the graded frame, whose rows are graded when they are asked for.  With the
+  // dome's own light all rows are graded before the first is given, since the light of each falls
+  // on all others.  Two threads must not call this at once.  Throws as Grader::with, and what `use`
+  // throws.
   void grade(const HalfFrame& frame, const FrameState& state,
              const std::function<void(const RowPicture&)>& use);
 
-  // That of the frame graded last; nothing for one that was graded by the formulas.
+  // Returns the error of the table by which the frame graded last was graded.  Returns nothing for
+  // a frame that was graded by the formulas.
   std::optional<TableError> table_error(const HalfFrame& frame) const {
     return of_frame_->table_error(frame);
   }
@@ -31,10 +33,10 @@ class FrameGrading {
 
   const Grader& of_show_;
   int threads_;
-  std::optional<Grader> of_frame_;  // kept for the frames after it
+  std::optional<Grader> of_frame_;  // kept for the frames that follow
 };
 
-// A number of threads as --threads gives it, where 0 stands for one per processor.
+// Returns the number of threads that --threads asks for, where 0 stands for one per processor.
 int all_threads(int given);
 
 }  // namespace domefall

@@ -17,12 +17,12 @@
 namespace domefall {
 namespace {
 
-// They are raised with every change that alters a pixel, that of bodies where there are any, so
-// that older frames are made again.
+// The versions are raised with every change that alters a pixel, so that older frames are made
+// again.  That of bodies counts for shows with bodies only.
 constexpr int kPixelVersion = 10, kBodiesVersion = 2;
 
-// What came after the first version is added only where it is in use, so that other shows keep
-// their keys.
+// Adds a law.  Settings that came after the first version are added only where they are in use, so
+// that other shows keep their keys.
 void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
   for (const double v : {law.min_sigma, law.growth, law.reference_magnitude, law.max_sigma})
     digest.add(v);
@@ -39,7 +39,7 @@ void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
 
 }  // namespace
 
-// The stamp is taken first: a change after it is seen by touched_asset().
+// The stamp is taken before the file is read, so that touched_asset() sees a change in between.
 void FrameKeys::stamp(const std::filesystem::path& file) {
   assets_.emplace_back(file, FileStamp(file));
 }
@@ -60,8 +60,7 @@ void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
   digest.add(sky.stars ? "stars" : "no stars");
   if (!sky.stars) return;
   stamp(sky.stars->catalogue);
-  // The header of a binary catalogue has a digest of its content, so that the rest need not be
-  // read.
+  // The header of a binary catalogue has a digest of its content, so the rest need not be read.
   if (const auto print = star_file_fingerprint(sky.stars->catalogue))
     digest.add(*print);
   else
@@ -100,7 +99,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     common.add("body").add(kBodiesVersion);
     for (const V3d& v : {body.normal.v, body.node.v})
       for (const double x : {v.x, v.y, v.z}) common.add(steady(x));
-    // Whoever moves freely is told by how it starts.
+    // The start of a free motion determines all of it.
     const OrbitPoint start = point_at(body.trajectory, body.start);
     common.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
     for (const double x : {start.r, start.celerity.x, start.celerity.z}) common.add(steady(x));
@@ -144,7 +143,7 @@ std::string FrameKeys::scene(const FrameState& state) const {
 
 std::string FrameKeys::exposed(const FrameState& state) const {
   if (!(show_.exposure.shutter > 0)) return instant(state);
-  // Three instants stand for all those for which the shutter is open.
+  // Three instants stand for all that are seen while the shutter is open.
   Digest digest;
   for (FrameState& exposed : exposure_states(show_, state.frame, 3)) {
     take_size(state, exposed);
@@ -161,6 +160,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
   add_projection(digest, state.projection);
   digest.add(steady(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);
+  // Settings of a sky enter the keys of the frames that can see it, and of no others.
   if (o.region == Region::kII || o.region == Region::kIII) {
     digest.add(sky_three_);
     add_settings(digest, state.settings.sky[SkyRegion::kIII]);
@@ -175,6 +175,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
     const V3d turn = sky_turn(show_, state);
     for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
   }
+  // Whatever moves or glows with time is seen by the observer's null time.
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
   if (!show_.bodies.empty()) digest.add("bodies").add(steady(o.null_time));
   if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity)) digest.add(steady(o.null_time));
@@ -189,6 +190,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
 std::string FrameKeys::graded(const std::string& scene_key, const FrameState& state) const {
   Digest digest;
   digest.add(scene_key).add(grade_);
+  // A CDL that changes nothing adds nothing, so that shows without one keep their keys.
   const Cdl& cdl = state.cdl;
   if (cdl != Cdl{}) {
     digest.add("cdl");

@@ -1,5 +1,5 @@
 // The key of a frame is a digest of all that its pixels depend on, and of nothing else.  So a
-// change to one segment of a show leaves the frames of the others valid.
+// change to one segment of a show leaves the frames of the other segments valid.
 #pragma once
 
 #include <filesystem>
@@ -22,19 +22,20 @@ class FrameKeys {
   // Throws InputError if an asset cannot be read.
   explicit FrameKeys(const Show& show, std::string grade = {});
 
-  // An asset that something has touched since its digest was taken, though perhaps without another
-  // content; nothing if there is none.  What was rendered meanwhile may not be of these keys.
+  // Returns an asset that something has touched since its digest was taken, even if the content is
+  // the same, or nothing if there is none.  Frames rendered meanwhile may not belong to these keys.
   std::optional<std::filesystem::path> touched_asset() const;
-  // Whether two sets of keys of one show saw assets of the same content.
+  // Says whether two sets of keys of one show saw assets of the same content.
   bool same_assets(const FrameKeys& other) const;
 
-  // The digest of what all frames share, which is neither in the timeline nor a sky that only some
-  // of them see.
+  // Returns the digest of what all frames share.  The timeline, and the skies that only some of the
+  // frames see, do not enter it.
   const std::string& show() const { return common_; }
-  // The key of a scene-linear frame.  Throws as titles_key and overlays_key, for a frame
+  // Returns the key of a scene-linear frame.  Throws as titles_key and overlays_key for a frame
   // with titles or overlays.
   std::string scene(const FrameState& state) const;
-  // The key of the graded frame that is made, by the CDL of this state, from the one with this key.
+  // Returns the key of the graded frame that is made from the frame with this key by the CDL of
+  // this state.
   std::string graded(const std::string& scene_key, const FrameState& state) const;
 
  private:
@@ -42,15 +43,15 @@ class FrameKeys {
   void add_background(Digest& digest, const SkyBackground& background);
   void add_sky(Digest& digest, const RegionSky& sky);
   void add_segments();
-  // The key of what is seen while the shutter is open, without what is drawn over it.
+  // Returns the key of what is seen while the shutter is open, without titles and overlays.
   std::string exposed(const FrameState& state) const;
-  // The key of what is seen at one instant.
+  // Returns the key of what is seen at one instant.
   std::string instant(const FrameState& state) const;
 
   const Show& show_;
   std::string common_;
   std::string sky_three_, sky_four_;  // they enter the keys of frames that can see these skies
-  // The backgrounds that segments have of their own, by the segment's index.
+  // backgrounds that segments have of their own, by the segment's index
   std::map<int, std::string> own_skies_;
   std::string grade_;
   std::vector<std::pair<std::filesystem::path, FileStamp>> assets_;

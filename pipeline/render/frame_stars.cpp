@@ -11,15 +11,16 @@
 namespace domefall {
 namespace {
 
-// The number of stars whose images one task finds.  It does not depend on the number of threads,
-// and grows where there are many stars.
+// Returns the number of stars whose images one task finds.  It does not depend on the number of
+// threads, and grows where there are many stars.
 std::size_t stars_per_task(std::size_t count) {
   constexpr std::size_t kLeast = 16 * kStarBatch, kTasks = 64;
   return std::max(kLeast, count / kTasks / kStarBatch * kStarBatch);
 }
 
-// Each task has a place of its own in the layer, in the order of the catalogue, so that the layer
-// holds the same images in the same order for any number of threads.
+// Adds the images of one sky's stars.  Each task has a place of its own in the layer, in the order
+// of the catalogue, so that the layer holds the same images in the same order for any number of
+// threads.
 void add_stars(const StarImageFinder& maker, const SceneStars& stars,
                const PointSpread& point_spread, ImageLists& lists, BlobLayer& layer) {
   const std::size_t count = maker.count(stars);
@@ -34,8 +35,9 @@ void add_stars(const StarImageFinder& maker, const SceneStars& stars,
   });
 }
 
-// Estimates the number of images from the part of the sphere that the frame shows.  To an observer
-// falling at 7 M a dome shows two images of each star on average, which is 4 for the whole sphere.
+// Estimates the number of images from the part of the sphere that the frame shows.  For an observer
+// falling at 7 M a dome shows two images of each star on average, which makes 4 for the whole
+// sphere.
 double images_expected(std::size_t stars, const FrameScene& scene) {
   const Projection& p = scene.projection();
   const double pixel = central_pixel_angle(p);

@@ -1,4 +1,4 @@
-// The stars of a frame, laid out as blobs that are ready to be drawn.
+// Lays out the stars of a frame as blobs that are ready to be drawn.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// The memory for the images that one task finds, one list for each thread.
+// ImageLists is the memory for the images that one task finds, one list for each thread.
 using ImageLists = tbb::enumerable_thread_specific<std::vector<StarImage>>;
 
 // Adds the images of all stars that the frame receives to an empty layer, by all threads of the

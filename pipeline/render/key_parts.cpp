@@ -30,9 +30,11 @@ void add_effects(Digest& digest, const Effects& e) {
 
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
-  // It is raised with every change that alters the pixels of discs alone.
+  // This is raised with every change that alters the pixels of discs alone.
   constexpr int kDiscVersion = 2;
   digest.add("disc").add(kDiscVersion).add(disc->inner).add(disc->outer);
+  // The axes come from sines, which differ between processors.  The other numbers stand in the
+  // show.
   for (const V3d& axis : {disc->normal.v, disc->node.v})
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(steady(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);

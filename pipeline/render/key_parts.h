@@ -1,4 +1,4 @@
-// What the keys of frames and of lens maps have in common.
+// Adds to digests what the keys of frames and of lens maps have in common.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace domefall {
 
-// Each adds all of its second argument, with numbers as steady.h rounds them.
+// Each of these functions adds all of its second argument, with numbers as steady.h rounds them.
 void add_observer(Digest& digest, const ObserverState& observer);
 void add_projection(Digest& digest, const Projection& projection);
 // Shows that leave no effect out keep the keys that they had before effects could be left out.

@@ -16,12 +16,12 @@
 namespace domefall {
 namespace {
 
-// It is raised with every change that alters a number.
+// The version is raised with every change that alters a number.
 constexpr int kLensMapVersion = 1;
 
 constexpr double kHalfTurn = 180;  // degrees
 
-// The number of a region in a channel.
+// Returns the number that stands for a region in its channel.
 float number_of(SkyRegion sky) {
   switch (sky) {
     case SkyRegion::kI:
@@ -36,14 +36,14 @@ float number_of(SkyRegion sky) {
 
 class LensMapper {
  public:
-  // `show` and `state` must outlive this.
+  // `show` and `state` must outlive this object.
   LensMapper(const Show& show, const FrameState& state)
       : projection_(state.projection),
         straight_(is_flat(state.observer) || !show.effects.lensing),
         optics_(make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}})),
         tracer_(state, optics_, show.effects) {}
 
-  // Fills the numbers of a pixel, which are 0 before.
+  // Fills in the numbers of a pixel, which must be 0 before.
   void fill(PixelPosition at, float* out) const {
     if (!is_inside(projection_, at)) return;
     const ViewRay ray = tracer_.trace(direction_at(projection_, at));
@@ -61,6 +61,7 @@ class LensMapper {
     if (ray.sky == SkyRegion::kIV) return;
     set(kOnePlusZ, 1 / ray.frequency_ratio);
     set(kAmplification, amplification(ray.bundle, pixel_angle(projection_, at)));
+    // Images of one order have swept azimuths between two neighbouring multiples of pi.
     if (!straight_) set(kOrder, std::floor(ray.bundle.azimuth / std::numbers::pi));
   }
 
@@ -89,7 +90,7 @@ const std::vector<std::string>& lens_channel_names() {
 
 SkyMapPlace sky_map_place(const V3d& d) {
   const double turns = std::atan2(d.y, d.x) / (2 * std::numbers::pi);  // of right ascension
-  // Of the map's left edge and its right one, which are the same meridian, this is the left.
+  // The left and the right edge of the map are one meridian, which counts as the left edge.
   const double s = turns < 0.5 ? 0.5 - turns : 0.0;
   return {s < 1 ? s : 0.0, 0.5 + std::atan2(d.z, std::hypot(d.x, d.y)) / std::numbers::pi};
 }

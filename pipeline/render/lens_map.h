@@ -1,5 +1,5 @@
-// Lens maps: for each pixel of a frame where on the sky its light started and what became of it, as
-// numbers by which other programs lens pictures of their own.
+// A lens map says for each pixel of a frame where on the sky its light started and what became of
+// it.  Other programs lens pictures of their own by these numbers.
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@ enum LensChannel {
   kSkyX,  // unit vector on the sky, equatorial J2000
   kSkyY,
   kSkyZ,
-  kStS,  // place on the sky by longitude and latitude: from the left and the bottom, 0 to 1
+  kStS,  // place on a map by longitude and latitude: from the left and the bottom, 0 to 1
   kStT,
   kSkyRegion,      // 1, 3 or 4; 0 outside the picture, where all other channels are 0, too
-  kOnePlusZ,       // 0 for the past singularity's light, as the next two
+  kOnePlusZ,       // 0 for the past singularity's light, as are the next two
   kAmplification,  // over the pixel's width
   kOrder,          // of the image: whole half turns about the hole
   kEdgeDistance,   // degrees in the view to the nearest edge of a sky; 180 where there is none
@@ -26,18 +26,21 @@ enum LensChannel {
 };
 const std::vector<std::string>& lens_channel_names();
 
-// The place of a direction (unit, equatorial J2000) on a map of the sky by longitude and latitude
-// as shows take them: north up, RA 0 in the middle and growing to the left.
+// A SkyMapPlace is a place on a map of the sky by longitude and latitude as shows take it: north is
+// up, and RA is 0 in the middle and grows to the left.
 struct SkyMapPlace {
   double s, t;  // 0 <= s < 1 from the left, 0 <= t <= 1 from the bottom
 };
+// Returns the place of a direction (unit, equatorial J2000).
 SkyMapPlace sky_map_place(const V3d& direction);
 
-// The key of a frame's lens map: a digest of all that it depends on.  No asset is read for it.
+// Returns the key of a frame's lens map, a digest of all that it depends on.  No asset is read for
+// it.
 std::string lens_map_key(const Show& show, const FrameState& state);
 
-// Makes the lens map of an instant, by `threads` threads: the pixels' centres, each by the exact
-// ray of ViewTracer::trace.  In a dissolve it is that of the view with more of the light.
+// Makes the lens map of an instant by `threads` threads.  Each pixel is described at its centre,
+// by the exact ray of ViewTracer::trace.  In a dissolve it is the map of the view with more of the
+// light.
 ChannelImage make_lens_map(const Show& show, const FrameState& state, int threads);
 
 }  // namespace domefall

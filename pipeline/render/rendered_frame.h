@@ -1,4 +1,4 @@
-// A frame as the files of a show ask for it.
+// A RenderedFrame is a frame in the precisions that the files of a show ask for.
 #pragma once
 
 #include "pipeline/image/frame_file.h"
@@ -7,15 +7,16 @@
 namespace domefall {
 
 struct RenderedFrame {
-  HalfFrame half;   // what is graded
+  HalfFrame half;   // the one that is graded
   FloatImage full;  // in full precision, where the show's scene-linear files are of floats
 };
 
+// Says whether the show's scene-linear files are of floats.
 inline bool keeps_floats(const Show& show) {
   return show.output.linear && show.output.linear->pixels == ExrPixels::kFloat;
 }
 
-// Renders a frame by anything that renders both kinds, into memory that is used again.
+// Renders a frame by any renderer of both kinds, into memory that is used again.
 template <class AnyRenderer>
 void render_for_files(AnyRenderer& renderer, const Show& show, const FrameState& state,
                       RenderedFrame& frame) {

@@ -26,7 +26,7 @@ namespace {
 
 class StopWatch {
  public:
-  // The seconds since the last lap.
+  // Returns the seconds since the last lap.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
@@ -36,13 +36,14 @@ class StopWatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// More threads than processors would gain nothing, and TBB would warn of them on the terminal.
+// Returns the number of threads to use.  More threads than processors would gain nothing, and TBB
+// would warn of them on the terminal.
 int threads_of(int wanted) {
   const int processors = tbb::info::default_concurrency();
   return wanted > 0 ? std::min(wanted, processors) : processors;
 }
 
-// Leaves a part of a frame's light.
+// Leaves only a part of a frame's light.
 template <class T>
 void fade(ImageRgb<T>& frame, double part) {
   const auto left = static_cast<float>(part);
@@ -61,7 +62,7 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
   }
 }
 
-// The state of a picture's part.
+// Returns the state of a picture's part, whose camera is turned by the axes of the part.
 FrameState looking_through(const FrameState& state, const PicturePart& part) {
   FrameState looking = state;
   looking.projection = part.projection;
@@ -73,8 +74,8 @@ FrameState looking_through(const FrameState& state, const PicturePart& part) {
 
 }  // namespace
 
-// The threads, and memory that is kept from frame to frame, since new memory costs more time than
-// writing into it.
+// Memory holds the threads, and the memory that is kept from frame to frame, since getting new
+// memory takes more time than writing into it.
 struct Renderer::Memory {
   tbb::task_arena arena;
   RayGrid grid{};
@@ -131,6 +132,7 @@ template <class T>
 void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times) {
   StageTimes sum;
   sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;
+  // With a closed shutter the next instant that is seen is the next frame.
   const double gap = show_.exposure.shutter > 0 ? show_.exposure.shutter / sum.instants : 1;
   if (sum.instants == 1) {
     render_instant(state, gap, frame, sum);
@@ -164,6 +166,7 @@ void Renderer::render_instant(const FrameState& state, double gap, ImageRgb<T>& 
   times.add(own);
 }
 
+// Each of the views in a dissolve has a fade of its own.
 template <class T>
 void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& frame,
                             StageTimes& times) {
@@ -171,7 +174,8 @@ void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& fr
   if (state.fade < 1) fade(frame, state.fade);
 }
 
-// The faces of a cube are pictures of their own, each of which knows of the stars beyond its edges.
+// The faces of a cube are pictures of their own.  Stars beyond the edges of a face still reach into
+// it.
 template <class T>
 void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
                            StageTimes& times) {
@@ -190,7 +194,7 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
   }
 }
 
-// `whole` is the projection of the frame that has this picture as a part, or is it.
+// `whole` is the projection of the frame of which this picture is a part or the whole.
 template <class T>
 void Renderer::render_picture(const FrameState& state, const Projection& whole, double gap,
                               ImageRgb<T>& frame, StageTimes& times) {
@@ -216,6 +220,8 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     UnresolvedSkies unresolved = find_unresolved_skies(scene);
     stars.add(unresolved.blobs);
     stars.sort_into_bands();
+    // The blob of an unresolved sky is in the same layer as the stars, and must not be cut off at
+    // the border of that sky.
     std::optional<SkyBorders> borders;
     if (plan.gravity && show_.effects.lensing && unresolved.blobs.empty() && stars.size() > 0) {
       borders.emplace(state, optics, scene.tracer.vantage());

@@ -19,7 +19,7 @@ class Renderer {
  public:
   // `threads` is the number of threads, at most one for each processor, or 0 for that many.  The
   // show must outlive the renderer.  Throws InputError unless
-  // 1 <= anti_aliasing.samples <= kMostSamples, and TemporaryError where so many threads cannot be
+  // 1 <= anti_aliasing.samples <= kMostSamples, and TemporaryError if so many threads cannot be
   // started.
   explicit Renderer(const Show& show, int threads = 0, AntiAliasing anti_aliasing = {},
                     SkyDetail detail = {});
@@ -29,20 +29,20 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
   Renderer& operator=(Renderer&&) = delete;
 
-  // A frame has the same bytes for any number of threads, alone or in a run.  Values beyond the
-  // largest half (65504) are stored as that.  Throws InputError if an asset cannot be read,
-  // std::runtime_error, naming the pixel, if a value is not finite, and as draw_titles and
-  // draw_overlays.
+  // Renders a frame.  It has the same bytes for any number of threads, alone or in a run.  Values
+  // beyond the largest half (65504) are stored as the largest.  Throws InputError if an asset
+  // cannot be read, and std::runtime_error, naming the pixel, if a value is not finite.  Throws as
+  // draw_titles and draw_overlays, too.
   HalfFrame render(const FrameState& state, StageTimes* times = nullptr);
-  // Renders into `frame`, whose memory is used again if it has the right size.  That saves the time
-  // that new memory costs.
+  // Renders into `frame`, whose memory is used again if it has the right size.  This saves the time
+  // of getting new memory.
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
-  // The same in full precision: values beyond the largest half are kept.
+  // Renders in full precision, so that values beyond the largest half are kept.
   void render(const FrameState& state, FloatImage& frame, StageTimes* times = nullptr);
 
-  // From now on render() throws RenderStopped (frame_bands.h) soon after the flag is set: between
-  // two stages, or amid the drawing.  With null it goes on to the end again.  The flag must outlive
-  // its use.
+  // From now on render() throws RenderStopped (frame_bands.h) soon after the flag is set, either
+  // between two stages or amid the drawing.  With null it runs to its end again.  The flag must
+  // outlive its use.
   void stop_when(const std::atomic<bool>* flag);
 
   // Reads the files that a frame needs before it is rendered.  Throws InputError if one cannot be
@@ -52,8 +52,8 @@ class Renderer {
   // Reads the files of a sky before any frame shows it.  Throws InputError if one cannot be read.
   void load_sky(SkyRegion sky);
 
-  // Returns the luminance (cd/m^2, before the gain) that is taken as black from a map of a sky,
-  // which it loads.
+  // Loads a map of a sky, and returns the luminance (cd/m^2, before the gain) that is subtracted
+  // from it as black.
   double sky_black(SkyRegion sky, const PanoramaSky& map);
 
   int threads() const;
@@ -61,8 +61,8 @@ class Renderer {
  private:
   struct Memory;
 
-  // The stages, for frames of Imath::half and of float.  `gap` is the time to the next instant that
-  // is seen, in frames.
+  // Each of these functions renders by way of the next one, for T = Imath::half and float.  `gap`
+  // is the time to the next instant that is seen, in frames.
   template <class T>
   void render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times);
   template <class T>

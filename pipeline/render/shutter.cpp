@@ -13,18 +13,18 @@
 namespace domefall {
 namespace {
 
-// Motion is measured at so many places along each side of the image, and this part of them may move
-// farther than the result.
+// Motion is measured at kPlaces places along each side of the image, and the part kExceeding of
+// them may move farther than the result.
 constexpr int kPlaces = 24;
 constexpr double kExceeding = 0.05;
-// The least width of a footprint as a part of its length.  On an Einstein ring the width is 0, and
-// any motion would be infinitely many pixels.
+// A footprint counts as no narrower than this part of its length.  On an Einstein ring the width is
+// 0, and any motion would be infinitely many pixels.
 constexpr double kNarrowest = 0.25;
 
-// How far, in pixels, the direct image of a body moves that is bright enough to be seen.
+// Returns how far, in pixels, the direct image of any body moves that is bright enough to be seen.
 double motion_of_bodies(const Show& show, const FrameState& from, const FrameState& to) {
   constexpr double kFaintest = 10;  // V at 0 EV, fainter than the stars of a default sky
-  const double magnitudes_per_stop = 2.5 * std::log10(2.0);
+  const double magnitudes_per_stop = 2.5 * std::log10(2.0);  // a stop doubles the light
   const BodySight before(show, from), after(show, to);
   if (!before.sees() || !after.sees()) return 0;
   double most = 0;
@@ -43,7 +43,7 @@ double motion_of_bodies(const Show& show, const FrameState& from, const FrameSta
 
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
                       OpticsStore& optics) {
-  // The store keeps the optics of one radius only, so the first are copied.
+  // The store keeps the optics of one radius only, so those of the first state are copied.
   const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
   const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
   return std::max(motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
@@ -69,6 +69,7 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       const double shorter = std::min(a.radial_scale, a.tangential_scale);
       const double side = pixel_angle(from.projection, pixel);
       const double other = pixel_solid_angle(from.projection, pixel) / side;
+      // The motion on the sky is divided by the least width of a pixel's footprint there.
       motions.push_back((a.sky_direction - b.sky_direction).length() /
                         (std::min(side, other) * std::max(shorter, kNarrowest * longer)));
     }

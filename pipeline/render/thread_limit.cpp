@@ -17,7 +17,7 @@
 namespace domefall {
 namespace {
 
-// How many of `count` threads can live at the same time.
+// Returns how many of `count` threads can live at the same time, by starting them.
 int threads_to_be_had(int count) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
@@ -27,14 +27,15 @@ int threads_to_be_had(int count) {
     while (static_cast<int>(threads.size()) < count)
       threads.emplace_back([ended] { ended.wait(); });
   } catch (const std::system_error&) {
+    // The system grants no more.
   }
   end.set_value();
   for (std::thread& thread : threads) thread.join();
   return static_cast<int>(threads.size());
 }
 
-// Those of the pools of OpenEXR, OpenImageIO and TBB, those that grade, and those that do one thing
-// beside another.
+// Returns the most threads that a run starts.  The terms of the sum are the pools of OpenEXR,
+// OpenImageIO and TBB, the threads that grade, and those that do one thing beside another.
 int most_threads(int threads) {
   constexpr int kSideBySide = 4;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -42,6 +43,7 @@ int most_threads(int threads) {
          kSideBySide;
 }
 
+// A handler is not told why the program ends, so it tries whether a thread can be started.
 [[noreturn]] void terminate() {
   if (threads_to_be_had(1) == 0) {
     std::fputs("no thread can be started: a limit on threads or processes (ulimit -u, pids.max)\n",

@@ -1,18 +1,19 @@
-// What becomes of a run where the system grants too few threads: ulimit -u, or a cgroup's pids.max.
+// Ends a run in an orderly way where the system grants too few threads, by ulimit -u or the
+// pids.max of a cgroup.
 #pragma once
 
 namespace domefall {
 
-// The exit code for what is worth trying again, here or elsewhere.
+// The exit code (EX_TEMPFAIL of sysexits.h) of a run that is worth trying again, here or elsewhere.
 inline constexpr int kTryAgain = 75;
 
 // Throws TemporaryError unless the system grants all threads of a program that makes frames with
-// `threads` threads of its own.  It asks once, before the first of them is started: the libraries
-// that start threads end the program, or wait for ever, where they cannot.
+// `threads` threads of its own.  It asks once, before the first of them is started, because the
+// libraries end the program, or wait for ever, where they cannot start a thread.
 void require_threads(int threads);
 
-// Where a library ends the program because a thread cannot be started all the same, it says so and
-// exits with kTryAgain.  Any other such end stays as it is.
+// From now on, where a library ends the program because a thread cannot be started after all, the
+// program says so and exits with kTryAgain.  Any other such end stays as it is.
 void end_in_words_without_threads();
 
 }  // namespace domefall
