@@ -1,7 +1,6 @@
 // Blobs drawn the way a frame draws them, and the light that they bring.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -20,56 +19,20 @@ struct DrawnBlobs {
   }
 };
 
-inline DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
-  DrawnBlobs image{p, {}};
-  const auto row = static_cast<std::size_t>(columns(p)) * 3;
-  const int bands = (rows(p) + kBandRows - 1) / kBandRows;
-  image.rgb.resize(row * kBandRows * bands);
-  SplatBuffer buffer;
-  layer.start_buffer(buffer);
-  for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, buffer, image.rgb.data() + row * kBandRows * band);
-  return image;
-}
+DrawnBlobs drawn(const BlobLayer& layer, const Projection& p);
+DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
+                 const PointSpread& widths);
 
-inline DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
-                        const PointSpread& widths) {
-  BlobLayer layer(p);
-  layer.add(images, widths);
-  layer.sort_into_bands();
-  return drawn(layer, p);
-}
+// Returns the sum of red over the image, each pixel times its solid angle.
+double flux_of(const DrawnBlobs& image);
 
 // The sum of red over the bands about a blob, each pixel times its solid angle, and the brightest
 // pixel.
 struct Brought {
   double flux = 0, peak = 0;
 };
-inline Brought brought(const StarImage& image, const Projection& p, const PointSpread& widths,
-                       int reach = 48) {
-  BlobLayer layer(p);
-  layer.add({image}, widths);
-  layer.sort_into_bands();
-  const int bands = (rows(p) + kBandRows - 1) / kBandRows, width = columns(p);
-  std::vector<float> rgb(static_cast<std::size_t>(width) * 3 * kBandRows);
-  Brought sum;
-  const int first = std::max(0, (static_cast<int>(image.y) - reach) / kBandRows);
-  const int last = std::min(bands - 1, (static_cast<int>(image.y) + reach) / kBandRows);
-  SplatBuffer buffer;
-  layer.start_buffer(buffer);
-  for (int band = first; band <= last; ++band) {
-    std::fill(rgb.begin(), rgb.end(), 0.0f);
-    layer.draw_band(band, buffer, rgb.data());
-    for (int k = 0; k < width * kBandRows; ++k) {
-      const double value = rgb[3 * static_cast<std::size_t>(k)];
-      if (value == 0) continue;
-      sum.peak = std::max(sum.peak, value);
-      sum.flux +=
-          value * pixel_solid_angle(p, {k % width + 1.0, band * kBandRows + k / width + 1.0});
-    }
-  }
-  return sum;
-}
+Brought brought(const StarImage& image, const Projection& p, const PointSpread& widths,
+                int reach = 48);
 
 // A white image in a direction of the camera, with the given light in each channel.
 inline StarImage image_at(const Projection& p, double theta, double azimuth, double flux) {

@@ -60,17 +60,6 @@ std::vector<StarImage> scattered(const SplatLaw& law, int count, double peak) {
   return images;
 }
 
-double flux_of(const DrawnBlobs& image) {
-  double flux = 0;
-  const int width = columns(image.projection);
-  for (std::size_t k = 0; k < image.rgb.size() / 3; ++k) {
-    const auto column = static_cast<int>(k) % width, row = static_cast<int>(k) / width;
-    const double value = image.rgb[3 * k];
-    if (value != 0) flux += value * pixel_solid_angle(image.projection, {column + 1.0, row + 1.0});
-  }
-  return flux;
-}
-
 TEST(Splats, BringTheirLightWhereverTheyLie) {
   for (const SplatLaw& law : kSplatLaws)
     for (const StarImage& image : scattered(law, tries(60, 12), 0.3)) {
