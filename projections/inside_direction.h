@@ -25,7 +25,7 @@ inline constexpr HalfAngleSeries kHalfAngleSeries = [] {
   return series;
 }();
 
-// x, y: pixels from the middle of the picture.
+// x, y: pixels from the middle of the image.
 
 // By half of theta, whose series is as good as that of theta with twice as many terms: the next one
 // is below 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75 pi.

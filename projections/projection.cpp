@@ -154,7 +154,7 @@ double central_pixel_angle(const Projection& p) {
     double operator()(const Rectilinear& r) const { return tangent_per_pixel(r); }
     double operator()(const Fisheye& f) const { return radians_per_pixel(f); }
     double operator()(const Equirectangular& e) const { return radians_per_pixel(e); }
-    double operator()(const Cubemap& c) const { return (*this)(face_picture(c)); }
+    double operator()(const Cubemap& c) const { return (*this)(face_projection(c)); }
   };
   return std::visit(Central(), p);
 }
@@ -165,7 +165,7 @@ double pixel_angle(const Projection& p, PixelPosition pixel) {
     double operator()(const Stereographic& s) const { return scales(s, at).tangential; }
     double operator()(const Rectilinear& r) const { return scales(r, at).tangential; }
     double operator()(const Cubemap& c) const {
-      return Largest{on_face(c, face_at(c, at), at)}(face_picture(c));
+      return Largest{on_face(c, face_at(c, at), at)}(face_projection(c));
     }
     double operator()(const Domemaster& d) const { return radians_per_pixel(d); }
     double operator()(const Fisheye& f) const { return radians_per_pixel(f); }

@@ -1,10 +1,10 @@
 // From direction to pixel and back, for the camera of [Riazuelo] sec. sec_cam: unit vectors X, Y
 // and Z, (X, Y, Z) right-handed.
 //
-// A flat picture has Z in its middle, X to its right edge and Y to its bottom edge.  Pictures for
-// an audience, which has_zenith() tells, take Z for its zenith, X for its right hand and Y for its
+// A flat image has Z in its middle, X to its right edge and Y to its bottom edge.  Images for an
+// audience, which has_zenith() tells, take Z for its zenith, X for its right hand and Y for its
 // front, so that one camera serves them all: a dome has the zenith in its middle and the front at
-// its bottom edge, a picture of the whole sphere has the front in its middle and the zenith at its
+// its bottom edge, an image of the whole sphere has the front in its middle and the zenith at its
 // top edge.
 //
 // Pixel coordinates (i, j) are continuous and counted from 1: pixel centres are whole numbers,
@@ -35,20 +35,20 @@ struct Domemaster {
   int size;  // pixels, > 0
 };
 
-// Conformal flat picture: the hole's silhouette stays a circle.  [Riazuelo] eq. pix_i, pix_j.
+// Conformal flat image: the hole's silhouette stays a circle.  [Riazuelo] eq. pix_i, pix_j.
 struct Stereographic {
   int columns, rows;  // pixels, > 0
   double fov;         // full horizontal opening angle 2 alpha, radians, in (0, 2 pi)
 };
 
-// Flat picture of a camera without distortion: straight lines stay straight.
+// Flat image of a camera without distortion: straight lines stay straight.
 struct Rectilinear {
   int columns, rows;  // pixels, > 0
   double fov;         // full horizontal opening angle, radians, in (0, pi)
 };
 
 // Equidistant azimuthal fisheye of any opening, for domes of more or less than a half sphere.  Its
-// circle is as wide as the picture.  A picture lower than that is of a truncated dome.
+// circle is as wide as the image.  An image lower than that is of a truncated dome.
 struct Fisheye {
   int columns, rows;  // pixels, > 0, rows <= columns
   double fov;         // opening angle of the circle, radians, in (0, 2 pi]
@@ -62,7 +62,7 @@ struct Equirectangular {
 };
 
 // The whole sphere on the faces of a cube, in two rows of three: right, left, up; down, front,
-// back.  Each is a flat picture of 90 degrees, upright but for up and down, which have the front at
+// back.  Each is a flat image of 90 degrees, upright but for up and down, which have the front at
 // their bottom and top edge.  This is the layout c3x2 of ffmpeg's filter v360.
 struct Cubemap {
   int face;  // pixels along an edge, > 0
@@ -74,7 +74,7 @@ using Projection =
 int columns(const Projection& p);
 int rows(const Projection& p);
 
-// The same picture with `factor` times `factor` pixels for each.
+// The same image with `factor` times `factor` pixels for each.
 Projection refined(const Projection& p, int factor);
 
 // Whether Z is an audience's zenith, and not the direction that a camera looks along.
@@ -90,9 +90,9 @@ Projection with_field_of_view(Projection p, double fov);
 // latitude, it winds on; beyond the edges of a cube's net it is on the plane of the nearest face.
 CameraDirection direction_at(const Projection& p, PixelPosition pixel);
 
-// The inverse.  Nothing for a direction without an image: -Z on a stereographic picture or a
-// fisheye, and all behind a rectilinear one (z <= 0).  Directions with several images, those on an
-// edge of a whole sphere's picture, get one of them.
+// The inverse.  Nothing for a direction without a place in the image: -Z on a stereographic image
+// or a fisheye, and all behind a rectilinear one (z <= 0).  Directions with several places, those
+// on an edge of an image of the whole sphere, get one of them.
 std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n);
 
 // Whether the projection shows anything there: a fisheye's circle, else everything.

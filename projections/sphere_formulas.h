@@ -1,5 +1,5 @@
-// The formulas of pictures of the whole sphere, behind projection.h.  A place is given in pixels
-// from the middle of the picture.
+// The formulas of images of the whole sphere, behind projection.h.  A place is given in pixels from
+// the middle of the image.
 #pragma once
 
 #include <algorithm>
@@ -43,18 +43,20 @@ inline double solid_angle(const Equirectangular& e, Centred at) {
 // ---- the faces of a cube ----
 
 // The axes of a face's camera: to its right edge, to its bottom edge, and through its middle.
-struct CubeFace {
+struct FaceAxes {
   Imath::V3d right, down, forward;
 };
-inline const std::array<CubeFace, 6> kCubeFaces{{{{0, -1, 0}, {0, 0, -1}, {1, 0, 0}},
-                                                 {{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}},
-                                                 {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                                                 {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
-                                                 {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
-                                                 {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}}}};
+inline const std::array<FaceAxes, 6> kFaceAxes{{{{0, -1, 0}, {0, 0, -1}, {1, 0, 0}},
+                                                {{0, 1, 0}, {0, 0, -1}, {-1, 0, 0}},
+                                                {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                                {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+                                                {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+                                                {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}}}};
 inline constexpr int kFacesInARow = 3;
 
-inline Rectilinear face_picture(const Cubemap& c) { return {c.face, c.face, std::numbers::pi / 2}; }
+inline Rectilinear face_projection(const Cubemap& c) {
+  return {c.face, c.face, std::numbers::pi / 2};
+}
 
 // The middle of a face, from the middle of the net.
 inline Centred middle_of_face(const Cubemap& c, std::size_t face) {
@@ -76,17 +78,17 @@ inline Centred on_face(const Cubemap& c, std::size_t face, Centred at) {
 
 inline CameraDirection direction(const Cubemap& c, Centred at) {
   const std::size_t face = face_at(c, at);
-  const Imath::V3d v = direction(face_picture(c), on_face(c, face, at)).v;
-  const CubeFace& f = kCubeFaces[face];
+  const Imath::V3d v = direction(face_projection(c), on_face(c, face, at)).v;
+  const FaceAxes& f = kFaceAxes[face];
   return {f.right * v.x + f.down * v.y + f.forward * v.z};
 }
 
 inline std::optional<Centred> place(const Cubemap& c, const CameraDirection& n) {
   const auto nearest = std::ranges::max_element(
-      kCubeFaces, {}, [&](const CubeFace& f) { return f.forward.dot(n.v); });
-  const Centred middle = middle_of_face(c, static_cast<std::size_t>(nearest - kCubeFaces.begin()));
+      kFaceAxes, {}, [&](const FaceAxes& f) { return f.forward.dot(n.v); });
+  const Centred middle = middle_of_face(c, static_cast<std::size_t>(nearest - kFaceAxes.begin()));
   const auto at =
-      place(face_picture(c),
+      place(face_projection(c),
             {{nearest->right.dot(n.v), nearest->down.dot(n.v), nearest->forward.dot(n.v)}});
   // Rounding may put what is on an edge a little beyond it, on another face of the net.
   const double most = std::nextafter(c.face / 2.0, 0.0);
@@ -95,10 +97,10 @@ inline std::optional<Centred> place(const Cubemap& c, const CameraDirection& n) 
 }
 
 inline PixelMetric metric(const Cubemap& c, Centred at) {
-  return metric(face_picture(c), on_face(c, face_at(c, at), at));
+  return metric(face_projection(c), on_face(c, face_at(c, at), at));
 }
 inline double solid_angle(const Cubemap& c, Centred at) {
-  return solid_angle(face_picture(c), on_face(c, face_at(c, at), at));
+  return solid_angle(face_projection(c), on_face(c, face_at(c, at), at));
 }
 
 }  // namespace domefall

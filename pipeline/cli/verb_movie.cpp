@@ -18,7 +18,7 @@
 #include "pipeline/render/thread_limit.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
-#include "projections/picture_size.h"
+#include "projections/image_size.h"
 
 namespace domefall {
 namespace {

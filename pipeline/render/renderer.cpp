@@ -19,7 +19,7 @@
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
 #include "pipeline/render/thread_limit.h"
-#include "projections/picture_parts.h"
+#include "projections/cubemap_faces.h"
 
 namespace domefall {
 namespace {
@@ -62,13 +62,13 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
   }
 }
 
-// Returns the state of a picture's part, whose camera is turned by the axes of the part.
-FrameState looking_through(const FrameState& state, const PicturePart& part) {
+// Returns the state of a cubemap's face, whose camera is turned by the axes of the face.
+FrameState looking_through(const FrameState& state, const CubemapFace& face) {
   FrameState looking = state;
-  looking.projection = part.projection;
+  looking.projection = face.projection;
   const M33d& whole = state.observer.tetrad_from_camera;
   looking.observer.tetrad_from_camera = from_columns(
-      apply(whole, part.axes[0]), apply(whole, part.axes[1]), apply(whole, part.axes[2]));
+      apply(whole, face.axes[0]), apply(whole, face.axes[1]), apply(whole, face.axes[2]));
   return looking;
 }
 
@@ -174,30 +174,31 @@ void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& fr
   if (state.fade < 1) fade(frame, state.fade);
 }
 
-// The faces of a cube are pictures of their own.  Stars beyond the edges of a face still reach into
-// it.
+// The faces of a cubemap are images of their own.  Stars beyond the edges of a face still reach
+// into it.
 template <class T>
 void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
                            StageTimes& times) {
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
     frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
-  const std::vector<PicturePart> parts = picture_parts(state.projection);
-  if (parts.empty()) return render_picture(state, state.projection, gap, frame, times);
-  ImageRgb<T> picture(columns(parts[0].projection), rows(parts[0].projection));
-  for (const PicturePart& part : parts) {
+  const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
+  if (faces.empty()) return render_image(state, state.projection, gap, frame, times);
+  ImageRgb<T> image(columns(faces[0].projection), rows(faces[0].projection));
+  for (const CubemapFace& face : faces) {
     StageTimes own;
-    render_picture(looking_through(state, part), state.projection, gap, picture, own);
-    for (int row = 0; row < picture.height; ++row)
-      std::copy_n(picture.row(row), 3 * picture.width,
-                  frame.row(part.row + row) + 3 * static_cast<std::ptrdiff_t>(part.column));
+    render_image(looking_through(state, face), state.projection, gap, image, own);
+    for (int row = 0; row < image.height; ++row)
+      std::copy_n(image.row(row), 3 * image.width,
+                  frame.row(face.row + row) + 3 * static_cast<std::ptrdiff_t>(face.column));
     times.add(own);
   }
 }
 
-// `whole` is the projection of the frame of which this picture is a part or the whole.
+// Renders the image of one projection that is not put together from others.  `whole` is the
+// projection of the frame, of which this image is a face or the whole.
 template <class T>
-void Renderer::render_picture(const FrameState& state, const Projection& whole, double gap,
-                              ImageRgb<T>& frame, StageTimes& times) {
+void Renderer::render_image(const FrameState& state, const Projection& whole, double gap,
+                            ImageRgb<T>& image, StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
   const PerSky<const Sky*> skies = skies_.skies_of(plan);
@@ -245,7 +246,7 @@ void Renderer::render_picture(const FrameState& state, const Projection& whole, 
     times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, bodies ? &*bodies : nullptr,
-               memory_->bands, frame);
+               memory_->bands, image);
     memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();
   });

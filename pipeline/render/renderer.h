@@ -72,8 +72,8 @@ class Renderer {
   template <class T>
   void render_view(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
   template <class T>
-  void render_picture(const FrameState& state, const Projection& whole, double gap,
-                      ImageRgb<T>& frame, StageTimes& times);
+  void render_image(const FrameState& state, const Projection& whole, double gap,
+                    ImageRgb<T>& image, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;

@@ -13,7 +13,7 @@ inline constexpr double kStandardLimit = 9, kNakedEyeLimit = 6.5;
 // `stars: deepest` looks for this catalogue, which shows/assets/fetch_stars makes.
 inline constexpr std::string_view kDeepestStars = "tycho2.stars";
 // These maps hold the light of all stars that kStandardStars lacks, and of all that kDeepestStars
-// lacks.  The build makes both from the pictures of the same names (.exr).
+// lacks.  The build makes both from the panoramas of the same names (.exr).
 inline constexpr std::string_view kMilkyWay = "milky_way.sky";
 inline constexpr std::string_view kDeepMilkyWay = "milky_way_deep.sky";
 inline constexpr std::string_view kSkyPlaces = "sky_places.csv";

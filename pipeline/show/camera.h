@@ -1,4 +1,4 @@
-// A Camera says how the pictures of a show are oriented.
+// A Camera says how the frames of a show are oriented.
 #pragma once
 
 #include <memory>
@@ -32,18 +32,18 @@ struct Camera {
   // The image is turned clockwise by `roll` (radians) about the line of sight.  Euler angles do not
   // use it.
   double roll = 0;
-  // A target stands `elevation` (radians) above the dome's front rim.  Only pictures with a zenith
-  // use it.
+  // A target stands `elevation` (radians) above the dome's front rim.  Only projections with a
+  // zenith use it.
   double elevation = 0;
-  // The theatre's dome leans by `dome_tilt` (radians) towards the front.  A picture with a zenith
+  // The theatre's dome leans by `dome_tilt` (radians) towards the front.  An image with a zenith
   // is turned so that what stood at elevation e stands at e + dome_tilt.
   double dome_tilt = 0;
 };
 
 // Returns a rotation whose columns are the directions, along the camera's axes, in which those who
-// look at a picture find their right, their front and their zenith.  In a dome the front is the
-// bottom of the image and the zenith its middle, but for the tilt (radians) of the dome.  On a flat
-// picture the front is its middle and the zenith is up.
+// look at a frame find their right, their front and their zenith.  In a dome the front is the
+// bottom of the image and the zenith its middle, but for the tilt (radians) of the dome.  In a flat
+// image the front is the middle and the zenith is up.
 M33d audience_axes(const Projection& projection, double dome_tilt);
 
 }  // namespace domefall

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "pipeline/image/errors.h"
-#include "projections/picture_size.h"
+#include "projections/image_size.h"
 
 namespace domefall {
 namespace {

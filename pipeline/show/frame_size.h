@@ -1,4 +1,4 @@
-// Users give the size of pictures as a text, which this function applies to a projection.
+// Users give the size of frames as a text, which this function applies to a projection.
 #pragma once
 
 #include <string>

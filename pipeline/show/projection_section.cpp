@@ -11,13 +11,13 @@ namespace domefall {
 namespace {
 
 constexpr double kFlatFovDeg = 90, kDomeFovDeg = 180;
-// A flat picture without distortion stretches its edges beyond use long before 180 degrees.
+// A flat image without distortion stretches its edges beyond use long before 180 degrees.
 constexpr double kWidestRectilinearDeg = 170;
 constexpr int kFewestPixels = 16, kMostPixels = 16384;
 constexpr Range kPixels = Range{"pixels"}.within(kFewestPixels, kMostPixels);
 constexpr std::array<std::string_view, 4> kSizeNames{"1k", "2k", "4k", "8k"};
 
-enum class PictureKind {
+enum class ProjectionKind {
   kDomemaster,
   kFisheye,
   kEquirectangular,
@@ -52,20 +52,20 @@ int read_one_size(const Item* size, int fallback, int most, std::string_view why
   return fallback;
 }
 
-struct PictureSides {
+struct ImageSides {
   int width, height;
 };
 
-PictureSides read_sides(const Item& size, PictureSides sides) {
+ImageSides read_sides(const Item& size, ImageSides sides) {
   const std::vector<Item> items = *read_list(size);
   sides.width = read_whole_number(items[0], kPixels).value_or(sides.width);
   sides.height = read_whole_number(items[1], kPixels).value_or(sides.height);
   return sides;
 }
 
-// Reads the size of a flat picture, which is a list of width and height.
-PictureSides read_flat_size(const Item* size) {
-  const PictureSides sides{1920, 1080};
+// Reads the size of a flat image, which is a list of width and height.
+ImageSides read_flat_size(const Item* size) {
+  const ImageSides sides{1920, 1080};
   if (!size) return sides;
   if (size->node.IsSequence() && size->node.size() == 2) return read_sides(*size, sides);
   size->fail("must be [width, height] in pixels (this projection is flat), got " + kind_of(*size));
@@ -73,22 +73,22 @@ PictureSides read_flat_size(const Item* size) {
 }
 
 // Reads the size of a fisheye, which is a square, or lower where a part of it is cut off.
-PictureSides read_fisheye_size(const Item* size) {
+ImageSides read_fisheye_size(const Item* size) {
   if (!size || !size->node.IsSequence() || size->node.size() != 2) {
     const int side =
         read_one_size(size, 4096, kMostPixels, "of a square, or [width, height] of a part of it");
     return {side, side};
   }
-  const PictureSides sides = read_sides(*size, {4096, 4096});
+  const ImageSides sides = read_sides(*size, {4096, 4096});
   if (sides.height <= sides.width) return sides;
   size->fail("must be at most as high as wide (the circle of a fisheye touches both sides), got " +
              fmt::format("[{}, {}]", sides.width, sides.height));
   return {sides.width, sides.width};
 }
 
-// Reads a fisheye.  The key `cut` says where the rows that a lower picture lacks are cut off.
+// Reads a fisheye.  The key `cut` says where the rows that a lower image lacks are cut off.
 Projection read_fisheye(const Item* size, const Section& camera) {
-  const PictureSides sides = read_fisheye_size(size);
+  const ImageSides sides = read_fisheye_size(size);
   // This part of the missing rows is cut off at the back of the dome, and the rest at the front.
   const auto cut_back = camera.word<double>("cut", {{"back", 1.0}, {"front", 0.0}, {"both", 0.5}});
   if (const Item* cut = camera.find("cut"); cut && sides.height == sides.width)
@@ -109,16 +109,16 @@ Projection read_equirectangular(const Item* size) {
 }  // namespace
 
 Projection read_projection(const Section& show, const Section& camera) {
-  using enum PictureKind;
+  using enum ProjectionKind;
   const Item* size = show.find("size");
-  const PictureKind kind =
+  const ProjectionKind kind =
       camera
-          .word<PictureKind>("projection", {{"domemaster", kDomemaster},
-                                            {"fisheye", kFisheye},
-                                            {"equirectangular", kEquirectangular},
-                                            {"cubemap", kCubemap},
-                                            {"stereographic", kStereographic},
-                                            {"rectilinear", kRectilinear}})
+          .word<ProjectionKind>("projection", {{"domemaster", kDomemaster},
+                                               {"fisheye", kFisheye},
+                                               {"equirectangular", kEquirectangular},
+                                               {"cubemap", kCubemap},
+                                               {"stereographic", kStereographic},
+                                               {"rectilinear", kRectilinear}})
           .value_or(kDomemaster);
   if (const Item* cut = camera.find("cut"); cut && kind != kFisheye)
     cut->fail("goes with the fisheye projection only");
@@ -133,11 +133,11 @@ Projection read_projection(const Section& show, const Section& camera) {
       return Cubemap{read_one_size(size, 1024, kMostPixels / 3,
                                    "the edge of a face, of which three make the width")};
     case kStereographic: {
-      const PictureSides sides = read_flat_size(size);
+      const ImageSides sides = read_flat_size(size);
       return Stereographic{sides.width, sides.height, radians(kFlatFovDeg)};
     }
     case kRectilinear: {
-      const PictureSides sides = read_flat_size(size);
+      const ImageSides sides = read_flat_size(size);
       return Rectilinear{sides.width, sides.height, radians(kFlatFovDeg)};
     }
   }

@@ -103,7 +103,7 @@ struct Title {
   double begin_s = 0, end_s = 0;  // show seconds
   Fades fades;
   // The middle of the text stands at this place (radians): to the right of the audience's front,
-  // and above their horizon or, on a flat picture, above the line of sight.
+  // and above their horizon or, on a flat image, above the line of sight.
   double azimuth = 0, elevation = 0;
   double height = 0;          // of a capital H, radians
   WorkingRgb light{1, 1, 1};  // pixel values, which no exposure or fade of the show acts on

@@ -41,7 +41,7 @@ double largest_gain(const Show& show, SkyRegion region) {
          largest_value(show, star_gain_channel(region), show.sky[region].star_gain);
 }
 
-// Returns the light of the images that are in the picture.
+// Returns the light of the images that are in the frame.
 double light_of(const std::vector<StarImage>& images, const Projection& projection) {
   double sum = 0;
   for (const StarImage& image : images) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "projections/picture_size.h"
+#include "projections/image_size.h"
 
 namespace domefall {
 

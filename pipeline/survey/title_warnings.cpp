@@ -66,7 +66,7 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
     warn(fmt::format("has {} letter{} that no font of this machine has, drawn as boxes",
                      letters.missing, letters.missing == 1 ? "" : "s"));
   const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
-  if (!middle || !is_in_picture(state.projection, *middle))
+  if (!middle || !is_in_image(state.projection, *middle))
     warn("has its middle outside the picture");
   else if (const double least = kLeastCapital * pixel_angle(state.projection, *middle);
            title.height < least)

@@ -143,7 +143,7 @@ TEST(Projections, TheMetricIsThatOfSmallSteps) {
   }
 }
 
-TEST(Projections, PicturesOfTheWholeSphereHoldFourPiSteradians) {
+TEST(Projections, ImagesOfTheWholeSphereHoldFourPiSteradians) {
   for (const Projection& p : {Projection(Equirectangular{256}), Projection(Cubemap{64}),
                               Projection(Fisheye{400, 400, 2 * pi, 0})}) {
     double sum = 0;
@@ -251,7 +251,7 @@ TEST(Projections, OnlySomeHaveAFieldOfViewToChange) {
   }
 }
 
-// Rows that only touch the circle, odd and even sizes, and a flat picture.
+// Rows that only touch the circle, odd and even sizes, and a flat image.
 TEST(Projections, ARowsColumnsAreThoseInsideAndItsDirectionsTheirs) {
   for (const Projection& p :
        {Projection(Domemaster{1}), Projection(Domemaster{2}), Projection(Domemaster{63}),

@@ -141,8 +141,8 @@ void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Tas
   last = std::max(last, last_row / kBandRows);
 }
 
-// On a picture of the whole sphere an ellipse continues beyond the seam at the left and right edge.
-// A copy that is shifted by the picture's width draws the part on the other side.
+// On an image of the whole sphere an ellipse continues beyond the seam at the left and right edge.
+// A copy that is shifted by the image's width draws the part on the other side.
 void BlobLayer::place_with_copies(const EllipseBlob& ellipse, int first_row, Task& task) const {
   place_one_ellipse(ellipse, first_row, task);
   if (!std::holds_alternative<Equirectangular>(projection_)) return;

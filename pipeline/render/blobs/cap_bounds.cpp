@@ -11,7 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kAll = 1e9;  // more pixels than any picture has
+constexpr double kAll = 1e9;  // more pixels than any image has
 
 // A CapBox says how far, in pixels, the box around a cap reaches from the middle of the cap.
 struct CapBox {
@@ -20,8 +20,8 @@ struct CapBox {
 
 CapBox square_box(double half) { return {half, half, half, half}; }
 
-// Finds the edges of a cap on a flat picture, in units of tan(theta).  Column X of the picture is
-// the plane x = X z.  The sine of its angle to n is |n.x - X n.z|/sqrt(1 + X^2), so that the plane
+// Finds the edges of a cap on a flat image, in units of tan(theta).  Column X of the image is the
+// plane x = X z.  The sine of its angle to n is |n.x - X n.z|/sqrt(1 + X^2), so that the plane
 // touches the cone of half angle `reach` about n where
 //     (n.x - X n.z)^2 = sin^2(reach) (1 + X^2).
 // The two solutions of this quadratic equation are the least and the most X.
@@ -45,7 +45,7 @@ CapBox rectilinear_box(const Projection& p, const CameraDirection& n, double rea
           (bottom - y) * per_tangent + 1};
 }
 
-// Returns the most pixels by which an angle `reach` may lead away from a direction, on a picture
+// Returns the most pixels by which an angle `reach` may lead away from a direction, on an image
 // about Z.  It returns kAll where the cap might surround the middle or reach infinity.
 double farthest_pixels(const Projection& p, const CameraDirection& n, double reach) {
   const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), far = theta + reach;
@@ -77,7 +77,7 @@ CapBox cap_box(const Projection& p, const CameraDirection& n, double reach) {
   return {across, across, down, down};
 }
 
-// Says whether a blob lies outside the circle about Z that holds the whole picture.  Far beyond the
+// Says whether a blob lies outside the circle about Z that holds the whole image.  Far beyond the
 // circle the projection is stretched so much that bounds in pixels would not tell.
 bool is_beyond_circle(const Projection& p, const CameraDirection& n, double reach) {
   double circle = pi;
@@ -94,7 +94,7 @@ void add_columns(double from, double to, const ColumnRange& inside, CapSpans& sp
   if (first <= last) spans.span[spans.count++] = {first, last};
 }
 
-// Returns half the number of columns that a blob covers on a row of a picture of the whole sphere.
+// Returns half the number of columns that a blob covers on a row of an image of the whole sphere.
 // These are all points of the row's latitude within `reach` of the blob's middle.  Their distance c
 // is given by the haversine formula,
 //     sin^2(c/2) = sin^2((latitude - middle)/2) + cos(latitude) cos(middle) sin^2(longitude/2).
@@ -120,7 +120,7 @@ CapSpans spans_on_sphere(const CapBlob& b, const Projection& p, double reach, in
     add_columns(0, width - 1, inside, spans);
     return spans;
   }
-  // The middle is within the picture, so that one copy on each side suffices.
+  // The middle is within the image, so that one copy on each side suffices.
   for (const double shift : {-width, 0.0, width})
     add_columns(b.x + shift - half, b.x + shift + half, inside, spans);
   return spans;

@@ -15,7 +15,7 @@ double angular_reach(const CapBlob& blob);
 // in pixels from its middle within which all of it lies.  Returns false if it covers nothing.
 bool bound_cap(const Projection& projection, const CameraDirection& n, CapBlob& blob);
 
-// CapSpans are the columns, within those of the picture, that a cap may cover on one row.  There
+// CapSpans are the columns, within those of the image, that a cap may cover on one row.  There
 // are several spans where the cap lies on a ring about the middle of a fisheye, or on both sides of
 // a seam.
 struct CapSpans {

@@ -78,7 +78,7 @@ struct Weighing {
 Dispatched<weigh_loop> weigh;
 
 // Sets the solid angles, in some unit, of pixels in these directions and at these positions.  On a
-// picture of the whole sphere they go like cos(latitude).  If `fisheye`, they go like sin(theta)/r
+// image of the whole sphere they go like cos(latitude).  If `fisheye`, they go like sin(theta)/r
 // at the distance r from the middle of the circle, where they are `central`.
 [[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* i,
                                                    const double* j, const PixelPosition& middle,
@@ -173,7 +173,7 @@ class ExactCap {
   bool wide_;
   Weighing weighing_;
   PixelPosition middle_;         // of a fisheye's circle
-  bool areas_differ_;            // areas vary notably within a pixel, somewhere in the picture
+  bool areas_differ_;            // areas vary notably within a pixel, somewhere in the image
   float paling_ = 0;             // the colour is half white where this times the weight is 1
   std::array<float, 3> colour_;  // at the peak
   std::array<float, 3> pale_;    // grey of the same luminance, minus the colour

@@ -19,7 +19,7 @@ struct ScaleChange {
   // A pixel covers cos(theta)^2 of that along the direction to the middle.  The logarithmic
   // derivative of this is -2 tan(theta).
   double operator()(const Rectilinear&) const { return 2 * tangent(n.v.z, aside()); }
-  // A face is a rectilinear picture.  theta is largest in its corners, where tan(theta) = sqrt 2.
+  // A face is a rectilinear image.  theta is largest in its corners, where tan(theta) = sqrt 2.
   double operator()(const Cubemap&) const { return 2 * std::numbers::sqrt2; }
   double operator()(const Domemaster&) const { return of_fisheye(); }
   // Circles of latitude are bent by tan(latitude), which is also how quickly their pixels narrow.

@@ -30,7 +30,7 @@ struct ImagePlane {
 constexpr double kMostScaleChangeByMetric = 0.006;
 // Up to this scale_change a faint ellipse keeps its light, to 1e-3.
 constexpr double kMostFaintScaleChange = 0.03;
-// Farther from the picture than this (pixels) no ellipse is tried.
+// Farther from the image than this (pixels) no ellipse is tried.
 constexpr double kFarBeside = 1e5;
 
 // A Placing is a batch of images, stored column by column, with what becomes of them.

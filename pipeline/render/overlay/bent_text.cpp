@@ -15,13 +15,13 @@ namespace {
 // beyond use.
 constexpr double kBehind = -0.9998;
 
-// A PlaceOfPoint takes a point of a text to its place in the picture, or to nothing if it has none.
-using PlaceOfPoint = std::function<std::optional<PicturePoint>(const TextPoint&)>;
+// A PlaceOfPoint takes a point of a text to its place in the image, or to nothing if it has none.
+using PlaceOfPoint = std::function<std::optional<ImagePoint>(const TextPoint&)>;
 
-// An OutlineBender turns the curves of outlines into polygons in the picture.
+// An OutlineBender turns the curves of outlines into polygons in the image.
 class OutlineBender {
  public:
-  // In the picture a straight line of the text bends by a radian over pixels_of_radian or more.
+  // In the image a straight line of the text bends by a radian over pixels_of_radian or more.
   OutlineBender(PlaceOfPoint place, double pixels_of_radian)
       : place_(std::move(place)), pixels_of_radian_(pixels_of_radian) {}
 
@@ -34,8 +34,8 @@ class OutlineBender {
 
  private:
   // Returns the outline as a polygon, or nothing if a point of it has no image.
-  std::optional<PicturePolygon> bent(const TextOutline& outline) const {
-    PicturePolygon polygon;
+  std::optional<ImagePolygon> bent(const TextOutline& outline) const {
+    ImagePolygon polygon;
     if (!append(outline.start, polygon)) return std::nullopt;
     TextPoint from = outline.start;
     for (const TextCurve& curve : outline.curves) {
@@ -46,7 +46,7 @@ class OutlineBender {
   }
 
   // Appends the image of a point.  Says whether it has one.
-  bool append(const TextPoint& p, PicturePolygon& polygon) const {
+  bool append(const TextPoint& p, ImagePolygon& polygon) const {
     const auto place = place_(p);
     if (place) polygon.push_back(*place);
     return place.has_value();
@@ -56,10 +56,10 @@ class OutlineBender {
   // from its chord by s t/8, so a curve departs from n chords by length * angle/(8 n^2).  The
   // curves of letters turn by less than 2 radians.  The polygon of the control points bounds the
   // length.
-  bool append_curve(const TextPoint& from, const TextCurve& curve, PicturePolygon& polygon) const {
+  bool append_curve(const TextPoint& from, const TextCurve& curve, ImagePolygon& polygon) const {
     constexpr double kTolerance = 0.05, kLetterTurn = 2;  // pixels, radians
     constexpr double kMostPieces = 200;
-    PicturePolygon corners{polygon.back()};
+    ImagePolygon corners{polygon.back()};
     for (const TextPoint& p : {curve.control1, curve.control2, curve.end})
       if (!append(p, corners)) return false;
     double pixels = 0;
@@ -91,26 +91,26 @@ class OutlineBender {
 
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage) {
-  const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
+  const auto place = [&](const TextPoint& p) -> std::optional<ImagePoint> {
     const CameraDirection n = surface.direction({p.x + shift.x, p.y + shift.y});
     const bool seen = n.v.z > kBehind || std::holds_alternative<Equirectangular>(projection);
     const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
-    return pixel ? std::optional(picture_point(*pixel)) : std::nullopt;
+    return pixel ? std::optional(image_point(*pixel)) : std::nullopt;
   };
   // Lines are taken to bend by a radian over an eighth of the larger side, which is four times as
   // fast as the rim of a dome.
   OutlineBender(place, std::max(columns(projection), rows(projection)) / 8.0)
       .each_polygon(
-          text, [&](const PicturePolygon& polygon) { add_unwound(polygon, projection, coverage); });
+          text, [&](const ImagePolygon& polygon) { add_unwound(polygon, projection, coverage); });
 }
 
-void add_flat_text(const LetteredText& text, const PicturePoint& middle, double capital,
+void add_flat_text(const LetteredText& text, const ImagePoint& middle, double capital,
                    Coverage& coverage) {
-  const auto place = [&](const TextPoint& p) -> std::optional<PicturePoint> {
-    return PicturePoint{middle.x + capital * p.x, middle.y - capital * p.y};
+  const auto place = [&](const TextPoint& p) -> std::optional<ImagePoint> {
+    return ImagePoint{middle.x + capital * p.x, middle.y - capital * p.y};
   };
   // In a flat text straight lines do not bend.
-  OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const PicturePolygon& polygon) {
+  OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const ImagePolygon& polygon) {
     coverage.add(polygon);
   });
 }

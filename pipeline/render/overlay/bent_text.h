@@ -1,4 +1,4 @@
-// These functions add the outlines of a text to the coverage of a picture.
+// These functions add the outlines of a text to the coverage of an image.
 #pragma once
 
 #include "pipeline/render/overlay/coverage.h"
@@ -12,9 +12,9 @@ namespace domefall {
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage);
 
-// Adds a text that lies flat in the picture, centred on `middle`.  Capitals are `capital` pixels
+// Adds a text that lies flat in the image, centred on `middle`.  Capitals are `capital` pixels
 // high.
-void add_flat_text(const LetteredText& text, const PicturePoint& middle, double capital,
+void add_flat_text(const LetteredText& text, const ImagePoint& middle, double capital,
                    Coverage& coverage);
 
 }  // namespace domefall

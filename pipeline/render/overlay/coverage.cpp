@@ -8,13 +8,11 @@ namespace {
 
 constexpr double kFarAway = 1e6, kPerPixel = 4096;
 
-PicturePoint on_grid(const PicturePoint& p) {
+ImagePoint on_grid(const ImagePoint& p) {
   return {std::round(p.x * kPerPixel) / kPerPixel, std::round(p.y * kPerPixel) / kPerPixel};
 }
 
-bool is_usable(const PicturePoint& p) {
-  return std::abs(p.x) < kFarAway && std::abs(p.y) < kFarAway;
-}
+bool is_usable(const ImagePoint& p) { return std::abs(p.x) < kFarAway && std::abs(p.y) < kFarAway; }
 
 // Adds an edge that lies within one row of pixels, from x0 to x1 >= x0.  The row holds differences
 // from pixel to pixel.  Their running sum is the part of a pixel to the right of the edge.
@@ -47,14 +45,14 @@ void add_in_row(double x0, double x1, double height, double* row) {
 
 }  // namespace
 
-void Coverage::add(const PicturePolygon& polygon) {
+void Coverage::add(const ImagePolygon& polygon) {
   if (!std::ranges::all_of(polygon, is_usable)) return;
   edges_.resize(static_cast<std::size_t>((height_ + kRows - 1) / kRows));
   for (std::size_t k = 0; k < polygon.size(); ++k)
     add_edge(on_grid(polygon[k]), on_grid(polygon[(k + 1) % polygon.size()]));
 }
 
-void Coverage::add_edge(PicturePoint from, PicturePoint to) {
+void Coverage::add_edge(ImagePoint from, ImagePoint to) {
   if (from.y == to.y) return;
   const double direction = from.y < to.y ? 1 : -1;
   if (direction < 0) std::swap(from, to);
@@ -65,8 +63,8 @@ void Coverage::add_edge(PicturePoint from, PicturePoint to) {
     edges_[static_cast<std::size_t>(band)].push_back({from.x, from.y, to.x, to.y, direction});
 }
 
-// The part of an edge to the left of the picture counts as if it ran along the left border.  The
-// part to the right of the picture covers nothing.
+// The part of an edge to the left of the image counts as if it ran along the left border.  The
+// part to the right of the image covers nothing.
 Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
   if (edges_.empty()) return {};
   const std::vector<Edge>& edges = edges_[static_cast<std::size_t>(top / kRows)];

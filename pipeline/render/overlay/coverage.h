@@ -8,34 +8,32 @@
 
 namespace domefall {
 
-// A PicturePoint is a place in a picture, in pixels to the right of the top left corner and down
-// from it.  The middle of the first pixel is (0.5, 0.5).
-struct PicturePoint {
+// An ImagePoint is a place in the image of a projection, in pixels to the right of the top left
+// corner and down from it.  The middle of the first pixel is (0.5, 0.5).
+struct ImagePoint {
   double x, y;
 };
 
-inline PicturePoint picture_point(const PixelPosition& pixel) {
-  return {pixel.i - 0.5, pixel.j - 0.5};
-}
+inline ImagePoint image_point(const PixelPosition& pixel) { return {pixel.i - 0.5, pixel.j - 0.5}; }
 
-// Says whether a place is in the picture and the projection shows something there.
-inline bool is_in_picture(const Projection& p, const PixelPosition& pixel) {
+// Says whether a place is in the image and the projection shows something there.
+inline bool is_in_image(const Projection& p, const PixelPosition& pixel) {
   return is_inside(p, pixel) && pixel.i > 0.5 && pixel.j > 0.5 && pixel.i < columns(p) + 0.5 &&
          pixel.j < rows(p) + 0.5;
 }
 
 // The last corner of a polygon is joined to the first.
-using PicturePolygon = std::vector<PicturePoint>;
+using ImagePolygon = std::vector<ImagePoint>;
 
 class Coverage {
  public:
-  // The size is that of the picture, in pixels.
+  // The size is that of the image, in pixels.
   Coverage(int width, int height) : width_(width), height_(height) {}
 
   // Adds a polygon.  Its corners are rounded to 1/4096 pixel, so that the last bits of a sine,
-  // which differ between processors, do not matter.  Everything outside the picture is cut off.  A
+  // which differ between processors, do not matter.  Everything outside the image is cut off.  A
   // polygon is ignored if a corner is not finite or lies beyond 1e6 pixels.
-  void add(const PicturePolygon& polygon);
+  void add(const ImagePolygon& polygon);
 
   // Calls use(row, first column, parts) from top to bottom for rows that are touched.  A part, 0 to
   // 1, is the area of a pixel that lies within the polygons.  Each polygon counts with the sign of
@@ -64,7 +62,7 @@ class Coverage {
     std::size_t count = 0;
     std::size_t stride() const { return count + 2; }
   };
-  void add_edge(PicturePoint from, PicturePoint to);
+  void add_edge(ImagePoint from, ImagePoint to);
   // Fills `band` with the coverage of the rows that begin at `top`, row by row with the span's
   // stride.  Returns the columns that are touched.
   Span accumulate(int top, std::vector<double>& band) const;

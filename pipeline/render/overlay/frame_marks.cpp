@@ -31,10 +31,10 @@ class Marks {
 
   void circle(const ViewCircle& circle) { add_circle(circle, width_, projection_, coverage_); }
 
-  // Adds a box in the middle of the picture that has this part of its width and height.
+  // Adds a box in the middle of the image that has this part of its width and height.
   void box(double part) {
     const double w = columns(projection_), h = rows(projection_);
-    // The band lies within the picture.
+    // The band lies within the image.
     const double x = std::max(w * (1 - part) / 2, width_ / 2),
                  y = std::max(h * (1 - part) / 2, width_ / 2);
     add_stroke({{x, y}, {w - x, y}, {w - x, h - y}, {x, h - y}}, true, width_, coverage_);
@@ -56,7 +56,7 @@ class Marks {
         false, width_ * width_part, projection_, coverage_);
   }
 
-  // Adds a circle about the middle of a dome's picture, at this distance in pixels from its edge.
+  // Adds a circle about the middle of a dome's image, at this distance in pixels from its edge.
   void circle_within(double pixels) {
     const double angle = (columns(projection_) / 2.0 - pixels) * central_pixel_angle(projection_);
     circle({V3d(0, 0, 1), std::cos(angle), std::sin(angle)});

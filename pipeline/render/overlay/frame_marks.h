@@ -12,7 +12,7 @@ namespace domefall {
 inline constexpr double kSafeElevationDeg = 10;
 // Here the audience of a dome looks without turning or leaning back.
 inline constexpr double kSweetAzimuthDeg = 45, kSweetLowestDeg = 15, kSweetHighestDeg = 60;
-// In a flat picture action and titles are safe within these parts of its sides.  The sweet spot is
+// In a flat image action and titles are safe within these parts of its sides.  The sweet spot is
 // the middle third.
 inline constexpr double kSafeAction = 0.9, kSafeTitles = 0.8, kMiddleThird = 1. / 3;
 

@@ -19,7 +19,7 @@ constexpr int kOverlayVersion = 2;
 
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 
-// Puts a text into a corner of the picture, on a dark ground that makes it legible on bright skies.
+// Puts a text into a corner of the image, on a dark ground that makes it legible on bright skies.
 void draw_in_corner(const std::string& text, bool right, bool bottom, const FrameRef& frame) {
   // Lines of 28 letters fit beside the circle of a dome.
   constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
@@ -27,8 +27,8 @@ void draw_in_corner(const std::string& text, bool right, bool bottom, const Fram
   const LetteredText letters =
       lettering().letter(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
   const double w = letters.half_width * letter, h = letters.half_height * letter;
-  const PicturePoint middle{right ? frame.width - w - letter : w + letter,
-                            bottom ? frame.height - h - letter : h + letter};
+  const ImagePoint middle{right ? frame.width - w - letter : w + letter,
+                          bottom ? frame.height - h - letter : h + letter};
   const double x = w + letter / 2, y = h + letter / 2;
   Coverage ground(frame.width, frame.height), written(frame.width, frame.height);
   ground.add({{middle.x - x, middle.y - y},

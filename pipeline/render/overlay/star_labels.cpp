@@ -33,9 +33,9 @@ class TakenPlaces {
   explicit TakenPlaces(double radius) : radius_(radius) {}
 
   // Takes all these places if none of them is taken yet.  Says whether it did.
-  bool take(const std::vector<PicturePoint>& places) {
-    for (const PicturePoint& p : places)
-      for (const PicturePoint& q : taken_)
+  bool take(const std::vector<ImagePoint>& places) {
+    for (const ImagePoint& p : places)
+      for (const ImagePoint& q : taken_)
         if (std::hypot(p.x - q.x, p.y - q.y) < 2 * radius_) return false;
     taken_.insert(taken_.end(), places.begin(), places.end());
     return true;
@@ -43,18 +43,18 @@ class TakenPlaces {
 
  private:
   double radius_;
-  std::vector<PicturePoint> taken_;
+  std::vector<ImagePoint> taken_;
 };
 
-// Returns places in the picture from an image to the end of its name, or nothing if the name is not
-// wholly in the picture.
-std::optional<std::vector<PicturePoint>> places_of_label(const TextSurface& surface, double length,
-                                                         const Projection& projection) {
-  std::vector<PicturePoint> places;
+// Returns places in the frame from a star's image to the end of its name, or nothing if the name is
+// not wholly in the frame.
+std::optional<std::vector<ImagePoint>> places_of_label(const TextSurface& surface, double length,
+                                                       const Projection& projection) {
+  std::vector<ImagePoint> places;
   for (double x = 0; x < length + 1; ++x) {
     const auto pixel = pixel_of(projection, surface.direction({std::min(x, length), 0}));
-    if (!pixel || !is_in_picture(projection, *pixel)) return std::nullopt;
-    places.push_back(picture_point(*pixel));
+    if (!pixel || !is_in_image(projection, *pixel)) return std::nullopt;
+    places.push_back(image_point(*pixel));
   }
   return places;
 }
@@ -132,7 +132,7 @@ void StarLabels::draw(const FrameState& state, const FrameRef& frame) {
   Coverage primary(frame.width, frame.height), secondary(frame.width, frame.height);
   for (const NamedImage& image : images(state)) {
     const auto pixel = pixel_of(projection, image.direction);
-    if (!pixel || !is_in_picture(projection, *pixel)) continue;
+    if (!pixel || !is_in_image(projection, *pixel)) continue;
     const LetteredText text = lettering().letter(image.name, label_style());
     const V3d place = apply_transposed(state.camera_from_audience, image.direction.v);
     const TextSurface surface(state.camera_from_audience, std::atan2(place.x, place.y),

@@ -31,7 +31,7 @@ class StarLabels {
   explicit StarLabels(const Show& show) : show_(show) {}
 
   // Returns the images of the named stars of all skies that are seen, and those of bodies, the
-  // brightest first.  They are where the renderer draws them, even if that is outside the picture.
+  // brightest first.  They are where the renderer draws them, even if that is outside the frame.
   // At most the first two images of a star are found.  Where light goes straight, there is only
   // one.  Reads the catalogues when they are first needed.  Throws as read_star_catalogue.
   std::vector<NamedImage> images(const FrameState& state);

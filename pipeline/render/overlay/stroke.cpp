@@ -10,18 +10,18 @@ namespace domefall {
 namespace {
 
 // A curve is cut where its component along Z is below this.  Such directions near -Z are outside
-// any picture except a flat one of more than 340 degrees.
+// any image except a flat one of more than 340 degrees.
 constexpr double kStrokeBehind = -0.99;
 
 // Returns the unit normal of a piece of line, or 0 if the piece has no length.
-PicturePoint unit_across(const PicturePoint& from, const PicturePoint& to) {
+ImagePoint unit_across(const ImagePoint& from, const ImagePoint& to) {
   const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
-  return length > 0 ? PicturePoint{-y / length, x / length} : PicturePoint{0, 0};
+  return length > 0 ? ImagePoint{-y / length, x / length} : ImagePoint{0, 0};
 }
 
 // Returns the vector from a corner to the edge of the band.  It points along the sum of the normals
 // a and b on both sides of the corner.
-PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double half) {
+ImagePoint offset_between(const ImagePoint& a, const ImagePoint& b, double half) {
   const double x = a.x + b.x, y = a.y + b.y;
   // For unit normals at an angle t, |a + b| = 2 cos(t/2), and a mitre is half/cos(t/2) long.  So
   // the mitre is 2 half (a + b)/|a + b|^2.  From t = 120 degrees on it is limited, because a sharp
@@ -31,17 +31,17 @@ PicturePoint offset_between(const PicturePoint& a, const PicturePoint& b, double
 }
 
 // Adds a line of points that were placed one by one.
-void add_run(std::vector<PicturePoint> run, bool closed, double width, const Projection& projection,
+void add_run(std::vector<ImagePoint> run, bool closed, double width, const Projection& projection,
              Coverage& coverage) {
   unwind(projection, run);
-  // A closed line around a pole ends where it began, but a width farther on in the picture.
+  // A closed line around a pole ends where it began, but a width farther on in the image.
   if (const double around = closed ? winding(projection, run) : 0; around != 0) {
     run.push_back({run.front().x + around, run.front().y});
     closed = false;
   }
   each_copy(projection, [&](double shift) {
-    std::vector<PicturePoint> copy = run;
-    for (PicturePoint& p : copy) p.x += shift;
+    std::vector<ImagePoint> copy = run;
+    for (ImagePoint& p : copy) p.x += shift;
     add_stroke(copy, closed, width, coverage);
   });
 }
@@ -50,10 +50,10 @@ void add_run(std::vector<PicturePoint> run, bool closed, double width, const Pro
 
 // The outline of the band goes along the line on one side and back on the other.  Both ends of a
 // closed band meet in a seam of no width.
-void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width,
+void add_stroke(const std::vector<ImagePoint>& line, bool closed, double width,
                 Coverage& coverage) {
-  std::vector<PicturePoint> points;  // without repeated points, between which there is no direction
-  for (const PicturePoint& p : line)
+  std::vector<ImagePoint> points;  // without repeated points, between which there is no direction
+  for (const ImagePoint& p : line)
     if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > 1e-6)
       points.push_back(p);
   if (points.size() < 2) return;
@@ -61,11 +61,11 @@ void add_stroke(const std::vector<PicturePoint>& line, bool closed, double width
   const auto normal = [&](std::size_t k) {  // of the piece that begins at point k
     return unit_across(points[k % count], points[(k + 1) % count]);
   };
-  PicturePolygon there, back;
+  ImagePolygon there, back;
   for (std::size_t k = 0; k <= last; ++k) {
-    const PicturePoint before = k > 0 ? normal(k - 1) : normal(closed ? count - 1 : 0);
-    const PicturePoint after = k < last || closed ? normal(k) : before;
-    const PicturePoint offset = offset_between(before, after, width / 2), &p = points[k % count];
+    const ImagePoint before = k > 0 ? normal(k - 1) : normal(closed ? count - 1 : 0);
+    const ImagePoint after = k < last || closed ? normal(k) : before;
+    const ImagePoint offset = offset_between(before, after, width / 2), &p = points[k % count];
     there.push_back({p.x + offset.x, p.y + offset.y});
     back.push_back({p.x - offset.x, p.y - offset.y});
   }
@@ -78,14 +78,14 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
   const int pieces =
       64 + static_cast<int>(8 * std::sqrt(std::max(columns(projection), rows(projection))));
   // A run is a piece of the curve all of which has an image.
-  std::vector<PicturePoint> run;
+  std::vector<ImagePoint> run;
   bool whole = true;
   for (int k = 0; k < pieces + (closed ? 0 : 1); ++k) {
     const CameraDirection n{direction(static_cast<double>(k) / pieces)};
     const bool seen = n.v.z > kStrokeBehind || std::holds_alternative<Equirectangular>(projection);
     const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     if (pixel) {
-      run.push_back(picture_point(*pixel));
+      run.push_back(image_point(*pixel));
       continue;
     }
     whole = false;

@@ -48,7 +48,7 @@ struct EquirectangularView {
   double pixel_angle(double, double) const { return scale; }
 };
 
-// Positions says for which places of a picture directions are wanted, and where to write them.
+// Positions says for which places of an image directions are wanted, and where to write them.
 struct Positions {
   PixelPosition middle;
   const double *i, *j;
@@ -74,7 +74,7 @@ Dispatched<find_directions_loop<RectilinearView>> find_on_rectilinear;
 Dispatched<find_directions_loop<FisheyeView>> find_on_fisheye;
 Dispatched<find_directions_loop<EquirectangularView>> find_on_sphere;
 
-// A Finder finds directions in a picture of whatever projection.
+// A Finder finds directions in the image of whatever projection.
 struct Finder {
   Positions at;
 
@@ -103,7 +103,7 @@ struct Finder {
 void find_directions(const Projection& projection, const double* i, const double* j, int count,
                      CameraDirection* n, double* angle) {
   PixelPosition middle{(columns(projection) + 1) / 2.0, (rows(projection) + 1) / 2.0};
-  // The circle of a truncated dome need not have its middle in that of the picture.
+  // The circle of a truncated dome need not have its middle in that of the image.
   if (std::holds_alternative<Fisheye>(projection)) middle = *pixel_of(projection, {{0, 0, 1}});
   std::visit(Finder{{middle, i, j, count, n, angle}}, projection);
 }

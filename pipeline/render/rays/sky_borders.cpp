@@ -55,7 +55,7 @@ void SkyBorders::find_box(const Projection& projection) {
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
   // A rim that crosses the seam of a whole sphere, or goes around a pole, is no closed curve in the
-  // picture.
+  // image.
   if (std::holds_alternative<Equirectangular>(projection)) return;
   const ViewCircle& c = circles_.front();
   // If the rim goes around -Z, the one direction without an image, what the rim encloses lies

@@ -25,8 +25,8 @@ struct SkyMotion {
 
 struct FrameScene {
   // `skies` has null for a sky that the plan leaves out.  All arguments except the plan must
-  // outlive the scene.  If the frame is a part of a picture, `whole` is the projection of the
-  // picture, which sets the widths of blobs.  `disc_light` is the light of the show's disc, or null
+  // outlive the scene.  If the frame is a face of a cubemap, `whole` is the projection of the
+  // cubemap, which sets the widths of blobs.  `disc_light` is the light of the show's disc, or null
   // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,

@@ -13,7 +13,7 @@ namespace {
 
 // Returns what is subtracted from a map's light as its black: the level that the show gives, or
 // else the map's own dark level.  The microwave background has no such level, since it is a glow of
-// its own, whose darkest parts are no floor of a picture.
+// its own, whose darkest parts are no floor of a panorama.
 DarkLevel black_of(const PanoramaSky& sky, const SkyMap& map) {
   if (sky.black) return {light_of_luminance(map, *sky.black / sky.brightness), *sky.black};
   if (is_microwave_background(sky.image)) return {};

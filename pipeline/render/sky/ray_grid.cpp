@@ -131,8 +131,8 @@ bool RayGrid::is_smooth(int row, int column) const {
   return !is_near_special(row, column);
 }
 
-// On a picture with a seam, or with a point that is stretched into a line, cells may be close
-// together on the sphere and far apart in the picture.  There distances are measured on the sphere.
+// On an image with a seam, or with a point that is stretched into a line, cells may be close
+// together on the sphere and far apart in the image.  There distances are measured on the sphere.
 // No pixel covers more than the central one, so the central pixel's angle bounds them.
 bool RayGrid::is_near_special(int row, int column) const {
   if (has_zenith(projection_) && !std::holds_alternative<Domemaster>(projection_)) {

@@ -171,7 +171,7 @@ Dispatched<onto_plane_loop> onto_plane;
 }
 Dispatched<flag_loop> flag;
 
-// Projects views one by one.  A view without a place in the picture is put infinitely far away, so
+// Projects views one by one.  A view without a place in the image is put infinitely far away, so
 // that it is not listed.
 void onto_any(const Projection& projection, double least_z, int count, StarViews& views) {
   for (int k = 0; k < count; ++k) {
@@ -183,7 +183,7 @@ void onto_any(const Projection& projection, double least_z, int count, StarViews
   }
 }
 
-// Returns the largest angle from Z in a picture.
+// Returns the largest angle from Z in an image.
 double farthest_angle(const Projection& p) {
   if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov / 2;
   if (has_zenith(p)) return pi;

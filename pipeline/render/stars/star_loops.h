@@ -72,7 +72,7 @@ void bend(const StarFrame& frame, const LensCurve& curve, double side, const Sta
 // Finds the images where light goes straight.
 void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
 
-// A StarPlane projects views to the frame's pixels.  It uses SIMD code for a stereographic picture,
+// A StarPlane projects views to the frame's pixels.  It uses SIMD code for a stereographic image,
 // and for a Domemaster unless blobs reach farther over its rim than angle_over_sine() holds.
 class StarPlane {
  public:

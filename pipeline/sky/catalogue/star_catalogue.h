@@ -29,7 +29,7 @@ struct StarCatalogue {
   std::vector<NamedStar> names;
 };
 
-// Returns fewer stars that send the same light, for pictures too small to tell them apart.  It
+// Returns fewer stars that send the same light, for frames too small to tell them apart.  It
 // keeps the `whole` brightest stars.  Of the next `whole` stars it keeps every second, which gets
 // the light of two.  Of the 2 `whole` stars beyond them it keeps every fourth, which gets the light
 // of four, and so on.  `stars` are sorted by magnitude, and so is the result.  whole >= 1.

@@ -16,7 +16,7 @@
 namespace domefall {
 namespace {
 
-[[noreturn]] void refuse_picture(const SkyImport& import, const std::string& what) {
+[[noreturn]] void refuse_import(const SkyImport& import, const std::string& what) {
   throw InputError(import.image.string() + ": " + what);
 }
 
@@ -32,11 +32,11 @@ SkyOrigin written_origin(const SkyImport& import, const Orientation& orientation
 }
 
 Orientation import_panorama(const SkyImport& import) {
-  if (import.cmb) refuse_picture(import, "the microwave background comes as a HEALPix map");
+  if (import.cmb) refuse_import(import, "the microwave background comes as a HEALPix map");
   const LightImage image = read_light_image(import.image, import.encoding);
   const int width = image.pixels.width, height = image.pixels.height;
   if (width < 4 || height < 2 || width != 2 * height)
-    refuse_picture(
+    refuse_import(
         import,
         fmt::format("an equirectangular picture is twice as wide as high, at least 4 x 2 pixels; "
                     "this one is {} x {}",
@@ -56,8 +56,8 @@ SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
   const std::string& c = file.coordinates;
   if (c.starts_with('G') || c.starts_with('g')) return SkyFrame::kGalactic;
   if (c.starts_with('C') || c.starts_with('Q') || c.starts_with("EQ")) return SkyFrame::kEquatorial;
-  if (c.empty()) refuse_picture(import, "it does not say in which coordinates it is; give --frame");
-  refuse_picture(
+  if (c.empty()) refuse_import(import, "it does not say in which coordinates it is; give --frame");
+  refuse_import(
       import,
       fmt::format("its coordinates (COORDSYS) are '{}'; only galactic and equatorial are read", c));
 }
@@ -70,7 +70,7 @@ double kelvin_of(const SkyImport& import, const std::string& units) {
   if (units.starts_with("mK") || units.starts_with("milliK")) return 1e-3;
   if (units.starts_with("uK") || units.starts_with("microK") || units.starts_with("muK"))
     return 1e-6;
-  refuse_picture(
+  refuse_import(
       import, fmt::format("it does not say in what its temperatures are (TUNIT is '{}'); give the "
                           "kelvin of a value of 1 as --unit",
                           units));
@@ -93,10 +93,10 @@ void check_texels(const SkyImport& import, const HealpixFile& healpix) {
     most = std::max(most, v);
   }
   if (!good)
-    refuse_picture(
-        import, fmt::format("column {} holds no value: all {} pixels are missing (UNSEEN, NaN or "
-                            "infinite)",
-                            import.column, healpix.values.size()));
+    refuse_import(import,
+                  fmt::format("column {} holds no value: all {} pixels are missing (UNSEEN, NaN or "
+                              "infinite)",
+                              import.column, healpix.values.size()));
   if (!import.cmb) check_light(import.image, least, most);
 }
 

@@ -1,7 +1,7 @@
 // domefall_make_sky IMAGE SIZE V OUT makes the .sky file OUT from a panorama of the kind that shows
 // take.  The faces of the map have SIZE texels along an edge.  The panorama holds the light of
 // stars fainter than V.  The build makes the shipped maps with this program, so that a show opens
-// them without reading a picture.
+// them without reading a panorama.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -66,14 +66,14 @@ double greatest_working(const ImageRgb<T>& image) {
 }
 
 template <class T>
-void paint_image(const ImageRgb<T>& image, const M33d& to_picture, double scale,
+void paint_image(const ImageRgb<T>& image, const M33d& to_panorama, double scale,
                  const SkyPyramid::Level& level) {
   const ColourMatrix& m = working_from_rec709();
   // A texel of the face that panorama_face() asks for is half a pixel wide.  A wider texel gets as
   // many samples along its side as it covers pixels.
   const int across = std::max(panorama_face(image.width) / 2 / level.size, 1);
-  const auto painter = [&image, &to_picture, &m, scale](const V3d& d, float* channel) {
-    const auto c = equirectangular_at(image, apply(to_picture, d));
+  const auto painter = [&image, &to_panorama, &m, scale](const V3d& d, float* channel) {
+    const auto c = equirectangular_at(image, apply(to_panorama, d));
     for (int k = 0; k < 3; ++k)
       channel[k] = static_cast<float>(scale * (m[k][0] * c[0] + m[k][1] * c[1] + m[k][2] * c[2]));
   };

@@ -159,14 +159,14 @@ class Judge {
       : map_(map),
         catalogue_(catalogue),
         band_(band_of(catalogue)),
-        map_from_picture_(panorama_from_equatorial(stated)) {}
+        panorama_from_map_(panorama_from_equatorial(stated)) {}
 
   OrientationFit fit(const Orientation& orientation) const {
     // The map was made with the stated orientation, so a direction goes into the panorama by the
     // assumed orientation and back out of it by the stated one.
-    const M33d picture = panorama_from_equatorial(orientation);
+    const M33d assumed = panorama_from_equatorial(orientation);
     const auto in_map = [&](const V3d& d) {
-      return apply_transposed(map_from_picture_, apply(picture, d));
+      return apply_transposed(panorama_from_map_, apply(assumed, d));
     };
     const std::size_t count = std::min(catalogue_.stars.size(), kBrightest);
     int found = 0;
@@ -186,7 +186,7 @@ class Judge {
   const SkyMap& map_;
   const StarCatalogue& catalogue_;
   Band band_;
-  M33d map_from_picture_;
+  M33d panorama_from_map_;
 };
 
 // Returns all orientations but the stated one, with the middle turned by quarters: 2 x 2 x 2 x 4 -

@@ -1,6 +1,6 @@
 // The dark level of a sky map is the light of its own darkest parts.
 //
-// A picture of the sky has a floor that no eye sees as light.  The camera, the airglow and the
+// A panorama of the sky has a floor that no eye sees as light.  The camera, the airglow and the
 // zodiacal dust add to it, and so does the sum of all faint stars between the clouds of the Milky
 // Way.  Shows take this level as black.
 #pragma once
@@ -16,7 +16,7 @@ struct DarkLevel {
 
 // Returns the light that 1 % of the sphere falls below, where each texel counts as its solid angle.
 // It is measured on the first level of at most 64 texels along an edge of a face.  These are 1.4
-// degrees wide, so that neither a star's gap nor the noise of a picture decides.  The result
+// degrees wide, so that neither a star's gap nor the noise of a panorama decides.  The result
 // follows from the map alone.  It is 0 if it exceeds 3/4 of the light that half of the sphere falls
 // below, because a sky so even has no dark parts.
 DarkLevel dark_level(const SkyMap& map);

@@ -24,8 +24,8 @@ static_assert(std::endian::native == std::endian::little, "maps are used as they
 constexpr std::array<char, 8> kMagic{'D', 'O', 'M', 'E', 'S', 'K', 'Y', 0};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPage = 4096, kMostText = 65536;
-// These bits of Header::picture say how the panorama lies.
-constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPicture = 8;
+// These bits of Header::panorama say how the panorama lies.
+constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPanorama = 8;
 
 constexpr std::string_view kExtension = ".sky";
 constexpr std::string_view kLimitLine = "stars: fainter than V = ";
@@ -51,7 +51,7 @@ struct Header {
   std::uint32_t version = kVersion, header_bytes = 0;
   std::uint64_t checksum = 0, file_bytes = 0;
   double unit = 1;
-  std::uint32_t kind = 0, levels = 0, picture = kNoPicture, text_bytes = 0;
+  std::uint32_t kind = 0, levels = 0, panorama = kNoPanorama, text_bytes = 0;
   double centre_deg = 0;
 };
 static_assert(sizeof(Header) == 64);
@@ -107,17 +107,18 @@ std::vector<SkyPyramid::Level> lay_out(std::byte* file, int size, std::size_t te
   return levels;
 }
 
-// Returns the bits for an orientation, and kNoPicture for none.
+// Returns the bits for an orientation, and kNoPanorama for none.
 std::uint32_t panorama_flags(const std::optional<Orientation>& o) {
-  if (!o) return kNoPicture;
+  if (!o) return kNoPanorama;
   return (o->frame == SkyFrame::kGalactic ? kGalactic : 0) |
          (o->longitude_right ? kLongitudeRight : 0) | (o->south_up ? kSouthUp : 0);
 }
 
 std::optional<Orientation> panorama_of(const Header& h) {
-  if (h.picture & kNoPicture) return std::nullopt;
-  return Orientation{h.picture & kGalactic ? SkyFrame::kGalactic : SkyFrame::kEquatorial,
-                     (h.picture & kLongitudeRight) != 0, (h.picture & kSouthUp) != 0, h.centre_deg};
+  if (h.panorama & kNoPanorama) return std::nullopt;
+  return Orientation{h.panorama & kGalactic ? SkyFrame::kGalactic : SkyFrame::kEquatorial,
+                     (h.panorama & kLongitudeRight) != 0, (h.panorama & kSouthUp) != 0,
+                     h.centre_deg};
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::size_t byte,
@@ -188,7 +189,7 @@ Header sky_header(const SkyMap& map, const SkyOrigin& origin) {
   h.header_bytes = static_cast<std::uint32_t>(header_bytes(h.levels, h.text_bytes));
   h.unit = map.unit();
   h.kind = static_cast<std::uint32_t>(map.kind());
-  h.picture = panorama_flags(origin.panorama);
+  h.panorama = panorama_flags(origin.panorama);
   h.centre_deg = origin.panorama ? origin.panorama->centre_deg : 0;
   return h;
 }

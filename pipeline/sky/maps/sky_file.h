@@ -7,8 +7,8 @@
 //
 //   0  8 bytes  "DOMESKY", 0            32  f64  unit (SkyMap::unit)
 //   8  u32      version, 1              40  u32  kind (SkyMapKind)    44  u32  number of levels
-//   12 u32      bytes of the header     48  u32  picture: 1 galactic, 2 longitude to the right,
-//   16 u64      checksum of the header           4 south up, 8 not from a picture
+//   12 u32      bytes of the header     48  u32  panorama: 1 galactic, 2 longitude to the right,
+//   16 u64      checksum of the header           4 south up, 8 not from a panorama
 //   24 u64      bytes of the file       52  u32  bytes of the text    56  f64  centre_deg
 //   64 and on: per level u32 size, u32 0, u64 place in the file, 6 x u64 checksums of its faces;
 //   then the text (UTF-8, lines "stars: fainter than V = ...", where that is known, "source: ...",

@@ -17,7 +17,7 @@ namespace domefall {
 namespace {
 
 // A static observer at r, who looks at the hole with 40 degrees of view, and one body in the plane
-// of the first orbit; the picture is small in angle, so that light adds up by pixels.
+// of the first orbit; the image is small in angle, so that light adds up by pixels.
 Show show_with(double r, const Body& body) {
   Show show = show_of(StaticObserver{r}, Stereographic{201, 201, 40 * kDegree});
   show.mass_solar = 4e6;
@@ -33,7 +33,7 @@ Show show_with(double r, const Body& body) {
   return show;
 }
 
-FloatImage body_picture(const Show& show) {
+FloatImage body_frame(const Show& show) {
   Renderer renderer(show, 1);
   FloatImage frame;
   renderer.render(frame_state(show, 0), frame);
@@ -41,7 +41,7 @@ FloatImage body_picture(const Show& show) {
 }
 
 struct Light {
-  double sum = 0, x = 0, y = 0;  // of green, and its middle in pixels from that of the picture
+  double sum = 0, x = 0, y = 0;  // of green, and its middle in pixels from that of the image
 };
 Light light_of(const FloatImage& frame) {
   Light light;
@@ -74,7 +74,7 @@ double azimuth_seen_at(double r, double seen, double observer) {
 
 TEST(Bodies, InFrontOfTheHoleAreSeenAgainstIt) {
   const Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.02, 30), -20));
-  const Light light = light_of(body_picture(show));
+  const Light light = light_of(body_frame(show));
   EXPECT_GT(light.sum, 0);
   const double pixels_of_hole = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
                                 central_pixel_angle(show.projection);
@@ -89,9 +89,9 @@ TEST(Bodies, AreAsBrightAsTheyAreNear) {
     const FrameState state = frame_state(show, 0);
     show.bodies[0].normal = {column(state.observer.sky_from_tetrad, 0)};  // seen from above
     show.bodies[0].node = {column(state.observer.sky_from_tetrad, 1)};
-    // Of a stereographic picture pixels cover cos^4(theta/2) of what the central one does.
+    // Of a stereographic image pixels cover cos^4(theta/2) of what the central one does.
     const double half = std::cos(std::atan(5000 / observer) / 2);
-    return light_of(body_picture(show)).sum * half * half * half * half;
+    return light_of(body_frame(show)).sum * half * half * half * half;
   };
   // What bends light so far out is a part of 2 M in 5000.
   const double near = light_from(5e4), far = light_from(1e5);
@@ -99,8 +99,8 @@ TEST(Bodies, AreAsBrightAsTheyAreNear) {
 }
 
 TEST(Bodies, GrowTenfoldWithTwoMagnitudesAndAHalf) {
-  const double bright = light_of(body_picture(show_with(30, body_at(10, 1, -17.5)))).sum;
-  const double faint = light_of(body_picture(show_with(30, body_at(10, 1, -15)))).sum;
+  const double bright = light_of(body_frame(show_with(30, body_at(10, 1, -17.5)))).sum;
+  const double faint = light_of(body_frame(show_with(30, body_at(10, 1, -15)))).sum;
   EXPECT_NEAR(bright / faint, 10, 0.01);
 }
 
@@ -108,9 +108,9 @@ TEST(Bodies, AreNotSeenFromWithin) {
   Body body = body_at(30, 0, -20);
   body.trajectory = StaticObserver{30};
   body.radius = 0.1;
-  for (const double value : body_picture(show_with(30, body)).pixels) ASSERT_EQ(value, 0);
+  for (const double value : body_frame(show_with(30, body)).pixels) ASSERT_EQ(value, 0);
   body.azimuth = 0.01;
-  EXPECT_GT(light_of(body_picture(show_with(30, body))).sum, 0);
+  EXPECT_GT(light_of(body_frame(show_with(30, body))).sum, 0);
 }
 
 // The light that it sent around the hole comes back as a ring about the hole's silhouette.
@@ -121,7 +121,7 @@ TEST(Bodies, AreSeenByTheirRiderAroundTheHole) {
   const FrameState state = frame_state(show, 0);
   const BodySight sight(show, state);
   EXPECT_EQ(sight.first_order(show.bodies[0]), 1);
-  const FloatImage frame = body_picture(show);
+  const FloatImage frame = body_frame(show);
   EXPECT_GT(light_of(frame).sum, 0);
   EXPECT_EQ(frame.row(100)[3 * 100], 0);  // the body itself would be anywhere
   const double silhouette = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
@@ -161,9 +161,9 @@ double bright_area(const FloatImage& frame, const Projection& projection) {
 TEST(Bodies, OfASizeAreSpheresOfTheSameLight) {
   Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.5, 30), -15));
   show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
-  const double as_point = light_of(body_picture(show)).sum;
+  const double as_point = light_of(body_frame(show)).sum;
   show.bodies[0].radius = 0.7;
-  const FloatImage frame = body_picture(show);
+  const FloatImage frame = body_frame(show);
   EXPECT_NEAR(light_of(frame).sum / as_point, 1, 0.01);
   const FrameState state = frame_state(show, 0);
   const BodySight sight(show, state);
@@ -181,7 +181,7 @@ TEST(Bodies, StraightBehindTheHoleAreRings) {
     Show show = show_with(30, body_at(10, azimuth_seen_at(10, std::numbers::pi - off, 30), -8));
     show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
     show.bodies[0].radius = 0.3;
-    const FloatImage frame = body_picture(show);
+    const FloatImage frame = body_frame(show);
     std::array<double, 8> sector{};
     double total = 0;
     for (int row = 0; row < frame.height; ++row)
@@ -202,7 +202,7 @@ TEST(Bodies, StraightBehindTheHoleAreRings) {
 TEST(Bodies, AreHiddenByADiscBeforeThem) {
   const Show show = show_with(30, body_at(10, azimuth_seen_at(10, 0.6, 30), -14));
   const M33d axes = frame_state(show, 0).observer.sky_from_tetrad;
-  const double alone = light_of(body_picture(show)).sum;
+  const double alone = light_of(body_frame(show)).sum;
   const auto light_left = [&](double azimuth, double inner, double opacity) {
     Show hidden = show;
     Disc& disc = hidden.disc.emplace();
@@ -210,7 +210,7 @@ TEST(Bodies, AreHiddenByADiscBeforeThem) {
     disc.node = {column(axes, 1)};
     disc.inner = inner, disc.outer = 26, disc.opacity = opacity;
     disc.luminance = 1e-12;
-    return light_of(body_picture(hidden)).sum / alone;
+    return light_of(body_frame(hidden)).sum / alone;
   };
   EXPECT_LT(light_left(0.3, 6, 1), 0.05);
   EXPECT_NEAR(light_left(0.3, 6, 0.25), 0.75, 0.03);
@@ -241,7 +241,7 @@ TEST(Bodies, AreSeenFromBeyondTheHorizon) {
   show.timeline[0].trajectory = RadialInfall{1.2};
   show.timeline[0].camera.attitude = LookOutward{};
   show.projection = Domemaster{128};
-  EXPECT_GT(light_of(body_picture(show)).sum, 0);
+  EXPECT_GT(light_of(body_frame(show)).sum, 0);
 }
 
 TEST(Bodies, AndTheirTimeAreInTheKeysOfFrames) {

@@ -69,7 +69,7 @@ TEST(LensMap, HoldsTheExactRays) {
   }
 }
 
-TEST(LensMap, EndsWithThePicture) {
+TEST(LensMap, EndsWithTheImage) {
   const ChannelImage map = make_lens_map(falling_show(9), frame_state(falling_show(9), 0), 1);
   for (int c = 0; c < kLensChannels; ++c) EXPECT_EQ(map.pixel(0, 0)[c], 0) << c;
   EXPECT_EQ(map.channels.size(), std::size_t{kLensChannels});

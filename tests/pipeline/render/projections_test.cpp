@@ -1,4 +1,4 @@
-// Pictures in every projection against Domemasters, upwards and downwards, of the same instant.
+// Frames in every projection against Domemasters, upwards and downwards, of the same instant.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -27,7 +27,7 @@ class WholeSphere {
     renderer.render(state, down_);
   }
 
-  // The mean over the square of a pixel of another picture, by the cubic through 4 by 4 pixels for
+  // The mean over the square of a pixel of another frame, by the cubic through 4 by 4 pixels for
   // each of many points; nothing beside the rim.
   std::optional<float> at(const CameraDirection& n, int channel) const {
     const bool upper = n.v.z >= 0;
@@ -60,7 +60,7 @@ class WholeSphere {
 Show show_for(const Projection& p) {
   Show show = starry(show_of(StaticObserver{12}, Domemaster{kDome}));
   show.sky[SkyRegion::kI].stars->max_magnitude = 4;
-  // A law's widths are parts of a flat picture's.
+  // A law's widths are parts of a flat image's.
   const double sigma = 2.2 * kDegree * (has_zenith(p) ? 1 : pi / *field_of_view(p));
   show.point_spread.min_sigma = show.point_spread.max_sigma = sigma;
   return show;
@@ -97,7 +97,7 @@ Compared compare_with_sphere(const WholeSphere& sphere, const FloatImage& image,
   return found;
 }
 
-TEST(PicturesInEveryProjection, HaveKeysOfTheirOwn) {
+TEST(FramesInEveryProjection, HaveKeysOfTheirOwn) {
   const std::vector<Projection> all{Domemaster{256},
                                     Fisheye{256, 256, pi, 0},
                                     Fisheye{256, 256, 1.1 * pi, 0},
@@ -121,7 +121,7 @@ TEST(PicturesInEveryProjection, HaveKeysOfTheirOwn) {
 }
 
 // An edge of a sky is not interpolated, and pixels of other shapes blur an Einstein ring otherwise.
-TEST(PicturesInEveryProjection, AreThoseOfDomes) {
+TEST(FramesInEveryProjection, AreThoseOfDomes) {
   for (const Projection& p :
        {Projection(Equirectangular{256}), Projection(Cubemap{64}),
         Projection(Fisheye{160, 160, 220 * kDegree, 0}),

@@ -146,7 +146,7 @@ TEST_P(SimdFrames, MakesTheSameFlatImages) {
 }
 
 // Which have loops of their own for directions and caps, so that one scene is enough.
-TEST_P(SimdFrames, MakesTheSamePicturesInOtherProjections) {
+TEST_P(SimdFrames, MakesTheSameFramesInOtherProjections) {
   for (const Projection& p :
        {Projection(Equirectangular{128}), Projection(Fisheye{96, 80, 300 * kDegree, 1}),
         Projection(Rectilinear{96, 64, 120 * kDegree})}) {

@@ -61,7 +61,7 @@ TEST_F(CameraTurns, OnItsWayFromTheHoleForwardTheCameraComesNearerAllTheTime) {
 
 // The camera once jumped to the long way round where the next segment's observer would turn the
 // other way.
-TEST_F(CameraTurns, APictureThatVanishesGoesOnTurningAsItsOwnObserverSees) {
+TEST_F(CameraTurns, AViewThatVanishesGoesOnTurningAsItsOwnObserverSees) {
   for (const char* ra : {"0", "60", "120", "180"}) {
     const Show s = read(
         std::string("black_hole: {mass_solar: 4e6}\nframes_per_second: 100\n"

@@ -162,7 +162,7 @@ TEST_F(FrameStates, DomeTiltLiftsWhatEulerAnglesPutInFront) {
     expect_close(at_front(level, elevation), at_front(tilted, elevation + 25 * kDegree));
 }
 
-TEST_F(FrameStates, FlatPicturesHaveTheHoleInTheMiddle) {
+TEST_F(FrameStates, FlatImagesHaveTheHoleInTheMiddle) {
   for (const char* mover : kMovers) {
     const FrameState f =
         frame_state(show("  - {duration_s: 1, trajectory: " + std::string(mover) + "}\n",
@@ -180,7 +180,7 @@ TEST_F(FrameStates, NorthOfTheOrbitIsUpWhereTheHoleIsLookedAt) {
   expect_close(column(f.observer.tetrad_from_camera, 0), V3d(0, 0, 1));  // Phi to the right
 }
 
-TEST_F(FrameStates, RollTurnsThePictureClockwise) {
+TEST_F(FrameStates, RollTurnsTheImageClockwise) {
   const FrameState f = frame_state(show("  - {duration_s: 1, trajectory: {type: static, r: 20}}\n",
                                         "camera: {projection: stereographic, roll_deg: 90}\n"),
                                    0);

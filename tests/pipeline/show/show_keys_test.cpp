@@ -90,7 +90,7 @@ TEST_F(ShowKeys, GradedFilesHaveAKindAndAJpegAQuality) {
   EXPECT_EQ(with("output: {graded: jpeg, quality: 80}\n").output.graded, (GradedFormat{kJpeg, 80}));
 }
 
-TEST_F(ShowKeys, FlatPicturesAreFullHdAtNinetyDegreesOrWhatIsGiven) {
+TEST_F(ShowKeys, FlatImagesAreFullHdAtNinetyDegreesOrWhatIsGiven) {
   const auto plain =
       std::get<Stereographic>(with("camera: {projection: stereographic}").projection);
   EXPECT_EQ(plain.columns, 1920);

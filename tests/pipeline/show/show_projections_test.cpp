@@ -1,4 +1,4 @@
-// Tests of the keys that say what a show's pictures are, and of what is told of mistakes in them.
+// Tests of the keys that say what projection a show has, and of what is told of mistakes in them.
 #include "pipeline/show/frame_state.h"
 #include "tests/pipeline/show/show_keys.h"
 #include "tests/pipeline/show/show_mistakes.h"
@@ -8,7 +8,7 @@ namespace {
 
 using ShowProjections = ShowKeys;
 
-TEST_F(ShowProjections, RectilinearPicturesAreAsFlatOnes) {
+TEST_F(ShowProjections, RectilinearImagesAreAsFlatOnes) {
   const auto plain = std::get<Rectilinear>(with("camera: {projection: rectilinear}").projection);
   EXPECT_EQ(plain.columns, 1920);
   EXPECT_EQ(plain.rows, 1080);
@@ -39,7 +39,7 @@ TEST_F(ShowProjections, AFisheyeIsASquareOrAPartOfIt) {
   }
 }
 
-TEST_F(ShowProjections, PicturesOfTheWholeSphereHaveOneSize) {
+TEST_F(ShowProjections, ImagesOfTheWholeSphereHaveOneSize) {
   for (const auto& [text, width] :
        {std::pair{"", 4096}, {"size: 8k\n", 8192}, {"size: 500\n", 500}})
     EXPECT_EQ(columns(with(text + std::string("camera: {projection: equirectangular}")).projection),
@@ -50,8 +50,8 @@ TEST_F(ShowProjections, PicturesOfTheWholeSphereHaveOneSize) {
               3 * face);
 }
 
-// One camera serves all pictures for an audience.
-TEST_F(ShowProjections, PicturesWithAZenithHaveTheAxesOfADome) {
+// One camera serves all images for an audience.
+TEST_F(ShowProjections, ImagesWithAZenithHaveTheAxesOfADome) {
   const std::string camera = ", look_at: hole, elevation_deg: 20, dome_tilt_deg: 10, roll_deg: 5}";
   const auto state = [&](const std::string& projection) {
     return frame_state(with("camera: {projection: " + projection + camera), 0);

@@ -123,8 +123,8 @@ TEST(BlobsInEveryProjection, AreFiniteInTheVeryMiddleOfAFisheye) {
   EXPECT_NEAR(image.at(32, 33), image.at(32, 32), 3e-3);
 }
 
-// Against what draws caps on a dome and a stereographic picture.
-TEST(ExactCaps, AreTheCapsOfADomeAndAFlatPicture) {
+// Against what draws caps on a dome and a stereographic image.
+TEST(ExactCaps, AreTheCapsOfADomeAndAFlatImage) {
   std::mt19937 random(3);
   for (const Projection& p :
        {Projection(Domemaster{300}), Projection(Stereographic{300, 200, 2})}) {

@@ -13,30 +13,30 @@ DiscView usual_view(double opacity) {
   return view;
 }
 
-const Projection kPicture = Domemaster{tries(240, 100)};
+const Projection kDiscDome = Domemaster{tries(240, 100)};
 
 struct Skies {
   bool panorama = false, stars = false;
 };
 
-FloatImage picture_of(const DiscView& view, bool disc, const Skies& skies) {
-  const Show whole = starry(disc_show(view, kPicture));
-  Show show = disc_show(view, kPicture);
+FloatImage disc_frame(const DiscView& view, bool disc, const Skies& skies) {
+  const Show whole = starry(disc_show(view, kDiscDome));
+  Show show = disc_show(view, kDiscDome);
   if (!disc) show.disc.reset();
   if (skies.panorama) show.sky[SkyRegion::kI].background = whole.sky[SkyRegion::kI].background;
   if (skies.stars) show.sky[SkyRegion::kI].stars = whole.sky[SkyRegion::kI].stars;
   return render_floats(show);
 }
 
-// The part of a sky's light that is left at each value of a picture, where there is light.
+// The part of a sky's light that is left at each value of a frame, where there is light.
 TEST(DiscHides, StarsAsItHidesTheSky) {
   for (const double opacity : {1.0, 0.6}) {
     const DiscView view = usual_view(opacity);
-    const FloatImage disc = picture_of(view, true, {}),
-                     sky = picture_of(view, false, {true, false}),
-                     stars = picture_of(view, false, {false, true}),
-                     disc_sky = picture_of(view, true, {true, false}),
-                     disc_stars = picture_of(view, true, {false, true});
+    const FloatImage disc = disc_frame(view, true, {}),
+                     sky = disc_frame(view, false, {true, false}),
+                     stars = disc_frame(view, false, {false, true}),
+                     disc_sky = disc_frame(view, true, {true, false}),
+                     disc_stars = disc_frame(view, true, {false, true});
     int hidden = 0, cut = 0, free = 0;
     for (std::size_t k = 0; k < disc.pixels.size(); ++k) {
       if (!(sky.pixels[k] > 1e-3f) || disc.pixels[k] > 1e3f * sky.pixels[k]) continue;
@@ -60,8 +60,8 @@ TEST(DiscHides, StarsAsItHidesTheSky) {
 
 TEST(DiscHides, NothingIfItIsQuiteTransparent) {
   const DiscView view = usual_view(0);
-  const FloatImage with = picture_of(view, true, {true, true}),
-                   without = picture_of(view, false, {true, true});
+  const FloatImage with = disc_frame(view, true, {true, true}),
+                   without = disc_frame(view, false, {true, true});
   EXPECT_EQ(with.pixels, without.pixels);
 }
 
@@ -72,10 +72,11 @@ TEST(DiscHides, StarsAtItsRimWithoutBlinking) {
   view.at.celerity = celerity_of_rest(30);
   std::vector<double> lights;
   for (int step = 0; step < kSteps; ++step) {
-    // The outer rim moves by a sixth of a pixel of this picture a step.
+    // The outer rim moves by a sixth of a pixel of this frame a step.
     view.disc.outer = 18 + step * 0.1;
     view.disc.luminance = 1e-12;  // black against the stars
-    lights.push_back(illuminance(disc_show(view, kPicture), picture_of(view, true, {false, true})));
+    lights.push_back(
+        illuminance(disc_show(view, kDiscDome), disc_frame(view, true, {false, true})));
   }
   double most = 0;
   for (std::size_t k = 1; k < lights.size(); ++k) {

@@ -27,7 +27,7 @@ void expect_all_light(const DiscView& view, const Projection& projection, double
   EXPECT_NEAR(illuminance(show, render_floats(show)) / exact, 1, tolerance);
 }
 
-Projection picture(int size, double degrees) {
+Projection flat_image(int size, double degrees) {
   return Stereographic{size, size, degrees * kDegree};
 }
 
@@ -36,23 +36,23 @@ DiscView from_afar(double degrees, const Disc& disc) {
 }
 
 TEST(DiscLight, OfARingSeenFromAboveIsThatOfItsExactImages) {
-  expect_all_light(from_afar(60, ring(9, 11, 1)), picture(256, 50), 2e-4);
+  expect_all_light(from_afar(60, ring(9, 11, 1)), flat_image(256, 50), 2e-4);
 }
 
 TEST(DiscLight, OfARingWithAllItsImagesIsThatOfItsExactImages) {
-  expect_all_light(from_afar(10, ring(9, 11, 0.5)), picture(256, 50), 4e-4);
-  expect_all_light(from_afar(10, ring(6, 20, 1)), picture(256, 50), 4e-4);
+  expect_all_light(from_afar(10, ring(9, 11, 0.5)), flat_image(256, 50), 4e-4);
+  expect_all_light(from_afar(10, ring(6, 20, 1)), flat_image(256, 50), 4e-4);
 }
 
-// Rings narrower than a pixel: the pixels of this picture are as wide as 0.2 M there.
+// Rings narrower than a pixel: the pixels of this image are as wide as 0.2 M there.
 TEST(DiscLight, IsKeptWhereARingIsNarrowerThanAPixel) {
-  expect_all_light(from_afar(35, ring(10, 10.1, 0.8)), picture(256, 50), 1e-3);
+  expect_all_light(from_afar(35, ring(10, 10.1, 0.8)), flat_image(256, 50), 1e-3);
 }
 
 // The direct image is a line of a third of a pixel, and less.
 TEST(DiscLight, IsKeptOnEdge) {
   const Disc disc = ring(6, 20, 1);
-  const Projection projection = picture(192, 50);
+  const Projection projection = flat_image(192, 50);
   for (const double degrees : {0.2, 0.01}) {
     SCOPED_TRACE(degrees);
     expect_all_light(from_afar(degrees, disc), projection, 1e-3);
@@ -66,7 +66,7 @@ TEST(DiscLight, IsKeptOnEdge) {
   }
 }
 
-// Pixels of pictures of the whole sphere are 0.7 degrees wide here.  What they err by falls with
+// Pixels of images of the whole sphere are 0.7 degrees wide here.  What they err by falls with
 // their size.
 constexpr double kOfTheSphere = 8e-4;
 

@@ -13,7 +13,7 @@ namespace {
 
 Vector3 array_of(const V3d& v) { return {v.x, v.y, v.z}; }
 
-// The disc as one direction of view shows it, without the tables that pictures are made from.
+// The disc as one direction of view shows it, without the tables that frames are made from.
 class FollowedDisc {
  public:
   FollowedDisc(const Show& show, const FrameState& state)
@@ -124,7 +124,7 @@ TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
       const double seen = luminance(pixel_at(frame, column, row)) / scale;
       SCOPED_TRACE(testing::Message() << "view " << v << ", pixel " << column << ", " << row);
       EXPECT_GE(seen, 0);
-      // Rims and thin rings are judged by the light of whole pictures (disc_light_test.cpp).
+      // Rims and thin rings are judged by the light of whole frames (disc_light_test.cpp).
       if (!same || (centre.orders != 0 && evenness < 0.7)) continue;
       if (centre.orders == 0) {
         // What is left may be a ring that no corner meets.

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// The values of a picture that are drawn with each pixel by itself, and those by rows.
+// The values of a frame that are drawn with each pixel by itself, and those by rows.
 struct Drawn {
   FloatImage singly, by_rows;
 };
@@ -23,13 +23,13 @@ Drawn drawn_row(const DiscView& view, const Projection& projection) {
   const FrameScene scene(show, state, plan_frame(show, state), optics, {}, {}, nullptr, &light);
   const DiscPass pass(scene);
   const int width = columns(projection), height = rows(projection);
-  Drawn pictures{FloatImage(width, height), FloatImage(width, height)};
+  Drawn frames{FloatImage(width, height), FloatImage(width, height)};
   // What is behind the disc is not black.
-  std::fill(pictures.singly.pixels.begin(), pictures.singly.pixels.end(), 0.25f);
-  pictures.by_rows.pixels = pictures.singly.pixels;
-  pass.draw_rows_singly(0, height, pictures.singly.row(0));
-  pass.draw_rows(0, height, pictures.by_rows.row(0));
-  return pictures;
+  std::fill(frames.singly.pixels.begin(), frames.singly.pixels.end(), 0.25f);
+  frames.by_rows.pixels = frames.singly.pixels;
+  pass.draw_rows_singly(0, height, frames.singly.row(0));
+  pass.draw_rows(0, height, frames.by_rows.row(0));
+  return frames;
 }
 
 Disc disc_of(double opacity, bool plunging = false) {
@@ -58,8 +58,8 @@ std::vector<DiscView> views() {
 TEST(DiscRow, IsThatOfItsPixels) {
   int differ = 0;
   for (std::size_t v = 0; v < views().size(); ++v) {
-    const Drawn pictures = drawn_row(views()[v], Domemaster{tries(512, 256)});
-    const std::vector<float>&singly = pictures.singly.pixels, &by_rows = pictures.by_rows.pixels;
+    const Drawn frames = drawn_row(views()[v], Domemaster{tries(512, 256)});
+    const std::vector<float>&singly = frames.singly.pixels, &by_rows = frames.by_rows.pixels;
     for (std::size_t k = 0; k < singly.size(); ++k) {
       differ += singly[k] != by_rows[k];
       ASSERT_NEAR(by_rows[k], singly[k], 1e-3f * singly[k]) << "view " << v << ", value " << k;

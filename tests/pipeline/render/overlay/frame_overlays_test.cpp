@@ -66,7 +66,7 @@ TEST(FrameMarks, OfADomeLieAtTheirElevations) {
       }
 }
 
-TEST(FrameMarks, OfAFlatPictureAreFrames) {
+TEST(FrameMarks, OfAFlatImageAreFrames) {
   const Stereographic flat{200, 100, 90 * kDegree};
   const HalfFrame rim = drawn_overlays(overlaid(OverlayKind::kRim, flat)),
                   safe = drawn_overlays(overlaid(OverlayKind::kSafeArea, flat));
@@ -173,7 +173,7 @@ TEST(FrameOverlays, BurnInOfADissolveTellsOfTheViewThatIsSeenBetter) {
 
 class StarLabelImages : public TestFolder {};
 
-// Of stars alone in a black sky each named image in the picture has light.
+// Of stars alone in a black sky each named image in the frame has light.
 TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
   put(folder_ / "two.csv",
       "ra_deg,dec_deg,v_mag,b_v,name,designation\n"

@@ -90,7 +90,7 @@ TEST(FrameTitles, LeanWithTheDome) {
   EXPECT_NEAR(right.v.x, std::cos(30 * kDegree), 0.005);
 }
 
-TEST(FrameTitles, CountFromTheLineOfSightOfAFlatPicture) {
+TEST(FrameTitles, CountFromTheLineOfSightOfAFlatImage) {
   const Stereographic flat{256, 144, 100 * kDegree};
   const auto middle = middle_of_light(frame_of(titled(title_of("O", 20, 10, 6), flat)), flat);
   const V3d expected(std::cos(10 * kDegree) * std::sin(20 * kDegree), -std::sin(10 * kDegree),

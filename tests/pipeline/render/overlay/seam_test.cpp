@@ -59,7 +59,7 @@ std::vector<double> circle_at(double azimuth, double elevation, double radius) {
 }
 
 TEST(Seam, ACircleGoesOnBeyondIt) {
-  // A turn by columns of the picture, of which the seam is one.
+  // A turn by columns of the image, of which the seam is one.
   for (const int columns : {90, 128, 140})
     expect_same(turned_show(circle_at(0, 0.3, 0.5), columns),
                 circle_at(2 * pi * columns / kWidth, 0.3, 0.5));
@@ -94,10 +94,10 @@ TEST(Seam, ATextGoesOnBeyondIt) {
 
 TEST(Seam, AnOutlineAroundAPoleIsFilledUpToIt) {
   Coverage coverage(kWidth, kWidth / 2);
-  PicturePolygon outline;
+  ImagePolygon outline;
   for (int k = 0; k < 64; ++k) {
     const auto pixel = pixel_of(kSphere, {towards(2 * pi * (k + 0.3) / 64, pi / 4)});
-    outline.push_back(picture_point(*pixel));
+    outline.push_back(image_point(*pixel));
   }
   add_unwound(outline, kSphere, coverage);
   const std::vector<double> pixels = pixels_of(coverage);
@@ -105,8 +105,8 @@ TEST(Seam, AnOutlineAroundAPoleIsFilledUpToIt) {
     ASSERT_NEAR(std::abs(pixels[k]), k / kWidth < kWidth / 8 ? 1 : 0, 1e-3) << k;
 }
 
-TEST(Seam, OtherPicturesHaveNone) {
-  std::vector<PicturePoint> points{{1, 1}, {200, 5}, {3, 9}};
+TEST(Seam, OtherProjectionsHaveNone) {
+  std::vector<ImagePoint> points{{1, 1}, {200, 5}, {3, 9}};
   unwind(Domemaster{256}, points);
   EXPECT_EQ(points[1].x, 200);
   EXPECT_EQ(winding(Domemaster{256}, points), 0);

@@ -292,7 +292,7 @@ TEST(StarTrail, IsOneImageWhereTheSkyMovesLittle) {
   }
 }
 
-// The light of a star near the axis does not depend on the size of the picture.
+// The light of a star near the axis does not depend on the size of the frame.
 TEST(StarTrail, HasTheSameLightAtEverySize) {
   for (const V3d& turn : {V3d(0, 0, 0), V3d(0, -0.004, 0)})
     for (const double from_axis : {1e-5, 1e-3}) {

@@ -89,7 +89,7 @@ TEST_F(ImportSky, AHealpixMapOfNegativeValuesIsNoLightButMayBeFluctuations) {
   EXPECT_EQ(refusal_of(import), "");
 }
 
-// Its darkest parts are no floor of a picture, so that shows ask for it.
+// Its darkest parts are no floor of a panorama, so that shows ask for it.
 TEST_F(ImportSky, TheMicrowaveBackgroundIsKnownByItsFile) {
   SkyImport import = healpix([](int k) { return 1e-5f * static_cast<float>(k); });
   import.text = "licence: a map of the microwave background: free\n";

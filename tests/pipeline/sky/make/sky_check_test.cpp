@@ -50,7 +50,7 @@ SkyMap import_as(const LightImage& image, const Orientation& o, int size) {
   return pyramid.map();
 }
 
-TEST(Orientations, TurnTheSkyIntoThePicture) {
+TEST(Orientations, TurnTheSkyIntoThePanorama) {
   const auto near = [](const V3d& a, const V3d& b) { return (a - b).length() < 1e-6; };
   const V3d middle(1, 0, 0), left(0, 1, 0), top(0, 0, 1);
   Orientation o;
@@ -67,7 +67,7 @@ TEST(Orientations, TurnTheSkyIntoThePicture) {
   EXPECT_TRUE((apply(galactic, direction_at(192.85948, 27.12825)) - top).length() < 1e-5);
 }
 
-TEST(SkyChecks, APictureOfStarsTellsItsOrientation) {
+TEST(SkyChecks, APanoramaOfStarsTellsItsOrientation) {
   const Orientation truth{SkyFrame::kGalactic, true, false, 90};
   const LightImage image = panorama_of_stars(truth);
   const SkyCheck right = check_orientation(import_as(image, truth, 512), truth, stars());

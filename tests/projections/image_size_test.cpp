@@ -1,4 +1,4 @@
-#include "projections/picture_size.h"
+#include "projections/image_size.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ void expect_size(const Projection& p, int width, int height) {
   EXPECT_EQ(rows(p), height) << projection_name(p);
 }
 
-TEST(PictureSize, AWidthKeepsTheShape) {
+TEST(ImageSize, AWidthKeepsTheShape) {
   expect_size(with_width(Domemaster{4096}, 48), 48, 48);
   expect_size(with_width(Stereographic{1920, 1080, 1}, 480), 480, 270);
   expect_size(with_width(Rectilinear{1920, 1080, 1}, 48), 48, 27);
@@ -20,7 +20,7 @@ TEST(PictureSize, AWidthKeepsTheShape) {
   expect_size(with_width(Stereographic{10000, 10, 1}, 16), 16, 1);
 }
 
-TEST(PictureSize, SidesAreFreeWhereNoShapeIsGiven) {
+TEST(ImageSize, SidesAreFreeWhereNoShapeIsGiven) {
   expect_size(with_sides(Rectilinear{10, 10, 1}, 640, 480), 640, 480);
   expect_size(with_sides(Fisheye{10, 10, 1, 0}, 640, 480), 640, 480);
   expect_size(with_sides(Fisheye{10, 10, 1, 0}, 480, 640), 480, 480);

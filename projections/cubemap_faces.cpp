@@ -1,18 +1,18 @@
-#include "projections/picture_parts.h"
+#include "projections/cubemap_faces.h"
 
 #include "projections/sphere_formulas.h"
 
 namespace domefall {
 
-std::vector<PicturePart> picture_parts(const Projection& p) {
+std::vector<CubemapFace> cubemap_faces(const Projection& p) {
   const auto* cube = std::get_if<Cubemap>(&p);
   if (!cube) return {};
-  std::vector<PicturePart> faces;
-  for (int k = 0; k < static_cast<int>(kCubeFaces.size()); ++k) {
-    const CubeFace& f = kCubeFaces[static_cast<std::size_t>(k)];
+  std::vector<CubemapFace> faces;
+  for (int k = 0; k < static_cast<int>(kFaceAxes.size()); ++k) {
+    const FaceAxes& f = kFaceAxes[static_cast<std::size_t>(k)];
     faces.push_back({k % kFacesInARow * cube->face,
                      k / kFacesInARow * cube->face,
-                     face_picture(*cube),
+                     face_projection(*cube),
                      {f.right, f.down, f.forward}});
   }
   return faces;

@@ -4,9 +4,9 @@
 namespace domefall {
 namespace {
 
-using ShowErrorsInPictures = ShowMistakes;
+using ShowErrorsInSections = ShowMistakes;
 
-TEST_F(ShowErrorsInPictures, FrameRateSizeAndHole) {
+TEST_F(ShowErrorsInSections, FrameRateSizeAndHole) {
   expect_complaints({
       {"FrameRateTooLow", kShow + "frames_per_second: 0.5\n",
        "3:20: frames_per_second must be at least 1 (frames per second), got 0.5"},
@@ -51,14 +51,14 @@ TEST_F(ShowErrorsInPictures, FrameRateSizeAndHole) {
   });
 }
 
-TEST_F(ShowErrorsInPictures, Cameras) {
+TEST_F(ShowErrorsInSections, Cameras) {
   expect_complaints({
       {"FovOnADome", kShow + "camera: {fov_deg: 90}\n",
        "3:19: camera.fov_deg goes with the projections fisheye, stereographic and rectilinear; a "
        "domemaster shows 180 degrees"},
       {"FovTooWide", kShow + "camera: {projection: stereographic, fov_deg: 360}\n",
        "3:46: camera.fov_deg must stay below 360 (degrees), got 360"},
-      {"ElevationOnAFlatPicture", kShow + "camera: {projection: stereographic, elevation_deg: 3}\n",
+      {"ElevationOnAFlatImage", kShow + "camera: {projection: stereographic, elevation_deg: 3}\n",
        "3:52: camera.elevation_deg is for domes; this projection is flat"},
       {"EulerAndLookAt", kShow + "camera: {euler_deg: [0, 0, 0], look_at: hole}\n",
        "3:41: camera.look_at excludes euler_deg; give one of them"},
@@ -105,7 +105,7 @@ TEST_F(ShowErrorsInPictures, Cameras) {
   });
 }
 
-TEST_F(ShowErrorsInPictures, SkiesAndStars) {
+TEST_F(ShowErrorsInSections, SkiesAndStars) {
   expect_complaints({
       {"MissingPanorama", kShow + "sky: {region_I: {background: sky.exr}}\n",
        "3:30: sky.region_I.background names the file 'sky.exr', which is neither beside the show "
@@ -175,7 +175,7 @@ TEST_F(ShowErrorsInPictures, SkiesAndStars) {
   });
 }
 
-TEST_F(ShowErrorsInPictures, Effects) {
+TEST_F(ShowErrorsInSections, Effects) {
   const std::string told =
       "effects.lensing can be false outside the horizon only (r > 2), but frame ";
   expect_complaints({
@@ -213,14 +213,14 @@ TEST_F(ShowErrorsInPictures, Effects) {
   });
 }
 
-TEST_F(ShowErrorsInPictures, ExposureAndGrade) {
+TEST_F(ShowErrorsInSections, ExposureAndGrade) {
   expect_complaints({
       {"ExposureTooHigh", kShow + "exposure: {ev: 31}\n",
        "3:16: exposure.ev must be at most 30 (stops), got 31"},
       {"MissingConfig", kShow + "grade: {config: house.ocio}\n",
        "3:17: grade.config names the file 'house.ocio', which is neither beside the show nor in "
        "the working folder"},
-      {"DomeLightOnAFlatPicture",
+      {"DomeLightOnAFlatImage",
        kShow + "camera: {projection: stereographic}\ndome: {light: simulate}\n",
        "4:15: dome.light is for domes; this projection is flat"},
   });

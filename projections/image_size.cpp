@@ -1,4 +1,4 @@
-#include "projections/picture_size.h"
+#include "projections/image_size.h"
 
 #include <algorithm>
 #include <cmath>
