@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "pipeline/render/scene/star_light.h"
+#include "pipeline/render/stars/blackbody_table.h"
 #include "pipeline/render/stars/einstein_rings.h"
-#include "pipeline/render/stars/star_colours.h"
 #include "pipeline/render/stars/star_image_finder.h"
 
 namespace domefall {
@@ -54,7 +54,7 @@ void StarImageFinder::prepare_batches() {
   // The boost multiplies amplification/(1+z)^4 in the tetrad by the square of its frequency ratio,
   // which is at most stretch_.
   brightness_per_flux_ =
-      star_colours().most_luminance() * peak_per_lux_ * stretch_ * stretch_ / kFaintestPeak;
+      blackbody_table().most_luminance() * peak_per_lux_ * stretch_ * stretch_ / kFaintestPeak;
   bound_.fill(brightness_per_flux_);
   if (table_ == nullptr) return;
   batch_frame_.psi = psi_frame(*table_);
@@ -187,12 +187,12 @@ void StarImageFinder::append_views(StarViews& views, int count, double least_pea
                                    std::vector<StarImage>& images) const {
   StarColumn<int> listed;
   const int number = plane_.place(views, count, listed.data());
-  const StarColours& colours = star_colours();
+  const BlackbodyTable& blackbodies = blackbody_table();
   std::size_t bright = images.size();
   images.resize(bright + static_cast<std::size_t>(number));
   for (int n = 0; n < number; ++n) {
     const auto k = static_cast<std::size_t>(listed[static_cast<std::size_t>(n)]);
-    const StarColours::Light per_flux = colours(views.temperature[k]);
+    const BlackbodyTable::Light per_flux = blackbodies(views.temperature[k]);
     const WorkingRgb colour =
         saturated({per_flux.r, per_flux.g, per_flux.b}, per_flux.luminance, scene_.star_saturation);
     const double flux = views.flux[k], pixel_flux = flux * scene_.exposure;
@@ -216,7 +216,7 @@ bool StarImageFinder::append_trail_in_batches(const SceneStar& star, const StarT
   for (std::size_t k = 0; k < trail.parts(); ++k) {
     // The whole part as one piece, of a star of unit flux and temperature, shows how bright it is.
     trail.store(k, 1, 0, 1, from_tetrad_, camera, views, 0);
-    const double luminance = star_colours()(star.temperature * views.temperature[0]).luminance;
+    const double luminance = blackbody_table()(star.temperature * views.temperature[0]).luminance;
     const double peak = luminance * star.flux * views.flux[0] * peak_per_lux_;
     pieces.push_back(pieces_of(sigmas_of(trail, k), peak, brightest));
   }

@@ -5,7 +5,6 @@
 #include "pipeline/colour/blackbody.h"
 #include "pipeline/render/blobs/cap_blob.h"
 #include "pipeline/render/stars/einstein_rings.h"
-#include "pipeline/render/stars/star_colours.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 #include "tests/sanitized.h"
 
@@ -198,18 +197,6 @@ TEST(StarImageFinder, AtNoRedshiftHaveTheirMagnitude) {
           light(images[0]) / scene.exposure() * blackbody_radiance(t) / per_radiance.y;
       EXPECT_NEAR(-2.5 * std::log10(flux / bolometric_flux_at_v_zero(t)), v, 0.005) << t;
     }
-}
-
-TEST(StarImageFinder, HaveTheColoursOfBlackbodies) {
-  for (double t = 1000; t < 1e10; t *= 1.0013) {
-    const StarColours::Light seen = star_colours()(t);
-    const WorkingRgb wanted = blackbody_colours().per_flux(t);
-    EXPECT_NEAR(seen.luminance / luminance(wanted), 1, t < 3000 ? 5e-4 : 1e-4) << t;
-    EXPECT_NEAR(seen.b, wanted.b, 1e-4 * std::max(wanted.r, wanted.b)) << t;
-    EXPECT_LE(luminance(wanted), star_colours().most_luminance());
-  }
-  EXPECT_EQ(star_colours()(10).luminance, 0);
-  EXPECT_EQ(star_colours()(0).r, 0);
 }
 
 // A star is drawn if its magnitude is exactly the limit, though one is a float and the other a

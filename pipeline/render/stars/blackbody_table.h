@@ -1,5 +1,6 @@
-// StarColours give the light of blackbodies by temperature.  The table is fast enough for millions
-// of stars in each frame, because its intervals are found from the bits of the temperature.
+// A BlackbodyTable has the light of blackbodies by temperature.  It is fast enough for millions of
+// stars in each frame, because its intervals are found from the bits of the temperature, without
+// the logarithm that BlackbodyColours takes.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace domefall {
 
-class StarColours {
+class BlackbodyTable {
  public:
   // A Light is the working-space light of a unit of bolometric flux, and its luminance, in lm/W.
   struct Light {
@@ -24,8 +25,8 @@ class StarColours {
     // the table wraps around to a large number.
     const auto bits = std::bit_cast<std::uint64_t>(temperature);
     const std::uint64_t key = bits >> kShift;
-    if (key - first_ >= table_.size() - 1) return beyond_table(temperature);
-    const Light &a = table_[key - first_], &b = table_[key - first_ + 1];
+    if (key - first_ >= lights_.size() - 1) return beyond_table(temperature);
+    const Light &a = lights_[key - first_], &b = lights_[key - first_ + 1];
     const auto w = static_cast<float>(bits & ((std::uint64_t{1} << kShift) - 1)) *
                    (1.0f / static_cast<float>(std::uint64_t{1} << kShift));
     return {a.r + w * (b.r - a.r), a.g + w * (b.g - a.g), a.b + w * (b.b - a.b),
@@ -36,17 +37,17 @@ class StarColours {
   double most_luminance() const { return most_; }
 
  private:
-  friend const StarColours& star_colours();
-  StarColours();
+  friend const BlackbodyTable& blackbody_table();
+  BlackbodyTable();
   static Light beyond_table(double temperature);
 
   static constexpr int kBits = 9;  // 512 intervals in each octave
   static constexpr int kShift = 52 - kBits;
   std::uint64_t first_;
-  std::vector<Light> table_;
+  std::vector<Light> lights_;
   double most_ = 0;
 };
 
-const StarColours& star_colours();
+const BlackbodyTable& blackbody_table();
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-#include "pipeline/render/stars/star_colours.h"
+#include "pipeline/render/stars/blackbody_table.h"
 
 #include <algorithm>
 
@@ -10,28 +10,31 @@ namespace {
 // The table covers this range, in kelvin.
 constexpr double kFirstTemperature = 512, kLastTemperature = 0x1p26;
 
-StarColours::Light light_at(double temperature) {
+BlackbodyTable::Light light_at(double temperature) {
   const WorkingRgb c = blackbody_colours().per_flux(temperature);
   return {c.r, c.g, c.b, static_cast<float>(luminance(c))};
 }
 
 }  // namespace
 
-StarColours::StarColours() : first_(std::bit_cast<std::uint64_t>(kFirstTemperature) >> kShift) {
+BlackbodyTable::BlackbodyTable()
+    : first_(std::bit_cast<std::uint64_t>(kFirstTemperature) >> kShift) {
   const std::uint64_t last = std::bit_cast<std::uint64_t>(kLastTemperature) >> kShift;
   for (std::uint64_t key = first_; key <= last; ++key)
-    table_.push_back(light_at(std::bit_cast<double>(key << kShift)));
+    lights_.push_back(light_at(std::bit_cast<double>(key << kShift)));
   // The luminance of a unit of flux is largest near 6600 K.  The nodes of the table are 0.1 per
   // cent apart there, so that the largest value in the table is within 1e-5 of the maximum.
-  for (const Light& light : table_) most_ = std::max(most_, double{light.luminance});
+  for (const Light& light : lights_) most_ = std::max(most_, double{light.luminance});
   most_ *= 1 + 1e-5;
 }
 
-StarColours::Light StarColours::beyond_table(double temperature) { return light_at(temperature); }
+BlackbodyTable::Light BlackbodyTable::beyond_table(double temperature) {
+  return light_at(temperature);
+}
 
-const StarColours& star_colours() {
-  static const StarColours colours;
-  return colours;
+const BlackbodyTable& blackbody_table() {
+  static const BlackbodyTable table;
+  return table;
 }
 
 }  // namespace domefall
