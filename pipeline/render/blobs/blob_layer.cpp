@@ -68,7 +68,7 @@ void BlobLayer::Task::clear() {
 void BlobLayer::start(const Projection& projection) {
   projection_ = projection;
   bands_ = static_cast<std::size_t>((rows(projection) + kBandRows - 1) / kBandRows);
-  kernel_.reset();
+  splat_buckets_.reset();
   for (Task& task : tasks_) task.clear();
   used_ = size_ = 0;
   caps_.clear();
@@ -80,8 +80,8 @@ bool BlobLayer::are_many(double images, const Projection& projection) {
 
 void BlobLayer::use_splats(const PointSpread& widths) {
   if (!has_blob_loops(projection_)) return;
-  kernel_.emplace(projection_, widths.least());
-  if (!kernel_->usable()) kernel_.reset();
+  splat_buckets_.emplace(projection_, widths.least());
+  if (!splat_buckets_->usable()) splat_buckets_.reset();
 }
 
 // ---- placing ----
@@ -97,8 +97,8 @@ void BlobLayer::place(std::size_t number, std::vector<StarImage>& images,
                       const PointSpread& widths) {
   Task& task = tasks_[number];
   std::size_t others = images.size();
-  if (kernel_) {
-    others = kernel_->sort(images, brightest_splat(widths), task.splats);
+  if (splat_buckets_) {
+    others = splat_buckets_->sort(images, brightest_splat(widths), task.splats);
     task.size += task.splats.images.size();
   }
   place_blobs(images.data(), others, widths, task);
@@ -218,12 +218,12 @@ void BlobLayer::add(const std::vector<CapBlob>& caps) {
 
 void BlobLayer::draw_splats(int band, SplatBuffer& buffer, float* rgb) const {
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
-  const int end_bucket = kernel_->last_bucket(first + count - 1) + 1;
+  const int end_bucket = splat_buckets_->last_bucket(first + count - 1) + 1;
   const auto before = [this](int bucket) { return first_splat_[static_cast<std::size_t>(bucket)]; };
   // Where no splat reaches the band, nothing is dropped or blurred, and the buffer starts anew
   // behind the gap.
-  if (before(kernel_->first_bucket(first)) == before(end_bucket)) {
-    buffer.start(*kernel_);
+  if (before(splat_buckets_->first_bucket(first)) == before(end_bucket)) {
+    buffer.start(*splat_buckets_);
     return;
   }
   buffer.advance(first);
@@ -254,7 +254,7 @@ void BlobLayer::draw_wide(const std::vector<std::uint32_t>& numbers, const Canva
 
 // The canvas writes to rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
-  if (kernel_) draw_splats(band, buffer, rgb);
+  if (splat_buckets_) draw_splats(band, buffer, rgb);
   const int first = band * kBandRows, count = std::min(kBandRows, rows(projection_) - first);
   const auto inside = columns_inside(projection_, first, count);
   const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};

@@ -30,7 +30,7 @@ class BlobLayer {
   void use_splats(const PointSpread& widths);
   // Says whether a frame has so many images that splats are quicker than ellipses.
   static bool are_many(double images, const Projection& projection);
-  bool has_splats() const { return kernel_.has_value(); }
+  bool has_splats() const { return splat_buckets_.has_value(); }
 
   // Adds `count` tasks and returns the first one's number.
   std::size_t new_tasks(std::size_t count);
@@ -50,7 +50,7 @@ class BlobLayer {
 
   // Prepares a thread's buffer for drawing bands of this layer, in rising order.
   void start_buffer(SplatBuffer& buffer) const {
-    if (kernel_) buffer.start(*kernel_);
+    if (splat_buckets_) buffer.start(*splat_buckets_);
   }
   // Adds the blobs' light on the rows of a band to rgb[rows][3 * columns].  The buffer belongs to
   // one thread.  Consecutive bands cost less when the same buffer draws them.
@@ -87,7 +87,7 @@ class BlobLayer {
   std::vector<Task> tasks_;  // the first `used_` belong to this frame
   std::size_t used_ = 0, size_ = 0;
 
-  std::optional<SplatKernel> kernel_;
+  std::optional<SplatBuckets> splat_buckets_;
   std::vector<std::size_t> first_splat_;  // by bucket: splats of all tasks in earlier buckets
 
   std::unique_ptr<EllipseBlob[]> ellipses_;  // sorted by the band in which they begin

@@ -10,7 +10,7 @@
 namespace domefall {
 
 void BlobLayer::sort_splats() {
-  first_splat_.assign(static_cast<std::size_t>(kernel_->buckets()) + 1, 0);
+  first_splat_.assign(static_cast<std::size_t>(splat_buckets_->count()) + 1, 0);
   for (std::size_t t = 0; t < used_; ++t)
     // Summing each task's first[k] gives the number of splats of all tasks in the buckets before k.
     for (std::size_t k = 0; k < tasks_[t].splats.first.size(); ++k)
@@ -87,7 +87,7 @@ void BlobLayer::part_wide_ellipses() {
 
 void BlobLayer::sort_into_bands() {
   for (std::size_t t = 0; t < used_; ++t) size_ += tasks_[t].size;
-  if (kernel_) sort_splats();
+  if (splat_buckets_) sort_splats();
   sort_ellipses();
   sort_caps();
 }

@@ -1,11 +1,11 @@
-// A SplatBuffer holds the rows of pixels on which one thread accumulates splats (splat_kernel.h)
-// before they are blurred.
+// A SplatBuffer holds the rows of pixels on which one thread accumulates splats, bucket by bucket
+// (splat_buckets.h), before they are blurred (draw_splats.h).
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "pipeline/render/blobs/splat_kernel.h"
+#include "pipeline/render/blobs/splat_buckets.h"
 
 namespace domefall {
 
@@ -13,8 +13,8 @@ namespace domefall {
 // so that each splat is dropped once for all of them.
 class SplatBuffer {
  public:
-  // Forgets what was dropped before.  The kernel must outlive the drawing of the bands.
-  void start(const SplatKernel& kernel);
+  // Forgets what was dropped before.  The buckets must outlive the drawing of the bands.
+  void start(const SplatBuckets& buckets);
   // Makes room for the splats of the band that begins at first_row, a multiple of kBandRows.
   void advance(int first_row);
   // Returns the bucket that drop() takes next.
@@ -32,7 +32,7 @@ class SplatBuffer {
  private:
   float* row_at(int row);
 
-  const SplatKernel* kernel_ = nullptr;
+  const SplatBuckets* buckets_ = nullptr;
   std::vector<float> memory_;   // `ring_` rows, and one more that is never read
   std::vector<float> blurred_;  // the rows of a band, blurred downwards, and one more
   std::vector<float*> rows_;    // pointers to the first pixel of each row from table_first_ on

@@ -152,9 +152,9 @@ TEST(Splats, AreForManyFaintStars) {
             drawn(layer_of(scattered(kSplatLaws[1], 50, 20), kSplatLaws[1], false),
                   kSplatLaws[1].projection)
                 .rgb);
-  EXPECT_TRUE(SplatKernel(Domemaster{1024}, 0.65 * kDegree).usable());
-  EXPECT_FALSE(SplatKernel(Domemaster{4096}, 0.2).usable());
-  EXPECT_FALSE(SplatKernel(Domemaster{32}, 0.1).usable());
+  EXPECT_TRUE(SplatBuckets(Domemaster{1024}, 0.65 * kDegree).usable());
+  EXPECT_FALSE(SplatBuckets(Domemaster{4096}, 0.2).usable());
+  EXPECT_FALSE(SplatBuckets(Domemaster{32}, 0.1).usable());
 }
 
 }  // namespace

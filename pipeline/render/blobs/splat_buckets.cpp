@@ -1,4 +1,4 @@
-#include "pipeline/render/blobs/splat_kernel.h"
+#include "pipeline/render/blobs/splat_buckets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,8 @@ constexpr double kLeastVariance = 0.4;
 
 // On a flat image a splat's variance may exceed that in the middle by this part of it.
 constexpr double kMostMissing = 0.45;
-// On a dome a splat may lie this far from the middle (radians).  The loops' series hold up to 1.9.
+// On a dome a splat may lie this far from the middle (radians).  The series in draw_splats.cpp
+// hold up to 1.9.
 constexpr double kFarthestAngle = 1.85;
 
 // Samples a Gaussian of this variance and gives it the fourth cumulant `fourth`.  The sum of
@@ -55,7 +56,7 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace
 
-SplatKernel::SplatKernel(const Projection& projection, double sigma)
+SplatBuckets::SplatBuckets(const Projection& projection, double sigma)
     : dome_(std::holds_alternative<Domemaster>(projection)),
       width_(columns(projection)),
       height_(rows(projection)) {
@@ -77,19 +78,19 @@ SplatKernel::SplatKernel(const Projection& projection, double sigma)
   if (dome_ && t > kFarthestAngle * kFarthestAngle) return;
   const double theta = std::sqrt(t), sinc = sin_cos(theta).sine / theta;
   // This is the variance that the points have to supply at the farthest place, as in
-  // find_missing().
+  // find_missing() of draw_splats.cpp.
   const double missing = variance * (dome_ ? 1 / (sinc * sinc) - 1 : t * (2 + t));
   reach_ = static_cast<int>(std::ceil(double{kFarthestPoint} * std::sqrt(missing))) + 3;
   farthest_ = static_cast<float>(t / (unit * unit));
   margin_ = 2 * (taps_ + reach_) + kSplatFloatsBeyond / kSplatChannels;
   lead_ = (taps_ + reach_) / kBandRows + 1;
-  buckets_ = (height_ + kBandRows - 1) / kBandRows + 2 * lead_;
+  count_ = (height_ + kBandRows - 1) / kBandRows + 2 * lead_;
   usable_ = true;
 }
 
 // Says whether an image can be a splat.  An image that cannot may still lie out of sight, which
 // will be found when it is placed.
-bool SplatKernel::takes(const StarImage& image, float most_light) const {
+bool SplatBuckets::takes(const StarImage& image, float most_light) const {
   const float cx = image.x - frame_.middle_x, cy = image.y - frame_.middle_y;
   const auto beyond = static_cast<float>(taps_ + reach_);
   const float across = std::abs(cx), down = std::abs(cy);
@@ -100,9 +101,9 @@ bool SplatKernel::takes(const StarImage& image, float most_light) const {
 }
 
 // Sorts by counting.
-std::size_t SplatKernel::sort(std::vector<StarImage>& images, float most_light,
-                              SplatList& splats) const {
-  splats.first.assign(static_cast<std::size_t>(buckets_) + 1, 0);
+std::size_t SplatBuckets::sort(std::vector<StarImage>& images, float most_light,
+                               SplatList& splats) const {
+  splats.first.assign(static_cast<std::size_t>(count_) + 1, 0);
   const auto bucket_of = [this](const StarImage& image) {
     return static_cast<std::size_t>(
         static_cast<int>(image.y + static_cast<float>(lead_ * kBandRows)) / kBandRows);
@@ -136,12 +137,12 @@ std::size_t SplatKernel::sort(std::vector<StarImage>& images, float most_light,
   return others;
 }
 
-int SplatKernel::first_bucket(int first_row) const {
+int SplatBuckets::first_bucket(int first_row) const {
   return std::max(0, lead_ + floor_div(first_row - taps_ - reach_, kBandRows));
 }
 
-int SplatKernel::last_bucket(int last_row) const {
-  return std::min(buckets_ - 1, lead_ + floor_div(last_row + taps_ + reach_, kBandRows));
+int SplatBuckets::last_bucket(int last_row) const {
+  return std::min(count_ - 1, lead_ + floor_div(last_row + taps_ + reach_, kBandRows));
 }
 
 }  // namespace domefall

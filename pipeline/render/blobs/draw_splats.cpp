@@ -1,4 +1,4 @@
-#include "pipeline/render/blobs/splat_loops.h"
+#include "pipeline/render/blobs/draw_splats.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,23 @@
-// These are the inner loops of splats (splat_kernel.h).  One drops splats onto rows of pixels, and
-// the others blur the rows.
+// Splats draw hundreds of thousands of faint stars as blobs of one width.  Each star is dropped
+// onto the pixels around it as a cubic B-spline.  A blob is wider than the spline, so afterwards
+// all rows are blurred at once by the difference.  A splat costs a fraction of an ellipse, and the
+// blur costs the same for any number of splats.
+//
+// The spline has a variance of 1/3 pixel^2 along each axis wherever its middle lies, and its values
+// add up to 1 except for rounding.  No star's light therefore depends on its position.  The blur is
+// the same everywhere.  Towards the edge, however, blobs are stretched: on a dome along the
+// tangent, on a flat image in all directions.  For this a star is dropped not at one point but at a
+// few points, which have the moments of a Gaussian.  The fourth moment of the blur is chosen so
+// that the whole has that of a Gaussian over the square of a pixel, which is what ellipse blobs
+// are.
+//
+// The difference to ellipse blobs was measured in parts of the peak.  It is 0.05 at a width of 0.9
+// pixel, where the shape of the spline shows, 0.02 at 1.14 (4k), 0.01 at 2, and 0.04 at the rim of
+// a dome of 1024 pixels.  As a star of width 0.9 pixel drifts, its brightest pixel changes by a
+// factor of 1.33, against 1.32 for ellipses.
+//
+// SplatBuckets choose and sort the splats of a frame.  A SplatBuffer holds the rows on which one
+// thread drops and blurs them.  The loops that do so are declared here.
 #pragma once
 
 #include <cstddef>
