@@ -10,6 +10,7 @@
 #include "pipeline/survey/render_time.h"
 #include "pipeline/survey/show_jumps.h"
 #include "pipeline/survey/show_survey.h"
+#include "pipeline/survey/show_warning.h"
 #include "pipeline/survey/sky_survey.h"
 
 namespace domefall {

@@ -58,7 +58,7 @@ void check(const std::string& file, const std::string& out, bool json) {
                      {},
                      found,
                      segment_joints(show),
-                     show_warnings(show),
+                     jump_warnings(show),
                      {},
                      {},
                      {},

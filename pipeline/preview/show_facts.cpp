@@ -16,6 +16,8 @@
 #include "pipeline/show/observer_track.h"
 #include "pipeline/survey/axis_stars.h"
 #include "pipeline/survey/light_survey.h"
+#include "pipeline/survey/show_jumps.h"
+#include "pipeline/survey/show_warning.h"
 #include "pipeline/survey/title_warnings.h"
 
 namespace domefall {
@@ -209,7 +211,7 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
 }
 
 std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop) {
-  std::vector<ShowWarning> warnings = show_warnings(show);
+  std::vector<ShowWarning> warnings = jump_warnings(show);
   AxisStars axis(show);
   for (int frame = 0; frame < frame_count(show); ++frame) {
     if (stop) return {};

@@ -9,7 +9,7 @@
 
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/survey/show_jumps.h"
+#include "pipeline/survey/show_warning.h"
 
 namespace domefall {
 

@@ -228,7 +228,7 @@ std::vector<SegmentJoint> segment_joints(const Show& show) {
   return joints;
 }
 
-std::vector<ShowWarning> show_warnings(const Show& show) {
+std::vector<ShowWarning> jump_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
   const Pairs found = compare_frames(show);
   const double deg_per_s = kRadianDeg * show.frames_per_second;  // equals a radian a frame

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "pipeline/show/frame_state.h"
+#include "pipeline/survey/show_warning.h"
 
 namespace domefall {
 
@@ -32,20 +32,12 @@ struct SegmentJoint {
 // Returns one joint for each segment but the first.
 std::vector<SegmentJoint> segment_joints(const Show& show);
 
-inline constexpr int kWholeShow = -1;
-struct ShowWarning {
-  double time_s = 0;  // show seconds
-  int frame = 0;
-  int segment = 0;  // kWholeShow if it belongs to no segment
-  std::string text;
-};
-
 // A warning is given for changes that exceed these limits.
 inline constexpr double kFastestTurnDeg = 30;  // degrees of camera turn per second of show
 inline constexpr double kLargestEvStep = 0.5;  // stops between frames
 inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where nothing else jumps
 
-// Returns the warnings of a show, in the order of time.  They are about
+// Returns the warnings of a show's jumps, in the order of time.  They are about
 // - a camera that turns too fast.  Its turn is taken against the sky and against the hole, and the
 //   smaller of the two counts, since a camera that keeps either in view stands still;
 // - an exposure that jumps from one frame to the next;
@@ -54,6 +46,6 @@ inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where
 // In a show of up to 20,000 frames every frame is compared with the one before.  In a longer show
 // this is done for 20,000 frames.  In segments with keyframed targets only every tenth frame is
 // compared, and those within two frames of a keyframe.
-std::vector<ShowWarning> show_warnings(const Show& show);
+std::vector<ShowWarning> jump_warnings(const Show& show);
 
 }  // namespace domefall

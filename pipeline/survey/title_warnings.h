@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "pipeline/survey/show_jumps.h"
+#include "pipeline/show/show.h"
+#include "pipeline/survey/show_warning.h"
 
 namespace domefall {
 

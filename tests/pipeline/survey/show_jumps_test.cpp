@@ -14,7 +14,7 @@ class ShowJumps : public ShowFile {
 
 std::vector<std::string> texts(const Show& show) {
   std::vector<std::string> all;
-  for (const ShowWarning& w : show_warnings(show)) all.push_back(w.text);
+  for (const ShowWarning& w : jump_warnings(show)) all.push_back(w.text);
   return all;
 }
 
@@ -46,7 +46,7 @@ TEST_F(ShowJumps, ACalmShowHasNoWarning) {
 
 TEST_F(ShowJumps, AFastRollAndAFlashAreWarnedOfWhereTheyAre) {
   const auto warnings =
-      show_warnings(timeline("  - duration_s: 6\n"
+      jump_warnings(timeline("  - duration_s: 6\n"
                              "    trajectory: {type: static, r: 12}\n"
                              "    keyframes:\n"
                              "      - {at_s: 1, camera: {roll_deg: 0}, exposure: {ev: 0}}\n"
