@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/diagram/panels.h"
+#include "pipeline/diagram/draw_panels.h"
 
 namespace domefall {
 namespace {

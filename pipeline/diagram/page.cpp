@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/diagram/draw_panels.h"
 #include "pipeline/diagram/page_marks.h"
-#include "pipeline/diagram/panels.h"
 #include "pipeline/show/observer_track.h"
 
 namespace domefall {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "pipeline/diagram/panels.h"
+#include "pipeline/diagram/draw_panels.h"
 
 namespace domefall {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipeline/diagram/panels.h"
+#include "pipeline/diagram/draw_panels.h"
 
 namespace domefall {
 namespace {

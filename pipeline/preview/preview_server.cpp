@@ -17,7 +17,7 @@
 #include "pipeline/preview/patient_server.h"
 #include "pipeline/preview/screen_view.h"
 #include "pipeline/preview/show_facts.h"
-#include "pipeline/preview/show_warnings.h"
+#include "pipeline/preview/warning_finder.h"
 
 namespace domefall {
 namespace {
@@ -115,7 +115,7 @@ std::string made_json(const LiveShow::Made& made) {
 
 struct PreviewServer::Inside {
   LiveShow show;
-  ShowWarnings warnings{show};
+  WarningFinder warnings{show};
   std::string token = new_token(), url;
   int port = 0;
   std::atomic<int> waiting_for_news = 0;

@@ -1,8 +1,8 @@
 // The viewer: what is to be seen, the show's clock, and the hands of whoever steers it.
 
 import { cameraFor, degreesPerPixel, fitted, lookOf, narrowest, widest } from './angles.js';
+import { Controls } from './controls.js';
 import { clock, Instruments, tell, tellNothing } from './instruments.js';
-import { Panel } from './panel.js';
 import { Pictures } from './pictures.js';
 import { Projector } from './projector.js';
 import { steer } from './steering.js';
@@ -20,7 +20,7 @@ const tests = window.domefall = { drawn: 0, frame: -1, mistake: null, ready: fal
 
 const projector = new Projector(canvas, () => { pictures.renew(); spheres.renew(); });
 const instruments = new Instruments();
-const panel = new Panel(() => { tellNothing(); redraw(); });
+const controls = new Controls(() => { tellNothing(); redraw(); });
 const timeline = new Timeline($('timeline'), (seconds) => seek(seconds));
 
 // ---- what is to be seen ----
@@ -29,7 +29,7 @@ const frameNow = () => Math.max(0, Math.min(show.frames - 1, Math.round(play.tim
 // The parameters that both kinds of picture share.
 function common() {
   const query = new URLSearchParams({ frame: frameNow() });
-  panel.add(query);
+  controls.add(query);
   query.set('revision', show.revision);
   return query;
 }
@@ -40,7 +40,7 @@ function wantedView() {
   query.set('projection', view.projection);
   if (view.projection in widest) query.set('fov', view.fov);
   if (!view.own) query.set('look', [view.az, view.alt, view.roll].map((x) => x.toFixed(11)).join(','));
-  if (panel.overlays()) query.set('overlays', panel.overlays());
+  if (controls.overlays()) query.set('overlays', controls.overlays());
   return { query: query.toString(), width: canvas.width, height: canvas.height,
     fit: (w, h) => fitted(view.projection, w, h), plays: play.on };
 }
@@ -272,7 +272,7 @@ async function load() {
   showMistake(show.mistake);
   instruments.take(show);
   timeline.take(show);
-  panel.take(show);
+  controls.take(show);
   play.time = Math.min(play.time, show.duration_s);
   redraw();
   note(show.revision);

@@ -1,12 +1,12 @@
 // Tests of segments that give both their speeds and their end, and of those even in log r.
 #include <cmath>
 
-#include "tests/pipeline/show/timelines.h"
+#include "tests/pipeline/show/observed_show.h"
 
 namespace domefall {
 namespace {
 
-using Approaches = Timelines;
+using Approaches = ObservedShow;
 
 std::string segment(const std::string& trajectory, double seconds = 10) {
   return "  - {duration_s: " + std::to_string(seconds) + ", trajectory: {" + trajectory + "}}\n";

@@ -1,11 +1,13 @@
 // Tests of segments, their clocks, and how they join.
 #include <cmath>
 
-#include "tests/pipeline/show/timelines.h"
+#include "tests/pipeline/show/observed_show.h"
 #include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
+
+using Timelines = ObservedShow;
 
 // This is a show that is asked for as "from r = 30 M to r = 6 M in 20 s".
 TEST_F(Timelines, ASegmentGoesFromOneRadiusToAnother) {

@@ -1,4 +1,5 @@
-// A fixture for shows that are a timeline near a hole, and for what their observers do.
+// An ObservedShow is a fixture for shows that are a timeline near a hole, and for what their
+// observers do.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace domefall {
 
-class Timelines : public ShowFile {
+class ObservedShow : public ShowFile {
  protected:
   Show show(const std::string& segments, const std::string& more = "") {
     return read("black_hole: {mass_solar: 4e6}\n" + more + "timeline:\n" + segments);

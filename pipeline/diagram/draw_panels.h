@@ -1,5 +1,5 @@
-// The panels of a show's page.  Each is drawn into a box, with its heading above and its notes
-// below, and tells where on the page it has a point of the path.
+// These functions draw the panels of a show's page.  Each panel is drawn into a box, with its
+// heading above and its notes below, and tells where on the page it has a point of the path.
 #pragma once
 
 #include <functional>

@@ -6,7 +6,7 @@ const ticked = (group) => [...document.querySelectorAll(`#${group} input`)];
 const words = (group) => ticked(group).filter((box) => box.checked).map((box) => box.value);
 const asShown = (group) => ticked(group).every((box) => box.checked === box.defaultChecked);
 
-export class Panel {
+export class Controls {
   // changed() is called when a control was.
   constructor(changed) {
     this.changed = changed;

@@ -1,4 +1,5 @@
-// What `check` warns of, found for the live preview while nothing else is to be done.
+// A WarningFinder finds what `check` warns of, for the live preview, while nothing else is to be
+// done.
 #pragma once
 
 #include <atomic>
@@ -10,15 +11,15 @@
 
 namespace domefall {
 
-class ShowWarnings {
+class WarningFinder {
  public:
   // The show must outlive this.
-  explicit ShowWarnings(LiveShow& show);
-  ~ShowWarnings();
-  ShowWarnings(const ShowWarnings&) = delete;
-  ShowWarnings(ShowWarnings&&) = delete;
-  ShowWarnings& operator=(const ShowWarnings&) = delete;
-  ShowWarnings& operator=(ShowWarnings&&) = delete;
+  explicit WarningFinder(LiveShow& show);
+  ~WarningFinder();
+  WarningFinder(const WarningFinder&) = delete;
+  WarningFinder(WarningFinder&&) = delete;
+  WarningFinder& operator=(const WarningFinder&) = delete;
+  WarningFinder& operator=(WarningFinder&&) = delete;
 
   // Those of the present version, or that they are not found yet, as JSON.
   std::string as_json() const;

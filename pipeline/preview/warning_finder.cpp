@@ -1,4 +1,4 @@
-#include "pipeline/preview/show_warnings.h"
+#include "pipeline/preview/warning_finder.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,21 +13,21 @@ constexpr int kCalmSeconds = 2;
 
 }  // namespace
 
-ShowWarnings::ShowWarnings(LiveShow& show) : show_(show), finding_([this] { find(); }) {}
+WarningFinder::WarningFinder(LiveShow& show) : show_(show), finding_([this] { find(); }) {}
 
-ShowWarnings::~ShowWarnings() {
+WarningFinder::~WarningFinder() {
   stop_ = true;
   show_.stop();
   finding_.join();
 }
 
-std::string ShowWarnings::as_json() const {
+std::string WarningFinder::as_json() const {
   const std::lock_guard lock(mutex_);
   if (revision_ != show_.version().revision) return R"({"done": false, "warnings": []})";
   return found_;
 }
 
-void ShowWarnings::find() {
+void WarningFinder::find() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);  // pictures come first
   LiveShow::Version version = show_.version();
   while (!stop_) {
