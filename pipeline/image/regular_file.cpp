@@ -95,8 +95,8 @@ std::string read_file(const fs::path& path, std::uint64_t most) {
 
 std::string start_of_file(const fs::path& path, std::size_t count) {
   RegularFile file(path);
-  std::string bytes(count, '\0');
-  bytes.resize(file.read(bytes.data(), count));
+  std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, file.size())), '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size()));
   return bytes;
 }
 

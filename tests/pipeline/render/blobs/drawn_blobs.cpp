@@ -4,16 +4,28 @@
 
 namespace domefall {
 
+namespace {
+
+int band_count(const Projection& p) { return (rows(p) + kBandRows - 1) / kBandRows; }
+
+std::size_t band_size(const Projection& p) {
+  return static_cast<std::size_t>(columns(p)) * 3 * kBandRows;
+}
+
+}  // namespace
+
 DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
   DrawnBlobs image{p, {}};
-  const auto row = static_cast<std::size_t>(columns(p)) * 3;
-  const int bands = (rows(p) + kBandRows - 1) / kBandRows;
-  image.rgb.resize(row * kBandRows * bands);
+  image.rgb.resize(band_size(p) * band_count(p));
+  draw_onto(image, layer);
+  return image;
+}
+
+void draw_onto(DrawnBlobs& image, const BlobLayer& layer) {
   SplatBuffer buffer;
   layer.start_buffer(buffer);
-  for (int band = 0; band < bands; ++band)
-    layer.draw_band(band, buffer, image.rgb.data() + row * kBandRows * band);
-  return image;
+  for (int band = 0; band < band_count(image.projection); ++band)
+    layer.draw_band(band, buffer, image.rgb.data() + band_size(image.projection) * band);
 }
 
 DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
@@ -35,12 +47,16 @@ double flux_of(const DrawnBlobs& image) {
   return flux;
 }
 
+float peak_of(const DrawnBlobs& image) {
+  return *std::max_element(image.rgb.begin(), image.rgb.end());
+}
+
 Brought brought(const StarImage& image, const Projection& p, const PointSpread& widths, int reach) {
   BlobLayer layer(p);
   layer.add({image}, widths);
   layer.sort_into_bands();
-  const int bands = (rows(p) + kBandRows - 1) / kBandRows, width = columns(p);
-  std::vector<float> rgb(static_cast<std::size_t>(width) * 3 * kBandRows);
+  const int bands = band_count(p), width = columns(p);
+  std::vector<float> rgb(band_size(p));
   Brought sum;
   const int first = std::max(0, (static_cast<int>(image.y) - reach) / kBandRows);
   const int last = std::min(bands - 1, (static_cast<int>(image.y) + reach) / kBandRows);

@@ -20,11 +20,15 @@ struct DrawnBlobs {
 };
 
 DrawnBlobs drawn(const BlobLayer& layer, const Projection& p);
+// Adds the light of a layer to an image that drawn() has made.
+void draw_onto(DrawnBlobs& image, const BlobLayer& layer);
 DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
                  const PointSpread& widths);
 
 // Returns the sum of red over the image, each pixel times its solid angle.
 double flux_of(const DrawnBlobs& image);
+// Returns the largest value of any channel.
+float peak_of(const DrawnBlobs& image);
 
 // The sum of red over the bands about a blob, each pixel times its solid angle, and the brightest
 // pixel.

@@ -99,7 +99,7 @@ TEST(Splats, KeepTheirLightAndTheirPeakWhileTheyDrift) {
       image.y = static_cast<float>(511.3 + 0.0793 * k);
       const DrawnBlobs splat = drawn(layer_of({image}, law, true), law.projection);
       EXPECT_NEAR(flux_of(splat) / image.rgb[0], 1, 1e-3);
-      const float peak = *std::max_element(splat.rgb.begin(), splat.rgb.end());
+      const float peak = peak_of(splat);
       low = std::min(low, double{peak});
       high = std::max(high, double{peak});
     }
