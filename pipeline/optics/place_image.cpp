@@ -1,6 +1,7 @@
 #include "pipeline/optics/place_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,36 @@
 
 namespace domefall {
 namespace {
+
+// Returns r on each of n rays of the view, of which `ray_of` tells the k-th, once it has swept psi.
+// The loops of RayOrbits find eight places in the time of one.
+template <std::size_t n, class RayOf>
+std::array<double, n> r_on_each(const PlaceView& view, double psi, const RayOf& ray_of) {
+  std::array<double, n> sin_half, cos_half, gap_first, gap_second, psis, r;
+  for (std::size_t k = 0; k < n; ++k) {
+    const NullRay ray = ray_of(k);
+    sin_half[k] = ray.sin_half, cos_half[k] = ray.cos_half;
+    gap_first[k] = ray.gap_first, gap_second[k] = ray.gap_second;
+  }
+  psis.fill(psi);
+  RayOrbits orbits;
+  orbits.set(view.at, view.outgoing,
+             {sin_half.data(), cos_half.data(), gap_first.data(), gap_second.data()}, n);
+  RayPlaces places;
+  orbits.find(psis.data(), places);
+  std::copy_n(places.r.begin(), n, r.begin());
+  return r;
+}
+
+double r_after(const NullRay& ray, double psi, double* slope = nullptr) {
+  RayOrbits orbits;
+  orbits.set(ray.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},
+             1);
+  RayPlaces places;
+  orbits.find(&psi, places);
+  if (slope) *slope = places.slope[0];
+  return places.r[0];
+}
 
 // Rays of the view by z: tan(alpha/2) = T exp(+-exp(z)), T that of the edge, on its outer side,
 // where the sky is, or on its inner side.
@@ -39,6 +70,8 @@ class RayFan {
   }
   // The sense of alpha in which r grows.
   double outer() const { return outer_; }
+  // Returns z of the ray that is at r after psi, if one on that side is.
+  std::optional<double> find(double r, double psi, bool outside) const;
 
  private:
   PlaceView view_;
@@ -46,14 +79,41 @@ class RayFan {
   double outer_, tangent_;
 };
 
-double r_after(const NullRay& ray, double psi, double* slope = nullptr) {
-  RayOrbits orbits;
-  orbits.set(ray.at, ray.outgoing, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second},
-             1);
-  RayPlaces places;
-  orbits.find(&psi, places);
-  if (slope) *slope = places.slope[0];
-  return places.r[0];
+// Towards the edge r tends to that of the critical ray, away from it to its limit on that side.  The
+// range of z is halved to its last bit.  The middles of three successive halvings, whichever way each
+// of them goes, are looked at together: node k of their tree has the nodes 2 k + 1 and 2 k + 2 below
+// it.
+std::optional<double> RayFan::find(double r, double psi, bool outside) const {
+  constexpr int kLevels = 3;
+  constexpr std::size_t kNodes = (1 << kLevels) - 1;
+  struct Part {
+    double low, high;
+    double middle() const { return (low + high) / 2; }
+  };
+  const auto is_beyond = [&](double there) { return outside ? there > r : there < r; };
+  Part part{-45, range(outside)};
+  const auto ends = r_on_each<2>(
+      view_, psi, [&](std::size_t k) { return ray(k == 0 ? part.low : part.high, outside); });
+  if (is_beyond(ends[0]) || !is_beyond(ends[1])) return std::nullopt;
+  for (int step = 0; step < 100; step += kLevels) {
+    std::array<Part, kNodes> tree;
+    tree[0] = part;
+    for (std::size_t k = 1; k < kNodes; ++k) {
+      const Part& above = tree[(k - 1) / 2];
+      tree[k] = k % 2 == 1 ? Part{above.low, above.middle()} : Part{above.middle(), above.high};
+    }
+    const auto there = r_on_each<kNodes>(
+        view_, psi, [&](std::size_t k) { return ray(tree[k].middle(), outside); });
+    for (std::size_t k = 0; k < kNodes;) {
+      part = tree[k];
+      const double middle = part.middle();
+      if (middle == part.low || middle == part.high) return middle;
+      const bool beyond = is_beyond(there[k]);
+      part = beyond ? Part{part.low, middle} : Part{middle, part.high};
+      k = 2 * k + (beyond ? 1 : 2);
+    }
+  }
+  return part.middle();
 }
 
 double null_time_after(const NullRay& ray, double psi) {
@@ -69,13 +129,17 @@ double null_time_after(const NullRay& ray, double psi) {
 
 // |dr/dalpha| at a fixed psi: by a four-point difference of 1/r, over a step in which r changes by
 // a hundredth, so that no ray ends before it has swept psi.
-double growth(const NullRay& ray, double psi, double r, double outer) {
+double growth(const PlaceView& view, const NullRay& ray, double psi, double r, double outer) {
   constexpr double kTrial = 1e-6, kSmall = 1e-3, kShare = 1e-2;
   const double smooth = smooth_over(ray);
   const auto w = [&](double angle) { return 1 / r_after(turned(ray, outer * angle), psi); };
   const double trial = std::abs(w(-kTrial * smooth) * r - 1) / (kTrial * smooth);
   const double h = std::min(kSmall * smooth, kShare / trial);
-  return r * r * std::abs(8 * (w(h) - w(-h)) - (w(2 * h) - w(-2 * h))) / (12 * h);
+  const std::array steps{h, -h, 2 * h, -2 * h};
+  const auto there =
+      r_on_each<4>(view, psi, [&](std::size_t k) { return turned(ray, outer * steps[k]); });
+  const double next = 1 / there[0] - 1 / there[1], second = 1 / there[2] - 1 / there[3];
+  return r * r * std::abs(8 * next - second) / (12 * h);
 }
 
 // Along the axis itself light diverges as in flat space, by its affine parameter: r/|E|.  What is
@@ -99,26 +163,16 @@ std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double
   if (psi < kRadial) return radial_image(view, r);
   const RayFan fan(view);
   const bool outside = r_after(fan.critical(), psi) < r;
-  // Towards the edge r tends to that of the critical ray, away from it to its limit on that side.
-  double low = -45, high = fan.range(outside);
-  const auto is_beyond = [&](double z) {
-    const double there = r_after(fan.ray(z, outside), psi);
-    return outside ? there > r : there < r;
-  };
-  if (!is_beyond(high) || is_beyond(low)) return std::nullopt;
-  for (int step = 0; step < 100; ++step) {
-    const double middle = (low + high) / 2;
-    if (middle == low || middle == high) break;
-    (is_beyond(middle) ? high : low) = middle;
-  }
-  PlaceImage image{fan.ray((low + high) / 2, outside), 0, 0, 0, 0, 0};
+  const std::optional<double> z = fan.find(r, psi, outside);
+  if (!z) return std::nullopt;
+  PlaceImage image{fan.ray(*z, outside), 0, 0, 0, 0, 0};
   const double there = r_after(image.ray, psi, &image.slope);
   if (!(std::abs(there / r - 1) < 1e-6)) return std::nullopt;  // no ray is there: it jumps
   image.null_time = null_time_after(image.ray, psi);
   // Light that has hardly swept anything meets no caustic.
   const double swept = psi < std::numbers::pi ? std::sin(psi / 2) : 1;
   const double sine = std::hypot(std::sin(psi), blur * swept * swept);
-  const double energy = one_plus_z(image.ray), rise = growth(image.ray, psi, r, fan.outer());
+  const double energy = one_plus_z(image.ray), rise = growth(view, image.ray, psi, r, fan.outer());
   image.solid_angle_per_area = energy / (view.at.r * sine * rise);
   // The rays of two places that are dr apart at one psi are |dr| L/(r E) apart at right angles.
   image.angle_per_length = energy * r / (invariants(image.ray).angular_momentum * rise);
