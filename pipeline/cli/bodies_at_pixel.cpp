@@ -14,7 +14,7 @@ std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& sta
   const double reach = pixel_reach(show, state.projection);
   const double sigma = PointSpread(show.point_spread, state.projection, 1).least();
   const V3d towards = direction_at(state.projection, pixel).v;
-  const BodySight sight(show, state);
+  const BodySight sight(state, show.effects, show.least_star_radius);
   std::vector<BodyAtPixel> found;
   if (!sight.sees()) return found;
   for (const Body& body : show.bodies) {

@@ -26,7 +26,7 @@ std::vector<StarAtPixel> stars_at_pixel(const Show& show, const FrameState& stat
                                         PixelPosition pixel) {
   const double reach = pixel_reach(show, state.projection);
   const V3d towards = direction_at(state.projection, pixel).v;
-  const StarSight sight(show, state);
+  const StarSight sight(state, show.effects);
   std::vector<StarAtPixel> found;
   for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
     const auto& field = show.sky[sky].stars;

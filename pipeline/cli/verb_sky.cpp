@@ -233,7 +233,9 @@ void add_cmb(CLI::App& verb, ImportOptions& o) {
 void add_sky_import(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
   auto o = std::make_shared<ImportOptions>();
-  verb->add_option("IMAGE", o->image, "any picture OpenImageIO reads, or a HEALPix map in FITS")
+  verb->add_option(
+          "IMAGE", o->image,
+          "an OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP file, or a HEALPix map in FITS")
       ->type_name(kFileType)
       ->required();
   verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();

@@ -27,12 +27,13 @@ bool append_body(const BodySight& sight, const Body& body, const BodySight::Imag
 
 }  // namespace
 
-void lay_bodies(const Show& show, const FrameScene& scene, const DiscPass* disc, BlobLayer& layer) {
-  const BodySight sight(show, scene.state);
+void lay_bodies(std::span<const Body> bodies, const FrameScene& scene, const DiscPass* disc,
+                BlobLayer& layer) {
+  const BodySight sight(scene.state, scene.effects, scene.least_star_radius);
   std::vector<StarImage> images;
   if (sight.sees()) {
     const StarImageFinder finder(scene, SkyRegion::kI);
-    for (const Body& body : show.bodies) {
+    for (const Body& body : bodies) {
       // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
       int faint = 0;
       for (int order = sight.first_order(body);

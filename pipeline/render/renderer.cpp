@@ -240,7 +240,7 @@ void Renderer::render_image(const FrameState& state, const Projection& whole, do
     std::optional<BlobLayer> bodies;
     if (!show_.bodies.empty()) {
       bodies.emplace(state.projection);
-      lay_bodies(show_, scene, disc ? &*disc : nullptr, *bodies);
+      lay_bodies(show_.bodies, scene, disc ? &*disc : nullptr, *bodies);
       times.images += bodies->size();
     }
     times.stars_s += watch.lap();

@@ -25,7 +25,8 @@ constexpr double kNarrowest = 0.25;
 double motion_of_bodies(const Show& show, const FrameState& from, const FrameState& to) {
   constexpr double kFaintest = 10;  // V at 0 EV, fainter than the stars of a default sky
   const double magnitudes_per_stop = 2.5 * std::log10(2.0);  // a stop doubles the light
-  const BodySight before(show, from), after(show, to);
+  const BodySight before(from, show.effects, show.least_star_radius),
+      after(to, show.effects, show.least_star_radius);
   if (!before.sees() || !after.sees()) return 0;
   double most = 0;
   for (const Body& body : show.bodies) {

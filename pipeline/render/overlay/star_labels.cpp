@@ -66,7 +66,7 @@ NamedImage named_image(const std::string& name, int order, const CameraDirection
 
 // Appends the first two images of each body, as for a star.
 void append_bodies(const Show& show, const FrameState& state, std::vector<NamedImage>& found) {
-  const BodySight sight(show, state);
+  const BodySight sight(state, show.effects, show.least_star_radius);
   if (!sight.sees()) return;
   for (const Body& body : show.bodies)
     for (int order = 0; order < 2; ++order)
@@ -102,7 +102,7 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
 
 std::vector<NamedImage> StarLabels::images(const FrameState& state) {
   std::vector<NamedImage> found;
-  const StarSight finder(show_, state);
+  const StarSight finder(state, show_.effects);
   for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
     if (!finder.sees(sky)) continue;
     const FrameSettings::Sky& settings = state.settings.sky[sky];

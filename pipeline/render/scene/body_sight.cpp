@@ -20,12 +20,13 @@ bool is_outside(const BodyImage& image, double radius) {
 
 }  // namespace
 
-BodySight::BodySight(const Show& show, const FrameState& state)
-    : show_(show), observer_(state.observer), vantage_(vantage_of(state.observer, show.effects)) {}
+BodySight::BodySight(const FrameState& state, const Effects& effects, double least_radius)
+    : effects_(effects),
+      observer_(state.observer),
+      vantage_(vantage_of(state.observer, effects)),
+      least_radius_(least_radius) {}
 
-bool BodySight::sees() const {
-  return !show_.bodies.empty() && show_.effects.lensing && sees_bodies(observer_);
-}
+bool BodySight::sees() const { return effects_.lensing && sees_bodies(observer_); }
 
 SceneStar BodySight::star_of(const Body& body) {
   const Star star{body.normal, static_cast<float>(body.magnitude),
@@ -37,7 +38,7 @@ SceneStar BodySight::star_of(const Body& body) {
 // needs.  Like a star, it has a least size, which bounds its light on the axis of the lens.
 double BodySight::radius_of(const Body& body) const {
   if (body.radius > 0) return body.radius;
-  return std::max(star_of(body).angular_radius, show_.least_star_radius) * kBodyMagnitudeDistance;
+  return std::max(star_of(body).angular_radius, least_radius_) * kBodyMagnitudeDistance;
 }
 
 std::optional<BodyImage> BodySight::traced(const Body& body, int order) const {
@@ -69,7 +70,7 @@ std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, do
   const auto spacing = [&](const V3d& direction) {
     return kSpacing * sigma * to_observer(vantage_.celerity, direction).frequency_ratio;
   };
-  if (show_.effects.amplification == Amplification::kNone ||
+  if (effects_.amplification == Amplification::kNone ||
       size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
     return {};
   std::vector<SkyImage> pieces = image_of_sphere(image.traced, radius, spacing);
@@ -83,7 +84,7 @@ BodySight::Seen BodySight::seen(const SkyImage& image) const {
   double g = image.frequency_ratio * at.frequency_ratio;
   if (vantage_.measured) g *= to_observer(*vantage_.measured, at.direction).frequency_ratio;
   return {{apply_transposed(observer_.tetrad_from_camera, at.direction)},
-          received_flux(show_.effects, 1, image.amplification, at.frequency_ratio, g),
+          received_flux(effects_, 1, image.amplification, at.frequency_ratio, g),
           g};
 }
 

@@ -15,8 +15,9 @@ namespace domefall {
 
 class BodySight {
  public:
-  // The show and the state must outlive this object.
-  BodySight(const Show& show, const FrameState& state);
+  // The state and the effects must outlive this object.  Each body has at least the angular radius
+  // `least_radius` (radians), as each star has (Show::least_star_radius).
+  BodySight(const FrameState& state, const Effects& effects, double least_radius);
 
   // Says whether bodies, which are in region I, are seen at all.
   bool sees() const;
@@ -59,9 +60,10 @@ class BodySight {
   double radius_of(const Body& body) const;
   std::optional<BodyImage> traced(const Body& body, int order) const;
 
-  const Show& show_;
+  const Effects& effects_;
   const ObserverState& observer_;
   Vantage vantage_;
+  double least_radius_;
 };
 
 }  // namespace domefall

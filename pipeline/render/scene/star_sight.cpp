@@ -19,10 +19,10 @@ SkyImage straight_image(const Vantage& vantage, double r, const V3d& source) {
 
 }  // namespace
 
-StarSight::StarSight(const Show& show, const FrameState& state)
-    : effects_(show.effects),
+StarSight::StarSight(const FrameState& state, const Effects& effects)
+    : effects_(effects),
       observer_(state.observer),
-      vantage_(vantage_of(state.observer, show.effects)),
+      vantage_(vantage_of(state.observer, effects)),
       optics_(make_hole_optics(state.observer.r, state.observer.tetrad,
                                {{true, true, false}, false})) {}
 

@@ -12,8 +12,8 @@ namespace domefall {
 
 class StarSight {
  public:
-  // The show and the state must outlive this object.
-  StarSight(const Show& show, const FrameState& state);
+  // The state and the effects must outlive this object.
+  StarSight(const FrameState& state, const Effects& effects);
 
   // Says whether stars of that sky are seen at all.
   bool sees(SkyRegion sky) const;

@@ -119,7 +119,7 @@ TEST(Bodies, AreSeenByTheirRiderAroundTheHole) {
   body.trajectory = StaticObserver{30};
   const Show show = show_with(30, body);
   const FrameState state = frame_state(show, 0);
-  const BodySight sight(show, state);
+  const BodySight sight(state, show.effects, show.least_star_radius);
   EXPECT_EQ(sight.first_order(show.bodies[0]), 1);
   const FloatImage frame = body_frame(show);
   EXPECT_GT(light_of(frame).sum, 0);
@@ -166,7 +166,7 @@ TEST(Bodies, OfASizeAreSpheresOfTheSameLight) {
   const FloatImage frame = body_frame(show);
   EXPECT_NEAR(light_of(frame).sum / as_point, 1, 0.01);
   const FrameState state = frame_state(show, 0);
-  const BodySight sight(show, state);
+  const BodySight sight(state, show.effects, show.least_star_radius);
   const auto image = sight.image(show.bodies[0], 0);
   ASSERT_TRUE(image);
   // What the observer's motion against the tetrad does to light, it does to areas.
@@ -227,7 +227,7 @@ TEST(Bodies, AreNamedAtTheirFirstTwoImages) {
   EXPECT_EQ(named[0].name, "beacon");
   EXPECT_EQ(named[1].name, "beacon\u2032");
   EXPECT_LT(named[0].magnitude, named[1].magnitude);
-  const BodySight sight(show, state);
+  const BodySight sight(state, show.effects, show.least_star_radius);
   for (int order = 0; order < 2; ++order) {
     const V3d seen = sight.seen(sight.image(show.bodies[0], order)->at).direction.v;
     EXPECT_LT((named[static_cast<std::size_t>(order)].direction.v - seen).length(), 1e-12);
