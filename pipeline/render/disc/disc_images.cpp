@@ -202,8 +202,11 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
     for (std::size_t part = 0; part <= kParts; ++part)
       w_[k * (kParts + 1) + part] = static_cast<float>(std::clamp(w[part], outer_w_, inner_w_));
   }
-  // The bounds of an order are the extremes of its nodes, with a margin above the error of
-  // interval().
+  bound_orders(low, high);
+}
+
+// The bounds of an order are the extremes of its nodes, with a margin above the error of interval().
+void DiscImages::bound_orders(const std::vector<double>& low, const std::vector<double>& high) {
   for (int order = 1; order < kOrders; ++order) {
     const auto first = static_cast<std::ptrdiff_t>(order) * kPerHalfTurn;
     const auto of = [&](const std::vector<double>& p) {

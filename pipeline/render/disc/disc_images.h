@@ -61,6 +61,8 @@ class DiscImages {
   static constexpr int kParts = 24;        // intervals of u
 
   void tabulate(const Radius& at, bool outgoing, bool with_times);
+  // Sets least_ and greatest_ from p of the outer rim and of the inner one at each node of psi.
+  void bound_orders(const std::vector<double>& low, const std::vector<double>& high);
 
   bool straight_;
   int orders_;
