@@ -3,16 +3,39 @@
 # shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 cd "$folder"
+trap 'kill ${server:-} ${holder:-} 2>/dev/null || true; rm -rf "$folder"' EXIT
+# serve SHOW: starts the preview $server at $url.
+serve() {
+  "$DOMEFALL" preview "$1" --no-open --threads 2 >address 2>said &
+  server=$!
+  for ((k = 0; k < 1000; ++k)); do
+    [[ $(wc -l <address) -ge 2 ]] && break
+    kill -0 "$server" 2>/dev/null || fail "the preview ended: $(cat said)"
+    sleep 0.02
+  done
+  url=$(head -n 1 address)
+}
+
+# The name of a star, which a catalogue in another encoding gave it, is no UTF-8.
+printf 'hip,ra_deg,dec_deg,v_mag,b_v,name,designation\n1,10,20,1,0.5,Caf\351,\n' >latin.csv
+cat >latin.yaml <<'END'
+size: [320, 180]
+camera: {projection: stereographic, fov_deg: 60, look_at: {ra_deg: 10, dec_deg: 20}}
+sky: {region_I: {background: black, stars: {catalogue: ./latin.csv}}}
+timeline: [{duration_s: 1}]
+END
+serve latin.yaml
+python3 - "$url" <<'END'
+import json, sys, urllib.request
+with urllib.request.urlopen(sys.argv[1] + 'probe?frame=0&w=320&h=180&x=160.5&y=90.5', timeout=60) as answer:
+    star = json.load(answer)['star']
+assert star['name'] == 'Caf\N{REPLACEMENT CHARACTER}' and star['magnitude'] == 1, star
+END
+kill "$server"
+wait "$server" || true
+
 write_show fall.yaml
-"$DOMEFALL" preview fall.yaml --no-open --threads 2 >address 2>said &
-server=$!
-trap 'kill "$server" ${holder:-} 2>/dev/null || true; rm -rf "$folder"' EXIT
-for ((k = 0; k < 1000; ++k)); do
-  [[ $(wc -l <address) -ge 2 ]] && break
-  kill -0 "$server" 2>/dev/null || fail "the preview ended: $(cat said)"
-  sleep 0.02
-done
-url=$(head -n 1 address)
+serve fall.yaml
 [[ $url =~ ^http://127\.0\.0\.1:([0-9]+)/[0-9a-f]{32}/$ ]] || fail "no address: $url"
 port=${BASH_REMATCH[1]}
 grep -q "ssh -L $port:127.0.0.1:$port " address || fail "no word of a tunnel: $(cat address)"
