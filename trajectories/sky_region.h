@@ -36,4 +36,13 @@ struct PerSky {
   constexpr auto end() const { return values.end(); }
 };
 
+// Says which of the skies I and III an observer sees, where light is bent.  No light of either
+// enters region IV.
+constexpr PerSky<bool> seen_skies(const ObserverState& observer) {
+  PerSky<bool> seen;
+  seen[home_sky(observer.tetrad)] = observer.region != Region::kIV;
+  seen[far_sky(observer.tetrad)] = observer.region == Region::kII && observer.r < 2;
+  return seen;
+}
+
 }  // namespace domefall

@@ -105,9 +105,9 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
   const M33d& axes = o.sky_from_tetrad;
   // The first axis is R, which points away from the hole.
   const V3d behind(-axes[0][0], -axes[1][0], -axes[2][0]);
-  const bool inside = o.region == Region::kII && o.r < 2;
+  const PerSky<bool> seen = seen_skies(o);
   for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
-    if (region != home_sky(o.tetrad) && !(inside && region == far_sky(o.tetrad))) continue;
+    if (!seen[region]) continue;
     for (const Class& each : stars_[region])
       for (const double side : {1.0, -1.0}) {
         const V3d axis = behind * side;

@@ -133,10 +133,9 @@ class Extremes {
     const ObserverState& o = state.observer;
     if (o.r > 2) raise(found_.fastest, static_celerity(o).length(), state);
     const FramePlan plan = plan_frame(show_, state);
-    const SkyRegion home = home_sky(o.tetrad), far = far_sky(o.tetrad);
-    for (const bool is_far : {false, true}) {
-      if (!plan[is_far ? far : home].lit()) continue;
-      const auto range = frequency_range(o, is_far, !show_.effects.lensing);
+    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+      if (!plan[sky].lit()) continue;
+      const auto range = frequency_range(o, sky, !show_.effects.lensing);
       if (!range) continue;
       // The frequency ratio is 1/(1 + z).
       raise(found_.reddest, 1 / range->least, state);

@@ -45,8 +45,9 @@ V3d static_celerity(const ObserverState& o) {
   return {rate / std::sqrt((o.r - 2) / o.r), o.celerity.y, o.celerity.z};
 }
 
-std::optional<ShiftRange> frequency_range(const ObserverState& o, bool far, bool straight) {
-  if (o.region == Region::kIV || (far && !(o.r < 2))) return std::nullopt;
+std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
+  if (!seen_skies(o)[sky]) return std::nullopt;
+  const bool far = sky == far_sky(o.tetrad);
   if (straight || is_flat(o)) {
     // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);

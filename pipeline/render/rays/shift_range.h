@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "trajectories/observer_state.h"
+#include "trajectories/sky_region.h"
 
 namespace domefall {
 
@@ -13,8 +13,7 @@ struct ShiftRange {
 };
 
 // Returns the range of g = observed/emitted frequency, for light from infinity, over all directions
-// in which an observer sees a sky.  With `far` this is the sky of the other side, which is seen
-// only inside the horizon.  Otherwise it is the sky of the observer's own side.
+// in which an observer sees the sky of region I or III.
 //
 // A view ray along the unit vector m of the rain frame has, with c = gamma v and s = sqrt(2/r),
 //     g(m) = (gamma + c.m)/(1 + s m_R).
@@ -28,7 +27,8 @@ struct ShiftRange {
 // `straight` is for a show without lensing, whose observers are at r > 2.  Nothing is returned
 // where the sky is not seen, as in region IV.  The result is exact to rounding, except as 1 + s m_R
 // approaches 0.
-std::optional<ShiftRange> frequency_range(const ObserverState& observer, bool far, bool straight);
+std::optional<ShiftRange> frequency_range(const ObserverState& observer, SkyRegion sky,
+                                          bool straight);
 
 // Returns gamma v against the static observer of the same r > 2, or against flat space.  The
 // components are along R, Theta and Phi of the state's tetrad, and R points to growing r.

@@ -27,19 +27,18 @@ bool FramePlan::has_background() const {
 
 FramePlan plan_frame(const Show& show, const FrameState& state) {
   const ObserverState& o = state.observer;
-  const bool inside = o.region == Region::kII && o.r < 2;
+  const PerSky<bool> seen = seen_skies(o);
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
   // An observer who falls from region I receives its light on the horizon itself too.
-  const bool sees_one = inside || (o.region == Region::kII && !is_mirrored(o.tetrad));
-  plan.disc = show.disc && !is_flat(o) && (o.region == Region::kI || sees_one);
+  plan.disc = show.disc && !is_flat(o) &&
+              (o.region == Region::kI || (o.region == Region::kII && seen[SkyRegion::kI]));
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);
   };
-  // No light of a sky enters region IV.
-  if (o.region != Region::kIV) add(home_sky(o.tetrad));
-  if (inside) add(far_sky(o.tetrad));
+  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+    if (seen[sky]) add(sky);
   // Rays that neither sky has come from the past singularity.
   if (plan.gravity) add(SkyRegion::kIV);
   return plan;

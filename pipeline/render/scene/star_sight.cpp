@@ -27,9 +27,8 @@ StarSight::StarSight(const FrameState& state, const Effects& effects)
                                {{true, true, false}, false})) {}
 
 bool StarSight::sees(SkyRegion sky) const {
-  if (observer_.region == Region::kIV) return false;
-  if (is_flat(observer_) || !effects_.lensing) return sky == home_sky(observer_.tetrad);
-  return optics_.table_of(sky) != nullptr;
+  if (is_flat(observer_) || !effects_.lensing) return seen_skies(observer_)[sky];
+  return observer_.region != Region::kIV && optics_.table_of(sky) != nullptr;
 }
 
 int StarSight::orders() const {
