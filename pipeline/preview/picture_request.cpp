@@ -6,8 +6,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/show/effect_names.h"
 #include "pipeline/show/problems.h"
 #include "trajectories/degree.h"
 
@@ -83,29 +85,21 @@ std::optional<Effects> chosen_effects(const Query& query, const Effects& shows) 
   if (!query.text("effects") && !query.text("amplification")) return std::nullopt;
   Effects effects = shows;
   if (query.text("effects")) {
-    effects.aberration = effects.doppler_colour = effects.intensity = effects.lensing = false;
+    for (const auto& [name, effect] : kEffectSwitches) effects.*effect = false;
     for (const std::string& word : query.list("effects")) {
-      if (word == "aberration")
-        effects.aberration = true;
-      else if (word == "doppler_colour")
-        effects.doppler_colour = true;
-      else if (word == "intensity")
-        effects.intensity = true;
-      else if (word == "lensing")
-        effects.lensing = true;
-      else
+      const auto known =
+          std::ranges::find(kEffectSwitches, word, [](const auto& each) { return each.first; });
+      if (known == kEffectSwitches.end())
         refuse("effects", word, "aberration, doppler_colour, intensity and lensing");
+      effects.*known->second = true;
     }
   }
   if (const auto word = query.text("amplification")) {
-    if (*word == "none")
-      effects.amplification = Amplification::kNone;
-    else if (*word == "stars")
-      effects.amplification = Amplification::kStars;
-    else if (*word == "everything")
-      effects.amplification = Amplification::kEverything;
-    else
+    const auto known =
+        std::ranges::find(kAmplifications, *word, [](const auto& each) { return each.first; });
+    if (known == std::end(kAmplifications))
       refuse("amplification", *word, "none, stars and everything");
+    effects.amplification = known->second;
   }
   return effects;
 }

@@ -13,6 +13,7 @@
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/shift_range.h"
+#include "pipeline/show/effect_names.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/survey/axis_stars.h"
 #include "pipeline/survey/light_survey.h"
@@ -138,12 +139,11 @@ Json plots_of(const Show& show) {
 }
 
 Json effects_of(const Effects& effects) {
-  constexpr std::array kAmplified{"none", "stars", "everything"};
-  return {{"aberration", effects.aberration},
-          {"doppler_colour", effects.doppler_colour},
-          {"intensity", effects.intensity},
-          {"lensing", effects.lensing},
-          {"amplification", kAmplified[static_cast<std::size_t>(effects.amplification)]}};
+  Json json;
+  for (const auto& [name, effect] : kEffectSwitches) json[std::string(name)] = effects.*effect;
+  for (const auto& [name, amplification] : kAmplifications)
+    if (amplification == effects.amplification) json["amplification"] = name;
+  return json;
 }
 
 Json displays_as_json(const Show& show) {

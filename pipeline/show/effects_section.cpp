@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/show/effect_names.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -47,15 +48,9 @@ Effects read_effects(const Section& show) {
   const Section s = subsection(
       show, "effects", {"aberration", "doppler_colour", "intensity", "lensing", "amplification"});
   Effects effects;
-  effects.aberration = read_switch(s, "aberration");
-  effects.doppler_colour = read_switch(s, "doppler_colour");
-  effects.intensity = read_switch(s, "intensity");
-  effects.lensing = read_switch(s, "lensing");
-  using enum Amplification;
+  for (const auto& [name, effect] : kEffectSwitches) effects.*effect = read_switch(s, name);
   effects.amplification =
-      s.word<Amplification>("amplification",
-                            {{"stars", kStars}, {"none", kNone}, {"everything", kEverything}})
-          .value_or(kStars);
+      s.word<Amplification>("amplification", kAmplifications).value_or(Amplification::kStars);
   return effects;
 }
 
