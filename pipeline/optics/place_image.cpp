@@ -14,7 +14,7 @@ namespace domefall {
 namespace {
 
 // Returns r on each of n rays of the view, of which `ray_of` tells the k-th, once it has swept psi.
-// The loops of RayOrbits find eight places in the time of one.
+// The loops of RayOrbits find as many places in the time of one as a register holds: up to eight.
 template <std::size_t n, class RayOf>
 std::array<double, n> r_on_each(const PlaceView& view, double psi, const RayOf& ray_of) {
   std::array<double, n> sin_half, cos_half, gap_first, gap_second, psis, r;
@@ -79,12 +79,12 @@ class RayFan {
   double outer_, tangent_;
 };
 
-// Towards the edge r tends to that of the critical ray, away from it to its limit on that side.  The
-// range of z is halved to its last bit.  The middles of three successive halvings, whichever way each
-// of them goes, are looked at together: node k of their tree has the nodes 2 k + 1 and 2 k + 2 below
-// it.
+// Towards the edge r tends to that of the critical ray, away from it to its limit on that side.
+// The range of z is halved until it has no middle, at most 102 times.  The middles of three
+// successive halvings, whichever way each of them goes, are looked at together.  Node k of their
+// tree has the nodes 2 k + 1 and 2 k + 2 below it.
 std::optional<double> RayFan::find(double r, double psi, bool outside) const {
-  constexpr int kLevels = 3;
+  constexpr int kLevels = 3, kMostHalvings = 102;
   constexpr std::size_t kNodes = (1 << kLevels) - 1;
   struct Part {
     double low, high;
@@ -95,7 +95,7 @@ std::optional<double> RayFan::find(double r, double psi, bool outside) const {
   const auto ends = r_on_each<2>(
       view_, psi, [&](std::size_t k) { return ray(k == 0 ? part.low : part.high, outside); });
   if (is_beyond(ends[0]) || !is_beyond(ends[1])) return std::nullopt;
-  for (int step = 0; step < 100; step += kLevels) {
+  for (int step = 0; step < kMostHalvings; step += kLevels) {
     std::array<Part, kNodes> tree;
     tree[0] = part;
     for (std::size_t k = 1; k < kNodes; ++k) {

@@ -9,8 +9,8 @@
 
 namespace domefall {
 
-// Adds all images of bodies that are bright enough to an empty layer.  Each is dimmed by
-// the parts of the disc that its light has crossed.  `disc` is null where there is none.
+// Adds those images of the bodies that are bright enough to an empty layer.  Each is dimmed by the
+// parts of the disc that its light has crossed.  `disc` is null where there is none.
 void lay_bodies(std::span<const Body> bodies, const FrameScene& scene, const DiscPass* disc,
                 BlobLayer& layer);
 

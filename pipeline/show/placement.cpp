@@ -7,7 +7,8 @@ namespace domefall {
 M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth) {
   const V3d r0 = -hole_at.v;
   const bool at_pole = std::hypot(r0.x, r0.y) < 1e-12;
-  // The tangent of growing right ascension at R0 is (-y, x, 0), and (0, 1, 0) at RA 0.
+  // The tangent of growing right ascension at R0 is (-y, x, 0).  At a pole it is that of RA 0,
+  // which is (0, 1, 0).
   const V3d east = at_pole ? V3d(0, 1, 0) : V3d(-r0.y, r0.x, 0).normalized();
   const V3d north = r0.cross(east);
   const V3d t = north * std::cos(heading) + east * std::sin(heading);

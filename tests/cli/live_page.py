@@ -28,7 +28,9 @@ def browser(width=960, height=720):
                  '--disable-dev-shm-usage', '--hide-scrollbars', f'--window-size={width},{height}'):
         options.add_argument(word)
     options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
-    return webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+    window = webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+    window.set_script_timeout(PATIENCE)  # a busy machine draws without a graphics processor
+    return window
 
 
 class Page:

@@ -6,10 +6,11 @@ cd "$folder"
 trap 'kill ${server:-} ${holder:-} 2>/dev/null || true; rm -rf "$folder"' EXIT
 # serve SHOW: starts the preview $server at $url.
 serve() {
+  rm -f address said
   "$DOMEFALL" preview "$1" --no-open --threads 2 >address 2>said &
   server=$!
   for ((k = 0; k < 1000; ++k)); do
-    [[ $(wc -l <address) -ge 2 ]] && break
+    [[ -e address && $(wc -l <address) -ge 2 ]] && break
     kill -0 "$server" 2>/dev/null || fail "the preview ended: $(cat said)"
     sleep 0.02
   done

@@ -1,5 +1,5 @@
-// One program holds all targets, since linking takes longer than compiling them.  The build gives it
-// a link for each, and the name by which it is called, fuzz_<target>, chooses.
+// One program holds all targets, since linking takes longer than compiling them.  The build gives
+// it a link for each, and the name by which it is called, fuzz_<target>, chooses.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

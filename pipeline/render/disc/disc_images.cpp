@@ -205,7 +205,8 @@ void DiscImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
   bound_orders(low, high);
 }
 
-// The bounds of an order are the extremes of its nodes, with a margin above the error of interval().
+// The bounds of an order are the extremes of its nodes, with a margin above the error of
+// interval().
 void DiscImages::bound_orders(const std::vector<double>& low, const std::vector<double>& high) {
   for (int order = 1; order < kOrders; ++order) {
     const auto first = static_cast<std::ptrdiff_t>(order) * kPerHalfTurn;

@@ -23,7 +23,7 @@ class StarSight {
 
   struct Image {
     CameraDirection direction;
-    // the flux, as the renderer draws it under the show's effects, over the star's own
+    // This is the flux, as the renderer draws it under the show's effects, over the star's own.
     double brightening;
   };
   // Returns the image of an order (image_of) below orders().
