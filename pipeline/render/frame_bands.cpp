@@ -64,8 +64,8 @@ void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame
 // visited.
 class StarsEnd {
  public:
-  // Finds the blocks of the band's columns within the box that do not see a sky as a whole, and
-  // keeps their pixels as they are without stars.
+  // Finds the blocks of columns in the box that do not lie within one sky as a whole, and keeps
+  // their pixels as they are before stars are drawn.
   StarsEnd(const SkyBorders& borders, const Projection& projection, const PixelBox& box, int first,
            int end, const float* rgb, std::vector<float>& kept)
       : borders_(borders), projection_(projection), first_(first), end_(end), kept_(kept) {

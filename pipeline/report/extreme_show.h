@@ -23,8 +23,8 @@ class FrameTally {
   // finite, the frame counts as one bad value.
   void add(const Show& show);
 
-  // Returns the count as `worst`.  The outcome gives the number of frames and their brightest
-  // value, and `more` after them.
+  // Returns the number of bad values as `worst`.  The text of the outcome gives the number of
+  // frames, their brightest value, and then `more`.
   ExtremeResult result(const std::string& more) const;
 
  private:

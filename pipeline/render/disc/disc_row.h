@@ -33,7 +33,7 @@ class DiscPass::Row {
     bool lit = false;      // whether it is in an image
     double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
     WorkingRgb light{0, 0, 0};
-    float left = 1;
+    float left = 1;  // the part of the light from behind that passes
   };
 
   template <class ColumnOf>

@@ -157,8 +157,8 @@ Dispatched<locate_in_hole_loop> locate_in_hole;
 }
 Dispatched<set_slopes_loop> set_slopes;
 
-// Does the same for the rays of the hole.  Their light has no redshift, so its frequency ratio
-// becomes 1.
+// Does the same for the rays of the hole.  No redshift is defined for their light, so its
+// frequency ratio becomes 1.
 [[gnu::always_inline]] inline void set_hole_slopes_loop(int count, LensedRays& __restrict lensed,
                                                         double* __restrict frequency_ratio) {
   for (int k = 0; k < count; ++k) {

@@ -7,7 +7,7 @@
 namespace domefall {
 
 // Returns the value rounded to 41 bits, a relative 2e-13.  The last bits of sines and powers differ
-// between processors, but a frame that another node made must be recognized on this one.
+// between processors, but a frame that another node made must be recognised on this one.
 double steady(double value);
 
 // Adds a rotation with its elements rounded to multiples of 1e-12.  A relative rounding would not

@@ -11,12 +11,14 @@ namespace domefall {
 // part.
 inline constexpr double kReferenceLuminance = 1e-3;
 
-// Returns the pixel value of 1 cd/m^2.
+// Returns the pixel value of 1 cd/m^2.  FrameScene takes it once for each frame, and the light of
+// its skies and stars is multiplied by it.
 inline double exposure_scale(const FrameSettings& settings) {
   return std::exp2(settings.ev) / kReferenceLuminance;
 }
 
-// The illuminance (lux) of a star of magnitude 0 enters only the size at which stars are drawn.
+// A star of magnitude 0 gives this illuminance (lux).  The number sets the size at which stars are
+// drawn, and the survey turns pixel values into magnitudes by it.
 inline constexpr double kMagnitudeZeroLux = 2.63e-6;
 
 }  // namespace domefall

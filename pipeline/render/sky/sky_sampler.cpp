@@ -12,8 +12,8 @@ namespace domefall {
 namespace {
 
 constexpr int kSamples = SampleBatch::kSize;
-// A footprint has one tap, as wide as it is long, if it is at most this many times as long as it is
-// wide or as a texel.
+// A footprint counts as round, and has one tap, if its length is at most this many times its width
+// or a texel's.
 constexpr float kRound = 1.25f;
 // The taps of a line are at most this many of their widths apart.
 constexpr float kSpacing = 1.5f;

@@ -12,8 +12,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kMostPieces = 4096;
-// The light of a disc is summed over this number of chords.  The sum converges fast in the number.
-// It converges slowly if the axis is about as far from the disc's middle as the rim is, or nearer.
+// The light of a disc is summed over this number of chords.  The sum converges fast, but slowly
+// where the axis lies within the disc or near its rim.
 constexpr int kChords = 8, kChordsAtRim = 64;
 constexpr double kAtRim = 1.5;  // the distance, in radii, up to which there are more chords
 
@@ -66,8 +66,8 @@ class Caustic {
   Caustic(const SkyTable& table, const V3d& source, int order)
       : table_(table), frame_(psi_frame(table)), side_(order % 2 == 0 ? 1 : -1) {
     const bool below = source.x < 0, even = order % 2 == 0;
-    // Light of even order k sweeps k pi + phi_star, that of odd order (k + 1) pi - phi_star, where
-    // phi_star is near pi for a source below and near 0 for one above.
+    // Light of even order k sweeps k pi + phi_star, and that of odd order (k + 1) pi - phi_star, as
+    // lens_curve.h has it.  Here phi_star is near pi for a source below and near 0 for one above.
     axis_ = pi * (order + (below == even ? 1 : 0));
     sign_ = below == even ? -1 : 1;
     const double sine = std::hypot(source.y, source.z);

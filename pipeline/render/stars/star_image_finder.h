@@ -17,8 +17,8 @@ namespace domefall {
 inline constexpr double kFaintestPeak = 2e-4;
 
 // The stars are those of one sky.  Where light goes straight, a star has one image.  Without
-// amplification, a star has infinitely many images of equal brightness.  Only the two are found
-// whose light does not go around the hole.
+// amplification, a star has infinitely many images of equal brightness.  Of these, only the two are
+// found whose light does not go around the hole.
 //
 // Near the axis of the lens an image is bright and fast.  Where the sky turns, the image is the
 // mean over the time of a frame (star_trail.h).  Where the sky stands still, a star is an arc or a

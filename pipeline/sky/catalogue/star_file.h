@@ -3,7 +3,7 @@
 //
 // All numbers are little-endian.  Offsets and sizes are in bytes:
 //
-//   0    8  89 "STARS" 0D 0A          text does not begin so, and a change of line ends shows
+//   0    8  89 "STARS" 0D 0A          89 is no text, and 0D 0A tells of line ends that were changed
 //   8    4  0x01020304                in the order of the bytes of all numbers
 //   12   4  version, 1
 //   16   8  size of the file

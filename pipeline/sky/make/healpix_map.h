@@ -41,8 +41,8 @@ long ring_from_nested(int nside, long pixel);
 // Returns the number of texels along a cube face that keep a map's detail, at most 4096.
 int healpix_face(int nside);
 
-// Returns the number of samples along the side of a texel.  Several give a level that is coarser
-// than the map the means of its pixels.
+// Returns the number of samples along the side of a texel.  A level that is coarser than the map
+// takes several, whose mean is the texel.
 int samples_across(const HealpixMap& map, const SkyPyramid::Level& level);
 
 // Returns the rotation of equatorial directions into the coordinates of a frame.

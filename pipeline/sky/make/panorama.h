@@ -15,7 +15,7 @@ inline constexpr double kPanoramaUnit = 1e-4;
 // Makes a map from an image in linear Rec.709, equatorial J2000 and seen from inside: the middle
 // column is RA 0h, RA grows to the left, and the top row is Dec +90.  The image is twice as wide as
 // it is high, and at least 4 x 2.  The faces of the map have at most `largest_face` texels along an
-// edge.  If the image has more detail than that, means of its pixels are painted.
+// edge, and at most 4096.  If the image has more detail than that, means of its pixels are painted.
 SkyMap map_of_panorama(const FloatImage& image, int largest_face = kLargestFace);
 
 // Returns the number of texels along a face that keep the detail of an image of this width, at most
