@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -16,13 +17,24 @@ namespace domefall {
 
 namespace {
 
-// Throws InputError if the command line begins with a word that is no verb.
-void check_verb(const CLI::App& app, const char* word) {
-  if (!word || word[0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
-  if (std::ranges::find(names, word) != names.end()) return;
-  const std::vector<std::string_view> known(names.begin(), names.end());
+struct Verb {
+  std::string_view name;
+  void (*add)(CLI::App& app);
+};
+
+constexpr std::array kVerbs{
+    Verb{"check", add_check},     Verb{"render", add_render}, Verb{"grade", add_grade},
+    Verb{"preview", add_preview}, Verb{"movie", add_movie},   Verb{"deliver", add_deliver},
+    Verb{"sheet", add_sheet},     Verb{"farm", add_farm},     Verb{"states", add_states},
+    Verb{"probe", add_probe},     Verb{"trace", add_trace},   Verb{"report", add_report},
+    Verb{"stars", add_stars},     Verb{"sky", add_sky},
+};
+
+// Throws InputError for a word that is no verb.
+void check_verb(std::string_view word) {
+  std::vector<std::string_view> known;
+  for (const Verb& verb : kVerbs) known.push_back(verb.name);
+  if (std::ranges::find(known, word) != known.end()) return;
   const std::string near = did_you_mean(word, known);
   throw InputError("domefall has no verb '" + shown(word) + "'" +
                    (near.empty() ? "; it has " + listed(known) : near));
@@ -36,37 +48,38 @@ CLI::App& verb_of(CLI::App& app, const VerbNotes& notes) {
   return *verb;
 }
 
-}  // namespace
-
-std::unique_ptr<CLI::App> describe_command_line() {
+// Describes the verbs for which `is_wanted(name)`, and the program itself.
+template <class IsWanted>
+std::unique_ptr<CLI::App> describe_verbs(const IsWanted& is_wanted) {
   auto app = std::make_unique<CLI::App>(
       "Black-hole shows for planetariums: a show file in, graded Domemaster frames out",
       "domefall");
   app->set_version_flag("--version", "domefall " DOMEFALL_VERSION);
   app->require_subcommand(1);
-  add_check(*app);
-  add_render(*app);
-  add_grade(*app);
-  add_preview(*app);
-  add_movie(*app);
-  add_deliver(*app);
-  add_sheet(*app);
-  add_farm(*app);
-  add_states(*app);
-  add_probe(*app);
-  add_trace(*app);
-  add_report(*app);
-  add_stars(*app);
-  add_sky(*app);
-  for (const VerbNotes& notes : all_verb_notes()) verb_of(*app, notes).footer(help_footer(notes));
+  for (const Verb& verb : kVerbs)
+    if (is_wanted(verb.name)) verb.add(*app);
+  for (const VerbNotes& notes : all_verb_notes()) {
+    const std::string_view name = notes.verb.substr(0, notes.verb.find(' '));
+    if (name.empty() || is_wanted(name)) verb_of(*app, notes).footer(help_footer(notes));
+  }
   return app;
 }
 
+}  // namespace
+
+std::unique_ptr<CLI::App> describe_command_line() {
+  return describe_verbs([](std::string_view) { return true; });
+}
+
 int run_command_line(int argc, char** argv) {
-  const std::unique_ptr<CLI::App> app = describe_command_line();
+  const std::string_view first = argc > 1 ? argv[1] : "-";
+  const bool is_verb = !first.starts_with('-'), is_version = argc == 2 && first == "--version";
+  if (is_verb) check_verb(first);
+  // To describe all verbs would take a fifth of the program's start.
+  const std::unique_ptr<CLI::App> app =
+      describe_verbs([&](std::string_view name) { return is_verb ? name == first : !is_version; });
   // A wrong DOMEFALL_SIMD is told before anything is made.
   app->parse_complete_callback([] { simd_in_use(); });
-  if (argc > 1) check_verb(*app, argv[1]);
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,12 +1,10 @@
 #include "pipeline/deliver/checksum_list.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
-#include <array>
 #include <memory>
-#include <stdexcept>
 
+#include "pipeline/deliver/sha256.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
 
@@ -35,21 +33,11 @@ bool is_listed_line(std::string_view line) {
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   RegularFile file(path);
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                        EVP_MD_CTX_free);
-  const auto must = [](int done) {
-    if (done != 1) throw std::runtime_error("libcrypto cannot make a SHA-256 sum");
-  };
-  must(context ? EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) : 0);
+  const std::unique_ptr<Sha256Sum> sum = begin_sha256();
   std::vector<char> block(std::size_t{1} << 20);
   while (const std::size_t count = file.read(block.data(), block.size()))
-    must(EVP_DigestUpdate(context.get(), block.data(), count));
-  std::array<unsigned char, EVP_MAX_MD_SIZE> sum{};
-  unsigned size = 0;
-  must(EVP_DigestFinal_ex(context.get(), sum.data(), &size));
-  std::string text;
-  for (unsigned k = 0; k < size; ++k) text += fmt::format("{:02x}", sum[k]);
-  return text;
+    sum->add(block.data(), count);
+  return sum->finish();
 }
 
 std::string checksum_list(const std::vector<ListedFile>& files) {

@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// 64 hexadecimal digits.  Throws as RegularFile.
+// 64 hexadecimal digits.  Throws as RegularFile and begin_sha256.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 struct ListedFile {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/deliver/cairo_canvas.h"
+#include "pipeline/deliver/drawing.h"
 
 namespace domefall {
 namespace {
@@ -68,19 +68,20 @@ GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPictu
             down = (count + across - 1) / across;
   // Room for a title over a single picture, too.
   const int cell = std::max(width, 160) + kGap;
-  CairoCanvas canvas(kGap + across * cell, kTitle + down * (height + kLabel + kGap));
-  canvas.set_grey(1);
-  canvas.text(title, {canvas.width() / 2.0, kTitle / 2.0}, kTitleLetters,
-              canvas.width() - 2 * kGap);
-  canvas.set_grey(0.75);
+  const std::unique_ptr<Drawing> drawing =
+      new_drawing(kGap + across * cell, kTitle + down * (height + kLabel + kGap));
+  drawing->set_grey(1);
+  drawing->text(title, {drawing->width() / 2.0, kTitle / 2.0}, kTitleLetters,
+                drawing->width() - 2 * kGap);
+  drawing->set_grey(0.75);
   for (int k = 0; k < count; ++k) {
     const SheetPicture& shown = pictures[static_cast<std::size_t>(k)];
     const int left = kGap + k % across * cell, top = kTitle + k / across * (height + kLabel + kGap);
-    canvas.picture(shown.picture, left + (cell - kGap - width) / 2, top);
-    canvas.text(shown.label, {left + (cell - kGap) / 2.0, top + height + kLabel / 2.0},
-                kLabelLetters, cell - kGap);
+    drawing->picture(shown.picture, left + (cell - kGap - width) / 2, top);
+    drawing->text(shown.label, {left + (cell - kGap) / 2.0, top + height + kLabel / 2.0},
+                  kLabelLetters, cell - kGap);
   }
-  return canvas.finished();
+  return drawing->finished();
 }
 
 }  // namespace domefall

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/deliver/cairo_canvas.h"
+#include "pipeline/deliver/drawing.h"
 #include "trajectories/degree.h"
 
 namespace domefall {
@@ -16,28 +16,28 @@ namespace {
 // A picture of letters and lines, which grow with it, and its projection.
 struct Board {
   explicit Board(const Projection& projection)
-      : canvas(columns(projection), rows(projection)),
+      : drawing(new_drawing(columns(projection), rows(projection))),
         dome(std::get_if<Domemaster>(&projection)),
-        size(std::min(canvas.width(), canvas.height())),
+        size(std::min(drawing->width(), drawing->height())),
         thin(std::max(1.0, size / 1500)) {}
 
-  CanvasPoint middle() const { return {canvas.width() / 2.0, canvas.height() / 2.0}; }
+  DrawingPoint middle() const { return {drawing->width() / 2.0, drawing->height() / 2.0}; }
 
   // The place of an altitude and an azimuth (degrees; 0 is the front, 90 the right hand) on a dome.
-  CanvasPoint on_dome(double altitude, double azimuth) const {
+  DrawingPoint on_dome(double altitude, double azimuth) const {
     const double a = altitude * kDegree, z = azimuth * kDegree;
     const auto pixel =
         pixel_of(*dome, {{std::cos(a) * std::sin(z), std::cos(a) * std::cos(z), std::sin(a)}});
-    return pixel ? CanvasPoint{pixel->i - 0.5, pixel->j - 0.5} : middle();
+    return pixel ? DrawingPoint{pixel->i - 0.5, pixel->j - 0.5} : middle();
   }
 
   // Where titles stand.
-  CanvasPoint front() const {
+  DrawingPoint front() const {
     constexpr double kAltitude = 35;
     return dome ? on_dome(kAltitude, 0) : middle();
   }
 
-  CairoCanvas canvas;
+  std::unique_ptr<Drawing> drawing;
   const Domemaster* dome;
   double size;  // pixels of the shorter side
   double thin;  // pixels
@@ -46,28 +46,28 @@ struct Board {
 // A text that those read upright who turn towards it.
 void text_on_dome(Board& board, const std::string& text, double altitude, double azimuth,
                   double letters) {
-  const CanvasPoint at = board.on_dome(altitude, azimuth);
-  board.canvas.text(text, at, letters, board.size, -azimuth * kDegree);
+  const DrawingPoint at = board.on_dome(altitude, azimuth);
+  board.drawing->text(text, at, letters, board.size, -azimuth * kDegree);
 }
 
 void draw_dome_grid(Board& board) {
-  CairoCanvas& canvas = board.canvas;
+  Drawing& drawing = *board.drawing;
   const auto radius = [&](double altitude) {
     return board.on_dome(altitude, 0).y - board.middle().y;
   };
   for (int azimuth = 0; azimuth < 360; azimuth += 15) {
     const bool quarter = azimuth % 90 == 0;
-    canvas.set_grey(quarter ? 0.8 : 0.4);
-    canvas.line(board.on_dome(quarter ? 10 : 0, azimuth), board.on_dome(quarter ? 90 : 80, azimuth),
-                board.thin);
+    drawing.set_grey(quarter ? 0.8 : 0.4);
+    drawing.line(board.on_dome(quarter ? 10 : 0, azimuth),
+                 board.on_dome(quarter ? 90 : 80, azimuth), board.thin);
   }
   for (int altitude = 10; altitude < 90; altitude += 10) {
-    canvas.set_grey(altitude % 30 == 0 ? 0.8 : 0.4);
-    canvas.circle(board.middle(), radius(altitude), board.thin);
+    drawing.set_grey(altitude % 30 == 0 ? 0.8 : 0.4);
+    drawing.circle(board.middle(), radius(altitude), board.thin);
   }
   const double rim = 3 * board.thin;
-  canvas.set_grey(1);
-  canvas.circle(board.middle(), radius(0) - rim / 2, rim);
+  drawing.set_grey(1);
+  drawing.circle(board.middle(), radius(0) - rim / 2, rim);
   constexpr double kSmall = 0.014, kLarge = 0.04, kTurn = 7.5;
   for (int quarter = 0; quarter < 4; ++quarter)
     for (int altitude = 10; altitude < 90; altitude += 10)
@@ -79,46 +79,46 @@ void draw_dome_grid(Board& board) {
   constexpr std::array kSides{"FRONT", "RIGHT", "BACK", "LEFT"};
   for (std::size_t k = 0; k < kSides.size(); ++k) {
     const double azimuth = 90 * static_cast<double>(k);
-    canvas.set_grey(1);
+    drawing.set_grey(1);
     text_on_dome(board, kSides[k], 5, azimuth, kLarge * board.size);
   }
 }
 
 void draw_flat_grid(Board& board) {
-  CairoCanvas& canvas = board.canvas;
-  const double w = canvas.width(), h = canvas.height();
+  Drawing& drawing = *board.drawing;
+  const double w = drawing.width(), h = drawing.height();
   const auto frame = [&](double part) {
     const double x = w * (1 - part) / 2 + board.thin / 2, y = h * (1 - part) / 2 + board.thin / 2;
-    canvas.line({x, y}, {w - x, y}, board.thin);
-    canvas.line({w - x, y}, {w - x, h - y}, board.thin);
-    canvas.line({w - x, h - y}, {x, h - y}, board.thin);
-    canvas.line({x, h - y}, {x, y}, board.thin);
+    drawing.line({x, y}, {w - x, y}, board.thin);
+    drawing.line({w - x, y}, {w - x, h - y}, board.thin);
+    drawing.line({w - x, h - y}, {x, h - y}, board.thin);
+    drawing.line({x, h - y}, {x, y}, board.thin);
   };
-  canvas.set_grey(1);
+  drawing.set_grey(1);
   frame(1);
-  canvas.set_grey(0.6);
+  drawing.set_grey(0.6);
   frame(0.9);
   frame(0.8);
-  canvas.line({w / 2, 0}, {w / 2, h}, board.thin);
-  canvas.line({0, h / 2}, {w, h / 2}, board.thin);
-  canvas.circle(board.middle(), 0.45 * board.size, board.thin);
+  drawing.line({w / 2, 0}, {w / 2, h}, board.thin);
+  drawing.line({0, h / 2}, {w, h / 2}, board.thin);
+  drawing.circle(board.middle(), 0.45 * board.size, board.thin);
 }
 
 // Patches side by side about a place, each of one colour.
 template <std::size_t Count>
-void draw_patches(Board& board, CanvasPoint middle, double side,
+void draw_patches(Board& board, DrawingPoint middle, double side,
                   const std::array<std::array<double, 3>, Count>& colours) {
   // Whole pixels, so that no border is a mixture.
   const double whole = std::round(side);
   double x = std::round(middle.x - whole * Count / 2);
   for (const auto& [red, green, blue] : colours) {
-    board.canvas.set_colour(red, green, blue);
-    board.canvas.box({x, std::round(middle.y)}, whole, whole);
+    board.drawing->set_colour(red, green, blue);
+    board.drawing->box({x, std::round(middle.y)}, whole, whole);
     x += whole;
   }
 }
 
-void draw_colours(Board& board, CanvasPoint middle) {
+void draw_colours(Board& board, DrawingPoint middle) {
   constexpr std::size_t kSteps = 16;
   std::array<std::array<double, 3>, kSteps> greys{};
   for (std::size_t k = 0; k < kSteps; ++k)
@@ -132,40 +132,40 @@ void draw_colours(Board& board, CanvasPoint middle) {
 }
 
 // The first line, which is larger, stands about a place, and the others below it.
-void write_lines(Board& board, const ShowLines& lines, CanvasPoint first, double letters,
+void write_lines(Board& board, const ShowLines& lines, DrawingPoint first, double letters,
                  double longest) {
   constexpr double kStep = 1.4, kTitle = 1.5;
   double y = first.y;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    board.canvas.set_grey(k == 0 ? 1 : 0.8);
+    board.drawing->set_grey(k == 0 ? 1 : 0.8);
     const double size = k == 0 ? kTitle * letters : letters;
-    board.canvas.text(lines[k], {first.x, y}, size, longest);
+    board.drawing->text(lines[k], {first.x, y}, size, longest);
     y += kStep * size;
   }
 }
 
 void draw_slate(Board& board, const ShowLines& lines) {
   constexpr double kLetters = 0.022, kAbove = 0.08, kLongest = 0.42;
-  const CanvasPoint front = board.front();
+  const DrawingPoint front = board.front();
   write_lines(board, lines, {front.x, front.y - kAbove * board.size}, kLetters * board.size,
               kLongest * board.size);
 }
 
 void draw_countdown(Board& board, int left, double passed) {
   constexpr double kRadius = 0.11, kNumber = 0.15;
-  CairoCanvas& canvas = board.canvas;
-  const CanvasPoint front = board.front();
+  Drawing& drawing = *board.drawing;
+  const DrawingPoint front = board.front();
   const double radius = kRadius * board.size;
-  canvas.set_grey(0.5);
-  canvas.line({front.x - radius, front.y}, {front.x + radius, front.y}, board.thin);
-  canvas.line({front.x, front.y - radius}, {front.x, front.y + radius}, board.thin);
-  canvas.circle(front, radius, 2 * board.thin);
+  drawing.set_grey(0.5);
+  drawing.line({front.x - radius, front.y}, {front.x + radius, front.y}, board.thin);
+  drawing.line({front.x, front.y - radius}, {front.x, front.y + radius}, board.thin);
+  drawing.circle(front, radius, 2 * board.thin);
   const double turn = 2 * std::numbers::pi * passed;
-  canvas.set_grey(0.8);
-  canvas.line(front, {front.x + radius * std::sin(turn), front.y - radius * std::cos(turn)},
-              3 * board.thin);
-  canvas.set_grey(1);
-  canvas.text(std::to_string(left), front, kNumber * board.size, board.size);
+  drawing.set_grey(0.8);
+  drawing.line(front, {front.x + radius * std::sin(turn), front.y - radius * std::cos(turn)},
+               3 * board.thin);
+  drawing.set_grey(1);
+  drawing.text(std::to_string(left), front, kNumber * board.size, board.size);
 }
 
 }  // namespace
@@ -179,15 +179,15 @@ GradedFrame alignment_frame(const Projection& projection, const ShowLines& lines
   // A panel no larger than it must be, since it hides a part of the grid.
   constexpr double kLetters = 0.011, kTitleAbove = 0.075, kPatchesBelow = 0.02;
   constexpr double kPanelWidth = 0.31, kPanelHeight = 0.165, kPanelAbove = 0.092, kLongest = 0.29;
-  const CanvasPoint front = board.front();
+  const DrawingPoint front = board.front();
   const double size = board.size;
-  board.canvas.set_grey(0);
-  board.canvas.box({front.x - kPanelWidth / 2 * size, front.y - kPanelAbove * size},
-                   kPanelWidth * size, kPanelHeight * size);
+  board.drawing->set_grey(0);
+  board.drawing->box({front.x - kPanelWidth / 2 * size, front.y - kPanelAbove * size},
+                     kPanelWidth * size, kPanelHeight * size);
   write_lines(board, lines, {front.x, front.y - kTitleAbove * size}, kLetters * size,
               kLongest * size);
   draw_colours(board, {front.x, front.y + kPatchesBelow * size});
-  return board.canvas.finished();
+  return board.drawing->finished();
 }
 
 int leader_frames(double frames_per_second) {
@@ -207,13 +207,13 @@ GradedFrame leader_frame(const Projection& projection, const ShowLines& lines,
     draw_countdown(board, static_cast<int>(number), std::max(0.0, number - left));
   }
   constexpr double kLetters = 0.016, kBelow = 0.15, kLongest = 0.42;
-  const CanvasPoint front = board.front();
-  board.canvas.set_grey(0.6);
-  board.canvas.text(fmt::format("{}: frame {} of {} before the show", lines.front(), k + 1,
-                                leader_frames(frames_per_second)),
-                    {front.x, front.y + kBelow * board.size}, kLetters * board.size,
-                    kLongest * board.size);
-  return board.canvas.finished();
+  const DrawingPoint front = board.front();
+  board.drawing->set_grey(0.6);
+  board.drawing->text(fmt::format("{}: frame {} of {} before the show", lines.front(), k + 1,
+                                  leader_frames(frames_per_second)),
+                      {front.x, front.y + kBelow * board.size}, kLetters * board.size,
+                      kLongest * board.size);
+  return board.drawing->finished();
 }
 
 }  // namespace domefall

@@ -7,11 +7,11 @@
 
 #include "pipeline/image/encode/jpeg_writer.h"
 #include "pipeline/image/encode/png_writer.h"
-#include "pipeline/image/encode/tiff_writer.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_head.h"
 #include "pipeline/image/frame_seal.h"
 #include "pipeline/image/new_file.h"
+#include "pipeline/image/tiff_writer.h"
 
 namespace domefall {
 namespace {

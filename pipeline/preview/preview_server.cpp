@@ -1,20 +1,21 @@
 #include "pipeline/preview/preview_server.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
 #include <sys/random.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/diagram/page.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/preview/http_server.h"
 #include "pipeline/preview/live_show.h"
 #include "pipeline/preview/page_files.h"
-#include "pipeline/preview/patient_server.h"
 #include "pipeline/preview/screen_view.h"
 #include "pipeline/preview/show_facts.h"
 #include "pipeline/preview/warning_finder.h"
@@ -22,11 +23,7 @@
 namespace domefall {
 namespace {
 
-// As many connections are served at once.  Most of them only wait, for news or for their turn.
-constexpr std::size_t kConnections = 48;
-constexpr int kPatienceSeconds = 2;  // with a slow or silent client
 constexpr int kNewsSeconds = 20, kMostWaitingForNews = 16;
-constexpr std::size_t kLongestBody = 1024;  // no request has one
 
 std::string new_token() {
   std::array<unsigned char, 16> bytes{};
@@ -37,14 +34,6 @@ std::string new_token() {
   return token;
 }
 
-// httplib waits by select(), which knows no descriptor beyond 1023.
-void limit_descriptors() {
-  rlimit limit{};
-  getrlimit(RLIMIT_NOFILE, &limit);
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, FD_SETSIZE - 1);
-  setrlimit(RLIMIT_NOFILE, &limit);
-}
-
 // Compares in a time that does not tell how much was right.
 bool same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
@@ -53,10 +42,20 @@ bool same_secret(std::string_view a, std::string_view b) {
   return differences == 0;
 }
 
-long whole_parameter(const httplib::Request& request, const char* name) {
-  const std::string text = request.get_param_value(name);
+long whole_parameter(const HttpRequest& request, std::string_view name) {
+  const std::string text = request.parameter(name).value_or("");
   long value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+double pixel_parameter(const HttpRequest& request, std::string_view name) {
+  const std::string text = request.parameter(name).value_or("");
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc{} || read.ptr != end || !(std::abs(value) < 1e6))
+    throw InputError(fmt::format("{} must be a place in pixels, counted from 1", name));
   return value;
 }
 
@@ -77,22 +76,15 @@ class CountedIn {
   int number_;
 };
 
-Parameters parameters_of(const httplib::Request& request) {
-  return [&request](std::string_view name) -> std::optional<std::string> {
-    const auto found = request.params.find(std::string(name));
-    if (found == request.params.end()) return std::nullopt;
-    return found->second;
-  };
+Parameters parameters_of(const HttpRequest& request) {
+  return [&request](std::string_view name) { return request.parameter(name); };
 }
 
-void answer_text(httplib::Response& response, int status, const std::string& text) {
-  response.status = status;
-  response.set_content(text + "\n", "text/plain; charset=utf-8");
+HttpAnswer text_answer(int status, const std::string& text) {
+  return {status, "text/plain; charset=utf-8", text + "\n"};
 }
 
-void answer_json(httplib::Response& response, const std::string& json) {
-  response.set_content(json, "application/json");
-}
+HttpAnswer json_answer(std::string json) { return {200, "application/json", std::move(json)}; }
 
 // What the page needs to know of a picture to turn it, in a header.
 std::string made_json(const LiveShow::Made& made) {
@@ -117,138 +109,96 @@ struct PreviewServer::Inside {
   LiveShow show;
   WarningFinder warnings{show};
   std::string token = new_token(), url;
-  int port = 0;
   std::atomic<int> waiting_for_news = 0;
   std::atomic<std::uint64_t> nobodies = 0;
-  PatientServer http;
+  std::map<std::string, HttpHandler, std::less<>> pages;  // by their names below the token
+  std::unique_ptr<HttpServer> http;
 
-  Inside(const std::filesystem::path& file, int wanted_port, int threads) : show(file, threads) {
-    limit_descriptors();
-    http.new_task_queue = [] { return new httplib::ThreadPool(kConnections); };
-    http.set_read_timeout(kPatienceSeconds);
-    http.set_write_timeout(kPatienceSeconds);
-    http.set_keep_alive_timeout(kPatienceSeconds);
-    http.set_keep_alive_max_count(1'000'000);
-    http.set_payload_max_length(kLongestBody);
-    http.set_tcp_nodelay(true);
-    // httplib's own options let a second program take the same port.
-    http.set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
-    http.set_default_headers(
+  Inside(const std::filesystem::path& file, int port, int threads) : show(file, threads) {
+    add_pages();
+    http = bind_http_server(
+        port,
         {{"Cache-Control", "no-store"},
          {"X-Content-Type-Options", "nosniff"},
          {"Referrer-Policy", "no-referrer"},
          {"Cross-Origin-Resource-Policy", "same-origin"},
          {"Content-Security-Policy",
           "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-          "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}});
-    http.set_pre_routing_handler([this](const auto& request, auto& response) {
-      return is_ours(request) ? httplib::Server::HandlerResponse::Unhandled : refused(response);
-    });
-    http.set_exception_handler([](const auto&, auto& response, std::exception_ptr thrown) {
-      try {
-        std::rethrow_exception(thrown);
-      } catch (const InputError& error) {
-        answer_text(response, 400, error.what());
-      } catch (const std::exception& error) {
-        answer_text(response, 503, error.what());
-      } catch (...) {
-        answer_text(response, 503, "the picture was given up");
-      }
-    });
-    add_pages();
-    if (wanted_port == 0)
-      port = http.bind_to_any_port("127.0.0.1");
-    else
-      port = http.bind_to_port("127.0.0.1", wanted_port) ? wanted_port : -1;
-    if (port <= 0)
-      throw TemporaryError(fmt::format("127.0.0.1:{}: the port cannot be had", wanted_port));
-    url = fmt::format("http://127.0.0.1:{}/{}/", port, token);
+          "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}},
+        [this](const HttpRequest& request) { return answer(request); });
+    url = fmt::format("http://127.0.0.1:{}/{}/", http->port(), token);
   }
 
-  static httplib::Server::HandlerResponse refused(httplib::Response& response) {
-    answer_text(response, 403, "this is not the address that domefall preview has printed");
-    return httplib::Server::HandlerResponse::Handled;
+  HttpAnswer answer(const HttpRequest& request) {
+    try {
+      if (!is_ours(request))
+        return text_answer(403, "this is not the address that domefall preview has printed");
+      const auto page = pages.find(std::string_view(request.path()).substr(token.size() + 2));
+      if (page == pages.end()) return text_answer(404, "the preview has no such page");
+      return page->second(request);
+    } catch (const InputError& error) {
+      return text_answer(400, error.what());
+    } catch (const std::exception& error) {
+      return text_answer(503, error.what());
+    } catch (...) {
+      return text_answer(503, "the picture was given up");
+    }
   }
 
   // A page of another origin may make the browser ask, even under a name of its own that leads
   // here, but it cannot change Host, Origin or Sec-Fetch-Site, and does not know the token.  An ssh
   // tunnel may end at another port.
-  bool is_ours(const httplib::Request& request) const {
-    const std::string host = request.get_header_value("Host");
+  bool is_ours(const HttpRequest& request) const {
+    const std::string host = request.header("Host");
     const std::string name = host.substr(0, host.rfind(':'));
     if (name != "127.0.0.1" && name != "localhost") return false;
-    const std::string origin = request.get_header_value("Origin");
+    const std::string origin = request.header("Origin");
     if (!origin.empty() && origin != "http://" + host) return false;
-    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    const std::string site = request.header("Sec-Fetch-Site");
     if (!site.empty() && site != "same-origin" && site != "none") return false;
-    if (request.method != "GET" && request.method != "HEAD") return false;
-    const std::string& path = request.path;
+    if (request.method() != "GET" && request.method() != "HEAD") return false;
+    const std::string& path = request.path();
     return path.size() > token.size() + 1 && path[0] == '/' && path[token.size() + 1] == '/' &&
            same_secret(std::string_view(path).substr(1, token.size()), token);
   }
 
-  void on(const std::string& name, httplib::Server::Handler handler) {
-    http.Get("/" + token + "/" + name, std::move(handler));
-  }
-
   void add_pages() {
     for (const PageFile& file : page_files()) {
-      const auto send = [file](const auto&, auto& response) {
-        response.set_content(file.bytes.data(), file.bytes.size(), std::string(file.type));
+      const HttpHandler send = [file](const HttpRequest&) {
+        return HttpAnswer{200, std::string(file.type), std::string(file.bytes)};
       };
-      on(std::string(file.name), send);
-      if (file.name == "index.html") on("", send);
+      pages[std::string(file.name)] = send;
+      if (file.name == "index.html") pages[""] = send;
     }
-    on("show", [this](const auto&, auto& response) {
-      answer_json(response, show_facts(show.version(), show.threads()));
-    });
-    on("warnings",
-       [this](const auto&, auto& response) { answer_json(response, warnings.as_json()); });
-    on("plot.svg", [this](const auto&, auto& response) {
-      response.set_content(show_page(*show.version().show), "image/svg+xml");
-    });
-    on("picture", [this](const auto& request, auto& response) { picture(request, response); });
-    on("changes", [this](const auto& request, auto& response) { changes(request, response); });
-    on("probe", [this](const auto& request, auto& response) {
-      const PixelPosition at{number(request, "x"), number(request, "y")};
-      show.with_pictures([&](LivePictures& pictures) {
-        const PictureRequest asked = read_request(parameters_of(request), pictures.show());
-        answer_json(response, pictures.probe(asked, at));
-      });
-    });
-    on("camera", [this](const auto& request, auto& response) { camera(request, response); });
+    pages["show"] = [this](const HttpRequest&) {
+      return json_answer(show_facts(show.version(), show.threads()));
+    };
+    pages["warnings"] = [this](const HttpRequest&) { return json_answer(warnings.as_json()); };
+    pages["plot.svg"] = [this](const HttpRequest&) {
+      return HttpAnswer{200, "image/svg+xml", show_page(*show.version().show)};
+    };
+    pages["picture"] = [this](const HttpRequest& request) { return picture(request); };
+    pages["changes"] = [this](const HttpRequest& request) { return changes(request); };
+    pages["probe"] = [this](const HttpRequest& request) { return probe(request); };
+    pages["camera"] = [this](const HttpRequest& request) { return camera(request); };
   }
 
-  static double number(const httplib::Request& request, const char* name) {
-    const std::string text = request.get_param_value(name);
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto read = std::from_chars(text.data(), end, value);
-    if (read.ec != std::errc{} || read.ptr != end || !(std::abs(value) < 1e6))
-      throw InputError(fmt::format("{} must be a place in pixels, counted from 1", name));
-    return value;
-  }
-
-  void picture(const httplib::Request& request, httplib::Response& response) {
-    const bool can_stop = request.get_param_value("detail") != "moving";
+  HttpAnswer picture(const HttpRequest& request) {
+    const bool can_stop = request.parameter("detail") != "moving";
     // Who does not say who it is has no newer requests.
-    std::string name = request.get_param_value("client").substr(0, 40);
-    name = name.empty() ? fmt::format("nobody {}", ++nobodies)
-                        : "client " + name + ' ' + request.get_param_value("kind").substr(0, 10);
+    std::string name = request.parameter("client").value_or("").substr(0, 40);
+    name = name.empty()
+               ? fmt::format("nobody {}", ++nobodies)
+               : "client " + name + ' ' + request.parameter("kind").value_or("").substr(0, 10);
     auto made =
         show.picture(parameters_of(request), {name, whole_parameter(request, "n"), can_stop});
-    if (!made) {
-      response.status = 204;
-      return;
-    }
-    response.set_header("X-Domefall", made_json(*made));
-    response.set_content(made->picture.jpeg, "image/jpeg");
+    if (!made) return {.status = 204, .type = {}, .body = {}};
+    HttpAnswer answer{200, "image/jpeg", std::move(made->picture.jpeg)};
+    answer.headers = {{"X-Domefall", made_json(*made)}};
+    return answer;
   }
 
-  void changes(const httplib::Request& request, httplib::Response& response) {
+  HttpAnswer changes(const HttpRequest& request) {
     const CountedIn waiting(waiting_for_news);
     const LiveShow::Version version =
         show.changed_since(static_cast<int>(whole_parameter(request, "since")),
@@ -256,20 +206,29 @@ struct PreviewServer::Inside {
     nlohmann::ordered_json json{
         {"revision", version.revision}, {"readings", version.readings}, {"mistake", nullptr}};
     if (!version.mistake.empty()) json["mistake"] = version.mistake;
-    answer_json(response,
-                json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return json_answer(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
 
-  void camera(const httplib::Request& request, httplib::Response& response) {
+  HttpAnswer probe(const HttpRequest& request) {
+    const PixelPosition at{pixel_parameter(request, "x"), pixel_parameter(request, "y")};
+    std::string json;
+    show.with_pictures([&](LivePictures& pictures) {
+      json = pictures.probe(read_request(parameters_of(request), pictures.show()), at);
+    });
+    return json_answer(std::move(json));
+  }
+
+  HttpAnswer camera(const HttpRequest& request) {
+    std::string text;
     show.with_pictures([&](LivePictures& pictures) {
       const FrameState state =
           pictures.state_for(read_request(parameters_of(request), pictures.show()));
       const std::string yaml = camera_as_yaml(pictures.show(), state);
-      answer_text(response, 200,
-                  request.get_param_value("key") == "1"
-                      ? fmt::format("- {{at_s: {:.6g}, camera: {}}}", state.show_time_s, yaml)
-                      : "camera: " + yaml);
+      text = request.parameter("key") == "1"
+                 ? fmt::format("- {{at_s: {:.6g}, camera: {}}}", state.show_time_s, yaml)
+                 : "camera: " + yaml;
     });
+    return text_answer(200, text);
   }
 };
 
@@ -278,18 +237,18 @@ PreviewServer::PreviewServer(const std::filesystem::path& show, int port, int th
 
 PreviewServer::~PreviewServer() = default;
 
-int PreviewServer::port() const { return inside_->port; }
+int PreviewServer::port() const { return inside_->http->port(); }
 
 const std::string& PreviewServer::url() const { return inside_->url; }
 
 void PreviewServer::serve() {
-  inside_->http.listen_after_bind();
+  inside_->http->serve();
   inside_->show.stop();
 }
 
 void PreviewServer::stop() {
   inside_->show.stop();
-  inside_->http.stop();
+  inside_->http->stop();
 }
 
 }  // namespace domefall

@@ -10,9 +10,9 @@
 #include "pipeline/image/encode/jpeg_writer.h"
 #include "pipeline/image/encode/png_writer.h"
 #include "pipeline/image/encode/side_by_side.h"
-#include "pipeline/image/encode/tiff_writer.h"
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/image/new_file.h"
+#include "pipeline/image/tiff_writer.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {

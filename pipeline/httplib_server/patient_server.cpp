@@ -1,4 +1,4 @@
-#include "pipeline/preview/patient_server.h"
+#include "pipeline/httplib_server/patient_server.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

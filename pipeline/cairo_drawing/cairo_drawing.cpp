@@ -1,65 +1,85 @@
-#include "pipeline/deliver/cairo_canvas.h"
+#include <cairo.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
-#include "pipeline/lettering/lettering.h"
+#include "pipeline/deliver/drawing.h"
 
 namespace domefall {
+namespace {
 
-CairoCanvas::CairoCanvas(int width, int height)
-    : width_(width),
-      height_(height),
+class CairoDrawing : public Drawing {
+ public:
+  CairoDrawing(int width, int height);
+
+  void set_colour(double red, double green, double blue) override;
+  void line(DrawingPoint from, DrawingPoint to, double thickness) override;
+  void circle(DrawingPoint centre, double radius, double thickness) override;
+  void box(DrawingPoint corner, double width, double height) override;
+  void fill(const std::vector<TextOutline>& outlines, DrawingPoint middle, double capital,
+            double angle) override;
+  void picture(const GradedFrame& picture, int x, int y) override;
+  GradedFrame finished() override;
+
+ private:
+  void check() const;
+
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
+};
+
+CairoDrawing::CairoDrawing(int width, int height)
+    : Drawing(width, height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
                cairo_surface_destroy),
       cairo_(cairo_create(surface_.get()), cairo_destroy) {
   check();
 }
 
-void CairoCanvas::check() const {
+void CairoDrawing::check() const {
   const cairo_status_t status = cairo_status(cairo_.get());
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(std::string("Cairo: ") + cairo_status_to_string(status));
 }
 
-void CairoCanvas::set_colour(double red, double green, double blue) {
+void CairoDrawing::set_colour(double red, double green, double blue) {
   cairo_set_source_rgb(cairo_.get(), red, green, blue);
 }
 
-void CairoCanvas::line(CanvasPoint from, CanvasPoint to, double thickness) {
+void CairoDrawing::line(DrawingPoint from, DrawingPoint to, double thickness) {
   cairo_set_line_width(cairo_.get(), thickness);
   cairo_move_to(cairo_.get(), from.x, from.y);
   cairo_line_to(cairo_.get(), to.x, to.y);
   cairo_stroke(cairo_.get());
 }
 
-void CairoCanvas::circle(CanvasPoint centre, double radius, double thickness) {
+void CairoDrawing::circle(DrawingPoint centre, double radius, double thickness) {
   cairo_set_line_width(cairo_.get(), thickness);
   cairo_new_sub_path(cairo_.get());
   cairo_arc(cairo_.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
   cairo_stroke(cairo_.get());
 }
 
-void CairoCanvas::box(CanvasPoint corner, double width, double height) {
+void CairoDrawing::box(DrawingPoint corner, double width, double height) {
   cairo_rectangle(cairo_.get(), corner.x, corner.y, width, height);
   cairo_fill(cairo_.get());
 }
 
-void CairoCanvas::text(const std::string& line, CanvasPoint middle, double size, double longest,
-                       double angle) {
-  const LetteredText letters = lettering().letter(line, {});
-  double capital = size / letters.em;
-  if (2 * letters.half_width * capital > longest) capital = longest / (2 * letters.half_width);
+void CairoDrawing::fill(const std::vector<TextOutline>& outlines, DrawingPoint middle,
+                        double capital, double angle) {
   cairo_t* cairo = cairo_.get();
   cairo_save(cairo);
   cairo_translate(cairo, middle.x, middle.y);
   cairo_rotate(cairo, angle);
   cairo_scale(cairo, capital, -capital);
-  for (const TextOutline& outline : letters.outlines) {
+  for (const TextOutline& outline : outlines) {
     cairo_move_to(cairo, outline.start.x, outline.start.y);
     for (const auto& [c1, c2, end, straight] : outline.curves)
       cairo_curve_to(cairo, c1.x, c1.y, c2.x, c2.y, end.x, end.y);
@@ -69,12 +89,12 @@ void CairoCanvas::text(const std::string& line, CanvasPoint middle, double size,
   cairo_restore(cairo);
 }
 
-void CairoCanvas::picture(const GradedFrame& picture, int x, int y) {
+void CairoDrawing::picture(const GradedFrame& picture, int x, int y) {
   cairo_surface_flush(surface_.get());
   unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
   const int stride = cairo_image_surface_get_stride(surface_.get());
-  const int columns = std::min(picture.width, width_ - x),
-            rows = std::min(picture.height, height_ - y);
+  const int columns = std::min(picture.width, width() - x),
+            rows = std::min(picture.height, height() - y);
   for (int row = 0; row < rows; ++row) {
     const unsigned short* from = picture.row(row);
     unsigned char* to = bytes + static_cast<std::ptrdiff_t>(stride) * (y + row) + 4 * x;
@@ -88,16 +108,16 @@ void CairoCanvas::picture(const GradedFrame& picture, int x, int y) {
   cairo_surface_mark_dirty(surface_.get());
 }
 
-GradedFrame CairoCanvas::finished() {
+GradedFrame CairoDrawing::finished() {
   check();
   cairo_surface_flush(surface_.get());
   const unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
   const int stride = cairo_image_surface_get_stride(surface_.get());
-  GradedFrame out(width_, height_);
-  for (int y = 0; y < height_; ++y) {
+  GradedFrame out(width(), height());
+  for (int y = 0; y < height(); ++y) {
     const unsigned char* from = bytes + static_cast<std::ptrdiff_t>(stride) * y;
     unsigned short* to = out.row(y);
-    for (int x = 0; x < width_; ++x, from += 4, to += 3) {
+    for (int x = 0; x < width(); ++x, from += 4, to += 3) {
       std::uint32_t pixel = 0;
       std::memcpy(&pixel, from, sizeof pixel);
       constexpr unsigned kCode = 257, kByte = 0xff;  // 8 bits to 16
@@ -109,4 +129,17 @@ GradedFrame CairoCanvas::finished() {
   return out;
 }
 
+class CairoDrawingMaker : public DrawingMaker {
+ public:
+  std::unique_ptr<Drawing> make(int width, int height) const override {
+    return std::make_unique<CairoDrawing>(width, height);
+  }
+};
+
+}  // namespace
 }  // namespace domefall
+
+extern "C" const domefall::Interface* domefall_cairo_drawing() {
+  static const domefall::CairoDrawingMaker maker;
+  return &maker;
+}

@@ -1,0 +1,11 @@
+#include "pipeline/image/tiff_file.h"
+
+namespace domefall {
+
+std::unique_ptr<TiffFile> begin_tiff(ByteSink& sink, const TiffLayout& layout) {
+  static const auto& files = static_cast<const TiffFiles&>(
+      load_library("libdomefall_libtiff_file.so", "domefall_libtiff_file", "writes TIFF files"));
+  return files.begin(sink, layout);
+}
+
+}  // namespace domefall
