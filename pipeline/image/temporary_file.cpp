@@ -15,6 +15,7 @@
 #include "pipeline/image/descriptor.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/unfinished.h"
+#include "pipeline/image/utf8.h"
 #include "pipeline/image/writer_id.h"
 
 namespace domefall {
@@ -34,10 +35,7 @@ std::string stem_of(const fs::path& path) {
   std::string stem = path.filename().string();
   if (stem.size() <= kLongestStem) return stem;
   std::size_t end = kLongestStem;
-  const auto continues = [&stem](std::size_t k) {
-    return (static_cast<unsigned char>(stem[k]) & 0xC0U) == 0x80U;
-  };
-  while (end > 0 && continues(end)) --end;
+  while (end > 0 && continues_character(stem[end])) --end;
   stem.resize(end);
   return stem;
 }

@@ -7,14 +7,12 @@
 #include <utility>
 
 #include "pipeline/image/errors.h"
+#include "pipeline/image/utf8.h"
 
 namespace domefall {
 namespace {
 
 constexpr std::size_t kMostListed = 100;
-
-// Says whether a byte of UTF-8 continues the character of the byte before, as all 10xxxxxx do.
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 }  // namespace
 

@@ -10,31 +10,12 @@
 #include "pipeline/image/byte_order_mark.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
+#include "pipeline/image/utf8.h"
 
 namespace domefall {
 namespace {
 
 constexpr std::size_t kLargestFile = 1 << 20;
-
-// Returns the length of the well-formed UTF-8 character at the start of the text, or 0 if there is
-// none.  Overlong forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode
-// table 3-7).
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t k) {
-    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (length == 0 || first > 0xF4) return 0;
-  // The first byte can narrow the range of the second one, but not those of the others.
-  const unsigned low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  if (byte(1) < low || byte(1) > high) return 0;
-  for (std::size_t k = 2; k < length; ++k)
-    if ((byte(k) & 0xC0) != 0x80) return 0;
-  return length;
-}
 
 // Reports the first character that has no place in a show.
 void check_characters(std::string_view text, Problems& problems) {
