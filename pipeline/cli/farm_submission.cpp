@@ -160,6 +160,7 @@ FarmPlan make_plan(const SubmitOptions& o) {
   plan.retries = o.retries;
   plan.most_rounds = o.rounds;
   add_products(plan, o.products, show, frames);
+  check_plan_text(plan);
   const FrameRun run{show, frames, plan.out, 0, false, true, o.replace, true};
   add_chunks(plan, o, show, frames_to_make(run));
   return plan;

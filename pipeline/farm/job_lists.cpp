@@ -5,7 +5,9 @@
 #include "pipeline/farm/farm_task.h"
 #include "pipeline/farm/finish.h"
 #include "pipeline/farm/shell_words.h"
+#include "pipeline/farm/utf8_json.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/utf8.h"
 
 namespace domefall {
 namespace {
@@ -16,14 +18,18 @@ constexpr const char* kFramesOfTask = "{{Task.Param.Frames}}";
 
 // A template's texts are format strings, which have no way to write {{ itself.
 Json openjd_action(std::vector<std::string> command) {
-  for (const std::string& word : command)
+  for (const std::string& word : command) {
+    require_utf8(word);
     if (word != kFramesOfTask && word.find("{{") != std::string::npos)
       throw InputError(word + ": Open Job Description takes {{ for the beginning of a variable; " +
                        "a path without it will do");
+  }
   const std::string program = command.front();
   command.erase(command.begin());
   return {{"actions", {{"onRun", {{"command", program}, {"args", command}}}}}};
 }
+
+std::string name_of_job(const FarmPlan& plan) { return "domefall " + plan.show.stem().string(); }
 
 std::vector<std::string> repair_command(const FarmPlan& plan) {
   return {plan.program, "farm", "verify", plan.out.string(), "--plan", plan.id, "--repair"};
@@ -70,9 +76,9 @@ std::string openjd_template(const FarmPlan& plan) {
   }
   constexpr std::size_t kLongestName = 128;
   const Json json{{"specificationVersion", "jobtemplate-2023-09"},
-                  {"name", ("domefall " + plan.show.stem().string()).substr(0, kLongestName)},
+                  {"name", first_characters(name_of_job(plan), kLongestName)},
                   {"steps", steps}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return utf8_json(json, 2) + "\n";
 }
 
 std::string flamenco_job(const FarmPlan& plan) {
@@ -80,19 +86,19 @@ std::string flamenco_job(const FarmPlan& plan) {
   for (const PlannedChunk& chunk : plan.chunks) chunks.push_back(chunk.frames);
   std::vector<std::string> command = render_command(plan, "", plan.threads);
   // Settings are texts and numbers, so that lists go as JSON in a text.
-  const auto text = [](const std::vector<std::string>& words) { return Json(words).dump(); };
   Json later = Json::array();
   for (const auto& [name, words] : later_steps(plan))
     later.push_back({{"name", name}, {"command", words}});
-  const Json json{
-      {"name", "domefall " + plan.show.stem().string()},
-      {"type", "domefall"},
-      {"priority", 50},
-      {"submitter_platform", "linux"},
-      {"settings",
-       {{"render_command", text(command)}, {"chunks", chunks.dump()}, {"later", later.dump()}}},
-      {"metadata", {{"show", plan.show.string()}, {"out", plan.out.string()}}}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const Json json{{"name", name_of_job(plan)},
+                  {"type", "domefall"},
+                  {"priority", 50},
+                  {"submitter_platform", "linux"},
+                  {"settings",
+                   {{"render_command", utf8_json(command)},
+                    {"chunks", utf8_json(chunks)},
+                    {"later", utf8_json(later)}}},
+                  {"metadata", {{"show", plan.show.string()}, {"out", plan.out.string()}}}};
+  return utf8_json(json, 2) + "\n";
 }
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// A plan as other queue managers read it.
+// A plan as other queue managers read it.  What is JSON throws InputError for a path that is not
+// UTF-8.
 #pragma once
 
 #include <string>

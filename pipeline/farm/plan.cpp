@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "pipeline/farm/utf8_json.h"
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/regular_file.h"
@@ -54,6 +55,8 @@ Json plan_json(const FarmPlan& plan) {
   for (const FarmRound& round : plan.rounds) json["rounds"].push_back(round_json(round));
   return json;
 }
+
+std::string plan_text(const FarmPlan& plan) { return utf8_json(plan_json(plan), 1) + "\n"; }
 
 FarmPlan plan_of(const Json& json) {
   FarmPlan plan;
@@ -167,15 +170,11 @@ void drop_unaccepted_plan(const FarmPlan& plan) {
   if (read_plan(plan.out, plan.id).rounds.empty()) fs::remove(plan_file(plan.out, plan.id), error);
 }
 
+void check_plan_text(const FarmPlan& plan) { (void)plan_text(plan); }
+
 void write_plan(const FarmPlan& plan) {
+  const std::string text = plan_text(plan);
   make_farm_folder(farm_log_folder(plan.out));
-  std::string text;
-  try {
-    text = plan_json(plan).dump(1) + "\n";
-  } catch (const Json::type_error&) {
-    throw InputError(plan_file(plan.out, plan.id).string() +
-                     ": the paths of the show and its frames must be UTF-8");
-  }
   write_atomically(plan_file(plan.out, plan.id), text);
 }
 

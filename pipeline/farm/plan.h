@@ -63,8 +63,11 @@ FarmPlan read_plan(const std::filesystem::path& out, const std::string& id);
 // read_plan().
 std::optional<FarmPlan> newest_plan(const std::filesystem::path& out);
 
-// Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws InputError where the path
-// leads through a file, and else as throw_file_error().
+// Throws InputError for a path or an option that a plan cannot hold, as it is not UTF-8.
+void check_plan_text(const FarmPlan& plan);
+
+// Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws as check_plan_text() before
+// anything is made, InputError where the path leads through a file, and else as throw_file_error().
 void write_plan(const FarmPlan& plan);
 
 // Removes the file of a plan that no engine has accepted, and leaves any other alone.

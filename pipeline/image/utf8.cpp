@@ -1,5 +1,9 @@
 #include "pipeline/image/utf8.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace domefall {
 
 std::size_t character_length(std::string_view text) {
@@ -18,6 +22,26 @@ std::size_t character_length(std::string_view text) {
   for (std::size_t k = 2; k < length; ++k)
     if (k >= text.size() || !continues_character(text[k])) return 0;
   return length;
+}
+
+std::string_view first_characters(std::string_view text, std::size_t most) {
+  std::size_t end = 0, characters = 0;
+  for (; end < text.size(); ++end)
+    if (!continues_character(text[end]) && ++characters > most) break;
+  return text.substr(0, end);
+}
+
+std::string spell_bad_bytes(std::string_view text) {
+  std::string spelt;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length > 0)
+      spelt += text.substr(0, length);
+    else
+      spelt += fmt::format("\\x{:02X}", static_cast<unsigned char>(text.front()));
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return spelt;
 }
 
 }  // namespace domefall

@@ -1,7 +1,8 @@
-// The characters of UTF-8 text.
+// The characters of UTF-8 text, and the bytes that are none.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace domefall {
@@ -14,5 +15,12 @@ constexpr bool continues_character(char c) {
 // Returns the length of the well-formed character at the start of the text, or 0 if there is none.
 // Overlong forms, surrogates and what lies beyond U+10FFFF are not well-formed (Unicode table 3-7).
 std::size_t character_length(std::string_view text);
+
+// Returns the beginning of a well-formed text, of `most` characters at most.
+std::string_view first_characters(std::string_view text, std::size_t most);
+
+// Returns the text with each byte that belongs to no well-formed character written as \xFF, and
+// a well-formed text as it is.
+std::string spell_bad_bytes(std::string_view text);
 
 }  // namespace domefall

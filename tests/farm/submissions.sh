@@ -91,6 +91,18 @@ what_cannot_follow_the_frames_is_refused_at_once() {
   says early.log "taken: the folder is not empty and holds no delivery"
 }
 
+# JSON is UTF-8, and a file's name may be any bytes.
+paths_that_no_plan_can_hold_are_refused_at_once() {
+  local engine dry
+  for engine in local list openjd flamenco; do
+    for dry in "" --dry-run; do
+      expect 2 bytes.log "${submit[@]}" --engine "$engine" --out $'early\xff' ${dry:+"$dry"}
+      says bytes.log '/early\xFF: is not UTF-8'
+      [[ ! -e $'early\xff' ]] || fail "--engine $engine $dry: a folder was made"
+    done
+  done
+}
+
 # What the options say is kept in the plan, and handed to the verbs that make movie and delivery.
 sound_overlays_and_parts_of_a_delivery_are_checked_and_kept() {
   local options words
@@ -190,6 +202,7 @@ for claim in two_runs_into_a_folder_make_their_own_frames \
   status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
   a_plan_that_found_nothing_to_do_is_passed_over a_plan_of_all_frames_follows_the_show \
   what_cannot_follow_the_frames_is_refused_at_once \
+  paths_that_no_plan_can_hold_are_refused_at_once \
   sound_overlays_and_parts_of_a_delivery_are_checked_and_kept \
   what_is_only_printed_needs_no_controller a_list_takes_nothing_that_follows_the_frames \
   what_fails_after_the_frames_is_told_by_status \

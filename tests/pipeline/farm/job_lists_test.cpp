@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "pipeline/farm/farm_task.h"
 #include "pipeline/farm/finish.h"
 #include "pipeline/farm/shell_words.h"
@@ -13,6 +15,9 @@ namespace domefall {
 namespace {
 
 using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
 FarmPlan small_plan() {
   FarmPlan plan;
@@ -80,12 +85,40 @@ TEST(JobLists, ATemplateRefusesWhatItWouldTakeForAVariable) {
   EXPECT_THROW(openjd_template(plan), InputError);
 }
 
-TEST(FarmPlan, RefusesPathsThatAreNoText) {
+TEST(FarmPlan, RefusesPathsThatAreNoTextAndMakesNothing) {
   const ScratchFolder folder;
   FarmPlan plan = small_plan();
   plan.out = folder / "out";
   plan.show = "/shows/\xff.yaml";
-  EXPECT_THROW(write_plan(plan), InputError);
+  EXPECT_THAT([&] { write_plan(plan); },
+              ThrowsMessage<InputError>(StartsWith("/shows/\\xFF.yaml: is not UTF-8")));
+  EXPECT_FALSE(std::filesystem::exists(plan.out));
+}
+
+TEST(JobLists, RefusePathsThatAreNoText) {
+  for (std::filesystem::path FarmPlan::*path : {&FarmPlan::show, &FarmPlan::out}) {
+    FarmPlan plan = small_plan();
+    plan.*path = "/a b/\xff";
+    const auto refusal = ThrowsMessage<InputError>(StartsWith("/a b/\\xFF: is not UTF-8"));
+    EXPECT_THAT([&] { openjd_template(plan); }, refusal);
+    EXPECT_THAT([&] { flamenco_job(plan); }, refusal);
+    // A shell takes any bytes.
+    EXPECT_THAT(list_of_commands(plan), HasSubstr("\xff"));
+  }
+}
+
+TEST(JobLists, ALongNameIsCutBetweenCharacters) {
+  constexpr int kLetters = 200;
+  FarmPlan plan = small_plan();
+  std::string letters;
+  for (int k = 0; k < kLetters; ++k) letters += "\u00e9";
+  plan.show = "/shows/" + letters + ".yaml";
+  const std::string beginning = "domefall ";
+  const std::string name = nlohmann::json::parse(openjd_template(plan)).at("name");
+  // The letters, which take two bytes each, fill the 128 characters.
+  EXPECT_EQ(name, beginning + letters.substr(0, 2 * (128 - beginning.size())));
+  // A job of Flamenco may have a name of any length.
+  EXPECT_EQ(nlohmann::json::parse(flamenco_job(plan)).at("name"), beginning + letters);
 }
 
 TEST(Slurm, AnArrayIsVerifiedAfterItsTasksHoweverTheyEnd) {

@@ -23,5 +23,21 @@ TEST(Utf8, WhatIsNotWellFormedIsNoCharacter) {
   EXPECT_EQ(character_length(std::string_view("\u00e9").substr(0, 1)), 0U);
 }
 
+TEST(Utf8, TheFirstCharactersAreWhole) {
+  const std::string text = "a\u00e9\u2609\U0001f30c";
+  EXPECT_EQ(first_characters(text, 0), "");
+  EXPECT_EQ(first_characters(text, 1), "a");
+  EXPECT_EQ(first_characters(text, 2), "a\u00e9");
+  EXPECT_EQ(first_characters(text, 3), "a\u00e9\u2609");
+  EXPECT_EQ(first_characters(text, 4), text);
+  EXPECT_EQ(first_characters(text, 5), text);
+}
+
+TEST(Utf8, BadBytesAreSpeltAndAllElseIsKept) {
+  const std::string good = "/a b/\u00e9\U0001f30c\n";
+  EXPECT_EQ(spell_bad_bytes(good), good);
+  EXPECT_EQ(spell_bad_bytes("/a\xff/\u00e9\xe2\x98z\xc3"), "/a\\xFF/\u00e9\\xE2\\x98z\\xC3");
+}
+
 }  // namespace
 }  // namespace domefall
