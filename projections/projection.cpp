@@ -174,16 +174,6 @@ double pixel_angle(const Projection& p, PixelPosition pixel) {
   return std::visit(Largest{centred(p, pixel)}, p);
 }
 
-std::string_view projection_name(const Projection& p) {
-  struct Name {
-    std::string_view operator()(const Domemaster&) const { return "domemaster"; }
-    std::string_view operator()(const Stereographic&) const { return "stereographic"; }
-    std::string_view operator()(const Rectilinear&) const { return "rectilinear"; }
-    std::string_view operator()(const Fisheye&) const { return "fisheye"; }
-    std::string_view operator()(const Equirectangular&) const { return "equirectangular"; }
-    std::string_view operator()(const Cubemap&) const { return "cubemap"; }
-  };
-  return std::visit(Name(), p);
-}
+std::string_view projection_name(const Projection& p) { return kProjectionNames[p.index()]; }
 
 }  // namespace domefall

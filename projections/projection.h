@@ -13,8 +13,10 @@
 
 #include <Imath/ImathVec.h>
 
+#include <array>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
 namespace domefall {
@@ -32,17 +34,20 @@ struct PixelPosition {
 // zenith (its axis), the bottom edge is the audience's front, the right edge its right hand.
 // [Riazuelo] eq. pix_i_geode, pix_j_geode.  Valid outside the incircle too, up to theta = pi.
 struct Domemaster {
+  static constexpr std::string_view kName = "domemaster";
   int size;  // pixels, > 0
 };
 
 // Conformal flat image: the hole's silhouette stays a circle.  [Riazuelo] eq. pix_i, pix_j.
 struct Stereographic {
+  static constexpr std::string_view kName = "stereographic";
   int columns, rows;  // pixels, > 0
   double fov;         // full horizontal opening angle 2 alpha, radians, in (0, 2 pi)
 };
 
 // Flat image of a camera without distortion: straight lines stay straight.
 struct Rectilinear {
+  static constexpr std::string_view kName = "rectilinear";
   int columns, rows;  // pixels, > 0
   double fov;         // full horizontal opening angle, radians, in (0, pi)
 };
@@ -50,6 +55,7 @@ struct Rectilinear {
 // Equidistant azimuthal fisheye of any opening, for domes of more or less than a half sphere.  Its
 // circle is as wide as the image.  An image lower than that is of a truncated dome.
 struct Fisheye {
+  static constexpr std::string_view kName = "fisheye";
   int columns, rows;  // pixels, > 0, rows <= columns
   double fov;         // opening angle of the circle, radians, in (0, 2 pi]
   double cut_back;    // the part, 0 to 1, of the missing rows that is cut at the top, the back
@@ -58,6 +64,7 @@ struct Fisheye {
 // The whole sphere by longitude and latitude, as virtual reality has it: columns/2 rows.  The left
 // and the right edge are one meridian, the back's.
 struct Equirectangular {
+  static constexpr std::string_view kName = "equirectangular";
   int columns;  // pixels, > 0, even
 };
 
@@ -65,11 +72,18 @@ struct Equirectangular {
 // back.  Each is a flat image of 90 degrees, upright but for up and down, which have the front at
 // their bottom and top edge.  This is the layout c3x2 of ffmpeg's filter v360.
 struct Cubemap {
+  static constexpr std::string_view kName = "cubemap";
   int face;  // pixels along an edge, > 0
 };
 
 using Projection =
     std::variant<Domemaster, Stereographic, Rectilinear, Fisheye, Equirectangular, Cubemap>;
+
+// The names of all projections, in that order.
+inline constexpr auto kProjectionNames =
+    []<class... Each>(std::type_identity<std::variant<Each...>>) {
+      return std::array{Each::kName...};
+    }(std::type_identity<Projection>());
 
 int columns(const Projection& p);
 int rows(const Projection& p);

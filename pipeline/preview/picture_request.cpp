@@ -57,16 +57,15 @@ class Query {
 Projection projection_of(const Query& query) {
   const int width = query.number("w", kLeastSide, kMostSide, 960),
             height = query.number("h", kLeastSide, kMostSide, 540);
-  const std::string name = query.text("projection").value_or("stereographic");
+  const std::string name = query.text("projection").value_or(std::string(Stereographic::kName));
   const auto fov = [&](double most) { return query.number("fov", 1e-5, most, 100.0) * kDegree; };
-  if (name == "stereographic") return Stereographic{width, height, fov(340)};
-  if (name == "rectilinear") return Rectilinear{width, height, fov(170)};
-  if (name == "fisheye") return Fisheye{width, std::min(width, height), fov(360), 0.5};
-  if (name == "domemaster") return Domemaster{std::min(width, height)};
-  if (name == "equirectangular") return Equirectangular{width / 2 * 2};
-  if (name == "cubemap") return Cubemap{std::max(kLeastSide, width / 3)};
-  refuse("projection", name,
-         "stereographic, rectilinear, fisheye, domemaster, equirectangular and cubemap");
+  if (name == Stereographic::kName) return Stereographic{width, height, fov(340)};
+  if (name == Rectilinear::kName) return Rectilinear{width, height, fov(170)};
+  if (name == Fisheye::kName) return Fisheye{width, std::min(width, height), fov(360), 0.5};
+  if (name == Domemaster::kName) return Domemaster{std::min(width, height)};
+  if (name == Equirectangular::kName) return Equirectangular{width / 2 * 2};
+  if (name == Cubemap::kName) return Cubemap{std::max(kLeastSide, width / 3)};
+  refuse("projection", name, fmt::format("{}", fmt::join(kProjectionNames, ", ")));
 }
 
 std::optional<ScreenLook> look_of(const Query& query) {

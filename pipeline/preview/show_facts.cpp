@@ -193,7 +193,7 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
                {"width", columns(show.projection)},
                {"height", rows(show.projection)},
                {"mass_solar", show.mass_solar ? rounded_number(*show.mass_solar) : Json()},
-               {"default_view", "stereographic"},
+               {"default_view", Stereographic::kName},
                {"threads", threads},
                {"segments", segments_of(show)},
                {"keyframes", keyframes_of(show)},

@@ -113,12 +113,12 @@ Projection read_projection(const Section& show, const Section& camera) {
   const Item* size = show.find("size");
   const ProjectionKind kind =
       camera
-          .word<ProjectionKind>("projection", {{"domemaster", kDomemaster},
-                                               {"fisheye", kFisheye},
-                                               {"equirectangular", kEquirectangular},
-                                               {"cubemap", kCubemap},
-                                               {"stereographic", kStereographic},
-                                               {"rectilinear", kRectilinear}})
+          .word<ProjectionKind>("projection", {{Domemaster::kName, kDomemaster},
+                                               {Fisheye::kName, kFisheye},
+                                               {Equirectangular::kName, kEquirectangular},
+                                               {Cubemap::kName, kCubemap},
+                                               {Stereographic::kName, kStereographic},
+                                               {Rectilinear::kName, kRectilinear}})
           .value_or(kDomemaster);
   if (const Item* cut = camera.find("cut"); cut && kind != kFisheye)
     cut->fail("goes with the fisheye projection only");
