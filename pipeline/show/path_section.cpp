@@ -6,6 +6,7 @@
 
 #include "pipeline/image/csv_file.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/show/state_columns.h"
 #include "pipeline/show/velocity_section.h"
 
 namespace domefall {
@@ -66,9 +67,18 @@ std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage
   return good ? std::optional(keys) : std::nullopt;
 }
 
+// What a table of states says of a path.
+constexpr std::string_view kTimeColumn = state_column("proper_time"),
+                           kRadiusColumn = state_column("r"),
+                           kAzimuthColumn = state_column("azimuth_deg"),
+                           kTetradColumn = state_column("tetrad"),
+                           kRadialColumn = state_column("celerity_r"),
+                           kNormalColumn = state_column("celerity_theta"),
+                           kAzimuthalColumn = state_column("celerity_phi");
+
 // Returns the tetrad that a row of a table names.
 Tetrad tetrad_named(const CsvFile& table) {
-  const std::string_view name = table.text("tetrad");
+  const std::string_view name = table.text(kTetradColumn);
   for (const Tetrad tetrad : kTetrads)
     if (name == tetrad_name(tetrad)) return tetrad;
   table.fail("tetrad must be rain, outgoing, rain_of_III or outgoing_to_III, got '" +
@@ -83,25 +93,25 @@ struct Table {
 
 // Reads the table that `domefall states` writes, or any table with some of its columns.
 Table read_table(const std::filesystem::path& file) {
-  CsvFile csv(file, {"proper_time", "r"});
+  CsvFile csv(file, {kTimeColumn, kRadiusColumn});
   Table table;
   // Without celerities the path chooses the rates itself (accelerated_path.h).
-  const bool moving = csv.has("celerity_r") && csv.has("celerity_phi");
+  const bool moving = csv.has(kRadialColumn) && csv.has(kAzimuthalColumn);
   while (csv.next()) {
-    PathKey key{csv.number("proper_time"), csv.number("r"), 0, {}, {}};
+    PathKey key{csv.number(kTimeColumn), csv.number(kRadiusColumn), 0, {}, {}};
     if (!(key.r >= kNearest && key.r <= kFarthest))
       csv.fail("r must lie between 1e-6 and 1e9 (units of M), got " + short_number(key.r));
-    if (csv.has("azimuth_deg")) key.azimuth = radians(csv.number("azimuth_deg"));
-    if (csv.has("tetrad")) {
+    if (csv.has(kAzimuthColumn)) key.azimuth = radians(csv.number(kAzimuthColumn));
+    if (csv.has(kTetradColumn)) {
       const Tetrad tetrad = tetrad_named(csv);
       if (!table.keys.empty() && tetrad != table.tetrad)
         csv.fail("the tetrad changes; a path has one, give each part a file and a segment");
       table.tetrad = tetrad;
     }
-    if (csv.has("celerity_theta") && std::abs(csv.number("celerity_theta")) > 1e-12)
+    if (csv.has(kNormalColumn) && std::abs(csv.number(kNormalColumn)) > 1e-12)
       csv.fail("celerity_theta leaves the plane of the path; it must be 0");
     if (moving)
-      set_rates(key, {csv.number("celerity_r"), 0, csv.number("celerity_phi")}, table.tetrad);
+      set_rates(key, {csv.number(kRadialColumn), 0, csv.number(kAzimuthalColumn)}, table.tetrad);
     table.keys.push_back(key);
   }
   return table;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
+#include <string_view>
 #include <variant>
 
 #include "pipeline/show/frame_state.h"
@@ -20,6 +22,13 @@ inline constexpr std::array kStateColumns{
     "proper_time", "celerity_r",  "celerity_theta", "celerity_phi", "ra_deg",   "dec_deg",
     "azimuth_deg", "x_r",         "x_theta",        "x_phi",        "y_r",      "y_theta",
     "y_phi",       "z_r",         "z_theta",        "z_phi",        "null_time"};
+
+// Returns the name of a column as it is given.  A name that no column has does not compile.
+consteval std::string_view state_column(std::string_view name) {
+  for (const std::string_view column : kStateColumns)
+    if (column == name) return column;
+  throw std::logic_error("no such column");
+}
 
 // A StateNumber is a number with the count of its digits in a text.
 struct StateNumber {
