@@ -14,6 +14,7 @@
 #include "pipeline/cli/sky_page.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/image_formats.h"
 #include "pipeline/image/regular_file.h"
 #include "pipeline/show/assets.h"
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
@@ -233,9 +234,8 @@ void add_cmb(CLI::App& verb, ImportOptions& o) {
 void add_sky_import(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
   auto o = std::make_shared<ImportOptions>();
-  verb->add_option(
-          "IMAGE", o->image,
-          "an OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP file, or a HEALPix map in FITS")
+  verb->add_option("IMAGE", o->image,
+                   fmt::format("an {} file, or a HEALPix map in FITS", kPictureFormats))
       ->type_name(kFileType)
       ->required();
   verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();

@@ -8,12 +8,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "pipeline/image/late_library.h"
 
 namespace domefall {
 
 struct HealpixFile;
+
+// What a picture may be, for messages and help.  picture_format() knows each by its first bytes.
+inline constexpr std::string_view kPictureFormats =
+    "OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP";
 
 // How an image file holds its numbers.  kFloat has 32 or 64 bits.
 enum class SampleType { kUint16, kOtherInteger, kHalf, kFloat };

@@ -1,5 +1,4 @@
-// A picture that the user names: OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP, whatever the
-// file is called.
+// A picture that the user names: one of kPictureFormats, whatever the file is called.
 #pragma once
 
 #include <filesystem>

@@ -12,12 +12,9 @@
 namespace domefall {
 
 // The name of OpenImageIO's reader for a file that begins with these bytes (12 or more are needed):
-// "openexr", "png", "tiff", "jpeg", "hdr" (Radiance) or "webp"; empty for any other format.
+// "openexr", "png", "tiff", "jpeg", "hdr" (Radiance) or "webp"; empty for any other format.  Users
+// read of them in kPictureFormats.
 std::string_view picture_format(std::string_view start);
-
-// For messages: what a picture may be.
-inline constexpr std::string_view kPictureFormats =
-    "OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP";
 
 struct PictureSize {
   std::int64_t width = 0, height = 0;
