@@ -1,6 +1,7 @@
 #include "pipeline/render/sky/formula_shader.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -86,6 +87,9 @@ struct FormulaShader::BorderSamples {
 
 // Replaces the light of pixels that a border may cross by the mean of samples.
 void FormulaShader::sample_borders(const SampleBatch& pixels, int count, Squares& seen) const {
+  // The columns hold the samples of one pixel at least; else no pixel would ever be taken.
+  static_assert(kMostSamples * kMostSamples <= kSize);
+  assert(samples_ <= kMostSamples);
   const int per_pixel = samples_ * samples_, at_once = kSize / per_pixel;
   Squares light;
   for (int next = 0; next < count;) {
