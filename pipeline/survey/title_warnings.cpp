@@ -74,7 +74,7 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
         fmt::format("has capitals lower than {} pixels at the show's size, which nobody can read; "
                     "they have {} with a height_deg of {:.3g}",
                     kLeastCapital, kLeastCapital, least * 180 / std::numbers::pi));
-  if (surface.half_turn(letters.half_width) > std::numbers::pi)
+  if (surface.angle_about_pole(letters.half_width) > std::numbers::pi)
     warn(
         "is longer than its circle of the dome, so that it runs into itself; a smaller height_deg "
         "or more lines would fit");

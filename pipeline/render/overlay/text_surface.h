@@ -26,7 +26,7 @@ class TextSurface {
 
   // Returns the angle about the pole, in radians, over which a text of this half width reaches to
   // either side.  With more than pi the text would run into itself.
-  double half_turn(double half_width) const { return half_width * scale_; }
+  double angle_about_pole(double half_width) const { return half_width * scale_; }
 
  private:
   V3d right_, front_, pole_;  // along the camera's axes; the middle is on the meridian of front_
