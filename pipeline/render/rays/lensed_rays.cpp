@@ -30,7 +30,7 @@ struct TetradRays {
 // LensedRays holds the azimuths of rays and how fast these change with alpha.
 struct LensedRays {
   AzimuthBatch azimuths;
-  ViewRayBatch::Column<double> rate;   // d s/d alpha of the white hole's coordinate s
+  ViewRayBatch::Column<double> rate;   // d x/d alpha on the white hole's curve
   ViewRayBatch::Column<double> slope;  // |d phi/d alpha|
 };
 static_assert(AzimuthBatch::kSize == ViewRayBatch::kSize);
@@ -131,15 +131,16 @@ Dispatched<assign_home_loop> assign_home;
 }
 Dispatched<assign_far_loop> assign_far;
 
-// Sets the coordinate s of the rays that belong to the hole, and d s/d alpha of all rays.
+// Sets the coordinate x of the rays that belong to the hole (WhiteHoleTable::Place::s), and
+// d x/d alpha of all rays.
 [[gnu::always_inline]] inline void locate_in_hole_loop(const WhiteHolePlace& white_hole,
                                                        const TetradRays& __restrict rays, int count,
                                                        LensedRays& __restrict lensed) {
   const WhiteHolePlace place = white_hole;
   for (int k = 0; k < count; ++k) {
     double rate = 0;
-    const double s = place(rays.sin_half[k], rays.cos_half[k], rate);
-    lensed.azimuths.x[k] = lensed.azimuths.curve[k] == kHole ? s : lensed.azimuths.x[k];
+    const double x = place(rays.sin_half[k], rays.cos_half[k], rate);
+    lensed.azimuths.x[k] = lensed.azimuths.curve[k] == kHole ? x : lensed.azimuths.x[k];
     lensed.rate[k] = rate;
   }
 }
