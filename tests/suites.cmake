@@ -1,6 +1,6 @@
-# Included by CTest itself, with NAME and PROGRAM set: makes one test of each suite of the unit tests
-# in PROGRAM. A suite is a process, so that what its tests share is made once. The names are read when
-# CTest runs, so that a crash in a static object fails a test, not the build.
+# Included by CTest itself, with NAME and PROGRAM set: makes one test of each suite of the unit
+# tests in PROGRAM. A suite is a process, so that what its tests share is made once. The names are
+# read when CTest runs, so that a crash in a static object fails a test, not the build.
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests
                 OUTPUT_VARIABLE list RESULT_VARIABLE code)
