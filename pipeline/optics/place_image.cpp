@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/optics/bisect_by_threes.h"
 #include "pipeline/optics/emission_time.h"
 #include "pipeline/optics/exact_azimuth.h"
 #include "pipeline/optics/ray_times.h"
@@ -80,40 +81,19 @@ class RayFan {
 };
 
 // Towards the edge r tends to that of the critical ray, away from it to its limit on that side.
-// The range of z is halved until it has no middle, at most 102 times.  The middles of three
-// successive halvings, whichever way each of them goes, are looked at together.  Node k of their
-// tree has the nodes 2 k + 1 and 2 k + 2 below it.
 std::optional<double> RayFan::find(double r, double psi, bool outside) const {
-  constexpr int kLevels = 3, kMostHalvings = 102;
-  constexpr std::size_t kNodes = (1 << kLevels) - 1;
-  struct Part {
-    double low, high;
-    double middle() const { return (low + high) / 2; }
-  };
   const auto is_beyond = [&](double there) { return outside ? there > r : there < r; };
-  Part part{-45, range(outside)};
-  const auto ends = r_on_each<2>(
-      view_, psi, [&](std::size_t k) { return ray(k == 0 ? part.low : part.high, outside); });
+  const double low = -45, high = range(outside);
+  const auto ends =
+      r_on_each<2>(view_, psi, [&](std::size_t k) { return ray(k == 0 ? low : high, outside); });
   if (is_beyond(ends[0]) || !is_beyond(ends[1])) return std::nullopt;
-  for (int step = 0; step < kMostHalvings; step += kLevels) {
-    std::array<Part, kNodes> tree;
-    tree[0] = part;
-    for (std::size_t k = 1; k < kNodes; ++k) {
-      const Part& above = tree[(k - 1) / 2];
-      tree[k] = k % 2 == 1 ? Part{above.low, above.middle()} : Part{above.middle(), above.high};
-    }
-    const auto there = r_on_each<kNodes>(
-        view_, psi, [&](std::size_t k) { return ray(tree[k].middle(), outside); });
-    for (std::size_t k = 0; k < kNodes;) {
-      part = tree[k];
-      const double middle = part.middle();
-      if (middle == part.low || middle == part.high) return middle;
-      const bool beyond = is_beyond(there[k]);
-      part = beyond ? Part{part.low, middle} : Part{middle, part.high};
-      k = 2 * k + (beyond ? 1 : 2);
-    }
-  }
-  return part.middle();
+  return bisect_by_threes(low, high, [&](const std::array<double, kHalvingPoints>& z) {
+    const auto there =
+        r_on_each<kHalvingPoints>(view_, psi, [&](std::size_t k) { return ray(z[k], outside); });
+    std::array<bool, kHalvingPoints> beyond;
+    std::ranges::transform(there, beyond.begin(), is_beyond);
+    return beyond;
+  });
 }
 
 double null_time_after(const NullRay& ray, double psi) {
