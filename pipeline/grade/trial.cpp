@@ -58,8 +58,9 @@ void close_all_but(int kept) {
   close_range(number + 1, ~0U, 0);
 }
 
-void confine(int to, const TrialBounds& bounds) {
+void confine(int to, pid_t program, const TrialBounds& bounds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != program) _exit(0);  // it ended before that
   forget_handlers();
   close_all_but(to);
   limit(RLIMIT_CORE, 0);
@@ -83,9 +84,9 @@ std::string outcome_of(const std::function<void()>& step) {
   }
 }
 
-[[noreturn]] void be_the_copy(int to, const std::function<void()>& step,
+[[noreturn]] void be_the_copy(int to, pid_t program, const std::function<void()>& step,
                               const TrialBounds& bounds) {
-  confine(to, bounds);
+  confine(to, program, bounds);
   sigset_t none;
   sigemptyset(&none);
   pthread_sigmask(SIG_SETMASK, &none, nullptr);
@@ -103,8 +104,8 @@ pid_t copy_without_signals(int to, const std::function<void()>& step, const Tria
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  const pid_t copy = fork();
-  if (copy == 0) be_the_copy(to, step, bounds);
+  const pid_t program = getpid(), copy = fork();
+  if (copy == 0) be_the_copy(to, program, step, bounds);
   const int error = errno;
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   errno = error;
