@@ -1,5 +1,6 @@
 #include "pipeline/render/frame_bodies.h"
 
+#include <utility>
 #include <vector>
 
 #include "pipeline/render/scene/body_sight.h"
@@ -27,13 +28,13 @@ bool append_body(const BodySight& sight, const Body& body, const BodySight::Imag
 
 }  // namespace
 
-void lay_bodies(std::span<const Body> bodies, const FrameScene& scene, const DiscPass* disc,
-                BlobLayer& layer) {
+std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* disc) {
+  if (scene.bodies.empty()) return std::nullopt;
   const BodySight sight(scene.state, scene.effects, scene.least_star_radius);
   std::vector<StarImage> images;
   if (sight.sees()) {
     const StarImageFinder finder(scene, SkyRegion::kI);
-    for (const Body& body : bodies) {
+    for (const Body& body : scene.bodies) {
       // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
       int faint = 0;
       for (int order = sight.first_order(body);
@@ -45,8 +46,10 @@ void lay_bodies(std::span<const Body> bodies, const FrameScene& scene, const Dis
       }
     }
   }
-  layer.add(images, scene.point_spread);
-  layer.sort_into_bands();
+  std::optional<BlobLayer> layer(std::in_place, scene.projection());
+  layer->add(images, scene.point_spread);
+  layer->sort_into_bands();
+  return layer;
 }
 
 }  // namespace domefall

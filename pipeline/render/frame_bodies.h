@@ -1,7 +1,7 @@
 // Lays out the bodies of a frame as blobs that are ready to be drawn.
 #pragma once
 
-#include <span>
+#include <optional>
 
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
@@ -9,9 +9,9 @@
 
 namespace domefall {
 
-// Adds those images of the bodies that are bright enough to an empty layer.  Each is dimmed by the
-// parts of the disc that its light has crossed.  `disc` is null where there is none.
-void lay_bodies(std::span<const Body> bodies, const FrameScene& scene, const DiscPass* disc,
-                BlobLayer& layer);
+// Returns a layer with those images of the scene's bodies that are bright enough, or nothing where
+// the scene has no bodies.  Each image is dimmed by the parts of the disc that its light has
+// crossed.  `disc` is null where there is none.
+std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* disc);
 
 }  // namespace domefall

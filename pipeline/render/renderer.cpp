@@ -237,12 +237,8 @@ void Renderer::render_image(const FrameState& state, const Projection& whole, do
     std::optional<DiscPass> disc;
     if (scene.disc) disc.emplace(scene);
     times.disc_s = watch.lap();
-    std::optional<BlobLayer> bodies;
-    if (!show_.bodies.empty()) {
-      bodies.emplace(state.projection);
-      lay_bodies(show_.bodies, scene, disc ? &*disc : nullptr, *bodies);
-      times.images += bodies->size();
-    }
+    const std::optional<BlobLayer> bodies = lay_bodies(scene, disc ? &*disc : nullptr);
+    if (bodies) times.images += bodies->size();
     times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, bodies ? &*bodies : nullptr,

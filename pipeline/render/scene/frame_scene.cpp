@@ -50,6 +50,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       motion(std::move(sky_motion)),
       stars(stars_of_skies(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)),
-      disc(disc_light) {}
+      disc(disc_light),
+      bodies(show.bodies) {}
 
 }  // namespace domefall

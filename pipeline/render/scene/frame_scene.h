@@ -1,15 +1,18 @@
 // A FrameScene is one instant of a show as every stage of its frame reads it: the observer and the
-// camera, how light reaches them, the skies that are seen, and how light becomes pixel values.  The
-// renderer makes one for each frame, and no later stage derives anything from the show again.
+// camera, how light reaches them, the skies that are seen, the bodies near the hole, and how light
+// becomes pixel values.  The renderer makes one for each frame, and no later stage derives anything
+// from the show again.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "pipeline/disc/disc_light.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/point_spread.h"
 #include "pipeline/render/scene/sky_light.h"
+#include "pipeline/show/body.h"
 
 namespace domefall {
 
@@ -46,7 +49,8 @@ struct FrameScene {
   const PerSky<const SceneStars*> stars;  // null where the plan has none
   // empty for a sky that is black or has stars only
   const PerSky<std::optional<SkyLight>> background;
-  const DiscLight* disc;  // null where none is seen
+  const DiscLight* disc;            // null where none is seen
+  const std::vector<Body>& bodies;  // all of the show, also where none is seen
 
   const Projection& projection() const { return state.projection; }
   // Says whether the lens brightens backgrounds as it does stars.  In nature it does not, since a
