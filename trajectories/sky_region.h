@@ -18,10 +18,8 @@ inline const char* name_of(SkyRegion sky) {
   return kNames[static_cast<std::size_t>(sky)];
 }
 
-// The region that a tetrad belongs to, and the opposite one.  An observer sees the home sky outside
-// the hole and, with rain, inside; the far sky is seen only inside the future horizon.
-constexpr SkyRegion home_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
-constexpr SkyRegion far_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kI : SkyRegion::kIII; }
+// Returns the sky of the region, I or III, that a tetrad belongs to.
+constexpr SkyRegion own_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
 
 // One value for each sky.
 template <class T>
@@ -37,11 +35,13 @@ struct PerSky {
 };
 
 // Says which of the skies I and III an observer sees, where light is bent.  No light of either
-// enters region IV.
+// enters region IV.  The sky that is not the tetrad's own is seen inside the future horizon only.
 constexpr PerSky<bool> seen_skies(const ObserverState& observer) {
+  const bool own = observer.region != Region::kIV;
+  const bool other = observer.region == Region::kII && observer.r < 2;
   PerSky<bool> seen;
-  seen[home_sky(observer.tetrad)] = observer.region != Region::kIV;
-  seen[far_sky(observer.tetrad)] = observer.region == Region::kII && observer.r < 2;
+  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+    seen[sky] = sky == own_sky(observer.tetrad) ? own : other;
   return seen;
 }
 

@@ -66,8 +66,8 @@ class Page {
         add(text, fmt::format("{}, {} to V = {:.3g}", sky.catalogue, counted(sky.stars, "star"),
                               sky.faintest));
       if (text.empty()) continue;
-      const bool is_home = sky.region == SkyRegion::kI;
-      line(is_home ? "sky" : fmt::format("region {}", name_of(sky.region)),
+      const bool is_first = sky.region == SkyRegion::kI;
+      line(is_first ? "sky" : fmt::format("region {}", name_of(sky.region)),
            text + segments_text(sky));
     }
   }

@@ -54,9 +54,10 @@ HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted)
 
 void add_tables(HoleOptics& optics, WantedSkies wanted) {
   const bool outgoing = is_outgoing(optics.tetrad);
-  if (wanted.sky[home_sky(optics.tetrad)] && !optics.home_sky && optics.home_edge)
+  const auto [home, far] = optics.skies();
+  if (wanted.sky[home] && !optics.home_sky && optics.home_edge)
     optics.home_sky.emplace(optics.at, home_critical(outgoing), outgoing, optics.table_bits);
-  if (wanted.sky[far_sky(optics.tetrad)] && !optics.far_sky && optics.far_edge)
+  if (wanted.sky[far] && !optics.far_sky && optics.far_edge)
     optics.far_sky.emplace(optics.at, Critical::kSecond, false, optics.table_bits);
   if (wanted.sky[SkyRegion::kIV] && !optics.white_hole && !std::isinf(optics.at.r))
     optics.white_hole.emplace(optics.at, outgoing, optics.table_bits);

@@ -1,10 +1,12 @@
 // Everything light does between where it starts and the frame of free fall at one radius.  Frames
 // of equal r share one; aberration, camera and projection stay outside.
 //
-// Skies are named from the observer's side: the home sky is that of the region the reference tetrad
-// belongs to (I, or III if is_mirrored), the far sky is the other one, seen inside the horizon.
+// Within this package skies are named from the observer's side.  The home sky is the own sky of the
+// reference tetrad (own_sky), and the far sky is the other one, which is seen inside the horizon.
+// All others name a sky by its region.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "pipeline/optics/emission_time_table.h"
@@ -30,10 +32,19 @@ struct HoleOptics {
   std::optional<WhiteHoleTable> white_hole;
   std::optional<EmissionTimeTable> emission_times;
 
-  // The table of the sky of region I or III; null where it was not made, is not seen, or space is
-  // flat.
+  // Returns the skies of regions I and III, with the home sky first.
+  std::array<SkyRegion, 2> skies() const {
+    const SkyRegion home = own_sky(tetrad);
+    return {home, home == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI};
+  }
+  // Returns the edge of the sky of region I or III, or null where it is not seen or space is flat.
+  const SkyEdge* edge_of(SkyRegion sky) const {
+    const auto& edge = sky == own_sky(tetrad) ? home_edge : far_edge;
+    return edge && sky != SkyRegion::kIV ? &*edge : nullptr;
+  }
+  // Returns the table of such a sky, or null where there is no edge or no table was made.
   const SkyTable* table_of(SkyRegion sky) const {
-    const auto& table = sky == domefall::home_sky(tetrad) ? home_sky : far_sky;
+    const auto& table = sky == own_sky(tetrad) ? home_sky : far_sky;
     return table && sky != SkyRegion::kIV ? &*table : nullptr;
   }
 };

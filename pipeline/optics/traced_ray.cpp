@@ -98,7 +98,7 @@ Sweep by_table(const NullRay& ray, SkyRegion origin, int bits) {
     const WhiteHoleTable::Place place = optics.white_hole->place_of(ray);
     return {optics.white_hole->azimuth(place), optics.white_hole->slope(place)};
   }
-  const SkyTable& table = origin == SkyRegion::kI ? *optics.home_sky : *optics.far_sky;
+  const SkyTable& table = *optics.table_of(origin);
   const double x = table.distance_of(ray);
   return {table.azimuth(x), -table.slope(x) * table.edge().sign};
 }

@@ -24,8 +24,9 @@ ExtremeResult star_on_the_axis() {
   double ring = 0, front = 0;
   for (const double r : {1e-3, 0.5, 2.5, 10.0, 1e4}) {
     const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {true, r < 2, true});
-    for (const SkyTable* table :
-         {&*optics.home_sky, optics.far_sky ? &*optics.far_sky : &*optics.home_sky}) {
+    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+      const SkyTable* table = optics.table_of(sky);
+      if (table == nullptr) continue;
       const SkyImage behind = image_of(table, V3d(-1, 0, 0), 0, size);
       const SkyImage before = image_of(table, V3d(1, 0, 0), 0, size);
       const double slope = table->slope(table->x_max());

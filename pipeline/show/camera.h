@@ -18,7 +18,9 @@ struct EulerAngles {
 struct LookAtHole {};
 struct LookOutward {};      // away from the hole
 struct LookAlongMotion {};  // against the static frame, continued smoothly inside the horizon
-struct LookAtSky {          // at the primary image of a place on the home sky, lensing included
+// LookAtSky looks at the primary image, lensing included, of a place on the own sky of the
+// observer's tetrad (own_sky).
+struct LookAtSky {
   SkyDirection target;
 };
 struct LookAtBody {  // at the direct image of a body, or at the hole where there is none

@@ -71,7 +71,7 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-// Returns the direction in which an observer sees a place on its home sky.
+// Returns the direction in which an observer sees a place on the own sky of its tetrad.
 V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
   const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;

@@ -29,9 +29,9 @@ struct ShownSky {
 // Says whether a segment sees the sky of a region.  A segment inside the hole sees both skies.
 bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
   if (region == SkyRegion::kIV) return show.mass_solar.has_value();
-  const Region home = region == SkyRegion::kI ? Region::kI : Region::kIII;
+  const Region outside = region == SkyRegion::kI ? Region::kI : Region::kIII;
   return std::any_of(segment.regions.begin(), segment.regions.end(),
-                     [home](Region r) { return r == home || r == Region::kII; });
+                     [outside](Region r) { return r == outside || r == Region::kII; });
 }
 
 // Returns the deepest limit between a segment's first and last instant.  A curve does not exceed

@@ -15,9 +15,9 @@ struct BurnInText {
   std::string top_left;     // the frame's number and the show's time
   std::string top_right;    // the region and r
   std::string bottom_left;  // the proper time
-  // The last text gives the speed and the range of 1 + z of the home sky's light.  The speed is the
-  // one against an observer at rest, where there can be one.  Elsewhere the text gives the celerity
-  // against free fall.
+  // The last text gives the speed and the range of 1 + z of the light of one sky, which is the own
+  // sky of the observer's tetrad.  The speed is the one against an observer at rest, where there
+  // can be one.  Elsewhere the text gives the celerity against free fall.
   std::string bottom_right;
 };
 BurnInText burn_in_text(const Show& show, const FrameState& state);

@@ -35,8 +35,9 @@ struct LensedRays {
 };
 static_assert(AzimuthBatch::kSize == ViewRayBatch::kSize);
 // These are the curves of an AzimuthBatch, in the order in which rays are assigned to them: the two
-// skies, and the past singularity of the white hole for all rays that neither sky has.
-constexpr int kHome = 0, kFar = 1, kHole = 2;
+// skies in the order of HoleOptics::skies, and the past singularity of the white hole for all rays
+// that neither sky has.
+constexpr int kFirst = 0, kSecond = 1, kHole = 2;
 
 // ---- from the camera to the tetrad ----
 
@@ -96,40 +97,40 @@ struct EdgeValues {
   bool counts;
 };
 
-// Assigns the rays on the home sky's side of its edge to that sky, and all others to the hole.  The
-// coordinate x is half the angle to the edge to first order, which the boost multiplies by
+// Assigns the rays on the first sky's side of its edge to that sky, and all others to the hole.
+// The coordinate x is half the angle to the edge to first order, which the boost multiplies by
 // `doppler`.
-[[gnu::always_inline]] inline void assign_home_loop(const EdgeValues& home,
-                                                    const TetradRays& __restrict rays, int count,
-                                                    LensedRays& __restrict lensed,
-                                                    double* __restrict to_edge) {
-  const EdgeValues e = home;
+[[gnu::always_inline]] inline void assign_first_loop(const EdgeValues& first,
+                                                     const TetradRays& __restrict rays, int count,
+                                                     LensedRays& __restrict lensed,
+                                                     double* __restrict to_edge) {
+  const EdgeValues e = first;
   for (int k = 0; k < count; ++k) {
     const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
     lensed.azimuths.x[k] = x;
-    lensed.azimuths.curve[k] = x > 0 ? kHome : kHole;
+    lensed.azimuths.curve[k] = x > 0 ? kFirst : kHole;
     const double away = 2 * std::abs(x) * rays.doppler[k];
     to_edge[k] = e.counts ? away : HUGE_VAL;
   }
 }
-Dispatched<assign_home_loop> assign_home;
+Dispatched<assign_first_loop> assign_first;
 
-// Assigns the rays on the far sky's side of its edge to that sky, unless the home sky has them.
-[[gnu::always_inline]] inline void assign_far_loop(const EdgeValues& far,
-                                                   const TetradRays& __restrict rays, int count,
-                                                   LensedRays& __restrict lensed,
-                                                   double* __restrict to_edge) {
-  const EdgeValues e = far;
+// Assigns the rays on the second sky's side of its edge to that sky, unless the first sky has them.
+[[gnu::always_inline]] inline void assign_second_loop(const EdgeValues& second,
+                                                      const TetradRays& __restrict rays, int count,
+                                                      LensedRays& __restrict lensed,
+                                                      double* __restrict to_edge) {
+  const EdgeValues e = second;
   for (int k = 0; k < count; ++k) {
     const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
     const bool on = (lensed.azimuths.curve[k] == kHole) & (x > 0);
     lensed.azimuths.x[k] = on ? x : lensed.azimuths.x[k];
-    lensed.azimuths.curve[k] = on ? kFar : lensed.azimuths.curve[k];
+    lensed.azimuths.curve[k] = on ? kSecond : lensed.azimuths.curve[k];
     const double away = e.counts ? 2 * std::abs(x) * rays.doppler[k] : HUGE_VAL;
     to_edge[k] = away < to_edge[k] ? away : to_edge[k];
   }
 }
-Dispatched<assign_far_loop> assign_far;
+Dispatched<assign_second_loop> assign_second;
 
 // Sets the coordinate x of the rays that belong to the hole (WhiteHoleTable::Place::s), and
 // d x/d alpha of all rays.
@@ -172,6 +173,12 @@ Dispatched<set_slopes_loop> set_slopes;
 }
 Dispatched<set_hole_slopes_loop> set_hole_slopes;
 
+// Returns the tables of the first and the second sky, each of which may be null.
+std::array<const SkyTable*, 2> tables_of(const HoleOptics& optics) {
+  const auto [first, second] = optics.skies();
+  return {optics.table_of(first), optics.table_of(second)};
+}
+
 // CurveRanges holds the coordinates between which each curve is tabulated.
 struct CurveRanges {
   std::array<double, AzimuthBatch::kCurves> low, high;
@@ -181,8 +188,9 @@ CurveRanges ranges_of(const HoleOptics& optics) {
   CurveRanges ranges;
   ranges.low.fill(-HUGE_VAL);
   ranges.high.fill(HUGE_VAL);
-  if (optics.home_sky) ranges.low[kHome] = optics.home_sky->curve().x_min();
-  if (optics.far_sky) ranges.low[kFar] = optics.far_sky->curve().x_min();
+  const auto [first, second] = tables_of(optics);
+  if (first) ranges.low[kFirst] = first->curve().x_min();
+  if (second) ranges.low[kSecond] = second->curve().x_min();
   if (!optics.white_hole) return ranges;
   ranges.low[kHole] = optics.white_hole->lookup().low;
   ranges.high[kHole] = optics.white_hole->lookup().high;
@@ -197,7 +205,7 @@ CurveRanges ranges_of(const HoleOptics& optics) {
   for (int k = 0; k < count; ++k) {
     const double x = azimuths.x[k];
     const std::int64_t c = azimuths.curve[k];
-    const double low = c == kHome ? r.low[kHome] : c == kFar ? r.low[kFar] : r.low[kHole];
+    const double low = c == kFirst ? r.low[kFirst] : c == kSecond ? r.low[kSecond] : r.low[kHole];
     const double high = c == kHole ? r.high[kHole] : HUGE_VAL;
     outside |= ((x >= low) & (x <= high)) ? 0 : 1;
   }
@@ -208,10 +216,11 @@ Dispatched<any_outside_loop> any_outside;
 // Returns the three curves that find_azimuths needs.  Another table takes the place of a missing
 // one, and nothing reads the azimuths that are found there.
 std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptics& optics) {
-  const auto& any = optics.home_sky ? optics.home_sky : optics.far_sky;
+  const auto [first, second] = tables_of(optics);
+  const SkyTable* any = first ? first : second;
   std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves;
   curves.fill(any ? any->curve().lookup() : optics.white_hole->curve().lookup());
-  if (optics.far_sky) curves[kFar] = optics.far_sky->curve().lookup();
+  if (second) curves[kSecond] = second->curve().lookup();
   if (optics.white_hole) curves[kHole] = optics.white_hole->curve().lookup();
   return curves;
 }
@@ -220,6 +229,7 @@ std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptic
 // tables go on with fitted laws.  Such rays are few and are taken one by one.
 void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const TetradRays& rays,
                 int count, LensedRays& lensed) {
+  const std::array<const SkyTable*, 2> tables = tables_of(optics);
   for (int k = 0; k < count; ++k) {
     const auto curve = static_cast<std::size_t>(lensed.azimuths.curve[k]);
     const double x = lensed.azimuths.x[k];
@@ -229,17 +239,17 @@ void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const Tetra
       lensed.azimuths.azimuth[k] = optics.white_hole->azimuth(at);
       lensed.slope[k] = bounded_slope(*optics.white_hole, at);
     }
-    const auto& table = curve == kHome ? optics.home_sky : optics.far_sky;
-    if (curve == kHole || !table) continue;
-    lensed.azimuths.azimuth[k] = table->azimuth(x);
-    lensed.slope[k] = table->slope(x);
+    if (curve == kHole || !tables[curve]) continue;
+    lensed.azimuths.azimuth[k] = tables[curve]->azimuth(x);
+    lensed.slope[k] = tables[curve]->slope(x);
   }
 }
 
 void set_azimuths(const HoleOptics& optics, const TetradRays& rays, int count, LensedRays& lensed,
                   ViewRayBatch& batch) {
   // Without a table all skies are black.  Zeros keep finite what is still computed.
-  if (!optics.home_sky && !optics.far_sky && !optics.white_hole) {
+  const auto [first, second] = tables_of(optics);
+  if (!first && !second && !optics.white_hole) {
     std::fill_n(lensed.azimuths.azimuth.begin(), count, 0.0);
     std::fill_n(lensed.slope.begin(), count, 0.0);
     return;
@@ -309,22 +319,23 @@ void ViewTracer::lensed_rays(const CameraDirection* n, int count, ViewRayBatch& 
   }
   LensedRays lensed;
   double* to_edge = batch.to_edge.data();
-  const auto edge = [&](const SkyEdge& of, const std::optional<SkyTable>& table) {
-    return EdgeValues{of, table || optics_.white_hole};
+  const auto [first, second] = optics_.skies();
+  const auto values_of = [&](const SkyEdge& edge, SkyRegion sky) {
+    return EdgeValues{edge, optics_.table_of(sky) || optics_.white_hole};
   };
-  if (optics_.home_edge) {
-    assign_home(edge(*optics_.home_edge, optics_.home_sky), rays, count, lensed, to_edge);
+  if (const SkyEdge* edge = optics_.edge_of(first)) {
+    assign_first(values_of(*edge, first), rays, count, lensed, to_edge);
   } else {
     std::fill_n(lensed.azimuths.curve.begin(), count, std::int64_t{kHole});
     std::fill_n(lensed.azimuths.x.begin(), count, -1.0);
     std::fill_n(to_edge, count, HUGE_VAL);
   }
-  if (optics_.far_edge)
-    assign_far(edge(*optics_.far_edge, optics_.far_sky), rays, count, lensed, to_edge);
+  if (const SkyEdge* edge = optics_.edge_of(second))
+    assign_second(values_of(*edge, second), rays, count, lensed, to_edge);
   for (int k = 0; k < count; ++k)
-    batch.sky[k] = lensed.azimuths.curve[k] == kHome  ? home_
-                   : lensed.azimuths.curve[k] == kFar ? far_
-                                                      : SkyRegion::kIV;
+    batch.sky[k] = lensed.azimuths.curve[k] == kFirst    ? first
+                   : lensed.azimuths.curve[k] == kSecond ? second
+                                                         : SkyRegion::kIV;
   set_azimuths(optics_, rays, count, lensed, batch);
   if (optics_.emission_times) add_emission_times(optics_, rays, lensed, count, batch);
   onto_sky(observer, rays, lensed, count, batch);

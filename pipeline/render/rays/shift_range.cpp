@@ -47,7 +47,7 @@ V3d static_celerity(const ObserverState& o) {
 
 std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
   if (!seen_skies(o)[sky]) return std::nullopt;
-  const bool far = sky == far_sky(o.tetrad);
+  const bool own = sky == own_sky(o.tetrad);
   if (straight || is_flat(o)) {
     // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
@@ -57,9 +57,10 @@ std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky,
   const double s = std::sqrt(2 / o.r);
   const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
   const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
-  // The home sky extends from R to the silhouette, and the far sky from its own edge to -R.
-  const double edge = std::numbers::pi - (far ? region_three_edge(o.r) : silhouette_edge(o.r));
-  std::vector<double> angles{edge, -edge, far ? std::numbers::pi : 0};
+  // The own sky of the tetrad extends from R to the silhouette, and the other one from its edge to
+  // -R.
+  const double edge = std::numbers::pi - (own ? silhouette_edge(o.r) : region_three_edge(o.r));
+  std::vector<double> angles{edge, -edge, own ? 0 : std::numbers::pi};
   // The equation of the header for the extremes is solved as length cos(a - axis) = -s c_t.
   const double b = s * plane.gamma - plane.radial, length = std::hypot(plane.across, b);
   const double cosine = -s * plane.across / length;
@@ -67,7 +68,7 @@ std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky,
     const double axis = std::atan2(b, plane.across), apart = std::acos(cosine);
     for (const double angle : {axis + apart, axis - apart}) {
       const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
-      if (far ? std::abs(wrapped) > edge : std::abs(wrapped) < edge) angles.push_back(wrapped);
+      if (own ? std::abs(wrapped) < edge : std::abs(wrapped) > edge) angles.push_back(wrapped);
     }
   }
   ShiftRange range{HUGE_VAL, 0};

@@ -13,12 +13,13 @@ constexpr double kLeastRadius = 4;
 }  // namespace
 
 SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage) {
-  for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge}) {
-    if (!*edge) continue;
-    const ViewCircle c = view_circle((*edge)->half, state.observer, vantage.celerity);
+  for (const SkyRegion sky : optics.skies()) {
+    const SkyEdge* edge = optics.edge_of(sky);
+    if (edge == nullptr) continue;
+    const ViewCircle c = view_circle(edge->half, state.observer, vantage.celerity);
     // If the sky lies at smaller alpha, the reversed axis and cosine describe the same circle with
     // the sky where n.axis < cosine.
-    const double sign = (*edge)->sign;
+    const double sign = edge->sign;
     circles_.push_back({c.axis * sign, sign * c.cosine, c.sine});
     usable_ = usable_ && c.sine > kLeastRadius * central_pixel_angle(state.projection);
   }
@@ -48,7 +49,7 @@ double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) c
   return std::min(part, 1.0);
 }
 
-// All pixels without a sky lie inside the first circle, where the home sky ends.  If the circle
+// All pixels without a sky lie inside the first circle, where the first sky ends.  If the circle
 // encloses less than a hemisphere, the image of its rim bounds them.
 void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;

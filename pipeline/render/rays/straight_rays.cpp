@@ -21,7 +21,7 @@ ViewRay ViewTracer::straight_ray(const CameraDirection& n) const {
   const AberratedLight rest = to_rest_->to_rest(in.direction);
   const double doppler = 1 / (in.frequency_ratio * rest.frequency_ratio);
   ViewRay ray;
-  ray.sky = home_;
+  ray.sky = own_sky_;
   ray.known = true;
   ray.sky_direction = apply(sky_from_tetrad_, rest.direction);
   ray.frequency_ratio = gravitational_ratio_ * doppler;

@@ -24,8 +24,9 @@ std::vector<ViewCircle> silhouette_circles(const ObserverState& observer, const 
   const HoleOptics optics =
       make_hole_optics(observer.r, observer.tetrad, {{false, false, false}, false});
   std::vector<ViewCircle> circles;
-  for (const std::optional<SkyEdge>* edge : {&optics.home_edge, &optics.far_edge})
-    if (*edge) circles.push_back(view_circle((*edge)->half, observer, celerity));
+  for (const SkyRegion sky : optics.skies())
+    if (const SkyEdge* edge = optics.edge_of(sky))
+      circles.push_back(view_circle(edge->half, observer, celerity));
   return circles;
 }
 
@@ -33,9 +34,10 @@ std::vector<ViewCircle> einstein_circles(const ObserverState& observer, const V3
   const HoleOptics optics =
       make_hole_optics(observer.r, observer.tetrad, {{true, true, false}, false});
   std::vector<ViewCircle> circles;
-  for (const std::optional<SkyTable>* table : {&optics.home_sky, &optics.far_sky}) {
-    if (!*table) continue;
-    const NullRay ray = (*table)->ray_at_distance((*table)->distance(std::numbers::pi));
+  for (const SkyRegion sky : optics.skies()) {
+    const SkyTable* table = optics.table_of(sky);
+    if (table == nullptr) continue;
+    const NullRay ray = table->ray_at_distance(table->distance(std::numbers::pi));
     circles.push_back(view_circle({ray.sin_half, ray.cos_half}, observer, celerity));
   }
   return circles;

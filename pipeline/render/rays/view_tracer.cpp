@@ -15,8 +15,7 @@ ViewTracer::ViewTracer(const FrameState& state, const HoleOptics& optics, const 
       optics_(optics),
       flat_(is_flat(state.observer)),
       outgoing_(is_outgoing(state.observer.tetrad)),
-      home_(home_sky(state.observer.tetrad)),
-      far_(far_sky(state.observer.tetrad)),
+      own_sky_(own_sky(state.observer.tetrad)),
       s_(std::sqrt(2 / state.observer.r)),
       one_minus_s_(flat_ ? 1 : (state.observer.r - 2) / (state.observer.r * (1 + s_))) {
   // The boost to an observer with celerity c is that to rest with -c (aberration.h).
@@ -44,19 +43,18 @@ ViewRay ViewTracer::lensed_ray(const CameraDirection& n) const {
   double x = -1;
   // A ray on a sky's side of its edge comes from that sky.  A ray that no sky has comes from the
   // past singularity.  An edge counts unless both of its sides are dark.
-  const auto try_sky = [&](const std::optional<SkyEdge>& edge, const std::optional<SkyTable>& its,
-                           SkyRegion name) {
-    if (!edge) return;
+  for (const SkyRegion sky : optics_.skies()) {
+    const SkyEdge* edge = optics_.edge_of(sky);
+    if (edge == nullptr) continue;
+    const SkyTable* its = optics_.table_of(sky);
     const double away = edge->distance(half.sine, half.cosine);
     if (its || optics_.white_hole)
       ray.to_edge = std::min(ray.to_edge, 2 * std::abs(away) * in.frequency_ratio);
-    if (!(away > 0) || ray.sky != SkyRegion::kIV) return;
-    ray.sky = name;
+    if (!(away > 0) || ray.sky != SkyRegion::kIV) continue;
+    ray.sky = sky;
     x = away;
-    table = its ? &*its : nullptr;
-  };
-  try_sky(optics_.home_edge, optics_.home_sky, home_);
-  try_sky(optics_.far_edge, optics_.far_sky, far_);
+    table = its;
+  }
   double phi = 0, slope = 0;
   if (ray.sky == SkyRegion::kIV) {
     if (!optics_.white_hole) return ray;

@@ -101,7 +101,7 @@ class ViewTracer {
   Vantage vantage_;
   const HoleOptics& optics_;
   bool flat_, outgoing_;
-  SkyRegion home_, far_;
+  SkyRegion own_sky_;                      // of the tetrad
   double s_, one_minus_s_;                 // s = sqrt(2/r); 1 - s = (r - 2)/(r (1 + s))
   std::optional<Aberration> to_measured_;  // to Vantage::measured, if there is one
   std::optional<Aberration> to_rest_;      // from the tetrad, if light goes straight near a hole

@@ -192,8 +192,8 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
     if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
     return found;
   }
-  // The far ends of both skies lie on the axis, that of the home sky outward and that of the other
-  // one inward.
+  // The far ends of both skies lie on the axis, that of the tetrad's own sky outward and that of
+  // the other one inward.
   const auto integrate = [&](SkyRegion sky, double outward) {
     const SkyTable* table = scene.optics.table_of(sky);
     if (!scene.background[sky] || table == nullptr) return;
@@ -201,8 +201,9 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
                             found);
     if (fast) finder.integrate_lensed(sky, *table, celerity.normalized(), found);
   };
-  integrate(home_sky(scene.optics.tetrad), 1);
-  integrate(far_sky(scene.optics.tetrad), -1);
+  const auto [own, other] = scene.optics.skies();
+  integrate(own, 1);
+  integrate(other, -1);
   return found;
 }
 

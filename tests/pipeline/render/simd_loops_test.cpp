@@ -199,7 +199,7 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
     const ObserverState& o = state.observer;
     const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
     const FrameScene scene = scene_with(show, state, optics);
-    for (const SkyRegion sky : {home_sky(o.tetrad), far_sky(o.tetrad)})
+    for (const SkyRegion sky : optics.skies())
       if (optics.table_of(sky) || is_flat(o))
         bytes.add(all_images(StarImageFinder(scene, sky), stars));
   }

@@ -23,9 +23,7 @@ class StarScene {
   }
 
   bool has(bool far) const { return (far ? optics.far_sky : optics.home_sky).has_value(); }
-  SkyRegion region(bool far) const {
-    return far ? far_sky(optics.tetrad) : home_sky(optics.tetrad);
-  }
+  SkyRegion region(bool far) const { return optics.skies()[far ? 1 : 0]; }
   const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
   double exposure() const { return exposure_scale(state.settings); }
   PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }
