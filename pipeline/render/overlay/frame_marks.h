@@ -7,14 +7,26 @@
 
 namespace domefall {
 
+// These values place lines for the eye, and nothing else in a frame depends on them.
+
 // Up to this angle from its rim, a dome's picture is often hidden by seats and by the light of
-// doors.
+// doors.  No standard gives the angle, and 10 degrees are our choice, as in docs/overlays.md for
+// titles.  A larger angle would give up more of the picture, and a smaller one would call safe what
+// some seats do not see.
 inline constexpr double kSafeElevationDeg = 10;
-// Here the audience of a dome looks without turning or leaning back.
+// Here the audience of a dome looks without turning or leaning back.  The bounds are our choice.
+// Productions for domes name 35 to 45 degrees above the front of the rim as the place to which an
+// audience looks, and the bounds leave 15 to 20 degrees below and above it.  45 degrees to either
+// side are halfway to a seat's left and right.  Wider bounds would take in what is seen only by
+// turning the head, and narrower ones would leave out what is seen without.
 inline constexpr double kSweetAzimuthDeg = 45, kSweetLowestDeg = 15, kSweetHighestDeg = 60;
-// In a flat image action and titles are safe within these parts of its sides.  The sweet spot is
-// the middle third.
-inline constexpr double kSafeAction = 0.9, kSafeTitles = 0.8, kMiddleThird = 1. / 3;
+// In a flat image action and titles are safe within these parts of its sides.  They are those of
+// SMPTE RP 218, which was made for tubes that hide the edges of a picture.  SMPTE ST 2046-1 allows
+// 0.93 and 0.9 on flat screens, so whatever lies within our lines lies within its lines too.
+inline constexpr double kSafeAction = 0.9, kSafeTitles = 0.8;
+// The sweet spot of a flat image has this part of its sides, as the rule of thirds divides them.
+// It is our choice, and a larger part would mark more of the image as its middle.
+inline constexpr double kMiddleThird = 1. / 3;
 
 // Returns the width of lines, in pixels.
 double mark_width(const Projection& projection);
