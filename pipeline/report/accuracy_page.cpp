@@ -24,12 +24,14 @@ std::string setting_of(const RayErrorRow& row) {
 std::string head(const Report& report) {
   return fmt::format(
       "# Accuracy, and what it costs\n\n"
-      "Made by `domefall report{}`; every number below was measured by that run.\n\n{}"
+      "`domefall report{}` made this page. That run measured all errors, drifts, counts and times. "
+      "It did not\nmeasure the numbers that say what was tried: ranges, sizes, tolerances and "
+      "digits. The bounds are those of the\ntests. A sentence that takes a number from a formula "
+      "or from a test says so.\n\n{}"
       "Times are of one machine on one day, and compare within the page; the errors are the "
-      "same\neverywhere. All rows: [rays.csv](rays.csv), [positions.csv](positions.csv), "
-      "[frames.csv](frames.csv),\n[orbits.csv](orbits.csv). What a frame costs by its stars and "
-      "pixels, and against other "
-      "ways to make it: [costs.md](costs.md).\n\n",
+      "same\neverywhere. All rows are in [rays.csv](rays.csv), [positions.csv](positions.csv), "
+      "[frames.csv](frames.csv) and\n[orbits.csv](orbits.csv). [costs.md](costs.md) says what a "
+      "frame costs by its stars and pixels, and compares it\nwith other ways to make it.\n\n",
       report.quick ? " --quick" : "", machine_table());
 }
 
@@ -37,13 +39,14 @@ std::string head(const Report& report) {
 
 constexpr const char* kRaysMeasured =
     "## Rays\n\n"
-    "Random rays (fixed seed) of all observers, each against the same ray in 100-digit arithmetic\n"
-    "(`pipeline/report/reference/reference_ray.h`). *ordinary*: r from 0.1 to 100 M, any angle; "
-    "*edge*: 1e-12\nto 1e-3 radians beside an edge between skies; *deep*: r from 1e-6 to 0.1 M; "
-    "*far*: r from 1e3 to 1e8 M.\nThe error of the azimuth φ is relative to max(1, φ). The error "
-    "on the sky is the same error as an angle at\nthe observer, |error of φ|/|dφ/dδ|, in radians. "
-    "A ray is undecided if a method finds no azimuth, or another\norigin than the true one; such "
-    "rays are not in the errors.\n\n"
+    "Random rays of all observers, with a fixed seed, are each compared with the same ray in "
+    "100-digit arithmetic\n(`pipeline/report/reference/reference_ray.h`). *Ordinary* rays reach "
+    "observers from 0.1 to 100 M at any angle.\n*Edge* rays lie 1e-12 to 1e-3 radians beside an "
+    "edge between skies. *Deep* rays reach observers from 1e-6 to\n0.1 M, and *far* rays those "
+    "from 1e3 to 1e8 M. The error of the azimuth φ is relative to max(1, φ). The error\non the "
+    "sky is the same error as an angle at the observer, |error of φ|/|dφ/dδ|, in radians. A ray is "
+    "undecided\nif a method finds no azimuth, or another origin than the true one; such rays are "
+    "not in the errors.\n\n"
     "The integrators start from E, L and k^r in double precision and find where a ray ends by "
     "getting there.\nBeside an edge their tolerance must be finer than the ray's distance from it, "
     "or they lose the ray.\nThe times of *table* and *exact* are for azimuth and slope, those of "
@@ -52,7 +55,7 @@ constexpr const char* kRaysMeasured =
     "trace 128 view rays at a time.\n\n"
     "*rk4* is the paper's own method, adaptive in Schwarzschild and Kruskal coordinates. *dopri5* "
     "and *rkf78*\nintegrate the same equations by Dormand-Prince 5(4) and Fehlberg 7(8), "
-    "*binet-...* the orbit's equation by the\nsame two.\n\n";
+    "and *binet-dopri5* and *binet-rkf78*\nintegrate the orbit's equation by the same two.\n\n";
 
 // Returns the largest value of a column over all classes of rays, at the method's default setting.
 double worst_of(const std::vector<RayErrorRow>& rows, const std::string& method,
@@ -79,11 +82,12 @@ std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
   const double ns = mean_of(rows, "table", &RayErrorRow::ns_per_ray);
   const double exact_ns = mean_of(rows, "exact", &RayErrorRow::ns_per_ray);
   return fmt::format(
-      "**Default: the table, {} intervals to the octave.** Its worst displacement on the sky over "
-      "all these rays\nis {} radians, {} of a pixel of an 8k dome. One ray takes {} ns, by the "
+      "**The default is the table with {} intervals to the octave.** Its worst displacement on the "
+      "sky over all these rays\nis {} radians, {} of a pixel of an 8k dome. One ray takes {} ns, "
+      "by the "
       "exact integral {} ns; the tables of one radius are built in {} µs, the most of any class "
-      "(median over its radii).\nFiner tables cost the same for each ray, coarser ones save little "
-      "in building.\n\n",
+      "(median over its radii).\nFiner tables cost the same for each ray, and coarser ones save "
+      "little in building, as rays.csv shows.\n\n",
       1 << OctaveCurve::kPerOctaveBits, error(sky), error(sky / kPixel8k), amount(ns),
       amount(exact_ns), amount(worst_of(rows, "table", &RayErrorRow::build_us)));
 }
@@ -125,8 +129,8 @@ std::string quickest(const std::vector<RayErrorRow>& rows, const RayClass& of, d
 std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   constexpr std::array kWanted{1e-6, 1e-9, 1e-12};
   std::string table =
-      "The quickest way to an error on the sky (99 of 100 rays, none undecided), the table at "
-      "hand:\n\n| rays | 1e-6 | 1e-9 | 1e-12 |\n|---|---|---|---|\n";
+      "If the table is at hand, this is the quickest way to an error on the sky (99 of 100 rays, "
+      "none undecided):\n\n| rays | 1e-6 | 1e-9 | 1e-12 |\n|---|---|---|---|\n";
   for (const RayClass& of : ray_classes()) {
     table += fmt::format("| {}, {}", of.region, of.name);
     for (const double wanted : kWanted) table += " | " + quickest(rows, of, wanted);
@@ -165,12 +169,12 @@ std::string places(const Report& report) {
   const PositionSpeed& speed = report.position_speed;
   std::string page = fmt::format(
       "## Places along rays\n\n"
-      "Where rays of all these classes are on their way, between 0.02 and 0.98 of the azimuth that "
-      "they sweep, and when their\nlight was there, against the orbit's equation in 50 digits "
-      "(`pipeline/report/reference/reference_position.h`).\n*exact* and *table* find the place by "
-      "its angle from an end of the orbit, by functions that double with the angle,\nand the time "
-      "by one function; *table* is what renders: in a frame 128 rays are taken at a time, {:.0f} "
-      "ns "
+      "This compares where rays of all these classes are on their way, between 0.02 and 0.98 of "
+      "the azimuth that they\nsweep, and when their light was there, with the orbit's equation "
+      "in 50 digits\n(`pipeline/report/reference/reference_position.h`). *exact* and *table* find "
+      "the place by its angle from an\nend of the orbit, by functions that double with the angle, "
+      "and the time by one function; *table* is what renders:\nin a frame 128 rays are taken at a "
+      "time, {:.0f} ns "
       "for what\nstays the same along a ray and {:.0f} ns for a place, and for the time of light's "
       "flight {:.0f} and {:.0f} ns more.\nNothing is built for a radius. Times are null "
       "coordinates "
@@ -217,9 +221,9 @@ std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& 
 
 std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
   std::string text =
-      "\n**Default: 4 x 4 view rays in difficult pixels**, those that an edge between skies runs "
-      "through or\nwhose footprint on the sky is long and narrow. Against it, by geometric means "
-      "over the scenes:\n\n";
+      "\n**The default is 4 x 4 view rays in difficult pixels**, through which an edge between "
+      "skies runs or\nwhose footprint on the sky is long and narrow. The other settings compare "
+      "with it as follows, by geometric\nmeans over the scenes:\n\n";
   std::set<std::string> seen;
   for (const FrameErrorRow& row : rows)
     if (row.setting.find("default") == std::string::npos && seen.insert(row.setting).second)
@@ -229,12 +233,12 @@ std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
 
 std::string frames(const std::vector<FrameErrorRow>& rows) {
   std::string page =
-      "## Frames\n\nWhole frames with each setting of anti-aliasing against frames of 256 view "
-      "rays "
-      "in every pixel, graded\nas they go to the projector, values from 0 to 1 (one step of 8 bits "
-      "is 0.0039). Time is CPU time of\nrendering, in seconds and in copies of the frame's own "
-      "memory. Where the view of a map is smooth, the default\ninterpolates most view rays between "
-      "those of a coarse grid; *none interpolated* and *everywhere* trace them in every pixel.\n\n"
+      "## Frames\n\nWhole frames with each setting of anti-aliasing are compared with frames of "
+      "256 view rays in every pixel. Both\nare graded as they go to the projector, to values from "
+      "0 to 1, of which one step of 8 bits is 1/255 = 0.0039.\nTime is CPU time of rendering, in "
+      "seconds and in copies of the frame's own memory. Where the view of a map is\nsmooth, the "
+      "default interpolates most view rays between those of a coarse grid; *none interpolated* "
+      "and\n*everywhere* trace them in every pixel.\n\n"
       "| scene | pixels | setting | rms | worst | s | copies |\n|---|---|---|---|---|---|---|\n";
   for (const FrameErrorRow& r : rows)
     page += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", r.scene, r.size, r.setting,
@@ -246,11 +250,9 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
 
 std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
   std::string page =
-      "## Orbits\n\nStates along an orbit by its closed form, or the quadratures that stand for "
-      "one, and "
-      "by integrating the\ngeodesic equation, against formulas and quadratures with 50 digits. "
-      "Time "
-      "for a thousand states.\n\n"
+      "## Orbits\n\nStates along an orbit follow from its closed form, or from the quadratures "
+      "that stand for one, and from\nintegrating the geodesic equation. Each is compared with "
+      "formulas and quadratures with 50 digits. Times are\nfor a thousand states.\n\n"
       "| orbit | method | tolerance | r, relative | φ, radians | drift of E | of L | of u·u | s "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const OrbitErrorRow& r : report.orbits)
@@ -259,12 +261,13 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
                         error(r.phi_error), error(r.energy_drift), error(r.angular_momentum_drift),
                         error(r.norm_drift), r.seconds);
   page +=
-      "\n**Default: the closed form, or the quadratures.** They are the most exact, and make any "
-      "frame without the\nones before it. Their error at the end of a fall is the rounding of a "
-      "proper time of 77 M, of which 1e-5 M are\nleft (with angular momentum 2e-9 M): here it is "
-      "one double from the beginning on, as an integration has it. A show\ncounts the time that is "
-      "left, and its r is right to 1e-14 down to 1e-6 M. An integrated circle with an error of "
-      "about\n1 in r has left the circle.\n\n";
+      "\n**The default is the closed form, or the quadratures.** They are the most exact, and make "
+      "any frame without the\nones before it. Their error at the end of a fall is the rounding of "
+      "its proper time, which is here one double\nfrom the beginning on, as an integration has "
+      "it. By (√2/3) r^(3/2) a fall takes 77 M from r = 30 M on, and\n1.5e-5 M of them are left "
+      "at 0.001 M. With an angular momentum L, by r^(5/2)/(2.5 √2 L), only 2.3e-9 M are left.\nA "
+      "show counts the time that is left, and the tests of `FarEnds` hold its r to 1e-13 down to "
+      "1e-6 M. An integrated\ncircle with an error of about 1 in r has left the circle.\n\n";
   for (const NamedPlot& plot : plots)
     if (plot.name.rfind("orbit_", 0) == 0)
       page += fmt::format("![error against time](plots/{}.svg)\n", plot.name);
@@ -274,8 +277,9 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
 std::string curves(const std::vector<NamedPlot>& figures) {
   if (figures.empty()) return "";
   std::string page =
-      "## The curves of the paper\n\nThe figures of A. Riazuelo, *Seeing relativity I*, by their "
-      "LaTeX labels, from the tables that frames are\nrendered with.\n\n";
+      "## The curves of the paper\n\nThese are the figures of A. Riazuelo, *Seeing relativity I*, "
+      "whose files are named by their LaTeX labels. They\nare drawn from the tables that frames "
+      "are rendered with.\n\n";
   for (const NamedPlot& figure : figures)
     page += fmt::format("![{}](figures/{}.svg)\n", figure.plot.title, figure.name);
   return page + "\n";
@@ -289,10 +293,12 @@ std::string accuracy_page(const Report& report, const std::vector<NamedPlot>& pl
       head(report) + rays(report) + places(report) + frames(report.frames) + orbits(report, plots);
   if (!report.extremes.empty())
     page += fmt::format(
-        "## Where something diverges\n\nStiff and extreme cases; the tests hold each to its "
-        "bound.\n\n{}\n",
+        "## Where something diverges\n\nThese are stiff and extreme cases, and the tests hold each "
+        "to its bound. In the column *what happens* the\ncounts, the light and the errors were "
+        "measured; sizes of skies and holes, and distances of images, follow from "
+        "formulas.\n\n{}\n",
         report.extremes);
-  return fmt::format("{}{}Plots by {}.\n", page, curves(figures), gnuplot_version());
+  return fmt::format("{}{}The plots were drawn by {}.\n", page, curves(figures), gnuplot_version());
 }
 
 }  // namespace domefall

@@ -175,8 +175,11 @@ std::string benchmark(const std::vector<FrameErrorRow>& rows) {
 std::string costs_page(const Report& report) {
   const FrameCosts& costs = report.costs;
   return fmt::format(
-             "# What a frame costs\n\nMade by `domefall report{}`, like "
-             "[accuracy.md](accuracy.md); every number below was measured by that run.\n\n{}"
+             "# What a frame costs\n\n`domefall report{}` made this page, like "
+             "[accuracy.md](accuracy.md). That run measured every number below but\nthose that say "
+             "what was rendered and those that are quoted: the time taken as the measure of a "
+             "table "
+             "in two\ndimensions, and what the paper says of its pictures.\n\n{}"
              "Whole frames with the default settings, on one thread, in CPU time and in copies of "
              "the "
              "frame's own memory, the\nquickest of several renderings into the same memory; files "

@@ -115,7 +115,7 @@ std::vector<ExtremeCase> extreme_frames() {
          return frames_at({1e-3, 1e-6}, "Two half skies and a bright band between them");
        }},
       {"FramesFarAway", "r = 1e8", bad, 0,
-       [] { return frames_at({1e8}, "The hole is a ten-thousandth of a pixel"); }},
+       [] { return frames_at({1e8}, "The hole is 3e-6 of a pixel wide"); }},
       {"FramesOfTheWhiteHole", "IV from r = 1e-6 to 2; T_IV and T_II next to r = 2", bad, 0,
        white_hole_frames},
       {"PixelOnTheAxis", "a pixel exactly on the axis of the hole", bad, 0, pixel_on_the_axis},

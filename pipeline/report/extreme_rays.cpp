@@ -159,7 +159,8 @@ ExtremeResult far_away() {
     add_everywhere(worst, observer, r);
     add_beside(worst, observer, r, Edge::kSilhouette, 1e-8);
   }
-  return worst.result("The silhouette has a radius of 5.2e-8 rad");
+  return worst.result(fmt::format("The silhouette has a radius of {:.1e} rad",
+                                  edge_delta(TraceObserver::kRain, Radius(r), Edge::kSilhouette)));
 }
 
 ExtremeResult first_light_of_region_three() {
