@@ -1,11 +1,12 @@
-// The boost between the reference tetrad and an observer of any velocity, for light: where a
-// direction goes, and the ratio of frequencies.  [Riazuelo] eq. Lambda_cov, nprime_aber,
-// omprime_aber.
+// The boost between the reference tetrad and an observer of any velocity acts on light.  This file
+// says where a direction goes, and gives the ratio of frequencies.  [Riazuelo] eq. Lambda_cov,
+// nprime_aber, omprime_aber.
 //
-// With c = gamma v, unit direction e of c, and m the direction in the boosted tetrad, d = m - e:
+// Let c = gamma v, let e be the unit direction of c and m the direction in the boosted tetrad, and
+// let d = m - e.  Then
 //     omega_tetrad/omega_observer = gamma - c.m = 1/(gamma + |c|) + |c| d^2/2
 //     n = m_perp / that + e (1 - (1 + beta) gamma (d^2/2) / that),   m_perp = d + e d^2/2
-// which holds its digits for any Lorentz factor and direction, where the textbook form cancels.
+// These keep their digits for any Lorentz factor and direction, where the textbook form cancels.
 #pragma once
 
 #include <cmath>
@@ -21,13 +22,13 @@ struct AberratedLight {
 
 class Aberration {
  public:
-  // celerity: gamma v of the frame in which directions are given, against the one wanted.
+  // The celerity is gamma v of the frame in which directions are given, against the one wanted.
   explicit Aberration(const V3d& celerity)
       : speed_(celerity.length()),
         gamma_(std::sqrt(1 + speed_ * speed_)),
         along_(speed_ > 0 ? celerity / speed_ : V3d(1, 0, 0)) {}
 
-  // From the moving frame to the frame that celerity refers to.
+  // Brings light from the moving frame to the frame that the celerity refers to.
   AberratedLight to_rest(const V3d& m) const {
     const V3d d = m - along_;
     const double half_d2 = d.dot(d) / 2;
@@ -42,12 +43,12 @@ class Aberration {
   V3d along_;
 };
 
-// From a direction in the reference tetrad to the boosted tetrad of an observer with this celerity.
+// Brings light from the reference tetrad to the boosted tetrad of an observer with this celerity.
 inline AberratedLight to_observer(const V3d& celerity, const V3d& n) {
   return Aberration(-celerity).to_rest(n);
 }
 
-// From the boosted tetrad to the reference tetrad.
+// Brings light from the boosted tetrad to the reference tetrad.
 inline AberratedLight to_tetrad(const V3d& celerity, const V3d& m) {
   return Aberration(celerity).to_rest(m);
 }

@@ -9,15 +9,18 @@
 
 namespace domefall {
 
-// Stepper: constructed from the tolerance, with
-//   void restart(const GeodesicEquations&)      in another chart, or after a step was undone
-//   bool try_step(const GeodesicEquations&, RayState& y, double& h)   one attempt; sets the next h
+// Follows a ray to its end, or until it has swept the angle `until`.  A Stepper is constructed from
+// the tolerance and has three functions.  The first is called for another chart, or after a step
+// was undone.  The second makes one attempt and sets the next h.
+//   void restart(const GeodesicEquations&)
+//   bool try_step(const GeodesicEquations&, RayState& y, double& h)
 //   double largest_step(const GeodesicEquations&, const RayState& y)
 template <class Stepper>
 IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, double until) {
   constexpr double kFirstStep = 0.01;  // of r, for a photon whose largest component is 1
   constexpr double kRetreat = 0.25;
-  // Towards the wanted angle, so that it is reached from below.
+  // A step covers this part of the way to the wanted angle, so that the angle is reached from
+  // below.
   constexpr double kApproach = 0.9, kReached = 1e-14;
 
   IntegratedRay result = undecided_ray();
@@ -60,7 +63,7 @@ IntegratedRay follow_ray(const PhotonAtObserver& photon, double tolerance, doubl
       restore_null_condition(ray);
       continue;
     }
-    // The last stage was in the chart and the sum of them is not, or the angle was passed.
+    // The last stage was in the chart but the sum of all stages is not, or the angle was passed.
     ray.y = before;
     h = kRetreat * tried;
     stepper.restart(equations);

@@ -1,18 +1,21 @@
-// The geodesic equation of light in the plane of the ray, as two second-order sets (M = 1, the
-// parameter runs backward in time, so velocities are -k; being quadratic in them, the equations are
-// the same).  The motion is planar, so the plane is the equator: theta = pi/2 throughout.
+// The geodesic equation of light in the plane of the ray is held here as two second-order sets (M =
+// 1).  The parameter runs backward in time, so velocities are -k, but the equations are quadratic
+// in them and stay the same.  The motion is planar, so the plane is the equator, with theta = pi/2
+// throughout.
 //
-// Schwarzschild, [Riazuelo] eq. deb_ode1 to fin_ode1, y = (t, r, phi, t', r', phi'), A = 1 - 2/r:
+// In Schwarzschild's coordinates, [Riazuelo] eq. deb_ode1 to fin_ode1, y = (t, r, phi, t', r',
+// phi') and A = 1 - 2/r:
 //   t'' = -(A_r/A) t' r'
 //   r'' = -(A A_r/2) t'^2 + (A_r/2A) r'^2 + A r phi'^2
 //   phi'' = -(2/r) r' phi'
 //
-// Kruskal, [Riazuelo] sec. ssec_max, y = (U, V, phi, U', V', phi').  With U V = -(r/2 - 1) exp(r/2)
-// put in, nothing is left that divides by U, V or A:
+// In Kruskal's, [Riazuelo] sec. ssec_max, y = (U, V, phi, U', V', phi').  With U V = -(r/2 - 1)
+// exp(r/2) put in, nothing is left that divides by U, V or A:
 //   r_U = -4 V exp(-r/2)/r    r_V = -4 U exp(-r/2)/r    F = g_UV = 16 exp(-r/2)/r
-//   U'' = (1/2 + 1/r) r_U U'^2 + (r U/4) phi'^2      the term in phi'^2 is -(r/F) r_V phi'^2:
-//   V'' = (1/2 + 1/r) r_V V'^2 + (r V/4) phi'^2      the paper's text has r_U and r_V swapped in it
+//   U'' = (1/2 + 1/r) r_U U'^2 + (r U/4) phi'^2
+//   V'' = (1/2 + 1/r) r_V V'^2 + (r V/4) phi'^2
 //   phi'' = -(2/r) (r_U U' + r_V V') phi'
+// The term in phi'^2 of U'' is -(r/F) r_V phi'^2.  The paper's text has r_U and r_V swapped in it.
 //
 // Outside its chart (r <= 0, U V > 1, or the other side of r = 2 in Schwarzschild's coordinates) a
 // right-hand side is NaN, which a step control refuses.
@@ -30,7 +33,7 @@ enum class Chart { kSchwarzschild, kKruskal };
 
 using RayState = std::array<double, 6>;
 
-// Both charts have the azimuth and its derivative here.
+// Both charts have the azimuth and its derivative at these indices.
 inline constexpr int kAzimuth = 2, kAzimuthRate = 5;
 
 struct GeodesicEquations {
@@ -48,9 +51,10 @@ struct GeodesicEquations {
     return y[0] * y[1] < 1;
   }
 
-  // What the error of each component is measured against.  Positions: their size and the step's own
-  // share.  U', V' and phi' by their size, which is the same to every boost.  t is ignorable: its
-  // error counts nowhere.  r' against the conserved energy too, as it vanishes at a turning point.
+  // Returns what the error of each component is measured against.  Positions count by their size
+  // and the step's own share.  U', V' and phi' count by their size, which is the same to every
+  // boost.  t is ignorable, so its error counts nowhere.  r' counts against the conserved energy
+  // too, as it vanishes at a turning point.
   RayState scale(const RayState& y, const RayState& dy, double h) const {
     RayState s;
     for (int i = 0; i < 6; ++i) s[i] = std::abs(y[i]) + std::abs(h * dy[i]);

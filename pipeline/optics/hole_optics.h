@@ -1,5 +1,5 @@
-// Everything light does between where it starts and the frame of free fall at one radius.  Frames
-// of equal r share one; aberration, camera and projection stay outside.
+// HoleOptics hold all that light does between where it starts and the frame of free fall at one
+// radius.  Frames of equal r share one.  Aberration, camera and projection stay outside.
 //
 // Within this package skies are named from the observer's side.  The home sky is the own sky of the
 // reference tetrad (own_sky), and the far sky is the other one, which is seen inside the horizon.
@@ -16,17 +16,17 @@
 
 namespace domefall {
 
-// Which tables to make: what a black sky would show is not worth one.
+// WantedSkies says which tables to make.  What a black sky would show is not worth one.
 struct WantedSkies {
   PerSky<bool> sky{true, true, false};
-  bool emission_times = false;  // of the past singularity's light, with its sky only
+  bool emission_times = false;  // of the past singularity's light, only with its sky
 };
 
 struct HoleOptics {
   Radius at = kFlatSpace;
   Tetrad tetrad = Tetrad::kRain;
   int table_bits = OctaveCurve::kPerOctaveBits;  // of tables to be made; see OctaveCurve
-  // Where the skies end, whether they are wanted or not; beyond both is light of the white hole.
+  // Here the skies end, whether they are wanted or not.  Beyond both is light of the white hole.
   std::optional<SkyEdge> home_edge, far_edge;
   std::optional<SkyTable> home_sky, far_sky;
   std::optional<WhiteHoleTable> white_hole;
@@ -49,33 +49,35 @@ struct HoleOptics {
   }
 };
 
-// r = kFlatSpace: no table at all.  The home sky is there for rain at any r and for the outgoing
-// tetrad outside; the far sky for rain at r < 2; the white hole always.  What is not there is not
-// made.
+// Makes the optics at a radius.  For r = kFlatSpace there is no table at all.  The home sky is
+// there for rain at any r and for the outgoing tetrad outside, the far sky for rain at r < 2, and
+// the white hole always.  What is not there is not made.
 HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted);
 // Makes the wanted tables that `optics` does not have yet.
 void add_tables(HoleOptics& optics, WantedSkies wanted);
 
-// How many tables there are, and how many nodes these have together.
+// These say how many tables there are, and how many nodes they have together.
 int table_count(const HoleOptics& optics);
 std::size_t node_count(const HoleOptics& optics);
 
-// One image of a point of a sky, in the frame of the reference tetrad.
+// A SkyImage is one image of a point of a sky, in the frame of the reference tetrad.
 struct SkyImage {
   TetradDirection direction;
   double frequency_ratio;  // observed by the free-fall observer / emitted: 1/(1+z)
   double amplification;    // solid angle of the image / of the source; inf on the axis of a lens
 };
 
-// The k-th image of the point `source` (unit, components along R, Theta, Phi): k = 0 is the
-// primary, odd k lie on the opposite side of the hole, swept azimuth phi* + k pi or (k+1) pi -
-// phi*.  axis_blur (radians, > 0) is the angular radius of the source, which bounds the
-// amplification where the source, the hole and the observer are in line.  Flat space: k = 0 only.
+// Returns the k-th image of the point `source`, a unit vector with components along R, Theta and
+// Phi.  k = 0 is the primary image, and those of odd k lie on the opposite side of the hole.  The
+// swept azimuth is phi* + k pi for even k and (k+1) pi - phi* for odd k.  `axis_blur` (radians, >
+// 0) is the angular radius of the source, which bounds the amplification where the source, the hole
+// and the observer are in line.  In flat space there is k = 0 only.
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur);
 
-// The images of a point of the past singularity of the same order, of which there may be two, one
-// or none.  frequency_ratio is 1: light from there has no redshift to speak of.  axis_blur bounds
-// the amplification on the caustic, where two images merge, as well.
+// WhiteHoleImages are the images of the same order of a point of the past singularity, of which
+// there may be two, one or none.  Their frequency_ratio is 1, because light from there has no
+// redshift to speak of.  axis_blur also bounds the amplification on the caustic, where two images
+// merge.
 struct WhiteHoleImages {
   int count = 0;
   std::array<SkyImage, 2> image;
@@ -83,9 +85,9 @@ struct WhiteHoleImages {
 WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int order,
                           double axis_blur);
 
-// The primary image, in the frame of the tetrad, of a direction on the home sky without making a
-// table: for aiming a camera.  Exact to 1e-14.  Not for the outgoing tetrad at r <= 2, region IV,
-// from where no sky is seen.
+// Returns the primary image, in the frame of the tetrad, of a direction on the home sky, without
+// making a table.  It serves to aim a camera and is exact to 1e-14.  It is not for the outgoing
+// tetrad at r <= 2, in region IV, from where no sky is seen.
 TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source);
 
 }  // namespace domefall

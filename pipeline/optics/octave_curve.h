@@ -1,7 +1,7 @@
-// A table of a smooth function of a positive number that spans many octaves.  Its intervals divide
-// each octave evenly and are found from the bits of x; in each a polynomial of degree 7 matches the
-// value and three derivatives at both ends, which come from Chebyshev interpolation of the function
-// in ln x.
+// An OctaveCurve is a table of a smooth function of a positive number that spans many octaves.  Its
+// intervals divide each octave evenly and are found from the bits of x.  In each interval a
+// polynomial of degree 7 matches the value and three derivatives at both ends, which come from
+// Chebyshev interpolation of the function in ln x.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@ class OctaveCurve {
  public:
   static constexpr int kPerOctaveBits = 3;
 
-  // Tabulates `f` over [x_min rounded down to an interval, x_max], 0 < x_min < x_max, with 2^bits
-  // intervals an octave.  `f` is called about 8 times an octave, up to one interval beyond x_max.
-  // The error falls with the eighth power of the intervals' width: that of a logarithm is 1e-11
-  // with 3 bits.
+  // Tabulates `f` over [x_min rounded down to an interval, x_max] with 2^bits intervals to the
+  // octave, where 0 < x_min < x_max.  `f` is called about 8 times an octave, up to one interval
+  // beyond x_max.  The error falls with the eighth power of the intervals' width.  That of a
+  // logarithm is 1e-11 with 3 bits.
   OctaveCurve(double x_min, double x_max, const std::function<double(double)>& f,
               int bits = kPerOctaveBits);
 
@@ -31,31 +31,32 @@ class OctaveCurve {
   struct Jet {
     double value, first, second;  // f, df/dx, d2f/dx2
   };
-  // The value and two derivatives at x in [x_min, x_max].
+  // Returns the value and two derivatives at x in [x_min, x_max].
   Jet at(double x) const;
   double value(double x) const {
     const Interval& q = interval(x);
     return polynomial(q.c, (x - start(q)) * inverse_width(q));
   }
-  // The x in [x_min, x_end] with value(x) = wanted, by the same polynomials.  The function must be
-  // monotone there and take the value.
+  // Returns the x in [x_min, x_end] with value(x) = wanted, by the same polynomials.  The function
+  // must be monotone there and take the value.
   double inverse(double wanted, double x_end) const;
 
-  // Whether the curve rises, or falls, in every interval that ends before x_end.  A result of true
-  // is proven, by the signs of the Bernstein coefficients of the slope.
+  // Says whether the curve rises, or falls, in every interval that ends before x_end.  A result of
+  // true is proven, by the signs of the Bernstein coefficients of the slope.
   bool is_monotone(double x_end) const;
 
   static constexpr int kTerms = 8;
 
-  // Finds the polynomial of any x without a branch, for loops that are to become SIMD code.  It is
-  // a copy of what finding needs, so that the compiler knows that no store of the loop alters it,
-  // and is valid while the curve lives.  An x below x_min counts as x_min, one beyond the last
-  // interval as the end of that.
+  // A Lookup finds the polynomial of any x without a branch, for loops that are to become SIMD
+  // code.  It is a copy of what finding needs, so that the compiler knows that no store of the loop
+  // alters it, and is valid while the curve lives.  An x below x_min counts as x_min, and one
+  // beyond the last interval as the end of that.
   class Lookup;
   Lookup lookup() const;
 
  private:
-  // The coefficients of powers of u, which runs from 0 to 1 across it.  They fill one cache line.
+  // An Interval holds the coefficients of powers of u, which runs from 0 to 1 across it.  They fill
+  // one cache line.
   struct alignas(kTerms * sizeof(double)) Interval {
     std::array<double, kTerms> c;
   };
@@ -101,12 +102,12 @@ class OctaveCurve::Lookup {
  public:
   Lookup() = default;
   double x_min() const { return x_min_; }
-  // Where x lies in the table.
+  // An Index says where x lies in the table.
   struct Index {
     const double* coefficients;  // of its interval: kTerms, of ascending powers of u
     double u, inverse_width;     // the position in the interval, 0 to 1, and du/dx
   };
-  // The bits of x hold all three: the interval's number ends where u begins, and the interval's
+  // The bits of x hold all three.  The interval's number ends where u begins, and the interval's
   // width is 2^-bits of the octave that the exponent names.
   Index operator()(double x) const {
     constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1,

@@ -16,7 +16,8 @@ inline bool is_nearly_radial(const RayInvariants& k) {
   return k.angular_momentum < 1e-100 * std::abs(k.energy);
 }
 
-// What the integral needs of a ray: 1/b^2 and eps, and the observer's place on the w axis.
+// A Cubic holds what the integral needs of a ray, which is 1/b^2 and eps, and the observer's place
+// on the w axis.
 struct Cubic {
   double inverse_b2, eps;
   double w, x;        // 1/r and 1/r - 1/3
@@ -36,7 +37,8 @@ struct OneRealRoot {
   double m, n, root;  // all in x
 };
 
-// With z = 3 (x + 1/6), z^3 - 3z/4 + (1 + 54 eps)/4 = 0 and z = -cosh u, cosh 3u = 1 + 54 eps.
+// With z = 3 (x + 1/6) the equation P = 0 becomes z^3 - 3z/4 + (1 + 54 eps)/4 = 0.  It is solved by
+// z = -cosh u with cosh 3u = 1 + 54 eps.
 inline OneRealRoot one_real_root(double eps) {
   const double u = 2.0 / 3 * std::asinh(std::sqrt(27 * eps));
   const double half = std::sinh(u / 2);
@@ -51,8 +53,8 @@ struct RealRoots {
   double separation;  // w1 - w2
 };
 
-// z = -cos u: cos 3u = 1 + 54 eps.  Near the double root the x are small and come from u; far from
-// the hole (b large) w2 and w3 are small and come from the complement eta.
+// Here z = -cos u, where cos 3u = 1 + 54 eps.  Near the double root the x are small and come from
+// u.  Far from the hole (b large) w2 and w3 are small and come from the complement eta.
 inline RealRoots real_roots(const Cubic& c) {
   const double u = 2.0 / 3 * std::atan2(std::sqrt(-c.eps), std::sqrt(c.inverse_b2));
   const double eta = std::atan2(std::sqrt(c.inverse_b2), std::sqrt(-c.eps)) / 3;

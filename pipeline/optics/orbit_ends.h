@@ -1,8 +1,9 @@
-// How far an observer is from the ends of a ray's orbit, as exact_azimuth.cpp has it, but without
-// branches and without functions of a library, so that a loop over rays becomes SIMD code.
+// This file says how far an observer is from the ends of a ray's orbit, as exact_azimuth.cpp does,
+// but without branches and without functions of a library, so that a loop over rays becomes SIMD
+// code.
 //
-// The roots of P come from one equation, d (1 + 2 d)^2 = g: with g = 2 eps it is that of the root
-// -1/2 - d in x; with g = -2/b^2 it is that of the root 1/2 + d in w.  All others follow from d by
+// The roots of P come from one equation, d (1 + 2 d)^2 = g.  With g = 2 eps it is that of the root
+// -1/2 - d in x.  With g = -2/b^2 it is that of the root 1/2 + d in w.  All others follow from d by
 // sums of equal signs.
 #pragma once
 
@@ -13,27 +14,27 @@
 
 namespace domefall::orbit_ends {
 
-// R_F(a, b, c) times a factor.
+// CarlsonArguments stand for R_F(a, b, c) times a factor.
 struct CarlsonArguments {
   double a, b, c, factor;
 };
 
-// An orbit and the observer's place on it.
+// An Orbit has the observer's place on it.
 struct Orbit {
   double e, eps;   // |E|/L, e^2 - 1/27
   double w, x, p;  // of the observer; p = (k^r/L)^2
 };
 
-// A step of Newton's method for d with d (1 + 2 d)^2 = g.
+// Makes a step of Newton's method for d with d (1 + 2 d)^2 = g.
 inline double refined_pair(double d, double g) {
   const double t = 1 + 2 * d;
   return d - (d * t * t - g) / (t * (1 + 6 * d));
 }
 
-// That d for g >= 0, from above, where the function is convex.
+// Returns that d for g >= 0.  It is reached from above, where the function is convex.
 inline double complex_pair_root(double g) {
-  // Not less than the cube root of g/4: the bits of a number are nearly its logarithm, and 1/3 is
-  // 1/4 + 1/16 + 1/64 + ...
+  // This is not less than the cube root of g/4.  The bits of a number are nearly its logarithm, and
+  // 1/3 is 1/4 + 1/16 + 1/64 + ...
   const auto bits = std::bit_cast<std::uint64_t>(g + 1e-300);
   std::uint64_t third = (bits >> 2) + (bits >> 4);
   third += third >> 4;
@@ -45,13 +46,14 @@ inline double complex_pair_root(double g) {
   return refined_pair(refined_pair(refined_pair(refined_pair(d, g), g), g), g);
 }
 
-// d with d (1 - 2 d)^2 = g, 0 <= g <= 1/27, from below, where the function is concave.
+// Returns d with d (1 - 2 d)^2 = g, for 0 <= g <= 1/27.  It is reached from below, where the
+// function is concave.
 inline double real_pair_root(double g) {
   const double d = refined_pair(refined_pair(-g * (1 + 4 * g), -g), -g);
   return -refined_pair(refined_pair(d, -g), -g);
 }
 
-// eps >= 0: the roots of P are -1/2 - delta and delta/2 +- i n in x.
+// For eps >= 0 the roots of P are -1/2 - delta and delta/2 +- i n in x.
 struct ComplexPair {
   double delta, m, n2, reach, far;  // reach = m - root, far = |reach + i n|
 };
@@ -85,15 +87,15 @@ inline CarlsonArguments to_singularity_over_pair(const ComplexPair& q, const Orb
   return of_pair(q, 2 * (b >= 0 ? b + eta : q.n2 / (eta - b)));
 }
 
-// eps < 0: three real roots, w3 < 0 < w2 < 1/3 < w1.
+// For eps < 0 P has three real roots, with w3 < 0 < w2 < 1/3 < w1.
 struct RealTriple {
   double w1, w2, w3, x1, x2, separation;  // as RealRoots
   double below_half;                      // 1/2 - w1
 };
 
 inline RealTriple real_triple(double e, double eps) {
-  // From d = 1/2 + x3 where the upper two roots are near each other, from h = 1/2 - w1 where the
-  // lower two are.
+  // They come from d = 1/2 + x3 where the upper two roots are near each other, and from d = 1/2 -
+  // w1 where the lower two are.
   constexpr double kHalfWay = 1.0 / 54;
   const bool upper = -eps < kHalfWay;
   const double d = real_pair_root(2 * (upper ? -eps : e * e));
@@ -109,7 +111,7 @@ inline RealTriple real_triple(double e, double eps) {
   return q;
 }
 
-// Between two points by their distances from the roots, upwards from a sky.
+// Returns the arguments between two points by their distances from the roots, upwards from a sky.
 inline CarlsonArguments between(double x1, double x2, double x3, double y1, double y2, double y3,
                                 double width) {
   const double over = 1 / width;
@@ -146,8 +148,9 @@ inline CarlsonArguments chosen(bool yes, const CarlsonArguments& a, const Carlso
   return {yes ? a.a : b.a, yes ? a.b : b.b, yes ? a.c : b.c, yes ? a.factor : b.factor};
 }
 
-// By duplication.  What is left after seven is below 0.01 of the mean even where the angle is 40
-// radians, and goes into the series to the seventh power (DLMF 19.36.1): error below 1e-15.
+// Returns R_F by duplication.  What is left after seven steps is below 0.01 of the mean even where
+// the angle is 40 radians, and goes into the series to the seventh power (DLMF 19.36.1).  The error
+// is below 1e-15.
 inline double carlson_rf(double x, double y, double z) {
   for (int k = 0; k < 7; ++k) {
     const double rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);

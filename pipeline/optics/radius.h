@@ -1,6 +1,6 @@
-// The observer's radius, in units of M, with its distances from the horizon and from the light
+// A Radius is the observer's, in units of M, with its distances from the horizon and from the light
 // circle.  A double near 2 or 3 holds those distances badly (2.000001 is off by 1e-10 of its
-// altitude), so whoever knows them better gives them; everywhere else a plain number will do.
+// altitude), so whoever knows them better gives them.  Everywhere else a plain number will do.
 #pragma once
 
 namespace domefall {
@@ -12,18 +12,18 @@ struct Radius {
 
   Radius(double value)
       : r(value), above_horizon(value - 2), above_light_circle(value - 3) {}  // NOLINT
-  // From whoever knows all three.
+  // Takes all three from whoever knows them.
   Radius(double value, double horizon, double light_circle)
       : r(value), above_horizon(horizon), above_light_circle(light_circle) {}
-  // From more digits than a double has.
+  // Takes a number with more digits than a double has.
   explicit Radius(long double value)
       : r(static_cast<double>(value)),
         above_horizon(static_cast<double>(value - 2)),
         above_light_circle(static_cast<double>(value - 3)) {}
 };
 
-// r, r - 2 and r - 3 in a type that may be finer than double: near the horizon or the light circle
-// from what the radius holds of them, elsewhere from r.
+// These return r, r - 2 and r - 3 in a type that may be finer than double.  Near the horizon or the
+// light circle they use what the radius holds of the distances, and elsewhere r.
 inline bool is_near(double distance) { return distance * distance < 0.01; }
 
 template <class Real>

@@ -9,13 +9,13 @@
 
 namespace domefall {
 
-// Schwarzschild and Kruskal second-order sets: by the paper's Runge-Kutta of fourth order, and by
-// Dormand-Prince 5(4) and Fehlberg 7(8) of Boost.Odeint.
+// These follow the Schwarzschild and Kruskal second-order sets, by the paper's Runge-Kutta of
+// fourth order, and by Dormand-Prince 5(4) and Fehlberg 7(8) of Boost.Odeint.
 IntegratedRay paper_ray(const PhotonAtObserver& photon, double tolerance, double until);
 IntegratedRay full_ray_dopri5(const PhotonAtObserver& photon, double tolerance, double until);
 IntegratedRay full_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until);
 
-// The orbit's own equation, azimuth as variable.
+// These follow the orbit's own equation, in which the azimuth is the variable.
 IntegratedRay binet_ray_dopri5(const PhotonAtObserver& photon, double tolerance, double until);
 IntegratedRay binet_ray_rkf78(const PhotonAtObserver& photon, double tolerance, double until);
 
@@ -23,7 +23,7 @@ inline IntegratedRay undecided_ray() {
   return {std::nullopt, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, {}};
 }
 
-// The sky that an outgoing ray (backward in time) ends in.
+// Returns the sky that an outgoing ray (backward in time) ends in.
 inline SkyRegion sky_of(double energy) { return energy > 0 ? SkyRegion::kI : SkyRegion::kIII; }
 
 }  // namespace domefall

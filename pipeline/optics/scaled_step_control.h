@@ -1,5 +1,6 @@
-// How a step is judged, whatever takes it: the estimated error of each component against a scale
-// that the equations give, as Numerical Recipes does, and the largest share counts.
+// This file says how a step is judged, whatever takes it.  The estimated error of each component is
+// compared with a scale that the equations give, as Numerical Recipes does, and the largest share
+// counts.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 
 namespace domefall {
 
-// Largest |error_i| / (tolerance scale_i); enormous, hence refused, where a number is not finite (a
-// stage of the step left the domain of the equations).
+// Returns the largest |error_i| / (tolerance scale_i).  It is enormous, and the step hence refused,
+// where a number is not finite because a stage of the step left the domain of the equations.
 template <class State>
 double scaled_error(const State& error, const State& scale, double tolerance) {
   constexpr double kRefused = 1e30;
@@ -25,8 +26,8 @@ double scaled_error(const State& error, const State& scale, double tolerance) {
   return std::min(worst, kRefused);
 }
 
-// Boost.Odeint's error checker of a set of equations with
-// State scale(const State& y, const State& dy, double h).
+// This is Boost.Odeint's error checker of a set of equations with
+//   State scale(const State& y, const State& dy, double h).
 template <class Equations>
 class ScaledErrorChecker {
  public:
@@ -48,8 +49,8 @@ template <class ErrorStepper, class Equations>
 using ScaledStepper =
     boost::numeric::odeint::controlled_runge_kutta<ErrorStepper, ScaledErrorChecker<Equations>>;
 
-// To construct the above from: Odeint copies the stepper it is given with all its scratch space,
-// which in a static object is zero, not undefined.
+// Returns the stepper that the above is constructed from.  Odeint copies the stepper it is given
+// with all its scratch space, which in a static object is zero, not undefined.
 template <class ErrorStepper>
 const ErrorStepper& blank_stepper() {
   static const ErrorStepper kBlank;

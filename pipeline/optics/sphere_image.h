@@ -1,4 +1,4 @@
-// The image of a glowing sphere near the hole, which is drawn in pieces.
+// The image of a glowing sphere near the hole is drawn in pieces.
 //
 // Whoever looks at a sphere sees a disc of its radius, at right angles to the light, however the
 // sphere moves (Penrose 1959, Terrell 1959).  A plane through the axis of hole and observer cuts a
@@ -15,15 +15,15 @@
 
 namespace domefall {
 
-// The longer of the sizes of the image along and across its plane, in radians.
+// Returns the longer of the sizes of the image along and across its plane, in radians.
 double size_of_sphere(const BodyImage& image, double radius);
 
-// The image of one order of a sphere of this radius (M, > 0).  Each piece has its solid angle, in
-// the tetrad, in place of the amplification, and its own frequency ratio.  There are at most 4096
-// chords, and pieces of one; else they are no longer than spacing(direction) in the middle of the
-// image and of the chord.  The two orders that meet in a ring have half of it each.
-// First order: angles err by a part of about the radius over the distance to the observer or to the
-// hole, whichever is nearer.
+// Returns the image of one order of a sphere of this radius (M, > 0).  Each piece has its solid
+// angle, in the tetrad, in place of the amplification, and its own frequency ratio.  There are at
+// most 4096 chords, and 4096 pieces of one.  Otherwise pieces are no longer than spacing(direction)
+// in the middle of the image and of the chord.  The two orders that meet in a ring have half of it
+// each.  To first order, angles err by a part of about the radius over the distance to the observer
+// or to the hole, whichever is nearer.
 std::vector<SkyImage> image_of_sphere(const BodyImage& image, double radius,
                                       const std::function<double(const V3d&)>& spacing);
 

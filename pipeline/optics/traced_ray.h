@@ -1,5 +1,5 @@
-// One ray by numbers, for an observer at rest in one of the named frames: what `domefall trace`
-// prints and what the reference rays are compared with.
+// trace_ray() gives one ray by numbers, for an observer at rest in one of the named frames.
+// `domefall trace` prints this, and the reference rays are compared with it.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ enum class TraceObserver {
 enum class TraceMethod {
   kTable,  // what renders frames
   kExact,
-  // Integrators (integrated_ray.h), which share no formula with the two above.
+  // Integrators (integrated_ray.h) share no formula with the two above.
   kPaperRk4,     // [Riazuelo] sec. sec_cel1: adaptive RK4, Schwarzschild and Kruskal coordinates
   kFullDopri5,   // the same equations
   kFullRkf78,    // of order 8
@@ -33,7 +33,7 @@ struct NamedTraceMethod {
   const char* name;
   TraceMethod method;
 };
-// As the command line and the report call them.
+// The command line and the report call the methods by these names.
 inline constexpr std::array kTraceMethods{
     NamedTraceMethod{"table", TraceMethod::kTable},
     NamedTraceMethod{"exact", TraceMethod::kExact},
@@ -47,15 +47,15 @@ constexpr bool is_integrator(TraceMethod method) {
   return method != TraceMethod::kTable && method != TraceMethod::kExact;
 }
 
-// An edge in delta, as the observer sees it.
+// An Edge is one in delta, as the observer sees it.
 enum class Edge {
   kSilhouette,   // of region I's sky; none in region IV
   kRegionThree,  // r <= 2, rain and T_II
 };
 bool has_edge(TraceObserver observer, const Radius& at, Edge edge);
 
-// delta (radians) from -R, which is the direction of the hole outside; or, where an edge is given,
-// delta = edge + offset to full accuracy.
+// A RayRequest gives delta (radians) from -R, which is the direction of the hole outside.  If an
+// edge is given, delta = edge + offset to full accuracy instead.
 struct RayRequest {
   TraceObserver observer = TraceObserver::kRain;
   Radius at = 0.0;
@@ -64,7 +64,7 @@ struct RayRequest {
   double offset = 0;
 };
 
-// Where that ray stands in delta, without following it: for checking that it is one.
+// Returns where that ray stands in delta, without following it, to check that it is one.
 double edge_delta(TraceObserver observer, const Radius& at, Edge edge);
 
 struct TracedRay {
@@ -80,22 +80,24 @@ struct TracedRay {
 struct TraceOptions {
   int table_bits = OctaveCurve::kPerOctaveBits;  // of kTable; see OctaveCurve
   double tolerance = 1e-10;                      // of the integrators, relative, each step
-  // Integrators find the slope by four further rays; without it, slope and amplification are NaN.
+  // Integrators find the slope by four further rays.  Without it, slope and amplification are NaN.
   bool slope = true;
 };
 
-// The tables are kept from one call to the next while the radius stays the same (in each thread).
+// Traces a ray.  The tables are kept from one call to the next while the radius stays the same (in
+// each thread).
 TracedRay trace_ray(const RayRequest& q, TraceMethod method, const TraceOptions& options = {});
 
-// Where that ray is after having swept psi >= 0, and when its light was there.
+// A TracedPlace says where that ray is after having swept psi >= 0, and when its light was there.
 struct TracedPlace {
   double r;  // units of M
-  // The place's v less the observer's, u in the outgoing frame and T_IV (ray_times.h), units of M.
+  // This is the place's v less the observer's, or u in the outgoing frame and T_IV (ray_times.h),
+  // in units of M.
   double null_time;
 };
 
-// None where the ray has ended, or an integrator's steps ran out.  The table's method is RayOrbits,
-// which needs none.
+// Returns nothing where the ray has ended, or an integrator's steps ran out.  The table's method is
+// RayOrbits, which needs no table.
 std::optional<TracedPlace> trace_place(const RayRequest& q, double psi, TraceMethod method,
                                        const TraceOptions& options = {});
 

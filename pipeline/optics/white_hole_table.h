@@ -1,6 +1,6 @@
-// The azimuth swept by light from the past singularity (region IV), as a table: what fills the
-// silhouette seen from outside, the shell between the two skies inside, and all directions in
-// region IV.  [Riazuelo] sec. sec_Kruskal, figs. dev_wh_0, dev_wh and fig_IV_dev.
+// A WhiteHoleTable holds the azimuth swept by light from the past singularity (region IV).  This
+// light fills the silhouette seen from outside, the shell between the two skies inside, and all
+// directions in region IV.  [Riazuelo] sec. sec_Kruskal, figs. dev_wh_0, dev_wh and fig_IV_dev.
 //
 // The coordinate s is made of ratios of T = tan(alpha/2).  Radial boosts only scale T, so that none
 // of the structure is lost however close the horizon is:
@@ -25,7 +25,8 @@
 
 namespace domefall {
 
-// phi next to the axis: odd in t = cbrt(y/y_min), fitted at five points up to t = 1.
+// An AxisLaw is phi next to the axis.  It is odd in t = cbrt(y/y_min), and fitted at five points up
+// to t = 1.
 struct AxisLaw {
   double y_min = 0;
   std::array<double, 5> c{};  // of t, t^3, t^5, t^7, t^9
@@ -35,8 +36,8 @@ struct AxisLaw {
   double distance(double phi) const;  // its inverse; phi <= azimuth(y_min)
 };
 
-// s of a direction, (n1 sin + n2 cos)/(d1 sin + d2 cos) of alpha/2, for the half below T_0 and the
-// one beyond it; outside both are the same.
+// A WhiteHolePlace gives s of a direction as (n1 sin + n2 cos)/(d1 sin + d2 cos) of alpha/2, for
+// the half below T_0 and the one beyond it.  Outside both are the same.
 struct WhiteHolePlace {
   struct Ratio {
     double n1, n2, d1, d2;
@@ -56,11 +57,11 @@ struct WhiteHolePlace {
 
 class WhiteHoleTable {
  public:
-  // Outside: rain or outgoing, r > 2.  Region II: rain, r <= 2.  Region IV: outgoing, r <= 2.
-  // bits: see OctaveCurve.
+  // Makes the table outside for rain or outgoing at r > 2, in region II for rain at r <= 2, and in
+  // region IV for outgoing at r <= 2.  OctaveCurve explains `bits`.
   WhiteHoleTable(const Radius& at, bool outgoing, int bits = OctaveCurve::kPerOctaveBits);
 
-  // Where a ray stands in the table.
+  // A Place says where a ray stands in the table.
   struct Place {
     double s;     // > 0, or 0 or infinite on the axis; negative: not from the singularity
     double rate;  // d s/d alpha
@@ -68,19 +69,19 @@ class WhiteHoleTable {
   Place place_of(const NullRay& ray) const;
   Place place_of(double sin_half, double cos_half) const;
 
-  // Measured over 1e-6 <= r <= 1e8: |error| < 1e-9.
+  // Measured over 1e-6 <= r <= 1e8, the |error| is < 1e-9.
   double azimuth(const Place& p) const;
   double slope(const Place& p) const;  // d phi/d alpha, signed; infinite on the axis
 
-  // Every ray on which phi is seen: one outside; two or none in II and IV, where the extremum parts
-  // the branches.
+  // Branches are all rays on which phi is seen.  There is one outside.  In II and IV there are two
+  // or none, and the extremum parts the branches.
   struct Branches {
     int count = 0;
     std::array<NullRay, 2> ray{NullRay{0.0, 0, 0, 0, 0}, NullRay{0.0, 0, 0, 0, 0}};
   };
   Branches rays_of(double phi) const;
 
-  // The extremum at E = 0, in II and IV: nothing outside.
+  // A Turn is the extremum at E = 0, in II and IV.  There is none outside.
   struct Turn {
     double alpha, azimuth;
     double curvature;  // d2 phi/d alpha2
@@ -90,8 +91,8 @@ class WhiteHoleTable {
   std::size_t node_count() const { return curve_.node_count(); }
   const OctaveCurve& curve() const { return curve_; }  // in s
 
-  // For loops that are to become SIMD code: place() and, between low and high, curve().  Beyond
-  // those the laws are the caller's, by way of azimuth() and slope().
+  // A Lookup is for loops that are to become SIMD code.  It holds place() and, between low and
+  // high, curve().  Beyond those the laws are the caller's, by way of azimuth() and slope().
   struct Lookup {
     WhiteHolePlace place;
     OctaveCurve::Lookup curve;
@@ -99,8 +100,8 @@ class WhiteHoleTable {
   };
   Lookup lookup() const;
 
-  // For other functions of the same rays: where the curve runs in s, and the ray that stands at an
-  // s, of smaller alpha in II and IV (there E <= 0).
+  // These serve other functions of the same rays.  They say where the curve runs in s, and which
+  // ray stands at an s.  In II and IV this is the one of smaller alpha, where E <= 0.
   struct Range {
     double low, high;
   };
@@ -121,7 +122,7 @@ class WhiteHoleTable {
   WhiteHolePlace ratios() const;
   Place off_edge(const Place& p) const;
   double place_of_azimuth(double phi) const;
-  // The ray of the same phi on the other side of E = 0.
+  // Returns the ray of the same phi on the other side of E = 0.
   NullRay other_half(double s) const;
 
   Radius at_;
