@@ -1,5 +1,6 @@
-// An accretion disc: thin, opaque or nearly so, in a plane through the hole of region I, of matter
-// on circular orbits that glows as a blackbody.  docs/disc.md says what is drawn of it.
+// A Disc is an accretion disc.  It is thin, opaque or nearly so, and lies in a plane through the
+// hole of region I.  Its matter moves on circular orbits and glows as a blackbody.  docs/disc.md
+// says what is drawn of it.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +11,13 @@
 
 namespace domefall {
 
-// The last stable circular orbit, and the horizon (units of M).
+// These are the radii of the last stable circular orbit and of the horizon (units of M).
 inline constexpr double kLastStableOrbit = 6, kHorizonRadius = 2;
 
 // ---- patterns: what the light of each place is multiplied by; disc_pattern.h says how ----
 
-// Filaments that the orbits draw out, live for some of them and are replaced.
+// A TurbulencePattern has filaments that the orbits draw out.  They live for some orbits and are
+// replaced.
 struct TurbulencePattern {
   double contrast = 1;  // 0 to 1; 1 lets the gaps go dark
   double orbits = 2;    // the life of a filament, in orbits of its place
@@ -23,7 +25,7 @@ struct TurbulencePattern {
 
   bool operator==(const TurbulencePattern&) const = default;
 };
-// Bright rings at equal distances, which drift inwards.
+// A RingPattern has bright rings at equal distances, which drift inwards.
 struct RingPattern {
   double spacing = 2;  // M
   double contrast = 0.8;
@@ -31,7 +33,7 @@ struct RingPattern {
 
   bool operator==(const RingPattern&) const = default;
 };
-// A spot on a circular orbit.
+// A SpotPattern is a spot on a circular orbit.
 struct SpotPattern {
   double r = 8;
   double azimuth = 0;     // radians from Disc::node at t = 0, in the sense of the orbit
@@ -45,23 +47,25 @@ using PatternKind = std::variant<TurbulencePattern, RingPattern, SpotPattern>;
 // ---- the disc ----
 
 struct Disc {
-  // The radii between which there is matter, units of M.  kLastStableOrbit <= inner < outer, or
-  // kHorizonRadius <= inner where it plunges.
+  // There is matter between these radii (units of M).  kLastStableOrbit <= inner < outer holds, or
+  // kHorizonRadius <= inner where the matter plunges.
   double inner = kLastStableOrbit, outer = 20;
-  // The axis about which it turns counter-clockwise, as a direction of the celestial sphere, on
-  // which the observer stands at column 0 of ObserverState::sky_from_tetrad.
+  // The disc turns counter-clockwise about this axis, a direction of the celestial sphere, on which
+  // the observer stands at column 0 of ObserverState::sky_from_tetrad.
   SkyDirection normal{V3d(0, 0, 1)};
-  // Where azimuths in its plane are counted from, across the normal.
+  // Azimuths in the disc's plane are counted from this direction, which is at right angles to the
+  // normal.
   SkyDirection node{V3d(1, 0, 0)};
   double t_max_k = 1e4;  // of the hottest ring outside the last stable orbit, in its own frame
-  // Of that ring as who moves with it sees it, cd/m^2.  All other light of the disc follows.
+  // This is the luminance of that ring for whoever moves with it, in cd/m^2.  All other light of
+  // the disc follows.
   double luminance = 1e-3;
   double opacity = 1;  // the part of the light from behind that it takes away, 0 to 1
-  // Whether matter falls in from the last stable orbit, and shines on its way.
+  // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
   std::optional<PatternKind> pattern;
-  // Whether the pattern is seen as it was when the light left it.  Else it is seen as it is when
-  // light that falls straight in passes the observer (t = v), all of it at once.
+  // This says whether the pattern is seen as it was when the light left it.  Otherwise all of it is
+  // seen at once, as it is when light that falls straight in passes the observer (t = v).
   bool slow_light = true;
 
   bool operator==(const Disc& other) const {
