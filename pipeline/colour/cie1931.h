@@ -1,6 +1,6 @@
-// The CIE 1931 2-degree standard observer: x, y, z colour-matching functions at 360, 365, ... 830
-// nm.  Source: CIE 015 (Colorimetry), the 5 nm table.  A rectangle sum over it gives blackbody
-// chromaticities within 1e-5 of the 1 nm table's.
+// The CIE 1931 2-degree standard observer is given by the x, y, z colour-matching functions at 360,
+// 365, ... 830 nm.  They are the 5 nm table of CIE 015 (Colorimetry).  A rectangle sum over it
+// gives blackbody chromaticities within 1e-5 of the 1 nm table's.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace domefall {
 
 inline constexpr double kCieFirstNm = 360, kCieStepNm = 5;
-// Maximum luminous efficacy, lm/W.
+// This is the maximum luminous efficacy, in lm/W.
 inline constexpr double kLuminousEfficacy = 683.002;
 
 inline constexpr std::array<std::array<double, 3>, 95> kCie1931{{

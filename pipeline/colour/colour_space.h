@@ -1,4 +1,4 @@
-// Colour as types: CIE XYZ and the scene-linear working space do not mix.
+// Colours are types here, so that CIE XYZ and the scene-linear working space do not mix.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -7,21 +7,22 @@
 
 namespace domefall {
 
-// CIE 1931 tristimulus values; Y in the photometric unit of the context (cd/m^2 or lux).
+// These are CIE 1931 tristimulus values, with Y in the photometric unit of the context (cd/m^2 or
+// lux).
 struct Xyz {
   double x, y, z;
 };
 
-// Linear light with the AP1 primaries and the ACES white (ACEScg), in the same unit: the luminance
-// of (1, 1, 1) is 1.  The white of Domefall's skies is D65, so XYZ are adapted to the ACES white
-// (Bradford) and a D65 light is neutral.
+// A WorkingRgb is linear light with the AP1 primaries and the ACES white (ACEScg), in the same
+// unit.  The luminance of (1, 1, 1) is 1.  The white of Domefall's skies is D65, so XYZ are adapted
+// to the ACES white (Bradford) and a D65 light is neutral.
 struct WorkingRgb {
   float r, g, b;
 };
 
 inline constexpr const char* kWorkingSpaceName = "ACEScg";
 
-// CIE x, y of red, green, blue and white.
+// RgbPrimaries are CIE x, y of red, green, blue and white.
 struct RgbPrimaries {
   double red[2], green[2], blue[2], white[2];
 };
@@ -34,15 +35,15 @@ inline constexpr RgbPrimaries kRec709{
 using ColourMatrix = Imath::M33d;
 
 ColourMatrix xyz_from_rgb(const RgbPrimaries& space);
-// D65-relative XYZ to the working space.
+// Takes D65-relative XYZ to the working space.
 const ColourMatrix& working_from_xyz();
-// Linear Rec.709 (sRGB primaries, D65) to the working space.
+// Takes linear Rec.709 (sRGB primaries, D65) to the working space.
 const ColourMatrix& working_from_rec709();
 
 WorkingRgb to_working(const Xyz& colour);
 
-// The colour at `saturation` times its distance from the grey of its luminance.  What would become
-// negative is 0.
+// Returns the colour at `saturation` times its distance from the grey of its luminance.  What would
+// become negative is 0.
 inline WorkingRgb saturated(const WorkingRgb& c, float luminance, float saturation) {
   const auto mixed = [=](float v) {
     const float m = luminance + saturation * (v - luminance);
@@ -51,11 +52,11 @@ inline WorkingRgb saturated(const WorkingRgb& c, float luminance, float saturati
   return {mixed(c.r), mixed(c.g), mixed(c.b)};
 }
 
-// What one unit of each channel of a working-space colour adds to the luminance of light.  The
-// three add up to 1.
+// These are what one unit of each channel of a working-space colour adds to the luminance of light.
+// The three add up to 1.
 const std::array<float, 3>& luminance_weights();
 
-// Luminance of a working-space colour in the scene's own (D65-relative) terms.
+// Returns the luminance of a working-space colour in the scene's own (D65-relative) terms.
 double luminance(const WorkingRgb& colour);
 
 }  // namespace domefall
