@@ -1,4 +1,4 @@
-// What is looked for in an OpenColorIO configuration before it is used.
+// These functions look at an OpenColorIO configuration before it is used.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>

@@ -1,4 +1,4 @@
-// What light a display makes of its codes, as an OpenColorIO configuration says it.
+// This file says what light a display makes of its codes, as an OpenColorIO configuration has it.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -11,10 +11,11 @@
 
 namespace domefall {
 
-// The luminance of each code of each channel alone, of which white has 1 in all, for the display
-// and view of a configuration.  Throws InputError, which begins with `file`, if the colour space of
-// that view is not one of a display, so that nothing is said about light, or if its light is not
-// the sum of what the three channels give, or does not rise with the codes.
+// Returns the luminance of each code of each channel alone, of which white has 1 in all, for the
+// display and view of a configuration.  Throws InputError, which begins with `file`, if the colour
+// space of that view is not one of a display, so that nothing is said about light.  It does so,
+// too, if the display's light is not the sum of what the three channels give, or does not rise with
+// the codes.
 DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std::string& display,
                                  const std::string& view, const std::string& file);
 

@@ -1,4 +1,4 @@
-// The displays of an OpenColorIO configuration, and the views of each.
+// This file lists the displays of an OpenColorIO configuration, and the views of each.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,8 @@ struct DisplayViews {
   std::vector<std::string> views;
 };
 
-// In the order of the configuration, the active ones.  Throws InputError if the file is none.
+// Returns the active displays in the order of the configuration.  Throws InputError if the file is
+// no configuration.
 std::vector<DisplayViews> displays_of(const std::filesystem::path& config);
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// How a GradeTable divides the colours into cells, for the sources that make it and look into it.
+// This file says how a GradeTable divides the colours into cells, for the sources that make it and
+// look into it.
 #pragma once
 
 #include <Imath/half.h>
@@ -11,7 +12,7 @@ namespace domefall::grade_cells {
 
 inline constexpr int kGreys = 21, kHues = 9, kOrders = 6, kNodeStep = 32, kInfinityBits = 0x7c00;
 inline constexpr int kLargest = kInfinityBits / kNodeStep + 1;  // nodes of the largest channel
-// Nodes with a neighbour on either side, which are the middles of cells.
+// These are the nodes with a neighbour on either side, which are the middles of cells.
 inline constexpr int kInnerGreys = kGreys - 2, kInnerHues = kHues - 2;
 inline constexpr int kCells = kLargest - 1;                    // of the largest channel
 inline constexpr float kLeastGrey = 0.25f, kLeastRoot = 0.5f;  // and its square root
@@ -29,8 +30,8 @@ inline constexpr std::size_t node_at(int order, int n, int grey, int hue) {
   return static_cast<std::size_t>(order * kOrder + grey * kRow + hue * kColumn + n * kNode);
 }
 
-// The channels from the largest to the least, for each order: its number is that of
-// (r >= g) + 2 (g >= b) + 4 (b >= r), less 1.
+// These are the channels from the largest to the least, for each order.  An order's number is (r >=
+// g) + 2 (g >= b) + 4 (b >= r), less 1.
 inline constexpr int kChannels[kOrders][3] = {{0, 2, 1}, {1, 0, 2}, {0, 1, 2},
                                               {2, 1, 0}, {2, 0, 1}, {1, 2, 0}};
 
@@ -40,7 +41,7 @@ inline float value_of(int bits) {
   return h;
 }
 
-// A pixel by its largest channel and by its place between nodes.
+// Sets a pixel by its largest channel and by its place between nodes.
 inline void put_pixel(int order, float largest, float grey, float hue, float* rgb) {
   const float root = kLeastRoot + grey / kRootScale, least = root * root * largest;
   rgb[kChannels[order][0]] = largest;

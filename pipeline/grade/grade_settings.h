@@ -1,5 +1,5 @@
-// The settings of a grade, which turns a scene-linear frame into one for a projector or a screen:
-// the show's own ASC CDL, then an OpenColorIO display and view.
+// GradeSettings say how a scene-linear frame becomes one for a projector or a screen.  The show's
+// own ASC CDL comes first, then an OpenColorIO display and view.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// An ASC CDL, applied in ACEScct before the view.  These defaults leave the frame as it is.
+// An ASC CDL is applied in ACEScct before the view.  These defaults leave the frame as it is.
 struct Cdl {
   std::array<double, 3> slope{1, 1, 1}, offset{0, 0, 0}, power{1, 1, 1};
   double saturation = 1;
@@ -16,7 +16,7 @@ struct Cdl {
   bool operator==(const Cdl&) const = default;
 };
 
-// What is done about the light that a dome throws upon itself (dome_light.h).
+// This says what is done about the light that a dome throws upon itself (dome_light.h).
 struct DomeSettings {
   enum class Light {
     kNone,

@@ -1,16 +1,18 @@
-// A view as a table, which is several times as quick as to follow its formulas for each pixel.
+// A GradeTable is a view as a table, which is several times as quick as following its formulas for
+// each pixel.
 //
 // A pixel is split into its largest channel M, the ratio of its least channel to M, which is how
-// grey it is, and the place of the third between the two, which is a hue; for each of the six
-// orders of the channels, so that what a view does at M, at the least channel or at the grey axis
-// is no kink within a cell.  M has 32 nodes to the octave, evenly spaced within each, down to 2^-14
-// and 32 evenly spaced ones below; the ratio has 21, even in its square root, from 0.25 to 1, and
-// the hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly in M.
+// grey it is, and the place of the third between the two, which is a hue.  There is such a split
+// for each of the six orders of the channels, so that what a view does at M, at the least channel
+// or at the grey axis is no kink within a cell.  M has 32 nodes to the octave, evenly spaced within
+// each, down to 2^-14 and 32 evenly spaced ones below.  The ratio has 21, even in its square root,
+// from 0.25 to 1, and the hue 9.  Codes are interpolated by parabolas in ratio and hue and linearly
+// in M.
 //
 // When the table is made, each of its cells is compared with the formulas at two to five places.
-// One that errs by more than 0.8 kMostError there is left out with its neighbours, and so are cells
-// in which a channel leaves black, ratios below 0.25, values that are negative or above 65504, and
-// what is no number.  Those pixels are for the caller to grade by the formulas.
+// One that errs by more than 0.8 kMostError there is left out with its neighbours.  So are cells in
+// which a channel leaves black, ratios below 0.25, values that are negative or above 65504, and
+// what is no number.  The caller grades those pixels by the formulas.
 #pragma once
 
 #include <atomic>
@@ -25,7 +27,7 @@ namespace domefall {
 
 class GradeTable {
  public:
-  // Half a step of a 12-bit display, as a part of white.
+  // This is half a step of a 12-bit display, as a part of white.
   static constexpr double kMostError = 0.5 / 4095;
 
   // Grades pixels of three floats to codes from 0 to 1.  Several threads call it at once.
@@ -38,13 +40,13 @@ class GradeTable {
   // grade.
   void make();
 
-  // Of a table that is made.  Grades `count` pixels to 16 bits, and writes the numbers of those
-  // that it does not hold, in ascending order, to missed[].  Returns how many those are; their
-  // codes are not set.  out[] and missed[] have room for one value more, which is overwritten.
+  // Grades `count` pixels to 16 bits by a table that is made, and writes the numbers of those that
+  // it does not hold, in ascending order, to missed[].  Returns how many those are.  Their codes
+  // are not set.  out[] and missed[] have room for one value more, which is overwritten.
   int look_up(const PixelPlanes& planes, int count, unsigned short* out, int* missed) const;
 
-  // The largest error found in the cells that are held, as a part of white, and the part of all
-  // cells that is held.
+  // These return the largest error found in the cells that are held, as a part of white, and the
+  // part of all cells that is held.
   double error() const { return error_; }
   double held() const { return held_; }
 

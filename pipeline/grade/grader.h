@@ -14,21 +14,21 @@ namespace domefall {
 
 class GradeTable;
 
-// What is known of a grade by table.
+// A TableError says what is known of a grade by table.
 struct TableError {
   double error;  // the largest one measured, as a part of white
   double held;   // the part of the table's cells that were not left out for a larger one
 };
 
-// The grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the show's ASC
-// CDL in ACEScct, unless that changes nothing, then through a display and view of an OpenColorIO
-// configuration to 16 bits, clamped and rounded.  A pixel depends on its own input and the frame's
-// size alone.  Copies share one processor, and any number of threads may use it.
+// A Grader is the grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the
+// show's ASC CDL in ACEScct, unless that changes nothing, then through a display and view of an
+// OpenColorIO configuration to 16 bits, clamped and rounded.  A pixel depends on its own input and
+// the frame's size alone.  Copies share one processor, and any number of threads may use it.
 //
 // Frames of 2^21 pixels and more, from 2k domes on, are graded by a table of the view
-// (grade_table.h), before which the CDL is a step of its own (cdl_step.h).  It is made when the
-// first such frame comes, by the threads that grade it.  Where a CDL makes it err by more than half
-// a step of 12 bits, the formulas are followed.
+// (grade_table.h), before which the CDL is a step of its own (cdl_step.h).  The table is made when
+// the first such frame comes, by the threads that grade it.  Where a CDL makes it err by more than
+// half a step of 12 bits, the formulas are followed.
 class Grader {
  public:
   // A configuration that is not the shipped one is first read in a process of its own (trial.h),
@@ -39,14 +39,14 @@ class Grader {
   // it has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
-  // The same grade with another CDL, which shares the table.
+  // Returns the same grade with another CDL, which shares the table.
   Grader with(const Cdl& cdl) const;
 
-  // The same grade, which treats frames of every size as it does those of width times height: for
-  // small pictures that stand for large frames.
+  // Returns the same grade, which treats frames of every size as it does those of width times
+  // height.  It serves small pictures that stand for large frames.
   Grader as_for(int width, int height) const;
 
-  // What is done about a dome's own light once a frame is graded; null if nothing is.
+  // Returns what is done about a dome's own light once a frame is graded, or null if nothing is.
   const DomeLight* dome_light() const { return dome_light_.get(); }
 
   // Grades the rows y0 <= y < y1, without the dome's own light, into out[y1 - y0][width][3].  Any
@@ -55,23 +55,23 @@ class Grader {
   // Grades the whole frame on the calling thread, in the same way.
   GradedFrame grade(const HalfFrame& in) const;
 
-  // How far a table's grade of such a frame is from the formulas; nothing for one that is graded by
-  // the formulas.
+  // Says how far a table's grade of such a frame is from the formulas, and returns nothing for one
+  // that is graded by the formulas.
   std::optional<TableError> table_error(const HalfFrame& in) const;
 
-  // A digest of what it does to a pixel, but for the CDL, which frames may have of their own: of
-  // all transforms and of the contents of the files they read, and of what is done about the dome's
-  // own light.
+  // Returns a digest of what the grade does to a pixel, but for the CDL, which frames may have of
+  // their own.  It covers all transforms, the contents of the files they read, and what is done
+  // about the dome's own light.
   const std::string& transform_id() const { return transform_id_; }
 
-  // Those of the settings, or the configuration's defaults.
+  // These return the settings' own, or the configuration's defaults.
   const std::string& display() const { return display_; }
   const std::string& view() const { return view_; }
-  // What the codes mean, where that can be said (display_curves.h).
+  // Returns what the codes mean, where that can be said (display_curves.h).
   const std::optional<DisplayColour>& colour() const { return colour_; }
 
  private:
-  // The table by which such a frame is graded; null for the formulas.
+  // Returns the table by which such a frame is graded, or null for the formulas.
   const GradeTable* table_for(const HalfFrame& in) const;
 
   struct Processor;

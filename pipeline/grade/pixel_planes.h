@@ -1,4 +1,5 @@
-// Pixels as three arrays of floats, one for each channel: what SIMD loops over pixels take.
+// PixelPlanes are pixels as three arrays of floats, one for each channel, which SIMD loops over
+// pixels take.
 #pragma once
 
 #include <Imath/half.h>
@@ -7,7 +8,7 @@
 
 namespace domefall {
 
-// Of what is in them nothing is NaN.
+// None of the values in them is NaN.
 struct PixelPlanes {
   static constexpr int kSize = 512;
   alignas(64) std::array<float, kSize> red, green, blue;

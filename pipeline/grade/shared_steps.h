@@ -1,4 +1,5 @@
-// Work that is shared by the threads which need its result, without a thread of its own.
+// SharedSteps are work that is shared by the threads which need its result, without a thread of its
+// own.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Does first in another process what may end this one.
+// A trial does first in another process what may end this one.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,8 @@
 
 namespace domefall {
 
-// What a trial may take: processor time, time by the clock, and memory beyond that of this process.
+// TrialBounds say what a trial may take: processor time, time by the clock, and memory beyond that
+// of this process.
 struct TrialBounds {
   int cpu_seconds = 5, seconds = 60, gibibytes = 4;
 };

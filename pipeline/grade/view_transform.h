@@ -1,4 +1,5 @@
-// The transform that a grade consists of, from the working space to a display's codes.
+// This file makes the transform that a grade consists of, from the working space to a display's
+// codes.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -18,11 +19,11 @@ struct ViewTransform {
   OCIO_NAMESPACE::ConstTransformRcPtr transform;  // from the working space, with the settings' CDL
 };
 
-// Throws InputError naming the file if it is no configuration.
+// Reads a configuration.  Throws InputError naming the file if it is none.
 OCIO_NAMESPACE::ConstConfigRcPtr read_config(const std::string& file);
 
-// Throws InputError if the configuration has not the display or the view, with a list of those that
-// it has, or no role by which frames can enter it.
+// Makes the transform.  Throws InputError if the configuration has not the display or the view,
+// with a list of those that it has, or no role by which frames can enter it.
 ViewTransform chosen_view(const OCIO_NAMESPACE::ConstConfigRcPtr& config,
                           const GradeSettings& settings);
 
