@@ -1,5 +1,5 @@
-// Files that appear whole or not at all: nothing half-written ever bears its final name, whatever
-// kills the writer.
+// These functions make files that appear whole or not at all.  Nothing half-written ever bears its
+// final name, whatever kills the writer.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 
 // Throws what a system call that failed on `path` with `error` (an errno) comes to, with both in
 // the message.  That is InputError where the path itself can never be right, because it is too
-// long, leads in a circle or names a folder.  Anything else can be another way on another machine
-// or a minute later (a disk that is full, a folder that is not mounted or may not be written to)
-// and is TemporaryError.
+// long, leads in a circle or names a folder.  Anything else is TemporaryError, since it can be
+// another way on another machine or a minute later.  A disk that is full and a folder that is not
+// mounted or may not be written to are such cases.
 [[noreturn]] void throw_file_error(const std::filesystem::path& path, int error);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// A picture whose channels are not colours.
+// A ChannelImage is a picture whose channels are not colours.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// Pixels in rows from the top, the channels of each side by side.
+// Pixels are in rows from the top, with the channels of each side by side.
 struct ChannelImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;  // their names; a layer's are LAYER.CHANNEL

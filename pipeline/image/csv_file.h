@@ -1,8 +1,8 @@
-// Tables as text: a row is a line, cells stand between commas, a header line names the columns.
-//
-// Blanks around a cell are dropped.  A cell in quotes keeps its commas and blanks, "" is a quote
-// within it, and it ends on the line on which it begins.  Empty lines and lines that begin with '#'
-// are passed over.  Lines end with LF or CR LF, and a byte-order mark may precede the first.
+// A CsvFile is a table as text, in which a row is a line, cells stand between commas, and a header
+// line names the columns.  Blanks around a cell are dropped.  A cell in quotes keeps its commas and
+// blanks, "" is a quote within it, and it ends on the line on which it begins.  Empty lines and
+// lines that begin with '#' are passed over.  Lines end with LF or CR LF, and a byte-order mark may
+// precede the first.
 #pragma once
 
 #include <deque>
@@ -21,7 +21,8 @@ class CsvFile {
   // system fails.
   explicit CsvFile(const std::filesystem::path& file,
                    const std::vector<std::string_view>& needed = {});
-  // A table without a header line: `columns` are the names, `separator` stands for the comma.
+  // Takes a table without a header line.  `columns` are the names, and `separator` stands for the
+  // comma.
   CsvFile(const std::filesystem::path& file, char separator,
           const std::vector<std::string_view>& columns);
   CsvFile(const CsvFile&) = delete;
@@ -31,22 +32,23 @@ class CsvFile {
   ~CsvFile() = default;
 
   bool has(std::string_view column) const;
-  // Reads a row, which must be as long as the header; false at the end of the file.
+  // Reads a row, which must be as long as the header.  Returns false at the end of the file.
   bool next();
 
   // The functions below return a cell of the row that was read last.  Those that return numbers
   // throw InputError, with the line, for a cell that holds something else.
 
-  // Empty where there is no such column.
+  // The text is empty where there is no such column.
   std::string_view text(std::string_view column) const;
-  // A finite number.
+  // The number is finite.
   double number(std::string_view column) const;
-  // A number from `low` to `high`; nothing where the cell is empty or there is no such column.
+  // The number is from `low` to `high`.  Nothing is returned where the cell is empty or there is no
+  // such column.
   std::optional<double> number(std::string_view column, double low, double high) const;
-  // The same of a cell that may not be empty.
+  // This is the same for a cell that may not be empty.
   double required(std::string_view column, double low, double high) const;
 
-  // Throws InputError: "FILE:LINE: what".
+  // Throws InputError with the message "FILE:LINE: what".
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

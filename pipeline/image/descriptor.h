@@ -1,4 +1,4 @@
-// A file descriptor that is closed with its owner.
+// A Descriptor is a file descriptor that is closed with its owner.
 #pragma once
 
 #include <unistd.h>
@@ -7,7 +7,7 @@ namespace domefall {
 
 class Descriptor {
  public:
-  // -1, which open() returns where it fails, is none and closes nothing.
+  // A descriptor of -1, which open() returns where it fails, is none and closes nothing.
   explicit Descriptor(int opened) : number_(opened) {}
   ~Descriptor() {
     if (number_ >= 0) close(number_);

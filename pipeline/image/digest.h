@@ -1,5 +1,5 @@
-// A digest of everything that decides a result, for telling frames of one version of a show from
-// those of another.  XXH3, 128 bits: against accident, not malice.
+// A Digest is one of everything that decides a result, to tell frames of one version of a show from
+// those of another.  It is XXH3 of 128 bits, and protects against accident, not malice.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class Digest {
   std::unique_ptr<State> state_;
 };
 
-// XXH3, 64 bits, of bytes alone: what a file's parts are checked with.
+// Returns XXH3, 64 bits, of bytes alone.  A file's parts are checked with it.
 std::uint64_t checksum(std::string_view bytes);
 
 }  // namespace domefall

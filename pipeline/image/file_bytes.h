@@ -1,4 +1,5 @@
-// The bytes of a file at any place, for readers that must not believe what the file says of itself.
+// FileBytes are the bytes of a file at any place, for readers that must not believe what the file
+// says of itself.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,15 @@
 
 namespace domefall {
 
-// What was read makes no sense as what it should be: the file is damaged, or of another kind.
+// DamagedFile says that what was read makes no sense as what it should be.  The file is damaged, or
+// of another kind.
 struct DamagedFile : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class FileBytes {
  public:
-  // A file that is open already, and stays so for as long as this lives.
+  // Takes a file that is open already, and stays so for as long as this lives.
   FileBytes(int descriptor, std::filesystem::path name);
   ~FileBytes() = default;
   FileBytes(const FileBytes&) = delete;
@@ -27,13 +29,13 @@ class FileBytes {
   FileBytes& operator=(const FileBytes&) = delete;
   FileBytes& operator=(FileBytes&&) = delete;
 
-  // Opens a regular file; null if nothing has that name.  Throws as RegularFile.
+  // Opens a regular file, and returns null if nothing has that name.  Throws as RegularFile.
   static std::unique_ptr<FileBytes> open(const std::filesystem::path& path);
 
   std::uint64_t size() const { return size_; }
 
-  // Bytes position to position + count - 1.  Throws DamagedFile unless the file has them and they
-  // are at most kMost, and TemporaryError where the system fails.
+  // Returns the bytes position to position + count - 1.  Throws DamagedFile unless the file has
+  // them and they are at most kMost, and TemporaryError where the system fails.
   std::string at(std::uint64_t position, std::uint64_t count) const;
   static constexpr std::uint64_t kMost = std::uint64_t{16} << 20;
 
@@ -48,7 +50,7 @@ class FileBytes {
   std::string start_;                          // the first bytes, of which most are asked for
 };
 
-// A whole number of sizeof(Number) bytes at the front of `bytes`.
+// Returns a whole number of sizeof(Number) bytes at the front of `bytes`.
 template <class Number>
 Number little_endian(std::string_view bytes) {
   Number value = 0;

@@ -1,4 +1,4 @@
-// A frame in memory: scene-linear RGB in the working space (ACEScg), row 0 at the top.
+// A frame in memory is scene-linear RGB in the working space (ACEScg), with row 0 at the top.
 #pragma once
 
 #include <Imath/half.h>
@@ -31,8 +31,8 @@ using HalfFrame = ImageRgb<Imath::half>;       // a rendered frame, as it goes i
 using FloatImage = ImageRgb<float>;            // maps and oracles, and frames in full precision
 using GradedFrame = ImageRgb<unsigned short>;  // a graded frame, 16 bits, display-encoded
 
-// The half frame of a rendered one: rounded to nearest with ties to even, values above 65504, the
-// largest half, become 65504, and negative ones 0.
+// Returns the half frame of a rendered one.  Values are rounded to nearest with ties to even.
+// Those above 65504, the largest half, become 65504, and negative ones 0.
 HalfFrame half_frame(const FloatImage& frame);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// Whether a frame on the disk can be kept, and whether it may be made again.
+// A FrameCondition says whether a frame on the disk can be kept, and whether it may be made again.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class FrameCondition {
   kGood,
 };
 
-// The frame that a run would write.
+// A WantedFrame is the frame that a run would write.
 struct WantedFrame {
   std::string key;         // digest of everything that decides the frame
   std::string title;       // of the show
@@ -30,20 +30,20 @@ struct WantedFrame {
 // FileBytes::at.
 FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted);
 
-// Whether the file has a digest and the bytes that it was taken of, all of which are read.  False
-// if it is missing.  Throws as above.
+// Says whether the file has a digest and the bytes that it was taken of, all of which are read.  A
+// missing file has none.  Throws as above.
 bool is_whole(const std::filesystem::path& path);
 
-// The claimed condition, held against the whole file where that is kGood or kOther.  An image
-// without a digest, of which nobody can tell, is taken to be whole.  Throws as above.
+// Returns the claimed condition, held against the whole file where that is kGood or kOther.  An
+// image without a digest, of which nobody can tell, is taken to be whole.  Throws as above.
 FrameCondition examine_frame(const std::filesystem::path& path, const WantedFrame& wanted);
 
-// The same of bytes that may lie elsewhere than in the file of that name.
+// Returns the same of bytes that may lie elsewhere than in the file of that name.
 FrameCondition examine_frame(const FileBytes& bytes, const std::filesystem::path& path,
                              const WantedFrame& wanted);
 
-// What makes a frame another one than is wanted, for people: "1024 x 1024 pixels".  Throws as
-// above.
+// Says for people what makes a frame another one than is wanted, as in "1024 x 1024 pixels".
+// Throws as above.
 std::string describe_difference(const std::filesystem::path& path, const WantedFrame& wanted);
 
 }  // namespace domefall

@@ -1,10 +1,8 @@
-// Rendered frames on the disk: scene-linear OpenEXR, channels R, G, B of half floats or
-// floats, lossless.
-//
-// The header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which
-// show this is (the fields of FrameInfo) and what the digest of the file is (frame_seal.h), but
-// neither when nor where it was made: the same frame has the same bytes, whatever the machine and
-// the number of threads.
+// Rendered frames on the disk are scene-linear OpenEXR, with channels R, G, B of half floats or
+// floats, lossless.  The header says what the pixels are (chromaticities of ACEScg, colorSpace),
+// which frame of which show this is (the fields of FrameInfo) and what the digest of the file is
+// (frame_seal.h).  It says neither when nor where the frame was made, so the same frame has the
+// same bytes, whatever the machine and the number of threads.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +29,8 @@ struct FrameInfo {
   std::string owner;  // whose the picture is; empty: nothing is said
 };
 
-// How many threads share the packing and unpacking of one file; 0 (the start): the caller's alone.
-// The bytes are the same.
+// Sets how many threads share the packing and unpacking of one file.  With 0 (the start) the
+// caller's thread does it alone.  The bytes are the same.
 void set_file_threads(int threads);
 
 // Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
@@ -41,7 +39,8 @@ void write_frame(const std::filesystem::path& path, const HalfFrame& frame, cons
 void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
                  ExrCompression compression = ExrCompression::kZip);
 
-// Writes a picture of other channels in the same way: 32-bit floats, and a header without colours.
+// Writes a picture of other channels in the same way, as 32-bit floats with a header without
+// colours.
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info);
 

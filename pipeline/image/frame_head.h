@@ -1,6 +1,6 @@
-// What the file of a frame says of itself: its size and the fields that Domefall wrote.  They are
-// read from the bytes, within bounds and without a decoder, since decoders ask for as much memory
-// as a damaged header tells them to.
+// A FrameHead is what the file of a frame says of itself, its size and the fields that Domefall
+// wrote.  They are read from the bytes, within bounds and without a decoder, since decoders ask for
+// as much memory as a damaged header tells them to.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ struct FrameHead {
   std::int64_t width = 0, height = 0;  // as the file says, whatever its format allows
   int bits = 0;  // of a colour; 0 for an EXR, whose channels say theirs one by one
 
-  // Whether any field is Domefall's.  The texts of those that are missing are empty.
+  // This says whether any field is Domefall's.  The texts of those that are missing are empty.
   bool ours = false;
   std::string title, projection, key;
   std::string frame;   // its number in the show, of a graded frame
   std::string digest;  // of the whole file (frame_seal.h); earlier versions wrote none
 
-  // Where the digest's digits stand and, in a PNG, the chunk that holds them: from its name to its
+  // Here stand the digest's digits and, in a PNG, the chunk that holds them, from its name to its
   // checksum.  They are bytes from the file's beginning.
   std::uint64_t digest_at = 0, chunk_at = 0, checksum_at = 0;
 };
@@ -40,17 +40,18 @@ std::optional<FrameHead> read_frame_head(const FileBytes& file);
 // wanted.  Throws as FileBytes::at.
 bool may_be_rest_of_frame(const FileBytes& file, FrameFormat wanted);
 
-// A title as it stands in a description, where each line is a field.
+// Returns a title as it stands in a description, where each line is a field.
 std::string one_line(std::string title);
 
-// The names of fields: of attributes in an EXR, of lines in the description of another file.
+// These are the names of fields, which are attributes in an EXR and lines in the description of
+// another file.
 inline constexpr const char *kExrTitle = "showTitle", *kExrProjection = "projection",
                             *kExrKey = "frameKey", *kExrDigest = "fileDigest";
 inline constexpr std::string_view kTitleLine = "show: ", kProjectionLine = "projection: ",
                                   kFrameLine = "frame: ", kKeyLine = "key: ",
                                   kDigestLine = "digest: ", kSoftwareLine = "software: Domefall";
 
-// The name under which a PNG holds the description, and the zero behind it.
+// A PNG holds the description under this name, with the zero behind it.
 inline constexpr std::string_view kPngKeyword{"Description\0", 12};
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// A show's frames per second as the fraction that video counts in.
+// A FrameRate is a show's frames per second as the fraction that video counts in.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ struct FrameRate {
   bool operator==(const FrameRate&) const = default;
 };
 
-// 1 <= frames_per_second <= 1000.  Decimals such as 23.976, 29.97 and 59.94 stand for the rates of
-// NTSC: what is within 2e-6 of n 1000/1001, n being a multiple of 24 or 30, is that.  Otherwise it
-// is the fraction of least terms within 1e-9 of the number.
+// Takes 1 <= frames_per_second <= 1000.  Decimals such as 23.976, 29.97 and 59.94 stand for the
+// rates of NTSC.  So what is within 2e-6 of n 1000/1001, n being a multiple of 24 or 30, becomes
+// that rate.  Otherwise it becomes the fraction of least terms within 1e-9 of the number.
 FrameRate frame_rate_of(double frames_per_second);
 
-// "30" or "24000/1001", as ffmpeg reads it.
+// Returns "30" or "24000/1001", as ffmpeg reads it.
 std::string text_of(const FrameRate& rate);
 
-// The time that so many frames take, in seconds.
+// Returns the time that so many frames take, in seconds.
 double duration_of(std::int64_t frames, const FrameRate& rate);
 
 }  // namespace domefall

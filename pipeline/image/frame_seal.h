@@ -1,7 +1,6 @@
-// The digest of a whole frame file, which stands in the file itself: in a text that Domefall
-// writes, whose place is kept while the file is encoded and filled in at the end.  So a file that
-// was cut short, added to or changed in any bit is known for damaged, whatever the decoders say of
-// it.
+// The digest of a whole frame file stands in the file itself, in a text that Domefall writes.  Its
+// place is kept while the file is encoded, and filled in at the end.  So a file that was cut short,
+// added to or changed in any bit is known for damaged, whatever the decoders say of it.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@
 
 namespace domefall {
 
-// What stands in the place of the digest's 32 digits while it is not known.
+// This stands in the place of the digest's 32 digits while it is not known.
 inline constexpr std::string_view kBlankDigest = "00000000000000000000000000000000";
 
-// XXH3, 128 bits, of all bytes, where zeros count in the place of the digest and of the checksum
-// that follows it in a PNG, which read_frame_head() checks.  As quick as the disk.  Throws as
+// Returns XXH3, 128 bits, of all bytes.  Zeros count in the place of the digest and of the checksum
+// that follows it in a PNG, which read_frame_head() checks.  It is as quick as the disk.  Throws as
 // FileBytes::at.
 std::string frame_digest(const FileBytes& file, const FrameHead& head);
 

@@ -1,10 +1,9 @@
-// Graded frames on the disk, for projectors and encoders: RGB of 8 or 16 bits as PNG, TIFF or JPEG.
-//
-// The fields of GradedInfo and the digest of the file (frame_seal.h) are lines "name: value" of the
-// file's description, which in a JPEG is its comment.  The meaning of the codes is written where
-// readers look for it: a PNG has it in chunks, and the others in an ICC profile.  The same frame
-// has the same bytes wherever and whenever it is written, and with any number of threads
-// (set_file_threads in frame_file.h).
+// Graded frames on the disk serve projectors and encoders.  They are RGB of 8 or 16 bits as PNG,
+// TIFF or JPEG.  The fields of GradedInfo and the digest of the file (frame_seal.h) are lines
+// "name: value" of the file's description, which in a JPEG is its comment.  The meaning of the
+// codes is written where readers look for it.  A PNG has it in chunks, and the others in an ICC
+// profile.  The same frame has the same bytes wherever and whenever it is written, and with any
+// number of threads (set_file_threads in frame_file.h).
 #pragma once
 
 #include <filesystem>
@@ -29,11 +28,12 @@ struct GradedInfo {
 };
 
 // Writes a frame under its final name when it is complete, while its rows are made.  Throws as
-// TemporaryFile does, and what the rows throw; InputError for a title that a JPEG has no room for.
+// TemporaryFile does, throws what the rows throw, and throws InputError for a title that a JPEG has
+// no room for.
 void write_graded(const std::filesystem::path& path, const RowPicture& picture,
                   const GradedInfo& info, const GradedFormat& format);
 
-// A frame that is whole.
+// Writes a frame that is whole.
 void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
                   const GradedInfo& info, const GradedFormat& format);
 

@@ -1,4 +1,4 @@
-// The kinds of file that a graded frame can be.
+// A GradedFormat is one of the kinds of file that a graded frame can be.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@ struct GradedFormat {
   bool operator==(const GradedFormat&) const = default;
 };
 
-// png, jpg or tif.
+// Returns png, jpg or tif.
 const char* extension_of(GradedKind kind);
 
-// What tells files apart that frames of the same key are written into; empty for those of 16 bits,
-// which hold all of the grade.
+// Returns what tells files apart that frames of the same key are written into.  It is empty for
+// those of 16 bits, which hold all of the grade.
 std::string format_id(const GradedFormat& format);
 
 // Returns the format that a file's extension asks for.  This is PNG (.png) or TIFF (.tif, .tiff) of

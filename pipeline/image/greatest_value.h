@@ -1,15 +1,15 @@
-// The greatest of many 16-bit values, by which a black frame is known.
+// A black frame is known by the greatest of many 16-bit values.
 #pragma once
 
 #include <cstddef>
 
 namespace domefall {
 
-// Of `count` values; 0 of none.
+// Returns the greatest of `count` values, or 0 of none.
 unsigned short greatest_value(const unsigned short* values, std::size_t count);
 
-// Of half floats without their signs, whose bits are ordered as they are; infinities and NaNs come
-// last, 0x7c00 and above.
+// Returns the greatest of half floats without their signs, whose bits are ordered as they are.
+// Infinities and NaNs come last, at 0x7c00 and above.
 unsigned short greatest_magnitude(const unsigned short* halves, std::size_t count);
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// A picture that the user names: one of kPictureFormats, whatever the file is called.
+// An InputImage is a picture that the user names.  It may be any of kPictureFormats, whatever the
+// file is called.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +18,7 @@ class InputImage {
   explicit InputImage(const std::filesystem::path& file);
 
   const ImageLayout& layout() const { return reader_->layout(); }
-  // As ImageReader::read.  They throw InputError naming the file.
+  // These read as ImageReader::read.  They throw InputError naming the file.
   void read(unsigned short* rgb) const;
   void read(int first, int end, float* rgb) const;
   // Throws InputError naming the file and the pixel, which the message counts from 1 instead of 0.
@@ -28,7 +29,7 @@ class InputImage {
   std::unique_ptr<ImageReader> reader_;
 };
 
-// IEC 61966-2-1.
+// Applies the curve of IEC 61966-2-1.
 float linear_from_srgb(float v);
 
 }  // namespace domefall

@@ -1,10 +1,10 @@
-// Libraries of our own that are loaded when they are first needed, since what they bring would slow
+// Libraries of our own are loaded when they are first needed, since what they bring would slow
 // every start of the program.
 #pragma once
 
 namespace domefall {
 
-// What stands on one side of such a library and is used on the other.
+// An Interface is what stands on one side of such a library and is used on the other.
 class Interface {
  public:
   Interface() = default;

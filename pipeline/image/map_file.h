@@ -1,5 +1,5 @@
-// A file's bytes where the operating system keeps them: pages are read from the disk when they are
-// first touched, and shared by all who map the same file.
+// A mapped file's bytes stay where the operating system keeps them.  Pages are read from the disk
+// when they are first touched, and shared by all who map the same file.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,7 @@ namespace domefall {
 
 class MappedFile {
  public:
-  // Throws as RegularFile, and TemporaryError where the system cannot map the file.
-  //
+  // Maps a file.  Throws as RegularFile, and TemporaryError where the system cannot map the file.
   // A file that another program shortens while it is mapped ends the process (SIGBUS).  Files
   // written by write_atomically are replaced, never shortened.
   explicit MappedFile(const std::filesystem::path& file);
@@ -20,7 +19,7 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
   MappedFile& operator=(MappedFile&&) = delete;
 
-  // They begin on a page's boundary.
+  // The bytes begin on a page's boundary.
   std::string_view bytes() const { return {data_, size_}; }
   const std::filesystem::path& path() const { return path_; }
 

@@ -1,4 +1,5 @@
-// A file in memory: for what another program or library reads from a file, or writes to one.
+// A MemoryFile is a file in memory, for what another program or library reads from a file, or
+// writes to one.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +16,17 @@ class MemoryFile {
   // `purpose` is what errors call it.  Throws TemporaryError if there is no memory for it.
   explicit MemoryFile(const std::string& purpose);
 
-  // Both throw TemporaryError.
+  // Both functions throw TemporaryError.
   void append(std::string_view bytes) const;
   void rewind() const;
 
-  // All that it holds, whoever wrote it.
+  // Returns all that the file holds, whoever wrote it.
   std::string contents() const;
 
-  // The descriptor, which programs that this one starts do not inherit unless they are given it.
+  // Returns the descriptor, which programs that this one starts do not inherit unless they are
+  // given it.
   int number() const { return descriptor_.number(); }
-  // A path under which this process and those that inherit the descriptor may open it.
+  // Returns a path under which this process and those that inherit the descriptor may open it.
   std::string path() const;
 
  private:

@@ -1,5 +1,5 @@
-// Files that are written piece by piece while they are made, so that no encoder needs the memory of
-// a whole one (new_mapped_file.h writes them as memory).
+// These files are written piece by piece while they are made, so that no encoder needs the memory
+// of a whole one.  new_mapped_file.h writes them as memory.
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,15 @@
 
 namespace domefall {
 
-// A file in the making that appears under its name when it is whole (temporary_file.h).
+// A NewFile is a file in the making that appears under its name when it is whole
+// (temporary_file.h).
 class NewFile : public ByteSink {
  public:
   // Throws as TemporaryFile does.
   explicit NewFile(const std::filesystem::path& path) : file_(path) {}
 
-  // Encoders that call these expect no exceptions: after an error, which commit() throws, what is
-  // written goes nowhere.  Not for two threads at once.
+  // Encoders that call these expect no exceptions.  After an error, which commit() throws, what is
+  // written goes nowhere.  They are not for two threads at once.
   void write(std::string_view piece) noexcept override;
   void seek(std::uint64_t position) noexcept override;
   std::uint64_t position() const override { return written_to_ + pending_.size(); }

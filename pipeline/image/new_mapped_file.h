@@ -1,4 +1,4 @@
-// Files that are written as memory, for what is larger than memory may be (map_file.h reads them).
+// These files are written as memory, for what is larger than memory may be.  map_file.h reads them.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// A file in the making, zeroed, that appears under its name when it is whole.
+// A NewMappedFile is a file in the making, zeroed, that appears under its name when it is whole.
 class NewMappedFile {
  public:
   // The disk's space is taken at once, so that a full disk is told here (TemporaryError) and not by

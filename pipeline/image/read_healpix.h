@@ -1,4 +1,5 @@
-// All-sky maps in the HEALPix pixelisation (Gorski et al. 2005, ApJ 622, 759), from FITS files.
+// Reads all-sky maps in the HEALPix pixelisation (Gorski et al.  2005, ApJ 622, 759) from FITS
+// files.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +15,10 @@ struct HealpixFile {
   std::vector<float> values;       // 12 nside^2; bad pixels are NaN
 };
 
-// Of the first binary table that is a HEALPix map of the whole sky, within the first 100
-// extensions, column `column` (from 1), of floats or integers, a pixel or many a row.  NSIDE is
-// 8192 at most.  Throws as RegularFile, and InputError naming the file for anything that is wrong
-// in it.
+// Reads column `column` (from 1) of the first binary table that is a HEALPix map of the whole sky,
+// within the first 100 extensions.  The column has floats or integers, one pixel or many in a row.
+// NSIDE is 8192 at most.  Throws as RegularFile, and InputError naming the file for anything that
+// is wrong in it.
 HealpixFile read_healpix(const std::filesystem::path& path, int column);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// Sky maps from pictures.
+// Reads sky maps from pictures.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace domefall {
 
-// Linear-light RGB.  Integer files (8 or 16 bits) are taken as sRGB-encoded, float files as linear;
-// grey is spread to RGB, further channels are dropped.  Throws as InputImage, and InputError naming
-// the file if it cannot be read to its end or holds a pixel that is not finite.
+// Returns linear-light RGB.  Integer files (8 or 16 bits) are taken as sRGB-encoded, float files as
+// linear.  Grey is spread to RGB, and further channels are dropped.  Throws as InputImage, and
+// InputError naming the file if it cannot be read to its end or holds a pixel that is not finite.
 FloatImage read_image(const std::filesystem::path& file);
 
 }  // namespace domefall

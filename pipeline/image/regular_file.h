@@ -1,4 +1,4 @@
-// The one way in which Domefall opens a file that it reads.
+// This is the one way in which Domefall opens a file that it reads.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace domefall {
 
-// A regular file, open for reading.  A folder, a pipe, a socket or a device is refused before it is
-// opened, since to open or read one may wait for ever, and may act on a device.  Nothing is read
-// beyond the size that the file had when it was opened.  So a file of /proc, which calls itself
-// empty and may wait for news (/proc/kmsg), is empty.
+// A RegularFile is a regular file, open for reading.  A folder, a pipe, a socket or a device is
+// refused before it is opened, since to open or read one may wait for ever, and may act on a
+// device.  Nothing is read beyond the size that the file had when it was opened.  So a file of
+// /proc, which calls itself empty and may wait for news (/proc/kmsg), is empty.
 class RegularFile {
  public:
   // Throws InputError for what is no regular file and for a name that no machine can open,
@@ -28,8 +28,8 @@ class RegularFile {
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }  // bytes
 
-  // Reads the next bytes, at most `count`, and returns how many there were; 0 at the end.  Throws
-  // TemporaryError where the system fails.
+  // Reads the next bytes, at most `count`, and returns how many there were, which is 0 at the end.
+  // Throws TemporaryError where the system fails.
   std::size_t read(char* bytes, std::size_t count);
 
  private:
@@ -38,28 +38,29 @@ class RegularFile {
   std::uint64_t size_ = 0, position_ = 0;
 };
 
-// Reads bytes of an open file from `position` on, and returns how many there were: fewer than
-// `count` at its end.  Throws TemporaryError, naming `path`, where the system fails.
+// Reads bytes of an open file from `position` on, and returns how many there were, which is fewer
+// than `count` at its end.  Throws TemporaryError, naming `path`, where the system fails.
 std::size_t read_at(int descriptor, const std::filesystem::path& path, std::uint64_t position,
                     char* bytes, std::size_t count);
 
-// The whole of a file.  Throws as RegularFile, and InputError if it has more than `most` bytes.
+// Returns the whole of a file.  Throws as RegularFile, and InputError if it has more than `most`
+// bytes.
 std::string read_file(const std::filesystem::path& path, std::uint64_t most);
 
-// A file's first bytes, at most `count`.  Throws as RegularFile.
+// Returns a file's first bytes, at most `count`.  Throws as RegularFile.
 std::string start_of_file(const std::filesystem::path& path, std::size_t count);
 
-// Whether a file is of a binary format: by its first bytes or, where it is shorter than the
-// format's header, by its extension (".sky"), so that it is said to be cut short and not taken for
-// a file of another kind.  Throws as RegularFile.
+// Says whether a file is of a binary format.  Its first bytes tell or, where it is shorter than the
+// format's header, its extension (".sky"), so that it is said to be cut short and not taken for a
+// file of another kind.  Throws as RegularFile.
 bool is_of_format(const std::filesystem::path& path, std::string_view first_bytes,
                   std::string_view extension, std::size_t header_bytes);
 
-// Whether a regular file is there and may be read.  It is not opened.
+// Says whether a regular file is there and may be read.  It is not opened.
 bool is_readable_file(const std::filesystem::path& path);
 
-// For a file that the command line names, which is a mistake where the file is missing or may not
-// be read: throws InputError for these, and as RegularFile besides.  Returns the path.
+// Checks a file that the command line names, which is a mistake where the file is missing or may
+// not be read.  Throws InputError for these, and as RegularFile besides.  Returns the path.
 const std::filesystem::path& require_file(const std::filesystem::path& path);
 
 }  // namespace domefall

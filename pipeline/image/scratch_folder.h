@@ -1,4 +1,4 @@
-// A folder for files that are needed only for a moment.
+// A ScratchFolder is a folder for files that are needed only for a moment.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace domefall {
 
-// A new folder in $TMPDIR, or /tmp, that only this user may enter.  It is removed with all that it
-// holds, also where a signal ends the program.  What a program that was killed has left there is
-// removed by the next ScratchFolder of the same user.
+// It is a new folder in $TMPDIR, or /tmp, that only this user may enter.  It is removed with all
+// that it holds, also where a signal ends the program.  What a program that was killed has left
+// there is removed by the next ScratchFolder of the same user.
 class ScratchFolder {
  public:
   // Throws TemporaryError if it cannot be made.
@@ -22,7 +22,8 @@ class ScratchFolder {
   std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
 
  private:
-  // Makes the folder of this name, whose end mkdtemp() fills in.  False if a sweep took it at once.
+  // Makes the folder of this name, whose end mkdtemp() fills in.  Returns false if a sweep took it
+  // at once.
   bool make(std::string name);
 
   std::filesystem::path path_;

@@ -1,4 +1,5 @@
-// A file in the making, under a temporary name, and what becomes of those whose writer died.
+// This file has files in the making, under temporary names, and says what becomes of those whose
+// writer died.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +7,14 @@
 
 namespace domefall {
 
-// An empty file beside `path`, open for reading and writing and locked for as long as this lives:
-// .NAME.domefall-<who writes it>-<count>.tmp, where NAME is the beginning of that of `path`
-// (writer_id.h).  It is removed if it does not become `path`, also where a signal ends the program.
+// A TemporaryFile is an empty file beside `path`, open for reading and writing and locked for as
+// long as this lives.  Its name is .NAME.domefall-<who writes it>-<count>.tmp, where NAME is the
+// beginning of that of `path` (writer_id.h).  It is removed if it does not become `path`, also
+// where a signal ends the program.
 class TemporaryFile {
  public:
-  // Throws InputError where `path` is something that no file may replace: a folder, a device, a
-  // pipe.  Throws as throw_file_error() where no file can be made.
+  // Throws InputError where `path` is something that no file may replace, such as a folder, a
+  // device or a pipe.  Throws as throw_file_error() where no file can be made.
   explicit TemporaryFile(const std::filesystem::path& path);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
@@ -24,7 +26,7 @@ class TemporaryFile {
   const std::filesystem::path& path() const { return path_; }
 
   // Gives the file, written and flushed, its name, once, and flushes the folder.  Throws as
-  // throw_file_error(); a file that was at `path` is then still there.
+  // throw_file_error().  A file that was at `path` is then still there.
   void put_in_place();
 
  private:

@@ -1,4 +1,4 @@
-// TIFF files of 8 or 16 bits, RGB without alpha, packed by deflate.
+// Writes TIFF files of 8 or 16 bits, RGB without alpha, packed by deflate.
 #pragma once
 
 #include <string>

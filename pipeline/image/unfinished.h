@@ -1,5 +1,5 @@
-// What would stay behind if the program ended now: files under temporary names and scratch folders.
-// A signal can thus end the program at any moment and leave nothing.
+// This is a list of what would stay behind if the program ended now, files under temporary names
+// and scratch folders.  A signal can thus end the program at any moment and leave nothing.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ class UnfinishedList {
  public:
   UnfinishedList();
   void add(const std::filesystem::path& path);
-  // Finished, or removed.
+  // Takes from the list what is finished, or removed.
   void drop(const std::filesystem::path& path);
 
  private:
@@ -21,7 +21,7 @@ class UnfinishedList {
 };
 
 // Removes all that is unfinished, folders with what they hold.  Whoever begins or finishes
-// something afterwards waits for ever: it is for a program that is about to end.
+// something afterwards waits for ever, because this is for a program that is about to end.
 void remove_unfinished() noexcept;
 
 }  // namespace domefall

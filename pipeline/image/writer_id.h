@@ -1,5 +1,5 @@
-// Who writes a file that is not finished, as its name says it: enough to tell the living from the
-// dead.
+// A WriterId says who writes a file that is not finished, as its name has it.  This is enough to
+// tell the living from the dead.
 #pragma once
 
 #include <sys/types.h>
@@ -13,11 +13,12 @@
 namespace domefall {
 
 struct WriterId {
-  // The first 64 bits of the kernel's boot id: a machine since it was last started, with all its
-  // containers.  0 where it is not known, and then it equals no other.
+  // These are the first 64 bits of the kernel's boot id, which stand for a machine since it was
+  // last started, with all its containers.  They are 0 where it is not known, and then it equals no
+  // other.
   std::uint64_t boot = 0;
-  // The file system (st_dev of the folder) where the writer holds a lock on the file; 0 where none
-  // could be had.
+  // This is the file system (st_dev of the folder) where the writer holds a lock on the file, or 0
+  // where none could be had.
   std::uint64_t device = 0;
   std::uint64_t process_namespace = 0;  // the inode of its PID namespace
   pid_t process = 0;                    // its number in that namespace
@@ -26,22 +27,23 @@ struct WriterId {
   bool operator==(const WriterId&) const = default;
 };
 
-// This process, with no device.
+// Returns this process, with no device.
 WriterId this_writer();
 
-// "domefall-<boot>-<device>-<process_namespace>-<process>-<start>", the first three in hexadecimal.
+// Returns "domefall-<boot>-<device>-<process_namespace>-<process>-<start>", with the first three in
+// hexadecimal.
 std::string text_of(const WriterId& id);
-// Nothing for any text that text_of() does not return.
+// Returns nothing for any text that text_of() does not return.
 std::optional<WriterId> writer_of(std::string_view text);
 
-// WriterId::device of what lies in a folder; 0 where the folder cannot be asked.
+// Returns WriterId::device of what lies in a folder, or 0 where the folder cannot be asked.
 std::uint64_t device_of(const std::filesystem::path& folder);
 
-// Whether whoever began what `descriptor` is open on, a file or a folder that lies on `device`, has
-// surely ended.  On the machine that asks, a process ends with its locks: a free lock tells, in any
-// PID namespace.  Without locks (some file servers know none) the process number and the start
-// tell, within a namespace.  Of other machines, and of earlier boots, only a week without a change
-// tells.  A lock that is held always says no.
+// Says whether whoever began what `descriptor` is open on, a file or a folder that lies on
+// `device`, has surely ended.  On the machine that asks, a process ends with its locks, so a free
+// lock tells, in any PID namespace.  Without locks (some file servers know none) the process number
+// and the start tell, within a namespace.  Of other machines, and of earlier boots, only a week
+// without a change tells.  A lock that is held always says no.
 bool has_ended(const WriterId& id, int descriptor, std::uint64_t device);
 
 }  // namespace domefall

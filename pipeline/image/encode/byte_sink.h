@@ -1,4 +1,4 @@
-// Where an encoder puts the bytes of a file.
+// A ByteSink is where an encoder puts the bytes of a file.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace domefall {
 
-// Not for two threads at once.  An encoder sees no errors of the disk: whoever gives the file its
-// name throws them.
+// A sink is not for two threads at once.  An encoder sees no errors of the disk.  Whoever gives the
+// file its name throws them.
 class ByteSink {
  public:
   ByteSink() = default;
@@ -17,7 +17,7 @@ class ByteSink {
   ByteSink& operator=(const ByteSink&) = delete;
   ByteSink& operator=(ByteSink&&) = delete;
 
-  // At the position, which it moves behind the piece.
+  // Puts bytes at the position, which it moves behind the piece.
   virtual void write(std::string_view piece) noexcept = 0;
   virtual void seek(std::uint64_t position) noexcept = 0;
   virtual std::uint64_t position() const = 0;

@@ -1,9 +1,9 @@
-// Deflate (RFC 1951) by Intel's ISA-L at its level 1: a quarter of zlib's time at the same size.
-//
-// The bytes do not depend on the state of memory (see stream_memory.h), and are the same on every
-// x86-64 processor with SSE4.2, which all since 2009 have: ISA-L finds repetitions by a hash that
-// is this instruction's, and its ways for AVX2 and AVX-512 find the same ones.  Its levels 2 and
-// above are no better for frames, and level 3 gives other bytes for other instructions.
+// Deflate (RFC 1951) is done by Intel's ISA-L at its level 1, in a quarter of zlib's time at the
+// same size.  The bytes do not depend on the state of memory (see stream_memory.h), and are the
+// same on every x86-64 processor with SSE4.2, which all since 2009 have.  ISA-L finds repetitions
+// by a hash that is this instruction's, and its ways for AVX2 and AVX-512 find the same ones.  Its
+// levels 2 and above are no better for frames, and level 3 gives other bytes for other
+// instructions.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace domefall {
 
-// Bytes that can be resized without filling them.
+// A ByteBlock has bytes that can be resized without filling them.
 class ByteBlock {
  public:
   // What was there is lost.
@@ -32,16 +32,16 @@ class ByteBlock {
   std::size_t size_ = 0;
 };
 
-// The memory that one thread packs with.
+// A Deflater is the memory that one thread packs with.
 class Deflater {
  public:
   Deflater();
 
-  // A whole zlib stream (RFC 1950).
+  // Makes a whole zlib stream (RFC 1950).
   void pack_stream(std::string_view bytes, ByteBlock& out);
 
-  // A part of a stream, which ends with a byte and does not refer to the parts before it.  A stream
-  // is kStreamStart, any number of parts, kStreamEnd, and the Adler-32 sum of all bytes.
+  // Makes a part of a stream, which ends with a byte and does not refer to the parts before it.  A
+  // stream is kStreamStart, any number of parts, kStreamEnd, and the Adler-32 sum of all bytes.
   void pack_part(std::string_view bytes, ByteBlock& out);
 
  private:
@@ -53,13 +53,13 @@ class Deflater {
 
 inline constexpr std::string_view kStreamStart{"\x78\x01", 2}, kStreamEnd{"\x03\x00", 2};
 
-// The CRC-32 of RFC 1952, which PNG uses too, of bytes that follow those of `before`.
+// Returns the CRC-32 of RFC 1952, which PNG uses too, of bytes that follow those of `before`.
 unsigned crc32_of(std::string_view bytes, unsigned before = 0);
 
-// RFC 1950's Adler-32, which begins with 1, of bytes that follow those of `before`.
+// Returns RFC 1950's Adler-32, which begins with 1, of bytes that follow those of `before`.
 unsigned adler32_of(std::string_view bytes, unsigned before = 1);
 
-// Of bytes whose sum is `second`, counted from 1, and which are `count`, after others.
+// Returns it for `count` bytes that follow others and whose own sum, counted from 1, is `second`.
 unsigned adler32_joined(unsigned first, unsigned second, std::size_t count);
 
 }  // namespace domefall

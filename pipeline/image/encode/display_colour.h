@@ -1,4 +1,4 @@
-// What the codes of a display mean, for other programs to read in a file.
+// A DisplayColour says what the codes of a display mean, for other programs to read in a file.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ struct DisplayColour {
   bool operator==(const DisplayColour&) const = default;
 };
 
-// Of ITU-R BT.709 (and sRGB), BT.2020, SMPTE RP 431-2 (DCI) and its primaries with the white D65.
+// These are the primaries of ITU-R BT.709 (and sRGB), BT.2020, SMPTE RP 431-2 (DCI) and the last
+// with the white D65.
 inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
                                                      0.15, 0.06, 0.3127, 0.329},
     kRec2020Places{0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329},
@@ -29,7 +30,8 @@ inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
 // for damage.
 std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour);
 
-// An ICC profile of a matrix and a curve, for TIFF and JPEG.  The same colour has the same bytes.
+// Returns an ICC profile of a matrix and a curve, for TIFF and JPEG.  The same colour has the same
+// bytes.
 std::string icc_profile(const DisplayColour& colour);
 
 }  // namespace domefall

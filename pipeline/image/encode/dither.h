@@ -1,4 +1,4 @@
-// 16 bits to 8 without contours.
+// Dithering takes 16 bits to 8 without contours.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// OpenEXR files of scan lines: channels R, G, B, or others, of floats of 16 or 32 bits.
+// Writes OpenEXR files of scan lines, whose channels are R, G, B, or others, of floats of 16 or 32
+// bits.
 #pragma once
 
 #include <Imath/half.h>
@@ -14,7 +15,7 @@
 
 namespace domefall {
 
-// CIE x, y of red, green, blue and white.
+// ExrChromaticities are CIE x, y of red, green, blue and white.
 struct ExrChromaticities {
   float xy[8];
 };
@@ -31,7 +32,7 @@ using ExrValue =
 
 struct ExrPicture {
   int width = 0, height = 0;
-  // [height][width][number of channels]
+  // The pixels are [height][width][number of channels].
   std::variant<const Imath::half*, const float*> pixels{};
   ExrCompression compression = ExrCompression::kZip;
   std::vector<std::pair<std::string, ExrValue>> attributes;  // beside those of every file

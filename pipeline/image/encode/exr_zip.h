@@ -1,4 +1,4 @@
-// The ZIP compression of OpenEXR, packed by ISA-L.
+// This is the ZIP compression of OpenEXR, packed by ISA-L.
 #pragma once
 
 #include <Imath/half.h>
@@ -11,9 +11,9 @@ namespace domefall {
 
 class ExrZip {
  public:
-  // A block of rows rgb[height][width][3] as it stands in a file of channels B, G, R: as a zlib
-  // stream of the bytes' differences ("OpenEXR File Layout"), or as they are where that would be no
-  // smaller.  The bytes are there until the next block.
+  // Packs a block of rows rgb[height][width][3] as it stands in a file of channels B, G, R.  It is
+  // a zlib stream of the bytes' differences ("OpenEXR File Layout"), or the bytes as they are where
+  // that would be no smaller.  The bytes are there until the next block.
   std::string_view pack(const Imath::half* rgb, int width, int height);
   std::string_view pack(const float* rgb, int width, int height);
 

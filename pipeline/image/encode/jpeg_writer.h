@@ -1,4 +1,4 @@
-// JPEG files of 8 bits, whose colours are as fine as their light (4:4:4).
+// Writes JPEG files of 8 bits, whose colours are as fine as their light (4:4:4).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// What the longest comment holds.
+// The longest comment holds so many bytes.
 inline constexpr std::size_t kLongestJpegComment = 65533;
 
 struct JpegHead {

@@ -1,4 +1,4 @@
-// PNG files of 8 or 16 bits, RGB without alpha.
+// Writes PNG files of 8 or 16 bits, RGB without alpha.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct PngHead {
 // head alone.
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head);
 
-// The CRC-32 of a PNG's chunk, big-endian as it stands in the file.
+// Returns the CRC-32 of a PNG's chunk, big-endian as it stands in the file.
 std::string png_checksum(std::string_view name_and_data);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// Pictures of which no whole one need be in memory.
+// These are pictures of which no whole one need be in memory.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ struct RowPicture {
   RowSource rows;
 };
 
-// How many rows are made at once by one thread: about half a megabyte of them, which stays in a
-// processor's cache from the grade to the packing.
+// This is how many rows are made at once by one thread.  They are about half a megabyte, which
+// stays in a processor's cache from the grade to the packing.
 constexpr int rows_of_strip(int width, int height) {
   constexpr int kBytes = 1 << 19, kPixel = 3 * sizeof(unsigned short);
   const int rows = kBytes / (kPixel * width);

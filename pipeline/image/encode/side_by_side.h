@@ -1,4 +1,4 @@
-// The parts of a file, made side by side and put down in their order.
+// The parts of a file are made side by side and put down in their order.
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
@@ -9,13 +9,13 @@
 
 namespace domefall {
 
-// How many threads share the parts of one file; 0 (the start): the caller's alone.  The files are
-// the same.
+// Sets how many threads share the parts of one file.  With 0 (the start) the caller's thread makes
+// them alone.  The files are the same.
 void set_encoder_threads(int threads);
 int encoder_threads();
 
 // Calls make(part, slot) for the parts 0 to count - 1 on several threads, and put(part, slot) for
-// one after the other.  A slot is the memory of a part from its making until it is put; one that
+// one after the other.  A slot is the memory of a part from its making until it is put.  One that
 // was put serves another part.  Throws what make and put throw.
 template <class Slot, class Make, class Put>
 void make_in_order(int count, const Make& make, const Put& put) {
@@ -25,7 +25,7 @@ void make_in_order(int count, const Make& make, const Put& put) {
     for (int part = 0; part < count; ++part) make(part, slot), put(part, slot);
     return;
   }
-  // So that none waits for the one that writes.
+  // There are so many slots that none waits for the one that writes.
   const std::size_t tokens = 2 * static_cast<std::size_t>(threads);
   std::vector<Slot> slots(tokens);
   const auto slot_of = [&](int part) -> Slot& {
