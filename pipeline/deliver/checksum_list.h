@@ -1,4 +1,4 @@
-// SHA-256 sums of files, in the list that `sha256sum -c` reads.
+// This file makes SHA-256 sums of files, in the list that `sha256sum -c` reads.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// 64 hexadecimal digits.  Throws as RegularFile and begin_sha256.
+// Returns 64 hexadecimal digits.  Throws as RegularFile and begin_sha256.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 struct ListedFile {
@@ -18,11 +18,11 @@ struct ListedFile {
   bool operator==(const ListedFile&) const = default;
 };
 
-// A line for each file, in their order.  No path may have a backslash or a line's end.
+// Returns a line for each file, in their order.  No path may have a backslash or a line's end.
 std::string checksum_list(const std::vector<ListedFile>& files);
 
-// Reads it back.  Throws InputError, with the number of the line, for any other text, and for a
-// path that leads out of the folder.
+// Reads the list back.  Throws InputError, with the number of the line, for any other text, and for
+// a path that leads out of the folder.
 std::vector<ListedFile> parse_checksum_list(std::string_view text);
 
 }  // namespace domefall

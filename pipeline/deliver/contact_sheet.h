@@ -1,4 +1,4 @@
-// Small copies of frames, and many of them on one picture.
+// A contact sheet has small copies of many frames on one picture.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace domefall {
 
-// A copy of at most `columns` by `rows` pixels with the sides' ratio kept, each the mean of the
-// codes of those that it covers; the picture itself where it is no larger.
+// Returns a copy of at most `columns` by `rows` pixels with the sides' ratio kept.  Each pixel is
+// the mean of the codes of those that it covers.  The picture itself is returned where it is no
+// larger.
 GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows);
 
 // The largest pictures on a sheet are so wide and high.
 inline constexpr int kSheetPicture = 256;
 
-// At most 36 frames, evenly spread over so many.
+// Returns at most 36 frames, evenly spread over so many.
 std::vector<int> frames_of_sheet(int count);
 
 struct SheetPicture {
@@ -23,8 +24,8 @@ struct SheetPicture {
   std::string label;
 };
 
-// Six in a row, with the title above and a label below each.  There is at least one.  Throws as
-// CairoCanvas.
+// Makes a sheet with six in a row, with the title above and a label below each.  There is at least
+// one.  Throws as CairoCanvas.
 GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPicture>& pictures);
 
 }  // namespace domefall

@@ -1,4 +1,5 @@
-// What a delivery says of itself: to people in README.txt, to programs in metadata.json.
+// This file has what a delivery says of itself, to people in README.txt and to programs in
+// metadata.json.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@
 
 namespace domefall {
 
-// The files of a delivery that do not depend on the show.
+// These are the files of a delivery that do not depend on the show.
 inline constexpr const char *kReadme = "README.txt", *kMetadata = "metadata.json",
                             *kChecksums = "checksums.sha256", *kVerifyScript = "verify.sh",
                             *kContactSheet = "contact_sheet.png", *kPreview = "preview.png",
@@ -51,19 +52,21 @@ struct Delivery {
 int bits_of(const GradedFormat& format);
 double duration_s(const Delivery& delivery);
 
-// "30", or "29.97 (30000/1001)".
+// Returns "30", or "29.97 (30000/1001)".
 std::string rate_text(const FrameRate& rate);
 
-// L, R, C, LFE, Ls, Rs ... if the name of a sound's file ends in one of these; else empty.
+// Returns L, R, C, LFE, Ls, Rs ... if the name of a sound's file ends in one of these, and
+// otherwise an empty text.
 std::string channel_of_name(const std::string& path);
 
-// A few lines for slate and alignment frame, the title first.
+// Returns a few lines for slate and alignment frame, the title first.
 ShowLines show_lines(const Delivery& delivery);
 
 std::string readme_text(const Delivery& delivery);
 std::string metadata_text(const Delivery& delivery);
 
-// A script for any POSIX shell with sha256sum or shasum.  `files` is how many are on the list.
+// Returns a script for any POSIX shell with sha256sum or shasum.  `files` is how many are on the
+// list.
 std::string verify_script(std::size_t files);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// What a finished delivery lacks, told from the folder alone.
+// This check says what a finished delivery lacks.  It looks at the folder alone.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// Numbers are those in the names of the frames; files are named by their paths below the folder.
+// Numbers are those in the names of the frames.  Files are named by their paths below the folder.
 struct DeliveryFaults {
   std::vector<std::string> whole;  // sentences about the delivery as a whole
   std::vector<int> missing_frames, damaged_frames;
@@ -18,9 +18,10 @@ struct DeliveryFaults {
   bool none() const;
 };
 
-// Reads every file.  Every sum on the list is that of its file, nothing else is there but hidden
-// files, and the frames are all of those from the first to the last, each once, whole and alike.
-// Throws InputError if there is no such folder, and TemporaryError where a file cannot be read.
+// Reads every file.  In a good delivery every sum on the list is that of its file, nothing else is
+// there but hidden files, and the frames are all of those from the first to the last, each once,
+// whole and alike.  Throws InputError if there is no such folder, and TemporaryError where a file
+// cannot be read.
 DeliveryFaults check_delivery(const std::filesystem::path& folder, int threads);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// The files of a delivery as they lie on the disk.
+// These are the files of a delivery as they lie on the disk.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// The paths below the folder, with '/' and sorted, of all files in it and in those below
+// Returns the paths below the folder, with '/' and sorted, of all files in it and in those below
 // it.  Hidden files and folders are left out, links and special files are not.  A folder that is
 // missing has none.  Throws TemporaryError where one cannot be read.
 std::vector<std::string> files_below(const std::filesystem::path& folder);

@@ -1,4 +1,4 @@
-// Steps that do not depend on each other, on several threads.
+// Steps that do not depend on each other run on several threads.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// Calls step(0) to step(count - 1).  Throws what the first of them that fails throws; those that
+// Calls step(0) to step(count - 1).  Throws what the first of them that fails throws.  Those that
 // were not begun by then are not called.
 template <class Step>
 void in_parallel(int count, int threads, const Step& step) {

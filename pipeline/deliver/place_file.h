@@ -1,4 +1,4 @@
-// Files of a delivery, put where they belong.
+// These functions put files of a delivery where they belong.
 #pragma once
 
 #include <filesystem>

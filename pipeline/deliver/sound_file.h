@@ -1,4 +1,4 @@
-// How long a sound is, by the head of its WAV file.
+// The head of a WAV file says how long its sound is.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct SoundFile {
 };
 
 // Reads RIFF/WAVE and RF64 (EBU Tech 3306), PCM of whole or floating-point numbers.  Throws
-// InputError, naming the file, for anything else and for a file that ends before its sound does;
-// and as RegularFile.
+// InputError, naming the file, for anything else and for a file that ends before its sound does.
+// Throws as RegularFile, too.
 SoundFile read_sound_file(const std::filesystem::path& path);
 
 }  // namespace domefall

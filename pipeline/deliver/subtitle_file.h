@@ -1,4 +1,4 @@
-// Subtitles in SubRip's format (.srt).
+// Reads subtitles in SubRip's format (.srt).
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,12 @@ struct SubtitleFile {
   double end_s = 0;  // when the last one goes
 };
 
-// Reads the times of a text: lines of "00:00:01,000 --> 00:00:04,000".  Throws InputError, with the
-// number of the line, if there is none, if one of them is wrong, or ends before it begins.
+// Reads the times of a text, which has lines of "00:00:01,000 --> 00:00:04,000".  Throws
+// InputError, with the number of the line, if there is none, if one of them is wrong, or ends
+// before it begins.
 SubtitleFile parse_subtitles(std::string_view text);
 
-// The same of a file, whose name stands before the message.  Throws as RegularFile too.
+// Does the same for a file, whose name stands before the message.  Throws as RegularFile too.
 SubtitleFile read_subtitle_file(const std::filesystem::path& path);
 
 }  // namespace domefall
