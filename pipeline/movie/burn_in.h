@@ -1,5 +1,4 @@
-// What a review movie has written in its corners: the number of each frame, and what the show is
-// doing.
+// A review movie has written in its corners the number of each frame, and what the show is doing.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Another program, run as a part of this one: it never outlives it.
+// A ChildProgram is another program, run as a part of this one.  It never outlives it.
 #pragma once
 
 #include <sys/types.h>
@@ -19,33 +19,34 @@ struct ChildOutcome {
 
   bool good() const;
   bool killed() const;  // by a signal
-  // "ended with code 1", "was ended by signal 9 (Killed)", then what it said.
+  // Says "ended with code 1" or "was ended by signal 9 (Killed)", then what the program said.
   std::string text() const;
 };
 
-// The program of a name that the PATH finds, with an argument vector and no shell.  Its standard
-// error is read all the time, so that it never waits for that.  The kernel kills it when the thread
-// that started it ends, whatever ended that; signals to the terminal's group do not reach it.
+// Runs the program of a name that the PATH finds, with an argument vector and no shell.  Its
+// standard error is read all the time, so that it never waits for that.  The kernel kills it when
+// the thread that started it ends, whatever ended that.  Signals to the terminal's group do not
+// reach it.
 class ChildProgram {
  public:
-  // `arguments` begin with the name.  `kept` are descriptors of this process that it shares under
-  // the same numbers.  Throws TemporaryError if it cannot be started, which says that `package` has
-  // it.
+  // `arguments` begin with the name.  `kept` are descriptors of this process that the program
+  // shares under the same numbers.  Throws TemporaryError if it cannot be started, which says that
+  // `package` has it.
   ChildProgram(std::vector<std::string> arguments, const std::vector<int>& kept,
                const std::string& package);
-  // Kills it if it has not been waited for.
+  // Kills the program if it has not been waited for.
   ~ChildProgram();
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram(ChildProgram&&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
   ChildProgram& operator=(ChildProgram&&) = delete;
 
-  // Writes to its standard input.  False if it does not read any more.
+  // Writes to its standard input.  Returns false if it does not read any more.
   bool write(const void* bytes, std::size_t count) const;
 
-  // Ends its standard input, and waits until it has ended.  Once.
+  // Ends its standard input, and waits until it has ended.  This may be called once.
   ChildOutcome wait();
-  // Its standard output, complete after wait(); kMostOutput bytes at most.
+  // Returns its standard output, which is complete after wait() and has kMostOutput bytes at most.
   const std::string& output() const { return output_; }
   static constexpr std::size_t kMostOutput = 1 << 20;
 

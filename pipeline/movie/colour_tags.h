@@ -1,4 +1,4 @@
-// The colour tags of a video: code points of ITU-T H.273, by which a player knows what its codes
+// The colour tags of a video are code points of ITU-T H.273, by which a player knows what its codes
 // mean.
 #pragma once
 
@@ -16,12 +16,12 @@ struct ColourTags {
   bool operator==(const ColourTags&) const = default;
 };
 
-// Of codes for such a display, or for one that is not known.  A curve or primaries that H.273 has
-// no code point for, as a power of 2.6, are unspecified.  Primaries count to 0.001 in x and y, and
-// those of DCI-P3 also with a white that was adapted to D65, powers to 0.01.
+// Returns the tags of codes for such a display, or for one that is not known.  A curve or primaries
+// that H.273 has no code point for, as a power of 2.6, are unspecified.  Primaries count to 0.001
+// in x and y, and powers to 0.01.  Those of DCI-P3 also count with a white that was adapted to D65.
 ColourTags tags_of(const std::optional<DisplayColour>& display);
 
-// "primaries smpte432, transfer gamma 2.2, matrix bt709", for people.
+// Says "primaries smpte432, transfer gamma 2.2, matrix bt709", for people.
 std::string describe(const ColourTags& tags);
 
 }  // namespace domefall

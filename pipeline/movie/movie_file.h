@@ -1,4 +1,4 @@
-// A movie in the making, by the program ffmpeg.
+// A MovieFile is a movie in the making, by the program ffmpeg.
 #pragma once
 
 #include <filesystem>
@@ -28,21 +28,21 @@ struct MoviePlan {
 };
 
 // Makes a movie of one small black frame, which goes nowhere, so that an ffmpeg that lacks
-// something says so before any frame is made, and asks for mkvmerge if the preset needs it.  Takes
-// 0.1 s.  Throws TemporaryError without either and where ffmpeg cannot make such a movie.
+// something says so before any frame is made.  Asks for mkvmerge if the preset needs it.  This
+// takes 0.1 s.  Throws TemporaryError without either and where ffmpeg cannot make such a movie.
 void try_ffmpeg(const MoviePlan& plan);
 
 // Frames go through a pipe, and the file appears under its name when it is whole
-// (temporary_file.h).  A movie of the whole sphere is written twice: by ffmpeg, which cannot say
+// (temporary_file.h).  A movie of the whole sphere is written twice, by ffmpeg, which cannot say
 // that it is one, and by mkvmerge, which can.
 class MovieFile {
  public:
   // Starts ffmpeg.  Throws as TemporaryFile and ChildProgram.
   MovieFile(const std::filesystem::path& path, const MoviePlan& plan);
 
-  // Adds the next frame.  Throws what its rows throw, and if ffmpeg has ended: TemporaryError where
-  // it was killed or names an error of the disk or of memory, and else std::runtime_error; both say
-  // what it said last.
+  // Adds the next frame.  Throws what its rows throw.  If ffmpeg has ended, throws TemporaryError
+  // where it was killed or names an error of the disk or of memory, and else std::runtime_error.
+  // Both say what it said last.
   void add(const RowPicture& frame);
 
   // Ends the movie, asks ffprobe how many frames it has, flushes it and gives it its name.  Throws
@@ -50,7 +50,7 @@ class MovieFile {
   void finish();
 
  private:
-  // The descriptor of the file that ffmpeg writes.
+  // Returns the descriptor of the file that ffmpeg writes.
   int by_ffmpeg() const { return flat_ ? flat_->descriptor() : file_.descriptor(); }
   void wrap_around() const;
   [[noreturn]] void fail(const ChildOutcome& outcome) const;

@@ -1,4 +1,5 @@
-// The kinds of movie, each for one use, and what ffmpeg has to be told to make them.
+// A MoviePreset is a kind of movie, which has one use.  It says what ffmpeg has to be told to make
+// it.
 #pragma once
 
 #include <string>
@@ -24,10 +25,10 @@ struct MoviePreset {
 
 const std::vector<MoviePreset>& movie_presets();
 
-// Throws InputError for other names.
+// Returns the preset of a name.  Throws InputError for other names.
 const MoviePreset& movie_preset(const std::string& name);
 
-// ffmpeg's name of the format that it writes.
+// Returns ffmpeg's name of the format that it writes.
 std::string_view format_of(const MoviePreset& preset);
 
 struct MovieSize {
@@ -36,13 +37,13 @@ struct MovieSize {
   bool operator==(const MovieSize&) const = default;
 };
 
-// The size of a movie of frames of a size: theirs, or the largest one of their shape that the
-// preset takes.  Throws InputError for an odd size that the codec does not take.
+// Returns the size of a movie of frames of a size.  It is theirs, or the largest one of their shape
+// that the preset takes.  Throws InputError for an odd size that the codec does not take.
 MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames);
 
-// ffmpeg's options from the frames, which it reads from its standard input as 16-bit RGB, to the
-// codec.  `subtitles` is a file in the ASS format in which each frame has a tenth of a second
-// (burn_in.h), or empty.
+// Returns ffmpeg's options from the frames, which it reads from its standard input as 16-bit RGB,
+// to the codec.  `subtitles` is a file in the ASS format in which each frame has a tenth of a
+// second (burn_in.h), or empty.
 std::vector<std::string> input_options(const MovieSize& frames, const FrameRate& rate);
 std::vector<std::string> video_options(const MoviePreset& preset, const MovieSize& frames,
                                        const FrameRate& rate, const ColourTags& tags,

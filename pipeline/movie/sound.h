@@ -1,4 +1,4 @@
-// The sound of a movie: one file of any number of channels, or one file for each of six.
+// The sound of a movie is one file of any number of channels, or one file for each of six.
 #pragma once
 
 #include <filesystem>
@@ -17,18 +17,19 @@ struct Sound {
 
 // Looks at the files by the program ffprobe.  One file is taken as it is.  Six are channels, each
 // named at the end of its file's name, after `_`, `-`, `.` or a blank and in any case: L, R, C,
-// LFE, Ls, Rs.  None is no sound.  Throws InputError for other numbers of files, for a name that is
-// missing or double, for a file without sound and for one of six that has more channels, and
-// TemporaryError without the program.
+// LFE, Ls, Rs.  No file means no sound.  Throws InputError for other numbers of files, for a name
+// that is missing or double, for a file without sound and for one of six that has more channels.
+// Throws TemporaryError without the program.
 Sound read_sound(const std::vector<std::filesystem::path>& files);
 
-// The sound of a show has to begin with it.  Throws InputError if it is longer by more than half a
-// frame.  Returns a warning if it is shorter by more than that, and otherwise an empty text.
+// Checks the length of a sound, which has to begin with the show.  Throws InputError if it is
+// longer by more than half a frame.  Returns a warning if it is shorter by more than that, and
+// otherwise an empty text.
 std::string compare_lengths(const Sound& sound, int frames, const FrameRate& rate);
 
-// ffmpeg's options for sound that comes with the frames first to first + count - 1 of a show: those
-// of its inputs, which follow the one of the frames, and those by which they become one stream as
-// long as the frames.
+// Returns ffmpeg's options for sound that comes with the frames first to first + count - 1 of a
+// show.  They are those of its inputs, which follow the one of the frames, and those by which they
+// become one stream as long as the frames.
 std::vector<std::string> sound_inputs(const Sound& sound);
 std::vector<std::string> sound_options(const Sound& sound, int first, int count,
                                        const FrameRate& rate);
