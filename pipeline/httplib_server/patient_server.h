@@ -1,4 +1,5 @@
-// An HTTP server whose clients have bounds: on the bytes of a request, and on the time they take.
+// A PatientServer is an HTTP server whose clients have bounds, on the bytes of a request and on the
+// time they take.
 #pragma once
 
 #include <httplib.h>
@@ -7,10 +8,11 @@
 
 namespace domefall {
 
-// httplib's server limits the length of a body and the silence between two bytes, but neither the
-// length of a line nor the number of header lines, nor how long a request takes in whole: one
-// connection could fill the memory, and a few slow ones hold all threads.  Here a request that is
-// longer than kLongestRequest, or takes longer than the read timeout, ends its connection.
+// httplib's server limits the length of a body and the silence between two bytes.  It limits
+// neither the length of a line nor the number of header lines, nor how long a request takes in
+// whole.  One connection could fill the memory, and a few slow ones hold all threads.  Here a
+// request that is longer than kLongestRequest, or takes longer than the read timeout, ends its
+// connection.
 class PatientServer final : public httplib::Server {
  public:
   static constexpr std::size_t kLongestRequest = 65'536;  // bytes, of all lines and the body

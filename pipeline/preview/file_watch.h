@@ -1,4 +1,4 @@
-// Tells when a file has been written anew.
+// A FileWatch tells when a file has been written anew.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,16 @@
 
 namespace domefall {
 
-// Watches the folder that holds the file, since most editors write another file and rename it, and
-// that of the file which a link leads to.
+// It watches the folder that holds the file, since most editors write another file and rename it,
+// and that of the file which a link leads to.
 class FileWatch {
  public:
   // Throws TemporaryError if the system grants no watch.
   explicit FileWatch(const std::filesystem::path& file);
 
-  // Waits until the file was written or replaced, or `milliseconds` have passed.  True for the
-  // former.  Throws TemporaryError if the folder is no longer there, after which nothing is seen.
+  // Waits until the file was written or replaced, or `milliseconds` have passed.  Returns true for
+  // the former.  Throws TemporaryError if the folder is no longer there, after which nothing is
+  // seen.
   bool wait(int milliseconds);
 
  private:

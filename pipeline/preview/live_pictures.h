@@ -1,5 +1,5 @@
-// The pictures of one show for the clients of the live preview, made by the show's own renderer and
-// grade.
+// LivePictures are the pictures of one show for the clients of the live preview, made by the show's
+// own renderer and grade.
 #pragma once
 
 #include <atomic>
@@ -22,10 +22,10 @@ struct LivePicture {
   FrameState state;  // with the camera and the projection of the picture
 };
 
-// Not for two threads at once.
+// They are not for two threads at once.
 class LivePictures {
  public:
-  // `threads` as Renderer has it.  Throws as Grader and Renderer.
+  // `threads` is as Renderer has it.  Throws as Grader and Renderer.
   LivePictures(Show show, int threads);
   ~LivePictures();
   LivePictures(const LivePictures&) = delete;
@@ -33,9 +33,9 @@ class LivePictures {
   LivePictures& operator=(const LivePictures&) = delete;
   LivePictures& operator=(LivePictures&&) = delete;
 
-  // As the file has it, whatever was asked for.
+  // Returns the show as the file has it, whatever was asked for.
   const Show& show() const { return show_; }
-  // The display and the view where a request names none.
+  // These are the display and the view where a request names none.
   const std::string& display() const { return usual_.display(); }
   const std::string& view() const { return usual_.view(); }
   int threads() const { return renderer_->threads(); }
@@ -44,19 +44,20 @@ class LivePictures {
   // the constructor, and then keeps the version before.
   void take(Show show);
 
-  // The state of the picture that is asked for.  Throws InputError where the show cannot be seen
-  // so.
+  // Returns the state of the picture that is asked for.  Throws InputError where the show cannot be
+  // seen so.
   FrameState state_for(const PictureRequest& request) const;
 
-  // Throws as Renderer::render, RenderStopped soon after `stop` becomes true, and InputError for a
-  // display or a view that is not there.
+  // Makes the picture.  Throws as Renderer::render, throws RenderStopped soon after `stop` becomes
+  // true, and throws InputError for a display or a view that is not there.
   LivePicture make(const PictureRequest& request, const std::atomic<bool>& stop);
 
-  // What a request sees along the light of one pixel, and the star that is seen near it, as JSON.
+  // Returns what a request sees along the light of one pixel, and the star that is seen near it, as
+  // JSON.
   std::string probe(const PictureRequest& request, PixelPosition at);
 
  private:
-  // The show as a request wants it, for the renderer, which reads it anew for each frame.
+  // Sets the show as a request wants it, for the renderer, which reads it anew for each frame.
   void prepare(const PictureRequest& request);
   const Grader& grader_for(const PictureRequest& request);
   // Begins to make the table of the usual grade, beside what is done otherwise.
@@ -72,7 +73,7 @@ class LivePictures {
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<StarLabels> labels_;
   std::map<std::pair<std::string, std::string>, Grader> others_;  // by display and view
-  // Set once the table of the usual grade is made; null before that has begun.
+  // This is set once the table of the usual grade is made, and null before that has begun.
   std::shared_ptr<std::atomic<bool>> table_made_;
   std::vector<std::thread> making_tables_;
   HalfFrame frame_;

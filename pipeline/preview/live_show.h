@@ -1,5 +1,5 @@
-// A show file as it stands in its author's editor: the last version that is right, and what is
-// wrong with the file now.
+// A LiveShow is a show file as it stands in its author's editor.  It has the last version that is
+// right, and says what is wrong with the file now.
 #pragma once
 
 #include <condition_variable>
@@ -41,8 +41,8 @@ class LiveShow {
   // have passed.
   Version changed_since(int readings, int seconds) const;
 
-  // Makes a picture when it is its turn; nothing if it is outdated before it is made, or given up.
-  // Throws as LivePictures, and TemporaryError where too many wait.
+  // Makes a picture when it is its turn.  Returns nothing if it is outdated before it is made, or
+  // given up.  Throws as LivePictures, and TemporaryError where too many wait.
   struct Made {
     LivePicture picture;
     int revision = 0;

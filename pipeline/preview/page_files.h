@@ -1,4 +1,4 @@
-// The files of the live preview's page, which are a part of the program.
+// The files of the live preview's page are a part of the program.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ struct PageFile {
   std::string_view bytes;
 };
 
-// Those of pipeline/preview/page, which the build turns into a source (embed_page.cmake).
+// Returns the files of pipeline/preview/page, which the build turns into a source
+// (embed_page.cmake).
 std::span<const PageFile> page_files();
 
 }  // namespace domefall

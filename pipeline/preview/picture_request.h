@@ -1,4 +1,4 @@
-// What a client of the live preview asks to see.
+// A PictureRequest is what a client of the live preview asks to see.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace domefall {
 
-// Where a screen's camera looks, for the audience of the frame: degrees to the right of their
-// front, above their horizon, and clockwise about the line of sight.
+// A ScreenLook says where a screen's camera looks, for the audience of the frame.  The angles are
+// degrees to the right of their front, above their horizon, and clockwise about the line of sight.
 struct ScreenLook {
   double azimuth_deg = 0, altitude_deg = 45, roll_deg = 0;
 };
@@ -31,10 +31,11 @@ struct PictureRequest {
   bool moving = false;  // whether a picture that is less fine but sooner there is better
 };
 
-// The value of a parameter of the request's address; nothing where it is not given.
+// Parameters give the value of a parameter of the request's address, or nothing where it is not
+// given.
 using Parameters = std::function<std::optional<std::string>(std::string_view name)>;
 
-// Pictures are between so many pixels wide, and high.
+// Pictures are between so many pixels wide, and so many high.
 inline constexpr int kLeastSide = 16, kMostSide = 4096;
 
 // Reads what the address says.  A frame beyond the show's end becomes its last one, since a show

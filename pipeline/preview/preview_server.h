@@ -1,6 +1,7 @@
-// The live preview of a show for a browser on this machine: its page, and what the page asks for.
+// A PreviewServer is the live preview of a show for a browser on this machine.  It serves its page,
+// and what the page asks for.
 //
-// It listens on 127.0.0.1 alone, and answers only requests whose address begins with the token that
+// It listens on 127.0.0.1 alone.  It answers only requests whose address begins with the token that
 // is in the page's own, whose Host is this machine, and which no other page has sent (Origin,
 // Sec-Fetch-Site).  It serves its page, pictures and facts of one show, and no file.
 #pragma once
@@ -23,7 +24,7 @@ class PreviewServer {
   PreviewServer& operator=(PreviewServer&&) = delete;
 
   int port() const;
-  // http://127.0.0.1:PORT/TOKEN/
+  // The address is http://127.0.0.1:PORT/TOKEN/.
   const std::string& url() const;
 
   // Serves until stop() is called, by any thread.

@@ -1,4 +1,4 @@
-// The grade by which a screen shows what is made for a dome.
+// By this grade a screen shows what is made for a dome.
 #pragma once
 
 #include "pipeline/grade/grader.h"
@@ -6,8 +6,8 @@
 
 namespace domefall {
 
-// The default display is for domes, and a preview for screens.  The displays of a show's own
-// configuration are not known, and stay.
+// Returns settings for a screen.  The default display is for domes, and a preview is for screens.
+// The displays of a show's own configuration are not known, and stay.
 GradeSettings for_a_screen(GradeSettings settings);
 
 // Does to a flat picture of a dome what its own light does, which that of the whole dome decides.

@@ -1,4 +1,4 @@
-// The cameras by which screens look at the frames of a show.
+// These are the cameras by which screens look at the frames of a show.
 #pragma once
 
 #include "pipeline/preview/picture_request.h"
@@ -12,13 +12,13 @@ namespace domefall {
 // zenith up. Titles stay where they are for the audience.
 void see_in(const Show& show, const Projection& projection, FrameState& state);
 
-// Turns a frame's camera to look somewhere.  A flat picture has that place in its middle; one for
-// an audience has it 45 degrees above the front.
+// Turns a frame's camera to look somewhere.  A flat picture has that place in its middle, and one
+// for an audience has it 45 degrees above the front.
 void turn_to(const ScreenLook& look, FrameState& state);
 
-// What a camera is said to be in a show's file, so that a frame of the show looks as a picture
-// does: `euler_deg`, as YAML.  A dome gets what is in the middle of a flat picture 45 degrees above
-// its front.
+// Returns what a camera is said to be in a show's file, so that a frame of the show looks as a
+// picture does.  It is `euler_deg`, as YAML.  A dome gets what is in the middle of a flat picture
+// 45 degrees above its front.
 std::string camera_as_yaml(const Show& show, const FrameState& state);
 
 }  // namespace domefall

@@ -1,4 +1,4 @@
-// What the page of the live preview knows of a show besides its pictures, as JSON.
+// These facts are what the page of the live preview knows of a show besides its pictures, as JSON.
 #pragma once
 
 #include <atomic>
@@ -8,12 +8,12 @@
 
 namespace domefall {
 
-// The show's times, names and choices, and what its observer's instruments say along it.  It takes
-// some 0.1 s for a long show.
+// Returns the show's times, names and choices, and what its observer's instruments say along it.
+// It takes some 0.1 s for a long show.
 std::string show_facts(const LiveShow::Version& version, int threads);
 
-// What `check` warns of: jumps, titles that nobody sees, and brightness.  A short show takes 0.1 s,
-// a long one seconds; returns early, with nothing, once `stop` is set.
+// Returns what `check` warns of, which is jumps, titles that nobody sees, and brightness.  A short
+// show takes 0.1 s, a long one seconds.  It returns early, with nothing, once `stop` is set.
 std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop);
 
 }  // namespace domefall

@@ -21,7 +21,7 @@ class WarningFinder {
   WarningFinder& operator=(const WarningFinder&) = delete;
   WarningFinder& operator=(WarningFinder&&) = delete;
 
-  // Those of the present version, or that they are not found yet, as JSON.
+  // Returns the warnings of the present version, or says that they are not found yet, as JSON.
   std::string as_json() const;
 
  private:
