@@ -1,4 +1,4 @@
-// The greatest value in a frame, by which a black one is known.
+// A black frame is known by the greatest value in it.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,11 @@ namespace domefall {
 inline constexpr double kBrightestOfBlack = 1.0 / 255 / 12.92;
 inline constexpr double kBrightestOfBlackCodes = 1.0 / 255;
 
-// The greatest absolute value; infinity where one is infinite or no number.
+// Returns the greatest absolute value, which is infinity where one is infinite or no number.
 double brightest_value(const HalfFrame& frame);
 
-// The same rows, which raise `brightest` to their greatest code as they are made.  Both must
-// outlive the picture.
+// Returns the same rows, which raise `brightest` to their greatest code as they are made.  Both
+// must outlive the picture.
 RowPicture watched(const RowPicture& picture, std::atomic<unsigned short>& brightest);
 
 // Returns the brightest value of a file.  For an .exr this is its greatest absolute value, as

@@ -1,4 +1,4 @@
-// A note beside a plan that tells of the work after its frames: it is there while that goes on, and
+// A note beside a plan tells of the work after its frames.  It is there while that goes on, and
 // stays where it failed or was killed.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace domefall {
 
-// Writes DIR/farm/conclusion_ID.txt, with the log of this job of Slurm if it is one; an empty text
+// Writes DIR/farm/conclusion_ID.txt, with the log of this job of Slurm if it is one.  An empty text
 // removes it.  Throws as write_atomically().
 void note_conclusion(const FarmPlan& plan, const std::string& text);
 
-// The note of a plan with its log's last line; empty if there is none.
+// Returns the note of a plan with its log's last line, or an empty text if there is none.
 std::string conclusion_of(const std::filesystem::path& out, const std::string& plan_id);
 
 // Does the work that concludes a plan or a round of it, under such a note.

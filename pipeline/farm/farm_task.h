@@ -1,5 +1,5 @@
-// The task runner: one chunk of a plan, rendered by a `domefall render` of its own.  All engines
-// that run tasks themselves, here or on a cluster, run this.
+// The task runner renders one chunk of a plan, by a `domefall render` of its own.  All engines that
+// run tasks themselves, here or on a cluster, run this.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace domefall {
 
 class SignalInbox;
 
-// What came of a chunk.
+// A TaskEnd says what came of a chunk.
 struct TaskEnd {
   enum class Kind {
     kDone,
@@ -27,22 +27,23 @@ struct TaskEnd {
 
 struct TaskPlace {
   int threads = 1;
-  // A manager that signals the worker itself: TERM is then not passed on, lest it come twice, and
-  // ends the worker in the middle of its frame.
+  // This is for a manager that signals the worker itself.  TERM is then not passed on, lest it come
+  // twice, and ends the worker in the middle of its frame.
   bool signals_reach_worker = false;
 };
 
 // Renders the chunk and says on standard error what the worker says.  USR1 asks it to end its frame
-// and to be tried again; INT, TERM and HUP end it.  A worker that something else stops is
+// and to be tried again.  INT, TERM and HUP end it.  A worker that something else stops is
 // continued, and killed when it is stopped again.
 TaskEnd run_task(const FarmPlan& plan, const PlannedChunk& chunk, const TaskPlace& place,
                  SignalInbox& inbox);
 
-// The command line by which any machine renders a chunk.
+// Returns the command line by which any machine renders a chunk.
 std::vector<std::string> render_command(const FarmPlan& plan, const std::string& frames,
                                         int threads);
 
-// The show or the folder of the frames, where it cannot be used at the moment; else empty.
+// Returns the show or the folder of the frames, where it cannot be used at the moment, and
+// otherwise an empty text.
 std::string missing_path(const FarmPlan& plan);
 
 }  // namespace domefall

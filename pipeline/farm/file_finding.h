@@ -1,4 +1,4 @@
-// What one file of a frame is found to be, at a glance or by all of its bytes.
+// A FileFinding is what one file of a frame is found to be, at a glance or by all of its bytes.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace domefall {
 
-// A file that a folder of frames is to hold.
+// An ExpectedFile is one that a folder of frames is to hold.
 struct ExpectedFile {
   int frame = 0;
   std::filesystem::path path;
@@ -20,18 +20,18 @@ struct ExpectedFile {
 struct FileFinding {
   FrameCondition condition = FrameCondition::kMissing;
   std::string unreadable;  // why it cannot be read; the rest is then unknown
-  // Of a good file of which every byte was read:
+  // These are set for a good file of which every byte was read.
   bool black = false;       // no value exceeds one code of 8 bits
   bool not_finite = false;  // a value is infinite or no number
   bool unlike = false;      // no manifest that has its key has its digest
 };
 
-// Tells by the manifest where that has a line for the file as it lies there, else by the file's
-// beginning.  A file of the wanted key, but of another length than was noted, is damaged.
+// Tells by the manifest where that has a line for the file as it lies there, and otherwise by the
+// file's beginning.  A file of the wanted key, but of another length than was noted, is damaged.
 FileFinding glance_at(const ExpectedFile& file, const Manifest& manifest);
 
 // Reads every byte.  A file that is as it was written, and is in the manifest, was seen by its
-// writer to be finite and has its brightness there; any other good one is decoded.
+// writer to be finite and has its brightness there.  Any other good one is decoded.
 FileFinding examine_file(const ExpectedFile& file, const Manifest& manifest);
 
 }  // namespace domefall

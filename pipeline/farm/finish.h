@@ -1,4 +1,4 @@
-// What follows the frames of a plan: their verification, the next round, a movie, a delivery.
+// After the frames of a plan follow their verification, the next round, a movie and a delivery.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// What `domefall farm verify` says of a plan's frames.
+// FramesVerdict is what `domefall farm verify` says of a plan's frames.
 struct FramesVerdict {
   bool complete = false;
   std::string to_make;  // frames that are missing, damaged or stale: 3-5,9
@@ -19,11 +19,11 @@ struct FramesVerdict {
 // does.
 FramesVerdict verify_frames(const FarmPlan& plan);
 
-// The plan with a further round, of those frames.  Their chunks are as long as those of round 0 are
-// on average, and at most `most`.
+// Returns the plan with a further round, of those frames.  Their chunks are as long as those of
+// round 0 are on average, and at most `most`.
 FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most);
 
-// The command lines that make what the plan asks for of its frames.
+// Returns the command lines that make what the plan asks for of its frames.
 std::vector<std::string> movie_command(const FarmPlan& plan);
 std::vector<std::string> deliver_command(const FarmPlan& plan);
 

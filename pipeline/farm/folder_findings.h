@@ -1,4 +1,4 @@
-// What a folder of frames is found to hold, frame by frame.
+// FolderFindings say what a folder of frames is found to hold, frame by frame.
 #pragma once
 
 #include <filesystem>
@@ -26,10 +26,10 @@ struct FolderFindings {
 
   std::map<int, std::string> reasons;               // why a frame is unreadable
   std::vector<std::filesystem::path> others_files;  // of `others`, below the folder
-  // Frames whose linear file is stale, and those of which only the graded one is.
+  // These are the frames whose linear file is stale, and those of which only the graded one is.
   std::vector<int> stale_linear, stale_grades;
 
-  // What a run over the frames makes: all that is neither good nor unreadable.
+  // Returns what a run over the frames makes, which is all that is neither good nor unreadable.
   std::vector<int> to_make() const;
 };
 
@@ -41,11 +41,11 @@ std::vector<FileFinding> look_at_files(
     const std::vector<ExpectedFile>& files, const Manifest& manifest, LookAtFile look, int threads,
     const std::function<void()>& step = [] {});
 
-// Of findings in the order of the files, which are in the order of their frames.
+// Takes findings in the order of the files, which are in the order of their frames.
 FolderFindings sum_up(const std::vector<ExpectedFile>& files,
                       const std::vector<FileFinding>& findings);
 
-// The numbers that are in any of the lists, sorted.
+// Returns the numbers that are in any of the lists, sorted.
 std::vector<int> joined_frames(std::initializer_list<const std::vector<int>*> lists);
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
-// A plan as other queue managers read it.  What is JSON throws InputError for a path that is not
-// UTF-8.
+// These functions write a plan as other queue managers read it.  Those that write JSON throw
+// InputError for a path that is not UTF-8.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace domefall {
 
-// One command line a chunk, quoted for a shell.
+// Returns one command line a chunk, quoted for a shell.
 std::string list_of_commands(const FarmPlan& plan);
 
-// An Open Job Description template, version 2023-09, without extensions: a step with one task a
-// chunk, and one that verifies and repairs after it.  Throws InputError for a path with {{.
-// At most kMostOpenJdTasks chunks.
+// Returns an Open Job Description template, version 2023-09, without extensions.  It has a step
+// with one task a chunk, and one that verifies and repairs after it.  Throws InputError for a path
+// with {{. There are at most kMostOpenJdTasks chunks.
 // https://github.com/OpenJobDescription/openjd-specifications/wiki/2023-09-Template-Schemas
 std::string openjd_template(const FarmPlan& plan);
 inline constexpr int kMostOpenJdTasks = 1024;
 
-// A job for Flamenco's job type farm/flamenco/domefall.js, as its manager takes it at
+// Returns a job for Flamenco's job type farm/flamenco/domefall.js, as its manager takes it at
 // /api/v3/jobs.
 std::string flamenco_job(const FarmPlan& plan);
 

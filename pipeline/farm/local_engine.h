@@ -1,5 +1,5 @@
-// The tasks of a plan on this machine, each as a process `domefall farm work`, which is what a
-// cluster runs, too.
+// The local engine runs the tasks of a plan on this machine, each as a process `domefall farm
+// work`, which is what a cluster runs, too.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,7 @@
-// What the processes of a farm say of their work, in the folder of the frames:
-// DIR/farm/manifest/WRITER.jsonl, a file for each process, since no two machines may append to one.
-//
-// A line of JSON says that a frame is begun, or that one of its files is made.  Nothing depends on
-// it: a line that is lost or torn costs a look into the frame's own file.
+// The processes of a farm say of their work in the folder of the frames.
+// DIR/farm/manifest/WRITER.jsonl is a file for each process, since no two machines may append to
+// one.  A line of JSON says that a frame is begun, or that one of its files is made.  Nothing
+// depends on it.  A line that is lost or torn costs a look into the frame's own file.
 #pragma once
 
 #include <sys/types.h>
@@ -19,7 +18,7 @@
 
 namespace domefall {
 
-// A file of a frame, as its writer left it.
+// A MadeFile is a file of a frame, as its writer left it.
 struct MadeFile {
   int frame = 0;
   std::string file;  // its path below the folder of the frames
@@ -27,7 +26,8 @@ struct MadeFile {
   std::int64_t mtime_ns = 0;  // since 1970, by the clock of the file system
   std::string digest, key;    // as they stand in the file
   double seconds = 0;         // that the frame took, with all its files
-  // The greatest value of its pixels: scene-linear, or of a graded one the code as a part of white.
+  // This is the greatest value of its pixels, scene-linear, or for a graded one the code as a part
+  // of white.
   double brightest = 0;
   std::string host;
   pid_t pid = 0;
@@ -40,7 +40,7 @@ struct BegunFrame {
   pid_t pid = 0;
 };
 
-// One line of a manifest: whichever of the two it is.
+// A ManifestLine is one line of a manifest, whichever of the two it is.
 struct ManifestLine {
   std::optional<MadeFile> made;
   std::optional<BegunFrame> begun;
@@ -48,10 +48,10 @@ struct ManifestLine {
 
 std::string text_of(const MadeFile& made);
 std::string text_of(const BegunFrame& begun);
-// Nothing for what is no whole line of this kind.
+// Returns nothing for what is no whole line of this kind.
 std::optional<ManifestLine> parse_manifest_line(std::string_view line);
 
-// The folder of the manifests, in that of a farm's files beside the frames.
+// Returns the folder of the manifests, in that of a farm's files beside the frames.
 std::filesystem::path manifest_folder(const std::filesystem::path& frames);
 
 // Writes this process's manifest into a folder of frames that has a farm folder, and nothing into
@@ -68,9 +68,11 @@ class ManifestWriter {
 
   bool is_on() const { return on_; }
 
-  // For any thread.  Nothing is thrown where a line cannot be written: the frame is good without.
+  // Any thread may call this and the next function.  Nothing is thrown where a line cannot be
+  // written, because the frame is good without.
   void begin(int frame);
-  // A file that lies below the folder of the frames; size, time, digest and key are read from it.
+  // Notes a file that lies below the folder of the frames.  Size, time, digest and key are read
+  // from it.
   void made(int frame, const std::filesystem::path& path, double seconds, double brightest);
 
  private:
@@ -84,11 +86,12 @@ class ManifestWriter {
   bool on_ = false;
 };
 
-// A process that has written to a manifest.
+// A FrameWriter is a process that has written to a manifest.
 struct FrameWriter {
   std::string host;
   pid_t pid = 0;
-  // It has surely ended (has_ended() in writer_id.h).  Of another machine nobody knows for a week.
+  // This says that it has surely ended (has_ended() in writer_id.h).  Of a process on another
+  // machine nobody knows for a week.
   bool ended = false;
   double first_s = 0;                  // when it began its first frame, since 1970
   double last_sign_s = 0;              // when it last wrote a line, since 1970
@@ -97,18 +100,18 @@ struct FrameWriter {
 };
 
 struct Manifest {
-  // By MadeFile::file; more than one where several processes made it.
+  // They are found by MadeFile::file, and are more than one where several processes made it.
   std::unordered_map<std::string, std::vector<MadeFile>> files;
   std::vector<FrameWriter> writers;  // sorted by their files' names
 
-  // The line of a file as it lies on the disk; null where there is none.
+  // Returns the line of a file as it lies on the disk, or null where there is none.
   const MadeFile* find(const std::string& file, std::uint64_t size, std::int64_t mtime_ns) const;
   const MadeFile* find(const std::string& file, const std::string& digest) const;
 };
 
-// All manifests of a folder of frames, merged, read by so many threads.  What is torn, or written
-// by others, is left out, and so is, with a warning on standard error, a manifest that cannot be
-// read: what it notes can be found out without.
+// Returns all manifests of a folder of frames, merged, read by so many threads.  What is torn, or
+// written by others, is left out.  So is, with a warning on standard error, a manifest that cannot
+// be read, because what it notes can be found out without.
 Manifest read_manifest(const std::filesystem::path& frames, int threads);
 
 }  // namespace domefall

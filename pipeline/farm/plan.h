@@ -1,6 +1,6 @@
-// What a submission to a farm is to make, as DIR/farm/plan_ID.json keeps it for its tasks, for
-// those who verify its frames, and for the rounds that follow.  Each submission has a plan of its
-// own.
+// A FarmPlan is what a submission to a farm is to make.  DIR/farm/plan_ID.json keeps it for its
+// tasks, for those who verify its frames, and for the rounds that follow.  Each submission has a
+// plan of its own.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace domefall {
 
-// What one task renders.
+// A PlannedChunk is what one task renders.
 struct PlannedChunk {
   int round = 0, task = 0;
   std::string frames;      // as --frames takes them: 0-9,12
   double estimated_s = 0;  // on a machine like the one that submits, when idle; 0: not estimated
 };
 
-// Chunks that were handed to an engine together.
+// A FarmRound has chunks that were handed to an engine together.
 struct FarmRound {
   int round = 0;
   std::string job;        // the engine's name for it; empty where the engine has none
@@ -45,22 +45,22 @@ struct FarmPlan {
   std::vector<FarmRound> rounds;  // empty until the engine has accepted the first one
 };
 
-// An id that no other submission has: the time in UTC to the microsecond, so that a later one
-// sorts behind, and four digits by chance.
+// Returns an id that no other submission has.  It is the time in UTC to the microsecond, so that a
+// later one sorts behind, and four digits by chance.
 std::string new_plan_id();
 
-// DIR/farm, DIR/farm/plan_ID.json and DIR/farm/log.
+// These return DIR/farm, DIR/farm/plan_ID.json and DIR/farm/log.
 std::filesystem::path farm_folder(const std::filesystem::path& out);
 std::filesystem::path plan_file(const std::filesystem::path& out, const std::string& id);
 std::filesystem::path farm_log_folder(const std::filesystem::path& out);
 
-// Throws TemporaryError where the file is not there or cannot be read, and InputError where it is
-// no plan or the id is none.
+// Reads a plan.  Throws TemporaryError where the file is not there or cannot be read, and
+// InputError where it is no plan or the id is none.
 FarmPlan read_plan(const std::filesystem::path& out, const std::string& id);
 
-// The latest plan of a folder that an engine has accepted; nothing if there is none.  One of a part
-// of the show that found nothing to do is passed over where there is an earlier one.  Throws as
-// read_plan().
+// Returns the latest plan of a folder that an engine has accepted, or nothing if there is none.
+// One of a part of the show that found nothing to do is passed over where there is an earlier one.
+// Throws as read_plan().
 std::optional<FarmPlan> newest_plan(const std::filesystem::path& out);
 
 // Throws InputError for a path or an option that a plan cannot hold, as it is not UTF-8.
@@ -73,10 +73,10 @@ void write_plan(const FarmPlan& plan);
 // Removes the file of a plan that no engine has accepted, and leaves any other alone.
 void drop_unaccepted_plan(const FarmPlan& plan);
 
-// The chunks of a round.
+// Returns the chunks of a round.
 std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round);
 
-// The time now as FarmRound::submitted.
+// Returns the time now as FarmRound::submitted.
 std::string utc_now();
 
 }  // namespace domefall

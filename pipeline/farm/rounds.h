@@ -1,5 +1,5 @@
-// The rounds of a plan: its chunks are rendered, all frames verified, and what is missing or bad is
-// rendered again, until all is good or as often as the plan allows.
+// A plan goes through rounds.  Its chunks are rendered, all frames verified, and what is missing or
+// bad is rendered again, until all is good or as often as the plan allows.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace domefall {
 
-// Frames are still missing or bad after the last round, or after one that was cancelled.
+// FramesLacking says that frames are still missing or bad after the last round, or after one that
+// was cancelled.
 struct FramesLacking : TemporaryError {
   using TemporaryError::TemporaryError;
 };
@@ -25,8 +26,9 @@ int run_rounds(FarmPlan plan);
 // other one is refused.
 std::string submit_round(FarmPlan plan, int round);
 
-// What that job does: verifies, then submits the next round, or makes what else the plan asks for.
-// May be called again for the same round, as Slurm may run a job twice.  Throws as run_rounds().
+// Does what that job does.  It verifies, then submits the next round, or makes what else the plan
+// asks for.  This may be called again for the same round, as Slurm may run a job twice.  Throws as
+// run_rounds().
 void conclude_round(const FarmPlan& plan, int round);
 
 }  // namespace domefall

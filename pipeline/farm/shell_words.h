@@ -1,4 +1,4 @@
-// Command lines as text for a shell.
+// These functions write command lines as text for a shell.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace domefall {
 
-// A word as a POSIX shell takes it literally: in single quotes where it has anything but letters,
-// digits and %+,-./:=@_ .
+// Returns a word as a POSIX shell takes it literally.  It is in single quotes where it has anything
+// but letters, digits and %+,-./:=@_ .
 std::string shell_word(std::string_view word);
 
-// Words, joined by blanks.
+// Returns the words, joined by blanks.
 std::string shell_line(const std::vector<std::string>& words);
 
 }  // namespace domefall

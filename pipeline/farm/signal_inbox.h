@@ -1,4 +1,5 @@
-// Signals to a program that looks after others: they are kept until it asks for them.
+// A SignalInbox keeps the signals to a program that looks after others until the program asks for
+// them.
 #pragma once
 
 #include <csignal>
@@ -7,8 +8,8 @@
 
 namespace domefall {
 
-// One at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing else.
-// One that the program was started to ignore stays ignored.
+// There is one at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing
+// else.  One that the program was started to ignore stays ignored.
 class SignalInbox {
  public:
   // Throws TemporaryError where no pipe can be opened.
@@ -19,7 +20,7 @@ class SignalInbox {
   SignalInbox& operator=(const SignalInbox&) = delete;
   SignalInbox& operator=(SignalInbox&&) = delete;
 
-  // The signals since the last call, in their order, without CHLD.
+  // Returns the signals since the last call, in their order, without CHLD.
   std::vector<int> take();
 
   // Returns when a signal comes, when one of the descriptors can be read, or after that time.

@@ -1,4 +1,5 @@
-// Slurm: a job array for the chunks of a round, and what a task asks of the controller.
+// This file makes a job array of Slurm for the chunks of a round, and asks the controller what a
+// task needs.
 #pragma once
 
 #include <string>
@@ -9,16 +10,16 @@
 
 namespace domefall {
 
-// How many tasks Slurm lets an array have (MaxArraySize).  Throws InputError where Slurm is not
-// installed and TemporaryError where its controller does not answer, for which Slurm may take a
-// minute, or within `patience_s` seconds, unless these are 0.
+// Returns how many tasks Slurm lets an array have (MaxArraySize).  Throws InputError where Slurm is
+// not installed.  Throws TemporaryError where its controller does not answer, for which Slurm may
+// take a minute, or within `patience_s` seconds, unless these are 0.
 int most_array_tasks(int patience_s = 0);
 inline constexpr int kDefaultArrayTasks = 1001;
 
-// The command line that submits the chunks of a round as an array, and the one that submits the job
-// which verifies their frames when all tasks have ended, however they ended, and goes on from
-// there. An array job may be requeued, and afterok would then cancel whoever waits for it.  `after`
-// is the array's id; empty: the job waits for nothing.
+// These return command lines.  One submits the chunks of a round as an array.  The other submits
+// the job which verifies their frames when all tasks have ended, however they ended, and goes on
+// from there.  An array job may be requeued, and afterok would then cancel whoever waits for it.
+// `after` is the array's id.  If it is empty, the job waits for nothing.
 std::vector<std::string> array_submission(const FarmPlan& plan, int round);
 std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
                                                const std::string& after);
@@ -30,21 +31,23 @@ std::string submit_to_slurm(const std::vector<std::string>& command);
 // Cancels all tasks of a job, as far as the controller answers.
 void cancel_slurm_job(const std::string& job);
 
-// Whether none of a job's tasks waits or runs.  A controller that does not answer says nothing.
+// Says whether none of a job's tasks waits or runs.  A controller that does not answer says
+// nothing.
 bool slurm_job_is_over(const std::string& job);
 
-// The task of a job array in which this process runs, as SLURM_ARRAY_JOB_ID and others name it.
+// A SlurmTask is the task of a job array in which this process runs, as SLURM_ARRAY_JOB_ID and
+// others name it.
 struct SlurmTask {
   std::string id;    // 12_3
   std::string node;  // SLURMD_NODENAME
   int restarts = 0;
   int processors = 1;
 };
-// Whether this process runs in a Slurm job.
+// Says whether this process runs in a Slurm job.
 bool is_in_slurm();
 SlurmTask this_slurm_task();
 
-// Puts this task back into the queue, from where another node may take it; where `elsewhere`, this
+// Puts this task back into the queue, from where another node may take it.  With `elsewhere`, this
 // node is left out of its next tries if the partition has another one.  A bad node is often idle,
 // since its tasks end at once, and would be given them again and again.  Returns false where Slurm
 // refuses, and else waits to be ended by Slurm.

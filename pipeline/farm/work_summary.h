@@ -1,4 +1,5 @@
-// How the work on a folder of frames goes: how quickly, what took long, and what failed.
+// This file says how the work on a folder of frames goes, which is how quickly, what took long, and
+// what failed.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +11,9 @@
 
 namespace domefall {
 
-// Frames a second that all processes together have finished in the last ten minutes, or since the
-// first of them began if that is later; `now_s` is since 1970.  Nothing if none of them lives, or
-// none has finished a frame.
+// Returns the frames a second that all processes together have finished in the last ten minutes, or
+// since the first of them began if that is later.  `now_s` is since 1970.  Returns nothing if none
+// of them lives, or none has finished a frame.
 std::optional<double> frames_per_second(const Manifest& manifest, double now_s);
 
 struct SlowFrame {
@@ -21,16 +22,16 @@ struct SlowFrame {
   std::string host;
 };
 
-// Those of these frames that took longest, slowest first; each once, by its last making.  `among`
-// is sorted.
+// Returns those of these frames that took longest, slowest first, each once, by its last making.
+// `among` is sorted.
 std::vector<SlowFrame> slowest_frames(const Manifest& manifest, const std::vector<int>& among,
                                       std::size_t most);
 
-// The last line of a log that is not empty, without what a terminal would do with it; where it
-// cannot be read, why.
+// Returns the last line of a log that is not empty, without what a terminal would do with it.
+// Where the log cannot be read, it says why.
 std::string last_line_of(const std::filesystem::path& log);
 
-// The frames that one task of a farm is to make.
+// TaskFrames are the frames that one task of a farm is to make.
 struct TaskFrames {
   int round = 0, task = 0;
   std::vector<int> frames;        // sorted
@@ -44,11 +45,11 @@ struct FailedChunk {
   std::string last_line;
 };
 
-// Tasks of which frames are lacking, none is being made, and a log is in DIR/farm/log: the one that
-// was written last.  One whose log ends well has not failed: its frames were lost or outdated
-// later; nor has one whose log is empty, in its first seconds.  A frame counts for the last task
-// that has it, so that one that is submitted again has not failed before that task began.  `tasks`
-// are in the order of their rounds; `lacking` is sorted.
+// Returns tasks of which frames are lacking, none is being made, and a log is in DIR/farm/log, with
+// the one that was written last.  One whose log ends well has not failed, because its frames were
+// lost or outdated later.  Nor has one whose log is empty, in its first seconds.  A frame counts
+// for the last task that has it, so that one that is submitted again has not failed before that
+// task began.  `tasks` are in the order of their rounds, and `lacking` is sorted.
 std::vector<FailedChunk> failed_chunks(const std::vector<TaskFrames>& tasks,
                                        const std::vector<int>& lacking, const Manifest& manifest,
                                        const std::filesystem::path& frames);

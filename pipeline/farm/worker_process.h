@@ -1,4 +1,5 @@
-// Another program that does a part of the work, and may be killed, stopped, or slow to end.
+// A WorkerProcess is another program that does a part of the work, and may be killed, stopped, or
+// slow to end.
 #pragma once
 
 #include <sys/types.h>
@@ -11,12 +12,12 @@ namespace domefall {
 
 class SignalInbox;
 
-// How a process ended.
+// A WorkerEnd is how a process ended.
 struct WorkerEnd {
   int code = 0;    // its exit code
   int signal = 0;  // the signal that killed it, or 0
 
-  // "exit code 75", "killed by SIGKILL".
+  // Says "exit code 75" or "killed by SIGKILL".
   std::string text() const;
 };
 
@@ -32,7 +33,7 @@ class WorkerProcess {
   // Starts a program that the PATH finds, with no standard input.  Throws TemporaryError if it
   // cannot be started.
   WorkerProcess(std::vector<std::string> arguments, const Way& way);
-  // Tells it to end, and does not wait for it.
+  // Tells the program to end, and does not wait for it.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess(WorkerProcess&&) = delete;
@@ -40,20 +41,20 @@ class WorkerProcess {
   WorkerProcess& operator=(WorkerProcess&&) = delete;
 
   pid_t process() const { return process_; }
-  // Can be read when it has said something.
+  // Returns a descriptor that can be read when the program has said something.
   int talk() const { return talk_; }
 
   // Sends a signal, which also reaches a process that is stopped.
   void tell(int signal) const;
 
-  // Copies what it has said since, and how it ended, if it has.
+  // Copies what the program has said since, and returns how it ended, if it has.
   std::optional<WorkerEnd> look();
 
-  // Whether it has been stopped, as by SIGSTOP, since the last look: the first time it is
-  // continued, and later killed.  Says so.
+  // Looks whether the program has been stopped, as by SIGSTOP, since the last look.  The first time
+  // it is continued, and later killed.  Says so.
   void mind_stops(const std::string& name);
 
-  // Its last line, and all that it said (64 kB at most, the end of it).
+  // These return its last line, and all that it said (64 kB at most, the end of it).
   std::string last_line() const;
   const std::string& said() const { return said_; }
 
@@ -65,13 +66,13 @@ class WorkerProcess {
   std::string said_;
 };
 
-// Runs a program to its end and returns how it ended; what it prints and says is in `said`.  A
+// Runs a program to its end and returns how it ended.  What it prints and says is in `said`.  A
 // program that cannot be started has exit code 127.  A deaf one ignores TERM and outlives this
 // process.
 WorkerEnd run_program(const std::vector<std::string>& arguments, std::string& said,
                       bool deaf = false);
 
-// The name of a signal, such as SIGKILL.
+// Returns the name of a signal, such as SIGKILL.
 std::string signal_name(int signal);
 
 }  // namespace domefall
