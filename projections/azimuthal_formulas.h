@@ -1,5 +1,5 @@
-// The formulas of projections about the axis Z, behind projection.h.  A place is given in pixels
-// from the one that looks along Z.
+// These are the formulas of projections about the axis Z, which projection.h uses.  A place is
+// given in pixels from the one that looks along Z.
 #pragma once
 
 #include <cmath>
@@ -14,26 +14,27 @@ struct Centred {
   double x, y;
 };
 
-// sin(theta)/theta, its limit at 0 included.
+// Returns sin(theta)/theta, with its limit at 0.
 inline double sinc(double theta) { return theta < 1e-8 ? 1.0 : std::sin(theta) / theta; }
 
-// The paper's 2 tan(alpha/2)/C: tan(theta/2) per pixel.
+// Returns the paper's 2 tan(alpha/2)/C, which is tan(theta/2) per pixel.
 inline double half_tangent_per_pixel(const Stereographic& s) {
   return 2 * std::tan(s.fov / 4) / s.columns;
 }
-// tan(theta) per pixel.
+// Returns tan(theta) per pixel.
 inline double tangent_per_pixel(const Rectilinear& r) {
   return 2 * std::tan(r.fov / 2) / r.columns;
 }
 inline double radians_per_pixel(const Domemaster& d) { return std::numbers::pi / d.size; }
 inline double radians_per_pixel(const Fisheye& f) { return f.fov / f.columns; }
 
-// The angles that a pixel covers along the direction to the middle, and across it.
+// AngularScales are the angles that a pixel covers along the direction to the middle, and across
+// it.
 struct AngularScales {
   double radial, tangential;
 };
 
-// The metric of a projection about Z.
+// Returns the metric of a projection about Z.
 inline PixelMetric metric_of(const AngularScales& s, Centred at) {
   const double r2 = at.x * at.x + at.y * at.y, across = s.tangential * s.tangential;
   const double more = r2 > 0 ? (s.radial * s.radial - across) / r2 : 0;
@@ -54,7 +55,7 @@ inline CameraDirection direction(const Fisheye& f, Centred at) {
   return equidistant_direction(radians_per_pixel(f), at);
 }
 
-// Pixels per unit of (X.N, Y.N); infinite towards -Z.
+// Returns the pixels per unit of (X.N, Y.N), which are infinite towards -Z.
 inline double equidistant_magnification(double per_radian, const CameraDirection& n) {
   const double sine = std::hypot(n.v.x, n.v.y);
   if (sine == 0) return n.v.z > 0 ? per_radian : HUGE_VAL;
@@ -78,7 +79,7 @@ inline AngularScales scales(const Fisheye& f, Centred at) {
 
 // ---- stereographic ----
 
-// N = -Z + 2 W/|W|^2 with W = Z + w, written so that nothing cancels near the middle.
+// N = -Z + 2 W/|W|^2 with W = Z + w is written so that nothing cancels near the middle.
 inline CameraDirection direction(const Stereographic& s, Centred at) {
   const double scale = half_tangent_per_pixel(s);
   const double x = at.x * scale, y = at.y * scale;
@@ -87,7 +88,7 @@ inline CameraDirection direction(const Stereographic& s, Centred at) {
 }
 
 inline double magnification(const Stereographic& s, const CameraDirection& n) {
-  // 1 + cos(theta), from the sine where the sum would cancel.
+  // Returns 1 + cos(theta), from the sine where the sum would cancel.
   const double sine2 = n.v.x * n.v.x + n.v.y * n.v.y;
   const double one_plus_cos = n.v.z >= 0 ? 1 + n.v.z : sine2 / (1 - n.v.z);
   return 1 / (half_tangent_per_pixel(s) * one_plus_cos);

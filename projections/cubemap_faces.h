@@ -1,4 +1,4 @@
-// The faces of a cubemap, each of which is an image of its own without a seam.
+// Each face of a cubemap is an image of its own without a seam.
 #pragma once
 
 #include <array>

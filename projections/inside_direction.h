@@ -1,5 +1,6 @@
-// The directions of pixels, for loops over many: formulas without a branch or a library function,
-// so that they become SIMD code where they are called.  direction_at is what they are held against.
+// Finds the directions of pixels, for loops over many.  The formulas have neither a branch nor a
+// library function, so that they become SIMD code where they are called.  The tests hold them
+// against direction_at.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace domefall {
 
-// Coefficients of sin(h)/h and cos(h) in t = h^2.
+// These are the coefficients of sin(h)/h and cos(h) in t = h^2.
 struct HalfAngleSeries {
   static constexpr int kTerms = 9;
   std::array<double, kTerms> sine, cosine;
@@ -25,10 +26,11 @@ inline constexpr HalfAngleSeries kHalfAngleSeries = [] {
   return series;
 }();
 
-// x, y: pixels from the middle of the image.
+// x and y are pixels from the middle of the image.
 
-// By half of theta, whose series is as good as that of theta with twice as many terms: the next one
-// is below 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75 pi.
+// A DomemasterView finds its sines by half of theta, whose series is as good as that of theta with
+// twice as many terms.  The next term is below 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75
+// pi.
 struct DomemasterView {
   double scale;  // radians per pixel
 
@@ -47,7 +49,7 @@ struct DomemasterView {
   double pixel_angle(double, double) const { return scale; }
 };
 
-// N = -Z + 2 W/|W|^2 with W = Z + w, written so that nothing cancels near the middle.
+// N = -Z + 2 W/|W|^2 with W = Z + w is written so that nothing cancels near the middle.
 struct StereographicView {
   double scale;  // tan(theta/2) per pixel: the paper's 2 tan(alpha/2)/C
 
@@ -56,7 +58,7 @@ struct StereographicView {
     const double u = x * scale, v = y * scale, w2 = u * u + v * v, inverse = 1 / (1 + w2);
     return {{2 * u * inverse, 2 * v * inverse, (1 - w2) * inverse}};
   }
-  // The projection is conformal: the same in every direction.
+  // The projection is conformal, so this is the same in every direction.
   double pixel_angle(double x, double y) const {
     return 2 * scale / (1 + (x * x + y * y) * scale * scale);
   }

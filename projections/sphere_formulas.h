@@ -1,5 +1,5 @@
-// The formulas of images of the whole sphere, behind projection.h.  A place is given in pixels from
-// the middle of the image.
+// These are the formulas of images of the whole sphere, which projection.h uses.  A place is given
+// in pixels from the middle of the image.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,8 @@ inline double solid_angle(const Equirectangular& e, Centred at) {
 
 // ---- the faces of a cube ----
 
-// The axes of a face's camera: to its right edge, to its bottom edge, and through its middle.
+// These are the axes of a face's camera, to its right edge, to its bottom edge, and through its
+// middle.
 struct FaceAxes {
   Imath::V3d right, down, forward;
 };
@@ -58,14 +59,14 @@ inline Rectilinear face_projection(const Cubemap& c) {
   return {c.face, c.face, std::numbers::pi / 2};
 }
 
-// The middle of a face, from the middle of the net.
+// Returns the middle of a face, from the middle of the net.
 inline Centred middle_of_face(const Cubemap& c, std::size_t face) {
   const auto column = static_cast<int>(face % kFacesInARow);
   const auto row = static_cast<int>(face / kFacesInARow);
   return {(column - 1.0) * c.face, (row - 0.5) * c.face};
 }
 
-// The face on which a place of the net is, or the nearest to one beside it.
+// Returns the face on which a place of the net is, or the nearest to one beside it.
 inline std::size_t face_at(const Cubemap& c, Centred at) {
   const double column = std::clamp(std::floor(at.x / c.face + 1.5), 0.0, 2.0);
   return static_cast<std::size_t>(column) + (at.y < 0 ? 0 : kFacesInARow);
