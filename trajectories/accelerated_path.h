@@ -1,12 +1,12 @@
-// An observer with engines, who follows keyframes: r and azimuth are cubics of proper time between
-// them, once continuously differentiable, and the rest of the four-velocity is its normalisation, E
-// = sqrt((dr/dtau)^2 + (1 - 2/r)(1 + (r dphi/dtau)^2)) >= 0.  Outside the hole any path is one;
-// inside, the rate dr/dtau must be large enough, and negative (rain) or positive (outgoing tetrad).
-//
-// A rate that a key does not give is chosen so that the path does not overshoot the keys (Fritsch
-// and Butland's harmonic mean; 0 at a key that is an extreme).  The state is exact to rounding for
-// its r, azimuth and their rates; null_time is a quadrature with 1e-13, or what rounding leaves of
-// r - 2 next to a horizon that the tetrad does not cross: 1e-12/(r - 2).
+// An AcceleratedPath is that of an observer with engines, who follows keyframes.  Between them r
+// and azimuth are cubics of proper time, once continuously differentiable.  The rest of the
+// four-velocity is its normalisation, E = sqrt((dr/dtau)^2 + (1 - 2/r)(1 + (r dphi/dtau)^2)) >= 0.
+// Outside the hole any path is possible.  Inside, the rate dr/dtau must be large enough, and
+// negative (rain) or positive (outgoing tetrad).  A rate that a key does not give is chosen so that
+// the path does not overshoot the keys (Fritsch and Butland's harmonic mean; 0 at a key that is an
+// extreme).  The state is exact to rounding for its r, azimuth and their rates.  null_time is a
+// quadrature with 1e-13, or what rounding leaves of r - 2 next to a horizon that the tetrad does
+// not cross, which is 1e-12/(r - 2).
 #pragma once
 
 #include <limits>
@@ -29,18 +29,20 @@ struct PathKey {
 
 class AcceleratedPath {
  public:
-  // Two keys or more.  The tetrad holds for the whole path: rain in I and II, outgoing in IV and I,
-  // the other two in III and II, IV and III.  Throws std::domain_error that names the key (counted
-  // from 1) and the instant where the path cannot be flown: keys out of order, r not above 0, or a
-  // place inside the hole where it would have to be faster than light or turn back.
+  // Takes two keys or more.  The tetrad holds for the whole path.  It is rain in I and II, outgoing
+  // in IV and I, and the other two in III and II, IV and III.  Throws std::domain_error that names
+  // the key (counted from 1) and the instant where the path cannot be flown.  The reasons are keys
+  // out of order, r not above 0, or a place inside the hole where it would have to be faster than
+  // light or turn back.
   explicit AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain);
 
   double begin() const;  // proper times of the first and the last key
   double end() const;
-  // tau in [begin(), end()]; std::domain_error elsewhere.  azimuth is that of the keys; null_time
-  // counts from begin().
+  // Returns the point for tau in [begin(), end()], and throws std::domain_error elsewhere.  azimuth
+  // is that of the keys, and null_time counts from begin().
   OrbitPoint at(double tau) const;
-  // The first proper time >= after at which r is passed on that leg; nothing if never.
+  // Returns the first proper time >= after at which r is passed on that leg, or nothing if it never
+  // is.
   std::optional<double> time_at(double r, Leg leg,
                                 double after = -std::numeric_limits<double>::infinity()) const;
 

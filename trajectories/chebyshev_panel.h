@@ -1,5 +1,6 @@
-// Integrals of a smooth function over a panel, as Chebyshev series: sampled at the nodes of the
-// first kind, integrated term by term, evaluated by Clenshaw's recurrence.
+// These are integrals of a smooth function over a panel, as Chebyshev series.  The function is
+// sampled at the nodes of the first kind, integrated term by term, and evaluated by Clenshaw's
+// recurrence.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,8 @@ inline constexpr int kPanelTerms = 20;  // of the integrand
 using PanelValues = std::array<double, kPanelTerms>;
 using PanelIntegral = std::array<double, kPanelTerms + 1>;
 
-// cos(k acos(x_j)) at the nodes x_j = cos(pi (j + 1/2)/N); x_j is node(j).
+// PanelNodes hold cos(k acos(x_j)) at the nodes x_j = cos(pi (j + 1/2)/N), which panel_node(j)
+// gives.
 struct PanelNodes {
   std::array<PanelValues, kPanelTerms> cosine{};
   PanelNodes() {
@@ -31,8 +33,9 @@ inline const PanelNodes& panel_nodes() {
 
 inline double panel_node(std::size_t j) { return panel_nodes().cosine[1][j]; }
 
-// The integral from x = -1 of the function with these values at the nodes, times `half`.  False if
-// the last two terms, over the largest value, exceed the tolerance: the nodes are too few.
+// Finds the integral from x = -1 of the function with these values at the nodes, times `half`.
+// Returns false if the last two terms, over the largest value, exceed the tolerance.  Then the
+// nodes are too few.
 inline bool integrate_panel(const PanelValues& values, double half, double tolerance,
                             PanelIntegral& integral) {
   std::array<double, kPanelTerms + 2> c{};

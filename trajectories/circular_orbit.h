@@ -1,6 +1,7 @@
-// A geodesic circular orbit: L^2 = r/(1 - 3/r), E = (1 - 2/r)/sqrt(1 - 3/r), v = 1/sqrt(r - 2)
-// against the static frame.  [Riazuelo] app. app_img, circular orbits (with M r^2 - L^2 r + 3 L^2 M
-// = 0; the text has L^3).  Unstable below r = 6, still a solution.
+// A CircularOrbit is a geodesic circular orbit.  It has L^2 = r/(1 - 3/r), E = (1 - 2/r)/sqrt(1 -
+// 3/r), and v = 1/sqrt(r - 2) against the static frame.  [Riazuelo] app. app_img, circular orbits
+// (with M r^2 - L^2 r + 3 L^2 M = 0; the text has L^3).  It is unstable below r = 6, but still a
+// solution.
 #pragma once
 
 #include "trajectories/orbit_point.h"
@@ -13,7 +14,7 @@ struct CircularOrbit {
 
 inline constexpr double kCircularInnermost = 3;  // r must exceed it: there light itself circles
 
-// Proper time of one revolution, units of M: 2 pi r sqrt(r - 3).
+// Returns the proper time of one revolution, 2 pi r sqrt(r - 3), in units of M.
 double period(const CircularOrbit& orbit);
 
 OrbitPoint point_at(const CircularOrbit& orbit, double tau);

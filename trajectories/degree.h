@@ -1,4 +1,4 @@
-// One degree in radians, the unit of angles everywhere inside.
+// This is one degree in radians, the unit of angles everywhere inside.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// The three kinds of spatial unit vector that meet in a picture.  They are separate types because
-// mixing them compiles to a plausible picture that is wrong.
+// Three kinds of spatial unit vector meet in a picture.  They are separate types because mixing
+// them compiles to a plausible picture that is wrong.
 #pragma once
 
 #include <Imath/ImathMatrix.h>
@@ -10,14 +10,15 @@ namespace domefall {
 using Imath::M33d;
 using Imath::V3d;
 
-// A direction on the celestial sphere at infinity: equatorial J2000 Cartesian, x towards
-// RA 0h Dec 0, y towards RA 6h Dec 0, z towards the north celestial pole.  Unit length.
+// A SkyDirection is a direction on the celestial sphere at infinity, of unit length.  It is
+// equatorial J2000 Cartesian, with x towards RA 0h Dec 0, y towards RA 6h Dec 0, and z towards the
+// north celestial pole.
 struct SkyDirection {
   V3d v;
 };
 
-// A direction in the space of the reference tetrad: components along (R, Theta, Phi).  Unit length.
-// The hole is at (-1, 0, 0).
+// A TetradDirection is a direction in the space of the reference tetrad, of unit length, with
+// components along (R, Theta, Phi).  The hole is at (-1, 0, 0).
 struct TetradDirection {
   V3d v;
 };

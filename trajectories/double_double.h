@@ -1,8 +1,8 @@
-// A number kept as the sum of two doubles, 32 digits: hi is the sum rounded, lo what that leaves.
-// Proper times need it: a fall from 1e9 M lasts 1.5e13 M, which a double holds to 2e-3 M, and at
-// r = 1e-6 M only 5e-10 M of it are left.  Beside any double, here the end of the fall, a sum holds
-// times to 16 digits of their distance from it.
-// Sums: Knuth, The Art of Computer Programming, vol. 2, sec. 4.2.2, theorem B.
+// A DoubleDouble is a number kept as the sum of two doubles, with 32 digits.  hi is the sum
+// rounded, and lo is what that leaves.  Proper times need it.  A fall from 1e9 M lasts 1.5e13 M,
+// which a double holds to 2e-3 M, and at r = 1e-6 M only 5e-10 M of it are left.  Beside any
+// double, here the end of the fall, a sum holds times to 16 digits of their distance from it.  The
+// sums are those of Knuth, The Art of Computer Programming, vol.  2, sec. 4.2.2, theorem B.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct DoubleDouble {
   friend constexpr auto operator<=>(const DoubleDouble&, const DoubleDouble&) = default;
 };
 
-// The exact sum of two doubles; infinite or NaN as that of doubles is.
+// Returns the exact sum of two doubles.  It is infinite or NaN as that of doubles is.
 inline DoubleDouble exact_sum(double a, double b) {
   DoubleDouble sum(a + b);
   if (!std::isfinite(sum.hi)) return sum;
@@ -31,7 +31,7 @@ inline DoubleDouble exact_sum(double a, double b) {
   return sum;
 }
 
-// The exact product of two doubles, unless it overflows or its last bits underflow.
+// Returns the exact product of two doubles, unless it overflows or its last bits underflow.
 inline DoubleDouble exact_product(double a, double b) {
   DoubleDouble product(a * b);
   if (std::isfinite(product.hi)) product.lo = std::fma(a, b, -product.hi);
@@ -44,7 +44,7 @@ inline DoubleDouble operator-(const DoubleDouble& a) {
   return negative;
 }
 
-// Relative error below 1e-31 of the sum (Joldes, Muller and Popescu 2017, algorithm 6).
+// The relative error of the sum is below 1e-31 (Joldes, Muller and Popescu 2017, algorithm 6).
 inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = exact_sum(a.hi, b.hi), low = exact_sum(a.lo, b.lo);
   const DoubleDouble sum = exact_sum(high.hi, high.lo + low.hi);

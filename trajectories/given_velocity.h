@@ -1,4 +1,5 @@
-// An observer whose place and four-velocity are simply given: one instant of any motion, held.
+// A GivenVelocity is an observer whose place and four-velocity are simply given.  It is one instant
+// of any motion, held.
 #pragma once
 
 #include "trajectories/orbit_point.h"
@@ -12,9 +13,9 @@ struct GivenVelocity {
   V3d celerity{0, 0, 0};          // gamma v against the tetrad, components (R, Theta, Phi)
 };
 
-// gamma v against the tetrad of an observer that has the celerity `own` in the frame of an observer
-// of celerity `frame`, whose axes are the tetrad's, boosted ([Riazuelo] eq. Lambda_cov).  A
-// celerity, since a speed in double precision holds no Lorentz factor beyond 1e8.
+// Returns gamma v against the tetrad of an observer that has the celerity `own` in the frame of an
+// observer of celerity `frame`, whose axes are the tetrad's, boosted ([Riazuelo] eq. Lambda_cov).
+// It takes celerities because a speed in double precision holds no Lorentz factor beyond 1e8.
 V3d celerity_against(const V3d& frame, const V3d& own);
 
 OrbitPoint point_at(const GivenVelocity& observer, double tau);

@@ -1,4 +1,4 @@
-// Infinity: the proper time of what never ends, the far end of an orbit that is not bound.
+// Infinity is the proper time of what never ends, and the far end of an orbit that is not bound.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,5 @@
-// From the past singularity, through region IV: [Riazuelo] sec. sec_Kruskal, eq. TR_IV.
+// These orbits come from the past singularity, through region IV.  [Riazuelo] sec. sec_Kruskal, eq.
+// TR_IV.
 //
 //   E = 0             IV -> II through r = 2 itself, tau = 0 there; of L = 0 the cycloid
 //                     r = 1 + cos eta, tau = eta + sin eta, at rest in t
@@ -6,16 +7,16 @@
 //   E >= 1, small L   IV -> I and to infinity, tau = 0 at the past horizon, r = 2
 //   E >= 1, L beyond capture_angular_momentum(v) of hyperbolic_orbit.h   IV -> I -> II as above
 //
-// mirrored() makes III -> II of I -> II, and IV -> III -> II, IV -> III of these.
-// Close to E = 0 the states about the apoastron have celerities about 1/E.
+// mirrored() makes III -> II of I -> II, and IV -> III -> II, IV -> III of these.  Close to E = 0
+// the states about the apoastron have celerities about 1/E.
 #pragma once
 
 #include "trajectories/geodesic.h"
 
 namespace domefall {
 
-// E >= 0 per unit of mass, L >= 0 (M); 0 < E < 1e-6 is refused.  Throws std::domain_error that
-// names the bound.
+// Takes E >= 0 per unit of mass and L >= 0 (M), but refuses 0 < E < 1e-6.  Throws std::domain_error
+// that names the bound.
 Geodesic kruskal_crossing(double energy, double angular_momentum = 0);
 
 }  // namespace domefall

@@ -1,6 +1,6 @@
-// ObserverState is all that crosses from trajectories to light: where the observer is, how it moves
-// against a tetrad that is regular at the horizon, and how its camera is turned.  Never a
-// four-velocity in (t, r), which is singular at r = 2M.  [Riazuelo] sec. sec_cam.
+// ObserverState is all that crosses from trajectories to light.  It says where the observer is, how
+// it moves against a tetrad that is regular at the horizon, and how its camera is turned.  It never
+// has a four-velocity in (t, r), which is singular at r = 2M.  [Riazuelo] sec. sec_cam.
 #pragma once
 
 #include <limits>
@@ -16,12 +16,12 @@ inline const char* region_name(Region region) {
   return kNames[static_cast<int>(region)];
 }
 
-// The frames that velocities and directions are given against: radial free fall, either inward from
-// rest at infinity ("rain", T_I of [Riazuelo] eq. tetrad_start, regular in I and II) or outward to
-// rest at infinity (T_I', sec. on region IV, regular in IV and I); or the mirror images of the two
-// under t -> -t, which fall from region III and to it.  R points to the infinity that the frame
-// belongs to.  Each is singular on the horizon that it does not cross, so a state near r = 2M names
-// the one that does.
+// A Tetrad is a frame that velocities and directions are given against.  It is radial free fall,
+// either inward from rest at infinity ("rain", T_I of [Riazuelo] eq. tetrad_start, regular in I and
+// II) or outward to rest at infinity (T_I', sec. on region IV, regular in IV and I).  The other two
+// are the mirror images of these under t -> -t, which fall from region III and to it.  R points to
+// the infinity that the frame belongs to.  Each is singular on the horizon that it does not cross,
+// so a state near r = 2M names the one that does.
 enum class Tetrad { kRain, kOutgoing, kRainOfThree, kOutgoingToThree };
 
 inline const char* tetrad_name(Tetrad t) {
@@ -32,19 +32,20 @@ inline const char* tetrad_name(Tetrad t) {
 constexpr bool is_outgoing(Tetrad t) {
   return t == Tetrad::kOutgoing || t == Tetrad::kOutgoingToThree;
 }
-// Of region III: what is said of sky I in the other two holds of sky III, and the reverse.
+// Says whether a tetrad is of region III.  What is said of sky I in the other two holds of sky III,
+// and the reverse.
 constexpr bool is_mirrored(Tetrad t) {
   return t == Tetrad::kRainOfThree || t == Tetrad::kOutgoingToThree;
 }
-// Rain is found outside and beyond the future horizon, the outgoing frame outside and before the
-// past one.
+// Says whether a region has a tetrad.  Rain is found outside and beyond the future horizon, the
+// outgoing frame outside and before the past one.
 constexpr bool has_tetrad(Region region, Tetrad t) {
   if (region == Region::kI || region == Region::kIII)
     return is_mirrored(t) == (region == Region::kIII);
   return is_outgoing(t) == (region == Region::kIV);
 }
 
-// The reflection t -> -t.
+// These return what the reflection t -> -t leads to.
 constexpr Region mirror_of(Region region) {
   if (region == Region::kI) return Region::kIII;
   return region == Region::kIII ? Region::kI : region;
@@ -54,7 +55,7 @@ constexpr Tetrad mirror_of(Tetrad t) {
   return is_mirrored(t) ? Tetrad::kRain : Tetrad::kRainOfThree;
 }
 
-// The radius of an observer in flat space: every formula has its limit there.
+// This is the radius of an observer in flat space.  Every formula has its limit there.
 inline constexpr double kFlatSpace = std::numeric_limits<double>::infinity();
 
 struct ObserverState {
@@ -63,21 +64,22 @@ struct ObserverState {
   double r = kFlatSpace;          // units of M, > 0; kFlatSpace without a black hole
   double proper_time =
       0;  // units of M (seconds in flat space), since the start of the segment's orbit
-  // v = t + r* (rain) or u = t - r* (outgoing frame) of the observer, r* = r + 2 ln|r/2 - 1|, units
-  // of M, since the start of the show: what the emission times of the singularity's light count
-  // from.  Where a trajectory changes its tetrad it goes from the one to the other of the same t.
-  // Of the mirrored frames after t -> -t.  Stands still for a held instant.
+  // This is v = t + r* (rain) or u = t - r* (outgoing frame) of the observer, with r* = r + 2
+  // ln|r/2 - 1|, in units of M, since the start of the show.  The emission times of the
+  // singularity's light count from it.  Where a trajectory changes its tetrad it goes from the one
+  // to the other of the same t.  In the mirrored frames it is taken after t -> -t.  It stands still
+  // for a held instant.
   double null_time = 0;
-  // Radians swept in the planes of its orbits since the start of the show.
+  // This is the angle swept in the planes of its orbits since the start of the show, in radians.
   double azimuth = 0;
-  // Columns: the directions of R, Theta and Phi of the reference tetrad on the celestial sphere, so
-  // R is the observer's place as seen from the hole.  A rotation.
+  // The columns are the directions of R, Theta and Phi of the reference tetrad on the celestial
+  // sphere, so R is the observer's place as seen from the hole.  It is a rotation.
   M33d sky_from_tetrad;
-  // gamma * velocity against the reference tetrad, components along (R, Theta, Phi).  Any finite
-  // value.
+  // This is gamma * velocity against the reference tetrad, with components along (R, Theta, Phi).
+  // Any finite value is possible.
   V3d celerity{0, 0, 0};
-  // Columns: camera X, Y, Z in the boosted tetrad (B R, B Theta, B Phi), with B the boost of
-  // [Riazuelo] eq. Lambda_cov.  A rotation.
+  // The columns are camera X, Y, Z in the boosted tetrad (B R, B Theta, B Phi), with B the boost of
+  // [Riazuelo] eq. Lambda_cov.  It is a rotation.
   M33d tetrad_from_camera;
 };
 

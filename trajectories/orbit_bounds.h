@@ -1,11 +1,11 @@
-// The bounds that the parameters of an orbit must keep.
+// These functions check the bounds that the parameters of an orbit must keep.
 #pragma once
 
 #include <string>
 
 namespace domefall {
 
-// c in km/s: errors name a bound on a speed in both units.
+// This is c in km/s, because errors name a bound on a speed in both units.
 inline constexpr double kLightSpeedKmPerS = 299792.458;
 
 // Each throws std::domain_error unless the finite value keeps its bound, which NaN never does.  The

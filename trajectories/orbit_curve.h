@@ -1,7 +1,8 @@
-// The radial motion of a timelike geodesic, (dr/dtau)^2 = E^2 - (1 - 2/r)(1 + L^2/r^2), along a
-// parameter s that grows with proper time, in which nothing is singular or cancels: not the turning
-// points, not the horizon, not r = 0 nor infinity.  With w = 1/r the right side is the cubic
-// P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2 (w - w1)(w - w2)(w - w3).
+// An OrbitCurve is the radial motion of a timelike geodesic, (dr/dtau)^2 = E^2 - (1 - 2/r)(1 +
+// L^2/r^2).  It runs along a parameter s that grows with proper time, in which nothing is singular
+// or cancels: not the turning points, not the horizon, not r = 0 nor infinity.  With w = 1/r the
+// right side is the cubic P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2 (w - w1)(w - w2)(w -
+// w3).
 //
 //   scattered  r = r_p cosh^2 s                    from infinity to periastron at s = 0 and back
 //   bound      r = r_p + (r_a - r_p) sin^2(s/2)    periastron at s = 0, apoastron at s = +-pi
@@ -9,8 +10,8 @@
 //   plunging   r = r_c exp(-2s)                    from infinity to the future singularity
 //   escaping   r = r_c exp(2s)                     from the past singularity to infinity
 //
-// What decides how long an orbit whirls is a difference of roots or the height over the barrier; it
-// is a member of its own (`excess`), to be given without cancellation.
+// What decides how long an orbit whirls is a difference of roots or the height over the barrier.
+// It is a member of its own (`excess`), to be given without cancellation.
 #pragma once
 
 namespace domefall {
@@ -25,16 +26,16 @@ class OrbitCurve {
  public:
   enum class Kind { kScattered, kBound, kReturning, kPlunging, kEscaping };
 
-  // excess: w3 - w2.  w1 <= 0 is the third root.
+  // Here excess is w3 - w2, and w1 <= 0 is the third root.
   static OrbitCurve scattered(const OrbitConstants& constants, double periastron, double w1,
                               double excess);
   static OrbitCurve bound(const OrbitConstants& constants, double periastron, double apoastron,
                           double excess);
-  // P = (w - w_a) G.  Of r_a <= 6: excess = G(w_a).  Of r_a > 6: excess = the least value of G.
+  // With P = (w - w_a) G, excess is G(w_a) if r_a <= 6, and the least value of G if r_a > 6.
   static OrbitCurve returning(const OrbitConstants& constants, double apoastron,
                               double apoastron_over_two, double excess);
-  // Of L > 4: the barrier's top is at w_b, and excess = P(w_b).  Of L <= 4 w_b is not used,
-  // and excess is the least that 1 - L^2/16 may be.
+  // If L > 4, the barrier's top is at w_b, and excess = P(w_b).  If L <= 4, w_b is not used, and
+  // excess is the least that 1 - L^2/16 may be.
   static OrbitCurve unturned(const OrbitConstants& constants, bool escaping, double w_b,
                              double excess);
 
@@ -43,17 +44,17 @@ class OrbitCurve {
   };
   Point at(double s) const;
 
-  // s at which r is passed on the way in or out; NaN if that is never.  Of bound orbits in [-pi,
-  // pi].
+  // Returns s at which r is passed on the way in or out, or NaN if that is never.  For bound orbits
+  // it is in [-pi, pi].
   double parameter(double r, bool outward) const;
 
   Kind kind() const { return kind_; }
   const OrbitConstants& constants() const { return constants_; }
   double innermost() const;
   double outermost() const;
-  // Outermost radius - 2, exact where the radius is rounded.
+  // Returns the outermost radius - 2, exact where the radius is rounded.
   double outermost_over_two() const { return over_two_; }
-  // The part of the parameter that is tabulated, to r = kFarthest and kDeepest.
+  // These bound the part of the parameter that is tabulated, to r = kFarthest and kDeepest.
   double begin() const;
   double end() const;
 

@@ -1,26 +1,28 @@
-// Which curve an orbit with given constants follows, and where on it a given state is.
+// This file says which curve an orbit with given constants follows, and where on it a given state
+// is.
 #pragma once
 
 #include "trajectories/orbit_curve.h"
 
 namespace domefall {
 
-// The unstable circular orbit of an angular momentum, at the top of the potential V = (1 - 2w)(1 +
-// L^2 w^2), w = 1/r, where E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + spread).
+// A Barrier is the unstable circular orbit of an angular momentum, at the top of the potential V =
+// (1 - 2w)(1 + L^2 w^2) with w = 1/r.  There E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b +
+// spread).
 struct Barrier {
   double w;       // of its radius; 1/6 to 1/3
   double spread;  // 3w - 1/2 = sqrt(1 - 12/L^2)/2: from w to the third root of the top's cubic
 };
 Barrier barrier_of(double angular_momentum);  // L^2 >= 12
 
-// The roots w2 < w_b < w3 on both sides of the barrier: w_b - w2, w3 - w_b, where P(w_b) = -depth,
-// depth > 0.  Relative accuracy, however small.
+// BarrierRoots are the roots w2 < w_b < w3 on both sides of the barrier, as w_b - w2 and w3 - w_b,
+// where P(w_b) = -depth and depth > 0.  They have relative accuracy, however small they are.
 struct BarrierRoots {
   double below, above;
 };
 BarrierRoots roots_beside(const Barrier& barrier, double angular_momentum, double depth);
 
-// The orbit from infinity that turns at a barrier it stays `depth` below.
+// Returns the orbit from infinity that turns at a barrier it stays `depth` below.
 OrbitCurve scattered_orbit(const OrbitConstants& constants, double depth);
 
 struct OrbitStart {
@@ -28,11 +30,12 @@ struct OrbitStart {
   double parameter;
 };
 
-// The geodesic through r with the radial velocity dr/dtau = speed, outside the hole or inside it.
+// Returns the geodesic through r with the radial velocity dr/dtau = speed, outside the hole or
+// inside it.
 OrbitStart orbit_through(const OrbitConstants& constants, double r, double speed);
 
-// An orbit that would whirl longer than one of this excess is taken to have this one: rounding has
-// long decided what it does.
+// An orbit that would whirl longer than one of this excess is taken to have this one, because
+// rounding has long decided what it does.
 inline constexpr double kLeastExcess = 1e-20;
 
 }  // namespace domefall

@@ -1,9 +1,9 @@
-// Proper time, azimuth and null time along an orbit's curve: plain quadratures, done once, as
-// Chebyshev series over panels that are halved until the last terms of the integrands vanish; and
-// the inverse, the parameter of a proper time.
+// An OrbitTable holds proper time, azimuth and null time along an orbit's curve.  They are plain
+// quadratures, done once, as Chebyshev series over panels that are halved until the last terms of
+// the integrands vanish.  It also has the inverse, the parameter of a proper time.
 //
-// Each panel counts from the nearest in time of the places where an orbit is quick: the two
-// singularities, a periastron and the origin.  So a place next to one of them keeps its digits,
+// Each panel counts from the nearest in time of the places where an orbit is quick, which are the
+// two singularities, a periastron and the origin.  So a place next to one of them keeps its digits,
 // however long ago the origin was.  A singularity is taken to be at r = 1e-16 M, which at 1e-6 M is
 // 1e-15 of the time to it.
 #pragma once
@@ -19,12 +19,13 @@ namespace domefall {
 
 class OrbitTable {
  public:
-  // All three are 0 at the parameter `origin`.  Up to `turn` the null time is u = t - r*, from
-  // there on v = t + r*, of one t: v - u = 2 r* there.  turn = -infinity: v throughout; infinity:
-  // u.  Of E = 0 the null time is left 0: it is not finite at the turn.  Throws std::domain_error
-  // if the orbit is beyond what doubles can square or the table reaches, and std::runtime_error if
-  // the panels become too many, which no orbit has been seen to do.  tolerance: of the integrands,
-  // relative to the largest of their panel.
+  // Makes the table, in which all three are 0 at the parameter `origin`.  Up to `turn` the null
+  // time is u = t - r*, and from there on v = t + r*, of one t, so that v - u = 2 r* there.  With
+  // turn = -infinity it is v throughout, and with infinity u.  For E = 0 the null time is left 0,
+  // because it is not finite at the turn.  The tolerance is of the integrands, relative to the
+  // largest of their panel.  Throws std::domain_error if the orbit is beyond what doubles can
+  // square or the table reaches.  Throws std::runtime_error if the panels become too many, which no
+  // orbit has been seen to do.
   OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance);
 
   struct Sums {
@@ -37,7 +38,7 @@ class OrbitTable {
   };
   Place at(double s) const;
   double parameter(const ProperTime& tau) const;  // of tau clamped to what is tabulated
-  // At the ends.  tau is exactly that of at() where the end is a singularity.
+  // These are the values at the ends.  tau is exactly that of at() where the end is a singularity.
   const Sums& begin() const { return begin_; }
   const Sums& end() const { return end_; }
   std::size_t panel_count() const { return panels_.size(); }
@@ -70,7 +71,7 @@ class OrbitTable {
   Sums begin_, end_;
 };
 
-// r + 2 ln |r/2 - 1|, of r and r - 2.
+// Returns r + 2 ln |r/2 - 1|, from r and r - 2.
 double tortoise(double r, double over_two);
 
 }  // namespace domefall

@@ -1,7 +1,7 @@
-// From rest at infinity around the hole and back: E = 1, L > 4, [Riazuelo] eq. r_par, vit_par, fig.
-// figpar.  tau = 0 at the periastron, 4 < r_p; L = r_p sqrt(2/(r_p - 2)).  Close to L = 4 the orbit
-// whirls at r = 4, some ln(1/excess)/sqrt(2) radians longer.  Throws std::domain_error that names
-// the bound.
+// A parabolic orbit comes from rest at infinity, goes around the hole and back.  It has E = 1 and L
+// > 4.  [Riazuelo] eq. r_par, vit_par, fig. figpar.  tau = 0 at the periastron, which is 4 < r_p,
+// and L = r_p sqrt(2/(r_p - 2)).  Close to L = 4 the orbit whirls at r = 4, some
+// ln(1/excess)/sqrt(2) radians longer.  The functions throw std::domain_error that names the bound.
 #pragma once
 
 #include "trajectories/geodesic.h"
@@ -13,7 +13,7 @@ inline constexpr double kParabolicAngularMomentum = 4;  // M; at or below it the
 
 Geodesic parabolic_by_periastron(double periastron);
 Geodesic parabolic_by_angular_momentum(double angular_momentum);
-// L = 4 (1 + excess), excess >= 1e-20.
+// Here L = 4 (1 + excess), with excess >= 1e-20.
 Geodesic parabolic_by_excess(double excess);
 
 }  // namespace domefall

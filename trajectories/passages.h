@@ -1,4 +1,4 @@
-// When a trajectory is where.
+// This file says when a trajectory is where.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace domefall {
 
-// The proper time after which the trajectory begins: at the past singularity, or just before the
-// first key of a path; -infinity without either.
+// Returns the proper time after which the trajectory begins.  It is that of the past singularity,
+// or just before the first key of a path, and -infinity without either.
 double birth(const Trajectory& trajectory);
 
-// The first proper time >= after at which r (M) is passed on that leg; nothing if never, or if r
-// does not change.
+// Returns the first proper time >= after at which r (M) is passed on that leg, or nothing if it
+// never is, or if r does not change.
 std::optional<ProperTime> time_at(
     const Trajectory& trajectory, double r, Leg leg,
     const ProperTime& after = -std::numeric_limits<double>::infinity());
 
-// The smallest and the largest r of its whole life, M.
+// Returns the smallest and the largest r of its whole life, in M.
 std::pair<double, double> reach(const Trajectory& trajectory);
 
 }  // namespace domefall

@@ -1,5 +1,5 @@
-// The skies that an observer can see light from: those of the two asymptotically flat regions, and
-// the past singularity of region IV, which counts as a sky wherever a show lights it.
+// An observer can see light from these skies.  They are those of the two asymptotically flat
+// regions, and the past singularity of region IV, which counts as a sky wherever a show lights it.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace domefall {
 
-// The region in which light started that reaches the observer.
+// A SkyRegion is the region in which light started that reaches the observer.
 enum class SkyRegion : char { kI, kIII, kIV };
 inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV};
 
@@ -21,7 +21,7 @@ inline const char* name_of(SkyRegion sky) {
 // Returns the sky of the region, I or III, that a tetrad belongs to.
 constexpr SkyRegion own_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
 
-// One value for each sky.
+// A PerSky has one value for each sky.
 template <class T>
 struct PerSky {
   std::array<T, kEverySky.size()> values{};  // in the order of kEverySky

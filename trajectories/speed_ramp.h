@@ -1,5 +1,5 @@
-// An observer who gains or loses speed in one direction while the place is held: the rapidity
-// changes evenly with proper time, which in flat space is constant acceleration.
+// A SpeedRamp is an observer who gains or loses speed in one direction while the place is held.
+// The rapidity changes evenly with proper time, which in flat space is constant acceleration.
 #pragma once
 
 #include "trajectories/given_velocity.h"
@@ -13,7 +13,7 @@ struct SpeedRamp {
   double duration = 1;                          // proper time from one to the other, > 0
 };
 
-// tau in [0, duration]; before and after it the speed stays.
+// tau is in [0, duration].  Before and after that the speed stays.
 OrbitPoint point_at(const SpeedRamp& ramp, double tau);
 
 }  // namespace domefall

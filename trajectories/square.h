@@ -1,4 +1,4 @@
-// x^2, of an expression that is written once.
+// square() gives x^2 of an expression that is written once.
 #pragma once
 
 namespace domefall {

@@ -1,5 +1,5 @@
 // A trajectory is a small value that answers one question: where is the observer, and how does it
-// move, at proper time tau.  One header per kind; this one makes them exchangeable.
+// move, at proper time tau.  There is one header per kind, and this one makes them exchangeable.
 #pragma once
 
 #include <variant>
@@ -18,12 +18,13 @@ namespace domefall {
 using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
                                 SpeedRamp, Geodesic, AcceleratedPath>;
 
-// The point of the orbit at proper time tau (units of M; seconds in flat space) since its start.
-// tau must be in [0, lifetime), of a geodesic in (birth, death), of a path on it.
+// Returns the point of the orbit at proper time tau (units of M; seconds in flat space) since its
+// start.  tau must be in [0, lifetime).  For a geodesic it must be in (birth, death), and for a
+// path on it.
 OrbitPoint point_at(const Trajectory& trajectory, const ProperTime& tau);
 
-// The proper time before which the trajectory ends: at the singularity, or just behind the last key
-// of a path; infinity for an observer whose time does not end.
+// Returns the proper time before which the trajectory ends.  It ends at the singularity, or just
+// behind the last key of a path.  For an observer whose time does not end this is infinity.
 double lifetime(const Trajectory& trajectory);
 
 }  // namespace domefall
