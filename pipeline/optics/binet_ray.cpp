@@ -1,14 +1,14 @@
-// A ray by its orbit's own equation, with the swept azimuth as variable.
-//
-// With w = 1/r it is Binet's equation, w'' = 3 w^2 - w, regular at infinity (w = 0) and around the
+// A ray is followed here by its orbit's own equation, with the swept azimuth as variable.  With w =
+// 1/r it is Binet's equation, w'' = 3 w^2 - w.  It is regular at infinity (w = 0) and around the
 // light circle (w = 1/3), but not at the singularity, where w ~ 2/phi^2.  There q = sqrt(r) is
-// regular: inserting w = q^-2 and the first integral w'^2 = c - w^2 + 2 w^3, c = (E/L)^2, gives
+// regular.  Inserting w = q^-2 and the first integral w'^2 = c - w^2 + 2 w^3, c = (E/L)^2, gives
 //
 //   q'' = -q/4 + 3 c q^5 / 4,
 //
-// whose only trace of the singularity is q = 0.  Inside the horizon q serves where 2 w^3 > c: there
-// the difference w'^2 - 2 w^3 of large numbers would forget c.  Elsewhere w serves; a nearly radial
-// ray, c > 2 w^3, is a straight line in w, while in q an error grows as phi^(5/2) along it.
+// whose only trace of the singularity is q = 0.  Inside the horizon q serves where 2 w^3 > c,
+// because there the difference w'^2 - 2 w^3 of large numbers would forget c.  Elsewhere w serves.
+// A nearly radial ray, c > 2 w^3, is a straight line in w, while in q an error grows as phi^(5/2)
+// along it.
 //
 // Backward in time dr/dp = -k^r and dphi/dp = L/r^2, so w' = k^r / L.  Each form is scaled: y is w
 // or q over its first value, and psi = phi / kappa with kappa = min(1, L / (r |k^r|)), so that
@@ -39,15 +39,15 @@ namespace odeint = boost::numeric::odeint;
 
 using OrbitState = std::array<double, 3>;  // y, dy/dpsi, and v or u less the observer's
 
-// Where a form takes over from the other.  Inwards a ray that has passed the horizon has no turning
-// point left (c - w^2 + 2 w^3 > 0 for w > 1/2); the gaps keep a ray that turns near 2 in one form.
+// Here a form takes over from the other.  Inwards a ray that has passed the horizon has no turning
+// point left (c - w^2 + 2 w^3 > 0 for w > 1/2).  The gaps keep a ray that turns near 2 in one form.
 constexpr double kToRootInwards = 2.0, kToInverseOutwards = 2.25;
 constexpr double kGapOfShares = 2.0;  // in c r^3 / 2
 
 enum class Form { kInverse, kRoot };  // w, q
 enum class Counted { kNothing, kV, kU };
 
-// The equation of either form, y'' = linear y + power y^2 or y^5.
+// An Equation is that of either form, y'' = linear y + power y^2 or y^5.
 struct Equation {
   Form form;
   double energy_over_l;
@@ -65,8 +65,8 @@ struct Equation {
           counted == Counted::kNothing ? 0 : -kappa / off_horizon(y, counted)};
   }
 
-  // The second component is measured against a turn of the orbit too: its own size says nothing at
-  // a turning point.
+  // The second component is measured against a turn of the orbit too, because its own size says
+  // nothing at a turning point.
   OrbitState scale(const OrbitState& y, const OrbitState& dy, double h) const {
     return {std::abs(y[0]) + std::abs(h * dy[0]), std::abs(y[1]) + kappa * std::abs(y[0]),
             counted == Counted::kNothing ? 1 : std::abs(y[2]) + std::abs(h * dy[2])};
@@ -79,7 +79,7 @@ struct Equation {
   double steepness(const OrbitState& y) const {
     return y[1] / (y[0] * kappa) * (form == Form::kInverse ? 1 : -2);
   }
-  // e - p for v, e + p for u: it vanishes on the horizon where that is infinite.
+  // Returns e - p for v and e + p for u.  It vanishes on the horizon where that is infinite.
   double off_horizon(const OrbitState& y, Counted of) const {
     const double p = steepness(y) / radius(y);
     return of == Counted::kV ? energy_over_l - p : energy_over_l + p;
@@ -91,7 +91,7 @@ struct Arc {
   OrbitState y;
 };
 
-// c = (E/L)^2; steepness = dln(w)/dphi = r k^r / L; `time` is what has been counted.
+// Here c = (E/L)^2 and steepness = dln(w)/dphi = r k^r / L.  `time` is what has been counted.
 Arc arc_at(double r, double steepness, double energy_over_l, Form form, Counted counted,
            double time, long* evaluations) {
   const double kappa = 1 / std::max(1.0, std::abs(steepness));
@@ -119,7 +119,7 @@ NullTimes passed_times(const Arc& arc, Counted began, double observer_star) {
 }
 
 // Counts the other coordinate from here on if that is further off its horizon, by a factor that
-// keeps a ray between the two from changing to and fro; says whether it is so.
+// keeps a ray between the two from changing to and fro.  Says whether it is so.
 bool change_coordinate(Arc& arc) {
   constexpr double kGap = 2;
   const auto off = [&arc](Counted of) { return std::abs(arc.equation.off_horizon(arc.y, of)); };
@@ -131,11 +131,11 @@ bool change_coordinate(Arc& arc) {
   return true;
 }
 
-// The step of psi over which e - p or e + p changes by a tenth of itself, p' being 3 w^2 - w, so
-// that none passes the horizon where the coordinate in use is infinite.  Fehlberg's 7(8) is blind
-// to the time's error: its two formulas differ by stages at the ends of the step, of which a
-// quadrature sees no difference.  A distance below the tolerance is what the steps have left of it,
-// and within r = 1, on the way to the singularity, no horizon is near.
+// Returns the step of psi over which e - p or e + p changes by a tenth of itself, p' being 3 w^2 -
+// w, so that none passes the horizon where the coordinate in use is infinite.  Fehlberg's 7(8) is
+// blind to the time's error, because its two formulas differ by stages at the ends of the step, of
+// which a quadrature sees no difference.  A distance below the tolerance is what the steps have
+// left of it.  Within r = 1, on the way to the singularity, no horizon is near.
 double step_to_horizon(const Arc& arc, double tolerance) {
   constexpr double kShare = 0.1;
   const double w = 1 / arc.equation.radius(arc.y), rate = std::abs(w * (3 * w - 1));
@@ -145,8 +145,8 @@ double step_to_horizon(const Arc& arc, double tolerance) {
   return kShare * off / (arc.equation.kappa * rate + std::numeric_limits<double>::min());
 }
 
-// The part of a step h from y after which y vanishes, by Newton's method on the step itself, so
-// that the event is as accurate as a step.
+// Returns the part of a step h from y after which y vanishes, by Newton's method on the step
+// itself, so that the event is as accurate as a step.
 template <class ErrorStepper>
 double part_to_zero(const Equation& equation, const OrbitState& y, double h) {
   constexpr int kIterations = 12;
@@ -166,12 +166,12 @@ SkyRegion origin_at_zero(Form form, double energy) {
   return form == Form::kRoot ? SkyRegion::kIV : sky_of(energy);
 }
 
-// A radial ray has no azimuth to follow and no turning point: its direction says all.
+// A radial ray has no azimuth to follow and no turning point, so its direction says all.
 IntegratedRay radial_ray(const PhotonAtObserver& photon) {
   return {photon.radial > 0 ? SkyRegion::kIV : sky_of(photon.energy), 0, 0, 0, 0, {}};
 }
 
-// c / 2 w^3: above 1 the ray is nearly radial.
+// Returns c / 2 w^3.  Above 1 the ray is nearly radial.
 double radial_share(double r, double energy_over_l) {
   return energy_over_l * energy_over_l * r * r * r / 2;
 }
@@ -207,7 +207,7 @@ IntegratedRay binet_ray(const PhotonAtObserver& photon, double tolerance, double
   for (; ray.steps < kRayStepBudget; ++ray.steps) {
     const OrbitState before = arc.y;
     const double psi_before = psi;
-    // The last step again, as far as it is wanted.
+    // The last step is made again, as far as it is wanted.
     const auto stopped = [&] {
       ErrorStepper error_stepper;
       OrbitState at{};

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// The light of one order that comes from a place on the body's way.
+// A Light is the light of one order that comes from a place on the body's way.
 struct Light {
   PlaceImage place;
   V3d across;     // the direction to which the ray sweeps
@@ -19,11 +19,12 @@ struct Light {
   double late;    // by how much later it would have to leave to be seen now, by v or u
 };
 
-// A guess of when the light left the body, and what it leads to.
+// A Guess is one of when the light left the body, and what it leads to.
 struct Guess {
   BodyPoint body;
   double psi;
-  // Whether a signal from there reaches the observer before now, so that the light left later.
+  // This says whether a signal from there reaches the observer before now, so that the light left
+  // later.
   bool is_past;
   std::optional<Light> light;  // none where none of that order comes from there
 };
@@ -46,8 +47,8 @@ class Retardation {
     const double sine = std::hypot(n.y, n.z), angle = std::atan2(sine, n.x);
     const bool same_side = order_ % 2 == 0;
     guess.psi = same_side ? angle + order_ * pi : (order_ + 1) * pi - angle;
-    // On the axis, to what the time of emission is found to, two orders must not take opposite
-    // sides.
+    // On the axis two orders must not take opposite sides, to within what the time of emission is
+    // found to.
     constexpr double kOnAxis = 1e-9;
     const V3d towards = sine > kOnAxis ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
     const V3d across = towards * (same_side ? 1.0 : -1.0);
@@ -87,7 +88,8 @@ class Retardation {
   double radius_;
 };
 
-// k^r of the light at the body: away from the hole if the ray goes inwards when followed back.
+// Returns k^r of the light at the body.  It is away from the hole if the ray goes inwards when
+// followed back.
 double radial_momentum(const PlaceView& view, const BodyPoint& body, const Light& light,
                        double momentum) {
   if (momentum > 0 && light.place.slope != 0)
@@ -95,9 +97,9 @@ double radial_momentum(const PlaceView& view, const BodyPoint& body, const Light
   return body.r > view.at.r ? -std::abs(light.energy) : std::abs(light.energy);
 }
 
-// The frequency that the body gives to light that is one in the tetrad.  In the rain at the body it
-// is (E + s k^r)/(1 - s^2), s = sqrt(2/r), or, for light that falls, (E^2 + 2 L^2/r^3)/(E - s k^r),
-// where nothing cancels on the horizon.
+// Returns the frequency that the body gives to light that is one in the tetrad.  With s = sqrt(2/r)
+// it is (E + s k^r)/(1 - s^2) in the rain at the body.  For light that falls it is (E^2 + 2
+// L^2/r^3)/(E - s k^r), where nothing cancels on the horizon.
 double emitted(const PlaceView& view, const BodyPoint& body, const Light& light) {
   const double momentum = invariants(light.place.ray).angular_momentum, energy = light.energy;
   const double k_r = radial_momentum(view, body, light, momentum);

@@ -11,16 +11,16 @@ namespace {
 
 constexpr double kKruskalAbove = 0.5, kKruskalBelow = 2.5;
 
-// The largest terms that the series beyond the goals leave unexpanded: (b/r)^2 far out, r/2 and
-// r^3/2b^2 near the singularity.
+// These are the largest terms that the series beyond the goals leave unexpanded: (b/r)^2 far out,
+// r/2 and r^3/2b^2 near the singularity.
 constexpr double kFarShare = 1e-3, kNearShare = 1e-5;
 
 bool in_kruskal_zone(double r) { return r >= kKruskalAbove && r <= kKruskalBelow; }
 
-// One of U, V that does not vanish where the ray meets the horizon is set to 1, the other by U V.
-// Their rates: k^U = U (E + k^r)/4A and k^V = -V (E - k^r)/4A, with A = -2 U V exp(-r/2)/r divided
-// out.  Of E + k^r and E - k^r the one without cancellation is used; the other follows from
-// 2 F k^U k^V = (L/r)^2, since light is null.
+// One of U, V that does not vanish where the ray meets the horizon is set to 1, and the other by U
+// V.  Their rates are k^U = U (E + k^r)/4A and k^V = -V (E - k^r)/4A, with A = -2 U V exp(-r/2)/r
+// divided out.  Of E + k^r and E - k^r the one without cancellation is used.  The other follows
+// from 2 F k^U k^V = (L/r)^2, since light is null.
 ChartedRay in_kruskal(const PhotonAtObserver& k, double t, double phi) {
   const double r = k.r, growth = std::exp(r / 2), l = k.angular_momentum;
   const double product = -(r / 2 - 1) * growth;
@@ -51,7 +51,7 @@ ChartedRay in_schwarzschild(const PhotonAtObserver& k) {
           0};
 }
 
-// The photon of a point of a ray in Schwarzschild's coordinates.
+// Returns the photon of a point of a ray in Schwarzschild's coordinates.
 PhotonAtObserver photon_of(const ChartedRay& ray) {
   const double r = ray.y[1], a = 1 - 2 / r;
   return {ray.region, r, -a * ray.y[3], r * r * ray.y[kAzimuthRate], -ray.y[4]};
@@ -67,7 +67,7 @@ void to_schwarzschild(ChartedRay& ray, double r) {
   ray.shift = 0;
 }
 
-// To Kruskal's chart when r enters its zone, from it when r leaves.
+// The chart changes to Kruskal's when r enters its zone, and from it when r leaves.
 bool leaves_schwarzschild(const RayState& y) {
   return y[1] > 2 ? y[1] < kKruskalBelow && y[4] < 0 : y[1] > kKruskalAbove && y[4] > 0;
 }
@@ -77,13 +77,13 @@ bool leaves_kruskal(const RayState& y, double r) {
   return (r > kKruskalBelow && product_rate < 0) || (r < kKruskalAbove && product_rate > 0);
 }
 
-// phi = int dw / sqrt(1/b^2 - w^2 + 2 w^3) from 0 to w, expanded in b w.
+// phi = int dw / sqrt(1/b^2 - w^2 + 2 w^3) from 0 to w is expanded in b w.
 double azimuth_to_infinity(double b, double w) {
   const double x = b * w, x2 = x * x;
   return x * (1 + x2 / 6 - x2 * w / 4 + 3 * x2 * x2 / 40);
 }
 
-// phi = int dr / sqrt(2 r - r^2 + r^4/b^2) from 0 to r, expanded in y = r/2 - r^3/2b^2.
+// phi = int dr / sqrt(2 r - r^2 + r^4/b^2) from 0 to r is expanded in y = r/2 - r^3/2b^2.
 double azimuth_to_singularity(double inverse_b, double r) {
   const double x = r * inverse_b;
   return std::sqrt(2 * r) * (1 + r / 12 - r * x * x / 28 + 3 * r * r / 160);

@@ -15,12 +15,12 @@ namespace {
 
 const double kSqrt3 = std::sqrt(3.0);
 
-// Above this 1/b the form b (phi - K) is used; below it, where that is a difference of large
-// numbers, the one with the pole at the horizon taken out.
+// Above this 1/b the form b (phi - K) is used.  Below it, where that is a difference of large
+// numbers, the form with the pole at the horizon taken out is used.
 constexpr double kLargeInverseB = 0.1;
 constexpr double kJustBelowHorizon = -1e-20;
 
-// A ray of E >= 0 from the singularity.
+// A Path is a ray of E >= 0 from the singularity.
 struct Path {
   Radius at;
   double e;    // E/L = 1/b
@@ -29,8 +29,8 @@ struct Path {
   bool turned;
 };
 
-// Over a unit interval: the rule's nodes crowd towards the ends, and those of a short interval far
-// from 0 would fall on them.
+// Integrates over a unit interval.  The rule's nodes crowd towards the ends, and those of a short
+// interval far from 0 would fall on them.
 template <class F>
 double integral(double from, double to, F f) {
   thread_local boost::math::quadrature::tanh_sinh<double> rule(12);
@@ -42,8 +42,9 @@ double integral(double from, double to, F f) {
 
 // ---- K where the path passes every radius, eps >= 0 ----
 
-// In w from the observer to the light circle, and in q = sqrt(r) from there to the singularity:
-// int 2 b dq/(q^3 + b sqrt(q^6 P)),  q^6 P = (1 - q^2/3)^2 (2 + q^2/3) + eps q^6.
+// The integral is taken in w from the observer to the light circle, and in q = sqrt(r) from there
+// to the singularity:
+//   int 2 b dq/(q^3 + b sqrt(q^6 P)),  q^6 P = (1 - q^2/3)^2 (2 + q^2/3) + eps q^6.
 double bounded_part_over_circle(const Path& path) {
   const double b = 1 / path.e, eps = path.eps, end = std::min(std::sqrt(path.at.r), kSqrt3);
   const auto beyond = [=](double w) {
@@ -61,7 +62,7 @@ double bounded_part_over_circle(const Path& path) {
 
 // ---- a path that has a turning point w1 > 1/3, eps < 0, on it or not ----
 
-// P = (w - w1) Q, Q = 2 x^2 + (1 + 2 x1) (x + x1), x = w - 1/3: positive terms only.
+// P = (w - w1) Q with Q = 2 x^2 + (1 + 2 x1) (x + x1) and x = w - 1/3 has positive terms only.
 struct Turning {
   double x1, w1;
   double y_observer;  // sqrt(w - w1)
@@ -79,14 +80,14 @@ Turning turning_of(const Path& path) {
   return t;
 }
 
-// int dy f(y) from `from` to infinity in two halves: f over y < 1 and `far`, the same times dy/dz,
-// over z = 1/y.
+// Integrates f(y) dy from `from` to infinity in two halves.  One has f over y < 1, and the other
+// `far`, the same times dy/dz, over z = 1/y.
 template <class Rule, class Near, class Far>
 double to_infinity(Rule rule, double from, Near near, Far far) {
   return from < 1 ? rule(from, 1.0, near) + rule(0.0, 1.0, far) : rule(0.0, 1 / from, far);
 }
 
-// K from y = `from` (w = w1 + y^2) to the singularity.
+// Returns K from y = `from` (w = w1 + y^2) to the singularity.
 double bounded_part_from(const Path& path, const Turning& t, double from) {
   const double b = 1 / path.e, x1 = t.x1;
   const auto near = [=](double y) { return 2 * b * y / (1 + b * y * std::sqrt(t.q(x1 + y * y))); };
@@ -106,9 +107,9 @@ double bounded_part(const Path& path, const Turning& t) {
 
 // ---- b large: t itself, its pole at the horizon taken out ----
 
-// dt = e dw/(w^2 (1 - 2w) sqrt(P)) = e g(w) dy/(y0^2 - y^2), w = w1 + y^2, y0^2 = 1/2 - w1, g =
-// 1/(w^2 sqrt(Q)) and g = 4 y0/e on the pole.  The principal value of the pole alone is a
-// logarithm; this is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q, g =
+// With w = w1 + y^2 and y0^2 = 1/2 - w1, dt = e dw/(w^2 (1 - 2w) sqrt(P)) = e g(w) dy/(y0^2 - y^2),
+// where g = 1/(w^2 sqrt(Q)) and g = 4 y0/e on the pole.  The principal value of the pole alone is a
+// logarithm.  This is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q, g =
 // 1/sqrt(G), and the quotient of the polynomial G divided out.
 double without_pole(const Turning& t, double y0, double from) {
   const auto divided = [](double w, int power) {  // (w^n - 2^-n)/(w - 1/2)
@@ -125,7 +126,7 @@ double without_pole(const Turning& t, double y0, double from) {
     return quotient / (root * at_pole * (root + at_pole));
   };
   const auto far = [&](double z) { return near(1 / z) / (z * z); };
-  // Analytic, with nothing nearer than |y| = 0.6 to the path.
+  // The integrand is analytic, with nothing nearer than |y| = 0.6 to the path.
   const auto rule = [](double low, double high, auto f) {
     return boost::math::quadrature::gauss<double, 30>::integrate(f, low, high);
   };
@@ -141,7 +142,7 @@ double time_of_small_energy(const Path& path, const Turning& t) {
   return path.e * (rest - 2 * without_pole(t, y0, 0)) - logarithm;
 }
 
-// t at emission from u at the observer, or from v if the ray has turned.
+// Returns t at emission from u at the observer, or from v if the ray has turned.
 double time_from_null_coordinate(const Path& path, double azimuth) {
   if (path.eps >= 0) return -(azimuth - bounded_part_over_circle(path)) / path.e;
   const Turning t = turning_of(path);

@@ -11,7 +11,7 @@ namespace {
 
 const double kSqrt27 = std::sqrt(27.0);
 
-// The observer's t less its v or u, whichever times count from.
+// Returns the observer's t less its v or u, whichever times count from.
 double own_time(const WhiteHoleTable& table) {
   const double star = tortoise(table.at());
   return table.is_outgoing() ? star : -star;
@@ -19,7 +19,8 @@ double own_time(const WhiteHoleTable& table) {
 
 }  // namespace
 
-// Outside from the observer's null coordinate; else from the observer's t, of |E|.
+// Outside, times count from the observer's null coordinate.  Elsewhere they count from the
+// observer's t, and are of |E|.
 double EmissionTimeTable::time_at_place(const WhiteHoleTable& table, double s) const {
   const double time = exact_emission_time(table.ray_at_place(s));
   return odd_ ? offset_ - time : time;

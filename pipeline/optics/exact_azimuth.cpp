@@ -17,21 +17,21 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // ---- eps > 0: one real root, and a complex pair m +- i n in x ----
 
-// 4/sqrt(2) R_F(M^2, L_-^2, L_+^2), L_+-^2 = M^2 + 2 (m - root) +- 2 sqrt((m - root)^2 + n^2), the
-// lower one without cancellation.
+// The integral is 4/sqrt(2) R_F(M^2, L_-^2, L_+^2), with L_+-^2 = M^2 + 2 (m - root) +- 2 sqrt((m -
+// root)^2 + n^2).  The lower one is found without cancellation.
 double carlson(double m2, const OneRealRoot& p) {
   const double reach = p.m - p.root, far = std::hypot(reach, p.n);
   const double lower = m2 - 2 * p.n * p.n / (reach + far), upper = m2 + 2 * (reach + far);
   return 4 / std::sqrt(2.0) * ellint_rf(m2, lower, upper);
 }
 
-// From w = 0 to the observer.
+// This runs from w = 0 to the observer.
 double from_infinity_without_turning(const Cubic& c) {
   const OneRealRoot p = one_real_root(c.eps);
   const double m = p.m, n = p.n, root = p.root;
   const double a = c.x - m, b = -1.0 / 3 - m;  // the ends, from the pair's real part
   const double xi = std::hypot(a, n), eta = std::hypot(b, n);
-  // n^2 + ab + xi eta, which cancels when the double root lies between the ends.
+  // This is n^2 + ab + xi eta, which cancels when the double root lies between the ends.
   const double ab = a * b;
   const double mixed =
       ab >= 0 ? n * n + ab + xi * eta : n * n * (1 + (a * a + b * b + n * n) / (xi * eta - ab));
@@ -40,7 +40,7 @@ double from_infinity_without_turning(const Cubic& c) {
   return carlson(m2, p);
 }
 
-// From the observer to w = infinity, where M^2 = 2 (b + eta), b = x - m, eta = |b + i n|.
+// This runs from the observer to w = infinity, where M^2 = 2 (b + eta), b = x - m, eta = |b + i n|.
 double to_singularity_without_turning(const Cubic& c) {
   const OneRealRoot p = one_real_root(c.eps);
   const double b = c.x - p.m, eta = std::hypot(b, p.n);
@@ -49,7 +49,8 @@ double to_singularity_without_turning(const Cubic& c) {
 
 // ---- eps < 0: three real roots, w3 < 0 < w2 < 1/3 < w1 ----
 
-// int dw/sqrt(P) between two points whose factors (w - w3), (w2 - w), (w1 - w) are given.
+// Factors are (w - w3), (w2 - w), (w1 - w) of a point.  int dw/sqrt(P) follows for two points of
+// which they are given.
 struct Factors {
   double f1, f2, f3;
 };
@@ -63,8 +64,8 @@ double carlson(const Factors& upper, const Factors& lower, double width) {
   return std::sqrt(2.0) * ellint_rf(u12 * u12, u13 * u13, u14 * u14);
 }
 
-// w2 - w.  The plain difference keeps its digits unless the observer is close to the turning point;
-// there P = 2 (w - w3)(w2 - w)(w1 - w) is known from k^r.
+// Returns w2 - w.  The plain difference keeps its digits unless the observer is close to the
+// turning point.  There P = 2 (w - w3)(w2 - w)(w1 - w) is known from k^r.
 double below_turning_point(const Cubic& c, const RealRoots& w) {
   const double plain = c.w > 1.0 / 6 ? w.x2 - c.x : w.w2 - c.w;
   if (plain > 0.25 * std::min(c.w, std::abs(c.x))) return plain;
@@ -80,7 +81,7 @@ double from_infinity_outside_the_light_circle(const Cubic& c, bool turned) {
   return carlson(turning, infinity, w.w2) + carlson(turning, observer, observer.f2);
 }
 
-// w - w1, likewise, for an observer inside the light circle.
+// Returns w - w1 likewise, for an observer inside the light circle.
 double above_turning_point(const Cubic& c, const RealRoots& w) {
   const double plain = c.x - w.x1;
   if (plain > 0.25 * c.x) return plain;
@@ -100,12 +101,12 @@ double to_singularity_inside_the_light_circle(const Cubic& c, bool turned) {
 double nearly_radial(const RayInvariants& k, double r, bool from_sky) {
   const double b = k.angular_momentum / std::abs(k.energy);
   if (from_sky) return b / r;
-  // int b dr/sqrt(r^4 + 2 b^2 r) over all r.
+  // This is int b dr/sqrt(r^4 + 2 b^2 r) over all r.
   const double c = boost::math::beta(1.0 / 6, 1.0 / 3) / (3 * std::cbrt(2.0));
   return c * std::cbrt(b);
 }
 
-// phi continued oddly through the axis, which a turned ray may have passed.
+// Returns phi continued oddly through the axis, which a turned ray may have passed.
 double continued_azimuth(NullRay ray) {
   const auto shift = [&](double by) {
     ray.gap_first += by * tan_half_critical(ray.at, Critical::kFirst);

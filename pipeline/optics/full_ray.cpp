@@ -1,4 +1,4 @@
-// The second-order sets by Boost.Odeint's controlled steppers.
+// The second-order sets are integrated here by Boost.Odeint's controlled steppers.
 
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
@@ -28,7 +28,7 @@ class OdeintStepper {
     return stepper_->try_step(equations, y, parameter, h) == odeint::success;
   }
 
-  // A radian, so that no step grows without bound on the light circle.
+  // The step is at most a radian, so that no step grows without bound on the light circle.
   static double largest_step(const GeodesicEquations& /*equations*/, const RayState& y) {
     return 1 / (y[kAzimuthRate] + std::numeric_limits<double>::min());
   }

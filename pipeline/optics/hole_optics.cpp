@@ -10,8 +10,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The azimuth from R at which light of the k-th order started, for a source at azimuth phi_star,
-// and on which side of the hole it is seen.
+// An Order holds the azimuth from R at which light of the k-th order started, for a source at
+// azimuth phi_star, and the side of the hole on which it is seen.
 struct Order {
   double phi;
   double side;  // +1: towards the source
@@ -24,7 +24,7 @@ Order order_of(double phi_star, int k) {
 
 double sine_of(const V3d& source) { return std::hypot(source.y, source.z); }
 
-// Unit vector across R towards the source; any one if the source is on the axis.
+// Returns the unit vector across R towards the source, or any one if the source is on the axis.
 V3d across(const V3d& source, double sine) {
   return sine > 0 ? V3d(0, source.y, source.z) / sine : V3d(0, 1, 0);
 }
@@ -101,7 +101,7 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
   const Order o = order_of(std::atan2(sine, source.x), order);
   const WhiteHoleTable::Branches branches = table.rays_of(o.phi);
   // Near a fold phi = phi_0 + c (alpha - alpha_0)^2/2, a source of radius rho is no narrower than
-  // sqrt(2 rho/c): its slope no less than sqrt(2 rho c).
+  // sqrt(2 rho/c), and its slope is no less than sqrt(2 rho c).
   const double least_slope =
       table.turn() ? std::sqrt(2 * axis_blur * std::abs(table.turn()->curvature)) : 0;
   WhiteHoleImages images;

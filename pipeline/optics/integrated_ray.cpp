@@ -14,7 +14,7 @@ namespace {
 // the singularity (phi ~ b^(1/3) there), so the ray is radial.
 constexpr double kRadialShare = 1e-60;
 
-// The same photon with its largest component 1, so that no product of them overflows.
+// Returns the same photon with its largest component 1, so that no product of them overflows.
 PhotonAtObserver normalised(PhotonAtObserver photon) {
   const double radial_size = std::max(std::abs(photon.energy), std::abs(photon.radial));
   const double tangential = photon.angular_momentum / photon.r;
@@ -28,7 +28,8 @@ PhotonAtObserver normalised(PhotonAtObserver photon) {
   return photon;
 }
 
-// Light along the horizon itself: only there has light neither energy nor radial motion.
+// Says whether light is along the horizon itself, for only there has light neither energy nor
+// radial motion.
 bool stays_on_the_horizon(const PhotonAtObserver& photon) {
   return photon.energy == 0 && photon.radial == 0;
 }

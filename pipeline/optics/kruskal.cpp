@@ -8,9 +8,9 @@
 namespace domefall {
 namespace {
 
-// x = r - 2 from c = ln(-U V) + 1 = ln(x/2) + 1 + x/2 for large c.  Newton's method: the function
-// is concave and the start below the root, where it converges quadratically from the second step
-// on.
+// Returns x = r - 2 from c = ln(-U V) + 1 = ln(x/2) + 1 + x/2 for large c, by Newton's method.  The
+// function is concave and the start is below the root, where the method converges quadratically
+// from the second step on.
 double radius_less_two_from_log(double c) {
   constexpr int kSteps = 8;
   double half = c - 1 - std::log(c);

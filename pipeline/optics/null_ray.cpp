@@ -12,7 +12,7 @@ namespace {
 
 const double kSqrt27 = std::sqrt(27.0);
 
-// Half of an angle near an edge, whose half-angle tangent is given.
+// This is half of an angle near an edge, whose half-angle tangent is given.
 struct HalfAngleOffEdge {
   double sine, cosine;
   double gap;  // sine - tangent * cosine, from the offset alone
@@ -24,8 +24,8 @@ HalfAngleOffEdge turned_from(double tangent, double half_offset) {
   return {s * co + c * so, c * co - s * so, so / c};
 }
 
-// T_silhouette - |T_second|, from the quadratic of silhouette.h: the sum of its roots inside, their
-// difference outside.
+// Returns T_silhouette - |T_second|, from the quadratic of silhouette.h.  It is the sum of its
+// roots inside, and their difference outside.
 double edge_separation(const Radius& at) {
   const double s = std::sqrt(2 / at.r);
   if (at.above_horizon <= 0) return 2 * at.r / (kSqrt27 * (1 + s));
@@ -39,18 +39,18 @@ Real kappa_of(const Radius& at, const RadialFrame& frame) {
   return std::sqrt(std::abs(above) / r) / (1 + std::sqrt(2 / r));
 }
 
-// From half an angle in a frame to the ray, its gap to `edge` known there.
+// Goes from half an angle in a frame to the ray, whose gap to `edge` is known there.
 NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, double cosine,
                        double gap, Critical edge) {
   const double k = kappa(at, frame), norm = std::hypot(k * sine, cosine);
   NullRay ray{at, 0, 0, 0, 0, frame.outgoing};
-  // The far end of a sky (alpha = pi or 0) is an end: rounding may not step over it.
+  // The far end of a sky (alpha = pi or 0) is an end that rounding may not step over.
   ray.sin_half = std::max(0.0, k * sine / norm);
   ray.cos_half = std::max(0.0, cosine / norm);
   const double own = k * gap / norm, apart = edge_separation(at) * ray.cos_half;
   const bool first = edge == Critical::kFirst;
-  // The other gap by way of the exact distance between the two, or directly where that cancels
-  // less.
+  // The other gap follows by way of the exact distance between the two, or directly where that
+  // cancels less.
   const Critical other = first ? Critical::kSecond : Critical::kFirst;
   const double reach = tan_half_critical(at, other) * ray.cos_half;
   const bool direct = std::max(ray.sin_half, reach) < std::max(std::abs(own), std::abs(apart));
@@ -60,9 +60,10 @@ NullRay ray_from_frame(const Radius& at, const RadialFrame& frame, double sine, 
   return ray;
 }
 
-// k^r in the rain frame: inner ch^2 - (1 + s) sh^2, inner = 1 - s.  Outside, that cancels at
-// tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point, which near the light circle
-// lies as near to the critical rays as these to each other: there its gap is made from theirs.
+// Returns k^r in the rain frame, inner ch^2 - (1 + s) sh^2 with inner = 1 - s.  Outside, that
+// cancels at tan(alpha/2) = kappa = sqrt(T_first T_second), the turning point.  Near the light
+// circle this lies as near to the critical rays as these to each other, and there its gap is made
+// from theirs.
 double rain_radial(const NullRay& ray, double s, double inner) {
   const double sh = ray.sin_half, ch = ray.cos_half;
   const double out = inner * ch * ch, in = (1 + s) * sh * sh;
@@ -71,7 +72,7 @@ double rain_radial(const NullRay& ray, double s, double inner) {
   const double second = std::sqrt(tan_half_critical(ray.at, Critical::kSecond));
   const double turning = -edge_separation(ray.at) * first / (first + second);  // kappa - T_first
   const double sum = (1 + s) * (sh + first * second * ch);
-  // What is rounded in either form: the smaller wins.
+  // This is what is rounded in either form.  The smaller wins.
   const double by_gap = std::max(std::abs(ray.gap_first), std::abs(turning * ch)) * sum;
   if (std::max(out, in) < by_gap) return out - in;
   return -(ray.gap_first - turning * ch) * sum;
@@ -91,7 +92,7 @@ NullRay ray_at(const Radius& at, const PolarAngle& alpha, const RadialFrame& fra
     const long double root = edge == Critical::kFirst ? tan_half_silhouette_long(at)
                                                       : std::abs(tan_half_other_root_long(at));
     const long double tangent = root / kappa;
-    // From whichever end of the half turn is nearer.
+    // The angle is taken from whichever end of the half turn is nearer.
     const long double half_offset = alpha.angle < alpha.rest
                                         ? alpha.angle / 2 - std::atan(tangent)
                                         : std::atan(1 / tangent) - alpha.rest / 2;
@@ -111,7 +112,7 @@ NullRay ray_at(const Radius& at, long double alpha, const RadialFrame& frame) {
 }
 
 PolarAngle polar_angle(long double angle) {
-  // pi, and what a long double leaves of it.
+  // This is pi, and what a long double leaves of it.
   constexpr long double kPi = std::numbers::pi_v<long double>, kRest = -5.01655761266833202e-20L;
   return {angle, (kPi - angle) + kRest};
 }
@@ -172,8 +173,8 @@ RayInvariants invariants(const NullRay& ray) {
   const double inner = ray.at.above_horizon / (r * (1 + s));  // 1 - s
   const double silhouette = tan_half_silhouette(ray.at);
   const double second = tan_half_critical(ray.at, Critical::kSecond);
-  // The roots of E = L/sqrt 27 are T_silhouette and +-T_second (+ outside, where both edges are of
-  // this kind; - inside, where the second is that of E = -L/sqrt 27).
+  // The roots of E = L/sqrt 27 are T_silhouette and +-T_second.  The sign is + outside, where both
+  // edges are of this kind, and - inside, where the second is that of E = -L/sqrt 27.
   RayInvariants k;
   k.below_critical = (1 + s) * ray.gap_first * (outside ? ray.gap_second : sh + second * ch);
   k.above_critical =

@@ -9,7 +9,7 @@ namespace domefall {
 namespace {
 
 constexpr int kDegree = 15;  // of a Chebyshev panel
-// Its width in octaves: near x_max the end of the function's range makes itself felt.
+// A panel's width is in octaves.  Near x_max the end of the function's range makes itself felt.
 constexpr double kPanelOctaves = 2, kTopPanelOctaves = 1;
 constexpr int kTopPanels = 4;
 
@@ -21,7 +21,7 @@ double cube(double x) { return x * x * x; }
 
 using Series = std::array<double, kDegree + 1>;
 
-// cos(pi j (k + 1/2) / (n + 1)): row 1 holds the sample points.
+// The table holds cos(pi j (k + 1/2) / (n + 1)), and row 1 holds the sample points.
 const std::array<Series, kDegree + 1>& cosines() {
   static const auto table = [] {
     std::array<Series, kDegree + 1> t;
@@ -33,7 +33,7 @@ const std::array<Series, kDegree + 1>& cosines() {
   return table;
 }
 
-// Chebyshev interpolation over [low, high], with derivatives.
+// A Panel is Chebyshev interpolation over [low, high], with derivatives.
 class Panel {
  public:
   template <class F>
@@ -81,7 +81,7 @@ class Panel {
   Series value_{}, first_{}, second_{}, third_{};
 };
 
-// The polynomial of degree 7 on [0, 1] with these derivatives at 0 and 1.
+// Returns the polynomial of degree 7 on [0, 1] with these derivatives at 0 and 1.
 std::array<double, 8> hermite_between(const Derivatives& a, const Derivatives& b) {
   const double c2 = a.second / 2, c3 = a.third / 6;
   const double r0 = b.value - a.value - a.first - c2 - c3;
@@ -98,12 +98,12 @@ std::array<double, 8> hermite_between(const Derivatives& a, const Derivatives& b
           -20 * r0 + 10 * r1 - 2 * r2 + r3 / 6};
 }
 
-// With respect to x/h, from those with respect to x.
+// Turns derivatives with respect to x into those with respect to x/h.
 Derivatives stretched(const Derivatives& d, double h) {
   return {d.value, d.first * h, d.second * square(h), d.third * cube(h)};
 }
 
-// With respect to x, from those with respect to ln x.
+// Turns derivatives with respect to ln x into those with respect to x.
 Derivatives from_logarithm(const Derivatives& d, double x) {
   return {d.value, d.first / x, (d.second - d.first) / square(x),
           (d.third - 3 * d.second + 2 * d.first) / cube(x)};
@@ -157,7 +157,7 @@ bool OctaveCurve::is_monotone(double x_end) const {
   const bool rising = intervals_.front().c[0] < intervals_.back().c[0];
   for (const Interval& q : intervals_) {
     if (start(q) + 1 / inverse_width(q) >= x_end) return true;
-    // b_j = sum over k <= j of C(j, k)/C(n, k) times the k-th coefficient.
+    // b_j is the sum over k <= j of C(j, k)/C(n, k) times the k-th coefficient.
     for (int j = 0; j <= kSlopeDegree; ++j) {
       double sum = 0, weight = 1;
       for (int k = 0; k <= j; ++k) {
@@ -175,7 +175,7 @@ double OctaveCurve::inverse(double wanted, double x_end) const {
   const auto before = [&](const Interval& q) {
     return start(q) <= x_end && (rising ? q.c[0] <= wanted : q.c[0] >= wanted);
   };
-  // The last interval that starts before the wanted value.
+  // This finds the last interval that starts before the wanted value.
   const auto after = std::partition_point(intervals_.begin(), intervals_.end(), before);
   const Interval& q = after == intervals_.begin() ? *after : *(after - 1);
   double low = 0, high = std::min(1.0, (x_end - start(q)) * inverse_width(q)), u = high / 2;

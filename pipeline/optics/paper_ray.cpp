@@ -1,9 +1,8 @@
-// The paper's own method ([Riazuelo] sec. sec_cel1, ssec_max): Runge-Kutta of fourth order with the
-// step doubled to tell its error, after Numerical Recipes, and a bound on the step by place.
-//
-// What the paper leaves open is chosen here: the factors of its step rules, the radii at which the
-// charts change (charted_ray.h), by place and not by what E and L let expect, and that below r =
-// 1/2, where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
+// The paper's own method ([Riazuelo] sec. sec_cel1, ssec_max) is Runge-Kutta of fourth order with
+// the step doubled to tell its error, after Numerical Recipes, and a bound on the step by place.
+// What the paper leaves open is chosen here.  This is the factors of its step rules, and the radii
+// at which the charts change (charted_ray.h), by place and not by what E and L let expect.  Below r
+// = 1/2, where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,7 @@ RayState state_after(const RayState& y, double h, const RayState& dy) {
   return out;
 }
 
-// One classical step, dy being the derivative at y.
+// Makes one classical step.  dy is the derivative at y.
 RayState classical_step(const GeodesicEquations& equations, const RayState& y, const RayState& dy,
                         double h) {
   RayState k2, k3, k4, out;
@@ -59,9 +58,10 @@ class DoublingRk4 {
     return true;
   }
 
-  // The paper's step rules, lengths being r over the coordinate speed.  Receding beyond 4: in
-  // proportion to r^2, so that a handful of steps reach infinity; approaching: to r - 4; within 4 a
-  // small part of r.  In Kruskal's chart no rule is needed: it is crossed in no more than a radian.
+  // These are the paper's step rules, in which lengths are r over the coordinate speed.  Beyond 4 a
+  // receding ray steps in proportion to r^2, so that a handful of steps reach infinity.  An
+  // approaching one steps to r - 4, and within 4 a step is a small part of r.  In Kruskal's chart
+  // no rule is needed, because it is crossed in no more than a radian.
   static double largest_step(const GeodesicEquations& equations, const RayState& y) {
     constexpr double kLightCircleZone = 4, kReceding = 0.25, kApproaching = 0.5, kWithin = 0.1;
     const double tiny = std::numeric_limits<double>::min();

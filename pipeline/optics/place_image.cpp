@@ -44,8 +44,8 @@ double r_after(const NullRay& ray, double psi, double* slope = nullptr) {
   return places.r[0];
 }
 
-// Rays of the view by z: tan(alpha/2) = T exp(+-exp(z)), T that of the edge, on its outer side,
-// where the sky is, or on its inner side.
+// A RayFan gives rays of the view by z, with tan(alpha/2) = T exp(+-exp(z)).  T is that of the
+// edge, and the ray lies on its outer side, where the sky is, or on its inner side.
 class RayFan {
  public:
   explicit RayFan(const PlaceView& view)
@@ -61,7 +61,7 @@ class RayFan {
     if (std::abs(y) < kNear) return ray_of_ratio(view_.at, edge_, std::expm1(y), view_.outgoing);
     return ray_of_tangent(view_.at, tangent_ * std::exp(y), view_.outgoing);
   }
-  // Where z ends: next to the axis or, from region II, on the inner side, where E = 0.
+  // Returns where z ends, next to the axis or, from region II, on the inner side, where E = 0.
   double range(bool outside) const {
     constexpr double kAxis = 6.4;
     if (outside || view_.at.above_horizon > 0) return kAxis;
@@ -69,7 +69,7 @@ class RayFan {
     const double without_energy = -view_.at.above_horizon / (view_.at.r * (1 + s) * (1 + s));
     return std::log(std::abs(std::log(std::sqrt(without_energy) / tangent_)));
   }
-  // The sense of alpha in which r grows.
+  // Returns the sense of alpha in which r grows.
   double outer() const { return outer_; }
   // Returns z of the ray that is at r after psi, if one on that side is.
   std::optional<double> find(double r, double psi, bool outside) const;
@@ -107,8 +107,8 @@ double null_time_after(const NullRay& ray, double psi) {
   return time;
 }
 
-// |dr/dalpha| at a fixed psi: by a four-point difference of 1/r, over a step in which r changes by
-// a hundredth, so that no ray ends before it has swept psi.
+// Returns |dr/dalpha| at a fixed psi by a four-point difference of 1/r, over a step in which r
+// changes by a hundredth, so that no ray ends before it has swept psi.
 double growth(const PlaceView& view, const NullRay& ray, double psi, double r, double outer) {
   constexpr double kTrial = 1e-6, kSmall = 1e-3, kShare = 1e-2;
   const double smooth = smooth_over(ray);
@@ -122,7 +122,7 @@ double growth(const PlaceView& view, const NullRay& ray, double psi, double r, d
   return r * r * std::abs(8 * next - second) / (12 * h);
 }
 
-// Along the axis itself light diverges as in flat space, by its affine parameter: r/|E|.  What is
+// Along the axis itself light diverges as in flat space, by its affine parameter r/|E|.  What is
 // above the observer is seen the farther from the hole the nearer it is to the axis.
 PlaceImage radial_image(const PlaceView& view, double r) {
   const bool outwards = r > view.at.r, to_home = outwards && !view.far;

@@ -14,7 +14,7 @@ const double kRoot27 = std::sqrt(27.0);
 
 // ---- the invariants, as null_ray.cpp has them ----
 
-// What they need of the observer's place.
+// These are what the invariants need of the observer's place.
 struct ObserverPlace {
   double r, w, x;                  // x = w - 1/3
   double s, inner;                 // s = sqrt(2/r), 1 - s
@@ -51,7 +51,8 @@ struct InvariantsAt {
 inline InvariantsAt invariants_at(const ObserverPlace& o, double sh, double ch, double gap_first,
                                   double gap_second) {
   const double sum = 1 + o.s, beyond_first = sh + o.first * ch, beyond_second = sh + o.second * ch;
-  // Of two numbers one by its weight of 1: a selection by a flag of the loop makes no SIMD code.
+  // One of two numbers is taken by its weight of 1, because a selection by a flag of the loop makes
+  // no SIMD code.
   const double below = sum * gap_first * (o.outside * gap_second + o.inside * beyond_second);
   const double above = sum * beyond_first * (o.outside * beyond_second + o.inside * gap_second);
   const double in = sum * sh * sh, out = o.inner * ch * ch;
@@ -67,8 +68,8 @@ inline InvariantsAt invariants_at(const ObserverPlace& o, double sh, double ch, 
 
 // ---- the loops ----
 
-// The rays, and what becomes of them on the way to their orbits: in one place, so that the compiler
-// sees which columns are which.
+// These are the rays, and what becomes of them on the way to their orbits.  They are in one place,
+// so that the compiler sees which columns are which.
 struct RayBeginnings {
   using Column = RayPlaces::Column;
   alignas(64) Column sin_half, cos_half, gap_first, gap_second;
@@ -85,7 +86,7 @@ struct RayBeginnings {
 }
 Dispatched<gap_loop> make_gaps;
 
-// kFar: whether the observer is beyond the light circle.
+// kFar says whether the observer is beyond the light circle.
 template <bool kFar>
 [[gnu::always_inline]] inline void begin_loop(const ObserverPlace& observer, int count,
                                               RayBeginnings& rays) {
@@ -145,7 +146,7 @@ Dispatched<integral_loop> find_integrals;
                                             OrbitColumns& __restrict to) {
   for (int k = 0; k < count; ++k) {
     const double eps = q.eps[k], first = q.first.value[k], second = q.second.value[k];
-    // Selections of numbers only: of selections of flags GCC makes no SIMD code.
+    // Only numbers are selected, because of selections of flags GCC makes no SIMD code.
     const double inwards = q.inwards[k], far = x < 0 ? 1 : 0;
     const double turns = inwards * far + (1 - inwards) * (1 - far);
     // On the critical orbit the far side of the light circle is out of reach.
@@ -171,11 +172,11 @@ Dispatched<end_loop> end_orbits;
                                              RayPlaces& __restrict places) {
   for (int k = 0; k < count; ++k) {
     const double left = in.left[k] - psi[k], passed = in.behind[k] + psi[k];
-    // From the nearer end, where nothing cancels.
+    // The place is found from the nearer end, where nothing cancels.
     const bool ahead = left <= passed;
     const double to_sky = in.to_sky[k], from_sky = in.from_sky[k];
-    // Of two flags the one that counts, by arithmetic: of selections of flags GCC makes no SIMD
-    // code.
+    // The one of two flags that counts is taken by arithmetic, because of selections of flags GCC
+    // makes no SIMD code.
     const double is_ahead = ahead ? 1 : 0, sky_flag = is_ahead * to_sky + (1 - is_ahead) * from_sky;
     const bool sky = sky_flag > 0;
     const double e = in.inverse_b[k];

@@ -13,7 +13,7 @@ namespace {
 // Below this L/(r |E|) an orbit is straight wherever r is a number of use.
 constexpr double kRadialShare = 1e-40;
 
-// r at an angle from an end of the orbit.
+// Returns r at an angle from an end of the orbit.
 double radius_from(const Cubic& c, bool sky, double angle) {
   const double e = std::sqrt(c.inverse_b2);
   const RayPoint s = point_from_singularity(e, c.eps, angle);

@@ -11,8 +11,8 @@
 namespace domefall {
 namespace {
 
-// Places on orbits, each by the angle from an end, and N from there: in one structure, so that the
-// compiler sees which columns are which.
+// These are places on orbits, each by the angle from an end, and N from there.  They are in one
+// structure, so that the compiler sees which columns are which.
 struct EndTimes {
   alignas(64) RayPlaces::Column inverse_b, eps, angle, sky;  // sky: 1, or 0 for the singularity
   alignas(64) RayPlaces::Column ahead;  // 1 if that end is the one the ray comes to
@@ -31,7 +31,7 @@ struct EndTimes {
 }
 Dispatched<end_times_loop> find_end_times;
 
-// From the nearer end.
+// The time is found from the nearer end.
 [[gnu::always_inline]] inline void nearer_end_loop(const OrbitColumns& __restrict orbits,
                                                    const double* __restrict psi, int count,
                                                    EndTimes& __restrict ends) {
@@ -45,7 +45,8 @@ Dispatched<end_times_loop> find_end_times;
 }
 Dispatched<nearer_end_loop> find_nearer_ends;
 
-// From the back end of each path; one without counts from its other end, downwards.
+// Times count from the back end of each path.  One without such an end counts from its other end,
+// downwards.
 void find_times_so_far(const OrbitColumns& orbits, const double* psi, const PathTimes& paths,
                        int count, EndTimes& ends) {
   find_nearer_ends(orbits, psi, count, ends);
@@ -54,14 +55,16 @@ void find_times_so_far(const OrbitColumns& orbits, const double* psi, const Path
     if (ends.ahead[k] > 0) ends.n[k] = paths.total[k] - ends.n[k];
 }
 
-// r* of the turning point of an orbit, if it has one, by the root of P on the observer's side.
+// Returns r* of the turning point of an orbit, if it has one, by the root of P on the observer's
+// side.
 double turning_star(double e, double eps, bool sky) {
   const orbit_ends::RealTriple root = orbit_ends::real_triple(e, eps);
   const double w = sky ? root.w2 : root.w1, below_half = sky ? 0.5 - root.w2 : root.below_half;
   return 1 / w + 2 * logarithm(below_half / w);
 }
 
-// What times count by: the sign of r* in the coordinate, and r* of the observer.
+// These are what times count by, which are the sign of r* in the coordinate, and r* of the
+// observer.
 struct TimeOrigin {
   double sign, observer;
 };
@@ -82,7 +85,7 @@ struct TimeOrigin {
     const double begins = (1 - 2 * turns) * (2 * to_sky - 1), goes = begins * (1 - 2 * crossed);
     const double off = std::abs(r[k] / 2 - 1);
     const double there = r[k] + 2 * logarithm(off > kNextToHorizon ? off : kNextToHorizon);
-    // Outwards t + r* falls by N, inwards t - r*; with E < 0, -t for t.
+    // Outwards t + r* falls by N, and inwards t - r* does.  With E < 0, -t stands for t.
     const double from_here = (sense * begins - own.sign) * own.observer;
     const double from_there = (own.sign - sense * goes) * there;
     const double time = from_here + from_there - sense * (n + 2 * begins * crossed * turn);

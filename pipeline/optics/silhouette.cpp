@@ -5,7 +5,8 @@
 namespace domefall {
 namespace {
 
-// What both roots are made of, in double or, where an angle is to be measured from an edge, more.
+// These are what both roots are made of, in double or, where an angle is to be measured from an
+// edge, in more digits.
 template <class Real>
 struct Parts {
   Real r, above_horizon, root27, s;
@@ -18,7 +19,8 @@ struct Parts {
         s(std::sqrt(2 / r)),
         signed_root(above_light_circle_as<Real>(at) * std::sqrt(1 + 6 / r)) {}
 
-  // A root as the quotient without cancellation: by the sum, or by the product over the other.
+  // Returns a root as the quotient without cancellation, by the sum, or by the product over the
+  // other.
   Real by_sum(Real root) const { return (r + root) / (root27 * (1 + s)); }
   Real by_product(Real root) const { return root27 * (above_horizon / (r * (1 + s))) / (r + root); }
 };

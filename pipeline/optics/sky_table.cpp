@@ -9,12 +9,12 @@
 namespace domefall {
 namespace {
 
-// Where the law takes over, in units of the smallest angle of the scene, and never below the
-// second: that matters only where the light circle is nearer to the observer than 1e-8.
+// The law takes over here, in units of the smallest angle of the scene, and never below the second
+// value.  That matters only where the light circle is nearer to the observer than 1e-8.
 constexpr double kInnermost = 1e-7, kLeast = 1e-15;
 
-// The smallest angle: from the edge to the axis either way, between the two critical rays, or 1.
-// At r = 3 those are one.
+// Returns the smallest angle, which is that from the edge to the axis either way, between the two
+// critical rays, or 1.  At r = 3 those are one.
 double smallest_angle(const Radius& at, double tangent) {
   const double to_axis = 2 * std::atan(std::min(tangent, 1 / tangent));
   const double apart =
@@ -26,7 +26,7 @@ double smallest_angle(const Radius& at, double tangent) {
 }  // namespace
 
 EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi) {
-  // g = phi + ln z = c + z (a + b ln z) at z = 1, 1/4, 1/16.
+  // Here g = phi + ln z = c + z (a + b ln z) at z = 1, 1/4, 1/16.
   const double l = std::log(4.0);
   const double g1 = phi(x_min), g2 = phi(x_min / 4) - l, g3 = phi(x_min / 16) - 2 * l;
   EdgeLaw law{x_min, 0, 0, 0};
@@ -37,7 +37,7 @@ EdgeLaw fit_edge_law(double x_min, const std::function<double(double)>& phi) {
 }
 
 double EdgeLaw::distance(double phi) const {
-  // z = exp(c - phi + z (a + b ln z)): the last term is below 1e-5, so a few rounds settle it.
+  // In z = exp(c - phi + z (a + b ln z)) the last term is below 1e-5, so a few rounds settle it.
   double z = std::exp(c - phi);
   for (int k = 0; k < 8 && z > 0; ++k) z = std::exp(c - phi + z * (a + b * std::log(z)));
   return z * x_min;
@@ -56,7 +56,8 @@ SkyTable::SkyTable(const Radius& at, Critical edge, bool outgoing, double tangen
       outgoing_(outgoing),
       edge_(at, edge),
       edge_angle_(2 * std::atan(tangent)),
-      // pi - edge is 2 acot(tangent): no difference of close numbers when the edge is near pi.
+      // pi - edge is 2 acot(tangent), which is no difference of close numbers when the edge is near
+      // pi.
       reach_(edge_.sign > 0 ? 2 * std::atan2(1.0, tangent) : edge_angle_),
       x_max_(2 * std::tan(reach_ / 4)),
       curve_(
@@ -71,8 +72,8 @@ NullRay SkyTable::ray_at_distance(double x) const {
                       {outgoing_, false});
 }
 
-// phi continued oddly through the end of the sky (alpha = pi or 0), so that the last interval may
-// reach beyond it.
+// Returns phi continued oddly through the end of the sky (alpha = pi or 0), so that the last
+// interval may reach beyond it.
 double SkyTable::continued_azimuth(double x) const {
   const double offset = 4 * std::atan(x / 2);
   const double inside = offset <= reach_ ? offset : 2 * reach_ - offset;

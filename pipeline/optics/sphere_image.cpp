@@ -27,12 +27,14 @@ class Sphere {
   double widest() const { return widest_; }
   double half_length() const { return image_.angle_per_length * radius_; }
 
-  // The azimuth about the axis, from the plane of the image, that goes with tau from -pi/2 to pi/2:
-  // half a chord is about radius cos(tau) long where the axis is far, smooth up to the rim.
+  // Returns the azimuth about the axis, from the plane of the image, that goes with tau from -pi/2
+  // to pi/2.  Where the axis is far, half a chord is about radius cos(tau) long, which is smooth up
+  // to the rim.
   double azimuth(double tau) const {
     return from_axis_ > radius_ ? std::asin(radius_ / from_axis_ * std::sin(tau)) : tau;
   }
-  // The angle from the hole of the middle of a chord, and half of the angle that it covers.
+  // These are the angle from the hole of the middle of a chord, and half of the angle that it
+  // covers.
   double middle(double azimuth) const {
     const double psi = axis_ + std::atan(std::tan(image_.psi - axis_) * std::cos(azimuth));
     return angle_ + image_.angle_per_psi * (psi - image_.psi);
@@ -59,7 +61,7 @@ class Sphere {
   double widest_;     // azimuth that the image reaches
 };
 
-// Integral of |sin x| up to x, between -pi and 2 pi.
+// Returns the integral of |sin x| up to x, between -pi and 2 pi.
 double area_up_to(double x) {
   const double half = std::sin(x / 2);
   if (x < 0) return -2 * half * half;

@@ -13,7 +13,7 @@
 namespace domefall {
 namespace {
 
-// How delta in the observer's frame becomes alpha.
+// A View says how delta in the observer's frame becomes alpha.
 struct View {
   RadialFrame frame;
   bool from_behind;  // alpha = pi - delta
@@ -47,7 +47,7 @@ NullRay ray_of(const RayRequest& q, const View& view) {
   return ray_at(q.at, view.from_behind ? delta.reversed() : delta, view.frame);
 }
 
-// The observer's half angle from the frame of the ray.
+// Seen has the observer's half angle, found from the frame of the ray.
 struct Seen {
   double delta;
   double sine;     // of delta, from the ray's own half angles: whole near 0 and pi too
@@ -75,7 +75,7 @@ struct Sweep {
   double phi, slope;  // d phi/d alpha, signed
 };
 
-// The optics of one radius, with only the tables that were asked for.
+// Returns the optics of one radius, with only the tables that were asked for.
 const HoleOptics& optics_at(const Radius& at, bool outgoing, int bits, SkyRegion origin) {
   thread_local HoleOptics kept;
   const Tetrad tetrad = outgoing ? Tetrad::kOutgoing : Tetrad::kRain;
@@ -120,8 +120,8 @@ Integrator integrator_of(TraceMethod method) {
   }
 }
 
-// E, L and k^r of a ray seen at delta, written plainly ([Riazuelo] eq. def_k_prec): what that loses
-// beside an edge is the methods' own.
+// Returns E, L and k^r of a ray seen at delta, written plainly ([Riazuelo] eq. def_k_prec).  What
+// that loses beside an edge is the methods' own.
 PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delta) {
   const double s = std::sqrt(2 / at.r), c = std::cos(delta);
   const double rest = std::sqrt(std::abs(at.above_horizon) / at.r);
@@ -149,7 +149,7 @@ PhotonAtObserver photon_at(TraceObserver observer, const Radius& at, double delt
   return k;
 }
 
-// phi over delta by a four-point difference, continued oddly through the axis.
+// Finds the slope of phi over delta by a four-point difference, continued oddly through the axis.
 double integrated_slope(const RayRequest& q, const NullRay& ray, double delta, double doppler,
                         Integrator integrator, double tolerance) {
   const double h = 1e-2 * smooth_over(ray) / doppler;

@@ -9,14 +9,14 @@
 namespace domefall {
 namespace {
 
-// Where the laws take over, in units of the smallest scale on their side; the first never below the
-// second, which matters only where the light circle is nearer to the observer than 1e-9.
+// The laws take over here, in units of the smallest scale on their side.  The first is never below
+// the second, which matters only where the light circle is nearer to the observer than 1e-9.
 constexpr double kEdgeInnermost = 1e-6, kLeast = 1e-15, kAxisInnermost = 1.0 / 1024;
-// At r = 2 itself T_0 and the edge of region III are points; a depth whose square root is below
+// At r = 2 itself T_0 and the edge of region III are points.  A depth whose square root is below
 // 1e-15 stands for none.
 constexpr double kHorizonDepth = -1e-30;
 
-// What 1,024 nodes hold at 16 intervals an octave.
+// 1,024 nodes hold this at 16 intervals to the octave.
 constexpr double kFineOctaves = 62;
 
 Radius off_the_horizon(Radius at) {
@@ -53,7 +53,7 @@ double AxisLaw::distance(double phi) const {
 
 namespace {
 
-// phi/t is a polynomial of degree 4 in u = t^2: Newton's divided differences at u = 4^-k.
+// phi/t is a polynomial of degree 4 in u = t^2, found by Newton's divided differences at u = 4^-k.
 AxisLaw fit_axis_law(double y_min, const std::function<double(double)>& phi) {
   constexpr int kTerms = 5;
   std::array<double, kTerms> u{}, d{};
@@ -91,7 +91,8 @@ WhiteHoleTable::WhiteHoleTable(const Radius& at, Kind kind, int bits)
       range_(range()),
       curve_(
           range_.low, range_.high, [this](double s) { return exact_azimuth(ray_at_place(s)); },
-          // Next to E = 0 phi hardly changes with the angle: its error is more of one on the sky.
+          // Next to E = 0 phi hardly changes with the angle, so its error is more of one on the
+          // sky.
           (kind == Kind::kInside || kind == Kind::kWhiteHole) &&
                   std::log2(range_.high / range_.low) < kFineOctaves
               ? bits + 1
@@ -103,7 +104,7 @@ WhiteHoleTable::WhiteHoleTable(const Radius& at, Kind kind, int bits)
   if (kind_ == Kind::kWhiteHole) axis_law_ = fit_axis_law(curve_.x_min(), phi);
   if (is_outside()) return;
   const OctaveCurve::Jet jet = curve_.at(range_.high);
-  // d s/d alpha at T_0, where d phi/d s = 0.
+  // This is d s/d alpha at T_0, where d phi/d s = 0.
   const double rate = (1 + zero_ * zero_) / 2 / (has_edge() ? second_ : zero_);
   turn_ = Turn{2 * std::atan(zero_), jet.value, jet.second * rate * rate};
 }
@@ -119,8 +120,8 @@ WhiteHoleTable::Range WhiteHoleTable::range() const {
   return {kEdgeInnermost * scale, 1 / (kAxisInnermost * axis_scale())};
 }
 
-// The y at which b = |L/E| is 1 (r^(3/2) where that is less): there the branch point of b^(1/3)
-// gives way to other laws.
+// Returns the y at which b = |L/E| is 1 (r^(3/2) where that is less).  There the branch point of
+// b^(1/3) gives way to other laws.
 double WhiteHoleTable::axis_scale() const {
   const double r = at_.r, s = std::sqrt(2 / r);
   const double inner = std::abs(at_.above_horizon) / (r * (1 + s));  // |1 - s|
@@ -175,7 +176,7 @@ WhiteHoleTable::Place WhiteHoleTable::place_of(double sin_half, double cos_half)
   return p;
 }
 
-// The numerators by way of the ray's exact gaps.
+// The numerators are found by way of the ray's exact gaps.
 WhiteHoleTable::Place WhiteHoleTable::place_of(const NullRay& ray) const {
   Place p = place_of(ray.sin_half, ray.cos_half);
   const bool beyond = ray.sin_half > zero_ * ray.cos_half;
@@ -190,7 +191,8 @@ WhiteHoleTable::Lookup WhiteHoleTable::lookup() const {
   return {place_, curve_.lookup(), curve_.x_min(), is_outside() ? range_.high : HUGE_VAL};
 }
 
-// On an edge itself phi is infinite; the nearest place to it that a number can hold stands for it.
+// On an edge itself phi is infinite, and the nearest place to it that a number can hold stands for
+// it.
 WhiteHoleTable::Place WhiteHoleTable::off_edge(const Place& p) const {
   return {has_edge() ? std::max(p.s, std::numeric_limits<double>::min()) : p.s, p.rate};
 }
@@ -208,7 +210,7 @@ double WhiteHoleTable::slope(const Place& place) const {
     return p.rate * (has_edge() ? edge_law_.slope(p.s) : axis_law_.slope(p.s));
   if (is_outside() && p.s > range_.high) {
     const double y = 1 / (1 + p.s);
-    // d y/d alpha = -y^2 d s/d alpha; on the axis itself a product of 0 and infinity.
+    // d y/d alpha = -y^2 d s/d alpha is, on the axis itself, a product of 0 and infinity.
     const double by_alpha = std::isinf(p.s) ? 1 : y * y * std::abs(p.rate);
     return std::copysign(axis_law_.slope(y) * by_alpha, -p.rate);
   }
