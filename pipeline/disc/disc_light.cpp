@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// Intervals of the table from r = infinity to the last stable orbit, which is a node; the table
+// The table has so many intervals from r = infinity to the last stable orbit, which is a node.  It
 // goes on to the horizon.
 constexpr int kPerUnit = 4096;
 const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
@@ -26,16 +26,16 @@ double log2_above_singular(const PageThorneProfile& profile, bool plunging, doub
   return plunging ? t : t - 0.5 * std::log2(1 - x);
 }
 
-// What the places of a block have in common.
+// These are what the places of a block have in common.
 struct ObservedBlock {
   const float* table;
   float edge;  // the power of 1 - v in the temperature: 1/2, or 0 of gas that plunges
   float hottest, log2_scale, log2_t_max;
 };
 
-// log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric radiance
-// that goes with it, times the scale.  Looking numbers up is left to a loop of its own, since it
-// keeps the others from being vectors.
+// Finds log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric
+// radiance that goes with it, times the scale.  Looking numbers up is left to a loop of its own,
+// since it keeps the others from being vectors.
 [[gnu::always_inline]] inline void observe_loop(const ObservedBlock& block, const float* r,
                                                 const float* g, int count, float* log2_t,
                                                 float* radiance) {

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// A Gaussian of that standard deviation (radians), wrapped around the circle, with a mean of 1.
+// Returns a Gaussian of that standard deviation (radians), wrapped around the circle, with a mean
+// of 1.
 double wrapped_gaussian(double angle, double sigma) {
   const double x = (angle / kTwoPi - std::floor(angle / kTwoPi + 0.5)) * kTwoPi;
   double sum = 0;
@@ -27,8 +28,8 @@ double wrapped_gaussian(double angle, double sigma) {
   return 1 + 2 * sum;
 }
 
-// The spot's light, spread over the footprint and then added to the gas, over what the two have on
-// the mean around the ring.
+// Returns the spot's light, spread over the footprint and then added to the gas, over what the two
+// have on the mean around the ring.
 double spot_factor(const SpotPattern& spot, const PatternPlace& at) {
   const double across = at.r_width / 2, along = at.azimuth_width / 2, own = spot.size / at.r;
   const double high = std::hypot(spot.size, across), wide = std::hypot(own, along);
@@ -42,7 +43,7 @@ double spot_factor(const SpotPattern& spot, const PatternPlace& at) {
 
 double ring_factor(const RingPattern& rings, const PatternPlace& at) {
   const double turns = (at.r + rings.inward_speed * at.time) / rings.spacing;
-  // A pixel's mean of a cosine, to second order of its width.
+  // A pixel's mean of a cosine is found to second order of its width.
   const double width = std::numbers::pi * at.r_width / rings.spacing;
   const double fading = exponential(-width * width / 6);
   return 1 + rings.contrast * fading * sin_cos((turns - std::floor(turns)) * kTwoPi).cosine;

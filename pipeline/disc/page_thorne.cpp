@@ -11,7 +11,8 @@ namespace {
 constexpr double kPullOnPlunge = 0.02, kStartOfPlunge = 0.01;
 const double kRoot3 = std::sqrt(3.0), kRoot6 = std::sqrt(6.0);
 
-// artanh t - t for 0 <= t < 0.71.  Where its terms cancel, the series is cut off below 1e-18 of it.
+// Returns artanh t - t for 0 <= t < 0.71.  Where its terms cancel, the series is cut off below
+// 1e-18 of it.
 double beyond_linear_artanh(double t) {
   if (t > 0.1) return std::atanh(t) - t;
   const double t2 = t * t;
@@ -20,8 +21,8 @@ double beyond_linear_artanh(double t) {
   return t * t2 * sum;
 }
 
-// With d = sqrt r - sqrt 6 and t = sqrt 3 d/(sqrt(6 r) - 3), B = d - sqrt 3 artanh t, whose terms
-// of first order in d cancel; they are combined by hand.
+// With d = sqrt r - sqrt 6 and t = sqrt 3 d/(sqrt(6 r) - 3), B = d - sqrt 3 artanh t.  Its terms of
+// first order in d cancel, so they are combined by hand.
 double page_thorne_b(double r) {
   const double root = std::sqrt(r), d = (r - kLastStableOrbit) / (root + kRoot6);
   const double below = root * kRoot6 - 3;

@@ -14,13 +14,14 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr int kSizes = Turbulence::kSizes;
-// The widest rows, in ln r.  Grains of each size are half as large as those before.
+// This is the width of the widest rows, in ln r.  Grains of each size are half as large as those
+// before.
 constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
 // Rows of different sizes do not end at the same places.
 constexpr float kRowsApart = 0.37f;
-// Rows that a spline reaches, and generations whose lives overlap.
+// These are the numbers of rows that a spline reaches, and of generations whose lives overlap.
 constexpr int kReach = 3;
-// Of each size: its part of all light, the number of grains in a row, and the standard deviation of
+// Each size has its part of all light, the number of grains in a row, and the standard deviation of
 // one along the row, in turns.
 constexpr std::array<float, kSizes> kParts{0.45f, 0.33f, 0.22f};
 constexpr std::array<int, kSizes> kGrains{3, 4, 6};
@@ -29,7 +30,8 @@ constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
 constexpr double kEvenBelow = 4;
 constexpr std::size_t kPlacesAtOnce = 128;
 
-// The finaliser of MurmurHash3 (A. Appleby, public domain): each bit depends on each of x.
+// This is the finaliser of MurmurHash3 (A. Appleby, public domain), in which each bit depends on
+// each of x.
 [[gnu::always_inline]] inline std::uint32_t mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x85ebca6bu;
   x = (x ^ (x >> 13)) * 0xc2b2ae35u;
@@ -42,7 +44,7 @@ constexpr std::size_t kPlacesAtOnce = 128;
 
 // ---- loops over places ----
 
-// A block of places, a field at a time.
+// A PlaceBlock holds a block of places, a field at a time.
 struct PlaceBlock {
   std::array<float, kPlacesAtOnce> rows;              // ln r in rows of the first size
   std::array<float, kPlacesAtOnce> turns, turning;    // azimuth and angular velocity, in turns
@@ -51,8 +53,8 @@ struct PlaceBlock {
   std::array<float, kPlacesAtOnce> kept, sum;
 };
 
-// What a row is at each place: its spline's weight, its key, its youngest generation with the part
-// of its first age that has passed, and the time between generations.
+// A RowBlock is what a row is at each place: its spline's weight, its key, its youngest generation
+// with the part of its first age that has passed, and the time between generations.
 struct RowBlock {
   std::array<float, kPlacesAtOnce> weight, passed, span;
   std::array<std::uint32_t, kPlacesAtOnce> key, youngest;
@@ -71,7 +73,7 @@ struct SizeOfGrains {
     const double r = low_r < kOutermost ? low_r : kOutermost;
     const double plunge = (r - kEvenBelow) / (kLastStableOrbit - kEvenBelow);
     const double low = plunge < 0 ? 0 : plunge, part = low > 1 ? 1 : low;
-    // The two laws of angular_velocity().
+    // These are the two laws of angular_velocity().
     const double orbit = 1 / (r * __builtin_sqrt(r));
     const double fall = (1 - kHorizonRadius / r) * kPlungeTurning / (r * r);
     b.rows[k] = static_cast<float>(logarithm(r) / kRowWidth);
@@ -86,7 +88,7 @@ struct SizeOfGrains {
   }
 }
 
-// The weights of a quadratic B-spline at `off` (-1/2 to 1/2) from the middle of three.
+// Returns the weights of a quadratic B-spline at `off` (-1/2 to 1/2) from the middle of three.
 [[gnu::always_inline]] inline float spline_weight(int which, float off) {
   const float before = 0.5f - off, after = 0.5f + off;
   return which == 0   ? 0.5f * before * before
@@ -123,7 +125,8 @@ template <int kSize>
   constexpr float kVariance = kSpread[kSize] * kSpread[kSize], kOfBox = 1.0f / 12;
   for (int k = 0; k < count; ++k) {
     const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
-    // Across a row, what is drawn out passes by sideways: a footprint that is high is wide as well.
+    // Across a row, what is drawn out passes by sideways, so a footprint that is high is wide as
+    // well.
     const float drawn = 1.5f * b.turning[k] * age * b.log_width[k];
     const float variance = kVariance + kOfBox * (b.width[k] * b.width[k] + drawn * drawn);
     const float reach = 3.0f * __builtin_sqrtf(variance), most = reach < 0.5f ? reach : 0.5f;
