@@ -9,14 +9,14 @@
 namespace domefall {
 namespace {
 
-// SI 2019: exact h, c, k; sigma follows.
+// h, c and k are exact in the SI of 2019, and sigma follows.
 constexpr double kPlanck = 6.62607015e-34, kLight = 299792458.0, kBoltzmann = 1.380649e-23;
 constexpr double kStefanBoltzmann = 5.670374419e-8;
 
 constexpr double kCoolest = 500;
 constexpr int kNodes = 4096;
 
-// Bessell (1990) V response at 470, 480, ... 700 nm.
+// This is the V response of Bessell (1990) at 470, 480, ... 700 nm.
 constexpr std::array<double, 24> kBessellV{0,     0.03,  0.163, 0.458, 0.78,  0.967, 1,     0.973,
                                            0.898, 0.792, 0.684, 0.574, 0.461, 0.359, 0.27,  0.197,
                                            0.135, 0.081, 0.045, 0.025, 0.017, 0.013, 0.009, 0};
@@ -73,7 +73,7 @@ BlackbodyColours::BlackbodyColours() : table_(kNodes) {
 WorkingRgb BlackbodyColours::per_flux(double temperature) const {
   if (temperature < kCoolest) return {0, 0, 0};
   if (temperature >= kRayleighJeans) {
-    // Visible light grows as T, the total as T^4.
+    // Visible light grows as T, and the total as T^4.
     const double fall = std::pow(kRayleighJeans / temperature, 3);
     const auto& last = table_.back();
     const auto f = static_cast<float>(fall);
