@@ -10,7 +10,7 @@ namespace {
 constexpr float kStraight = 0.0078125f, kStraightCode = 0.155251141552511f;
 constexpr float kCodeSlope = 10.5402377416545f, kCodeOffset = 0.0729055341958355f;
 constexpr float kStops = 17.52f, kStopOffset = 9.72f;
-// Of a code to whose light a half float never comes.
+// This stands for a code to whose light a half float never comes.
 constexpr float kMostStops = 100;
 
 [[gnu::always_inline]] inline float code_of_light(float light) {
@@ -42,7 +42,7 @@ template <bool kPower>
 [[gnu::always_inline]] inline void change_loop(float* __restrict red, float* __restrict green,
                                                float* __restrict blue, int count,
                                                const FloatCdl& cdl) {
-  // The CDL's own weights, those of Rec.709.
+  // These are the CDL's own weights, those of Rec.709.
   constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f, kFinite = 1e30f;
   const float saturation = cdl.saturation;
   for (int k = 0; k < count; ++k) {

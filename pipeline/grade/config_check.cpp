@@ -31,7 +31,7 @@ void check_file(const ocio::Config& config, const char* named, const std::string
   throw InputError(name + ": names " + found + ": the file is empty");
 }
 
-// Groups hold transforms; all others are single.
+// Groups hold transforms, and all others are single.
 void check_transform(const ocio::Config& config, const ocio::ConstTransformRcPtr& transform,
                      const std::string& name) {
   if (!transform) return;
@@ -44,7 +44,7 @@ void check_transform(const ocio::Config& config, const ocio::ConstTransformRcPtr
 
 constexpr float kLargestHalf = 65504, kBright = 1024;
 
-// RGB: greys of all magnitudes, and colours between black, small and large values.
+// The pixels are RGB, greys of all magnitudes, and colours between black, small and large values.
 std::vector<float> probes() {
   std::vector<float> rgb{1, 1, 1};
   for (float v = kLargestHalf; v > 1e-7f; v /= 1.07f) rgb.insert(rgb.end(), 3, v);
@@ -55,7 +55,7 @@ std::vector<float> probes() {
   return rgb;
 }
 
-// Whether the values of the pixel at `at` are as they may be.
+// Says whether the values of the pixel at `at` are as they may be.
 bool is_sound(const std::vector<float>& before, const std::vector<float>& after, std::size_t at) {
   bool bright = false, infinite = false;
   for (std::size_t c = at; c < at + 3; ++c) {
@@ -66,7 +66,7 @@ bool is_sound(const std::vector<float>& before, const std::vector<float>& after,
   return bright || !infinite;
 }
 
-// Whether OpenColorIO will replace the variable in the text: $NAME, ${NAME} or %NAME%.
+// Says whether OpenColorIO will replace the variable in the text, as $NAME, ${NAME} or %NAME%.
 bool refers_to(std::string_view text, const std::string& variable) {
   return text.find("$" + variable) != std::string_view::npos ||
          text.find("${" + variable + "}") != std::string_view::npos ||

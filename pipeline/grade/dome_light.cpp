@@ -10,8 +10,8 @@ namespace domefall {
 
 namespace {
 
-// sin(theta)/theta in s = theta^2, which a pixel's area on the dome is proportional to.  What is
-// left out is below 4e-8 up to theta = pi/2.
+// Returns sin(theta)/theta in s = theta^2, which a pixel's area on the dome is proportional to.
+// What is left out is below 4e-8 up to theta = pi/2.
 float sine_over_angle(float s) {
   constexpr float k1 = 1 / 6.0f, k2 = 1 / 20.0f, k3 = 1 / 42.0f, k4 = 1 / 72.0f, k5 = 1 / 110.0f,
                   k6 = 1 / 156.0f;
@@ -35,7 +35,8 @@ void pixel_areas(int size, int row, ColumnRange range, std::uint32_t* areas) {
   }
 }
 
-// The mean of max(light - c, 0) over the dome, and the part of the dome where that is not 0.
+// Above is the mean of max(light - c, 0) over the dome, and the part of the dome where that is not
+// 0.
 struct Above {
   double mean = 0, part = 0;
 };
@@ -52,8 +53,8 @@ Above above(const DomeCodes& dome, int channel, const std::vector<double>& curve
   return {sum.mean / whole, sum.part / whole};
 }
 
-// The root of c = k mean(c) by Newton's method from c = 0.  The mean is convex and falls, so each
-// step stays below the root; it is reached when no further code falls below c.
+// Returns the root of c = k mean(c) by Newton's method from c = 0.  The mean is convex and falls,
+// so each step stays below the root.  It is reached when no further code falls below c.
 double compensation(const DomeCodes& dome, int channel, const std::vector<double>& curve,
                     double k) {
   double c = 0;
@@ -66,7 +67,7 @@ double compensation(const DomeCodes& dome, int channel, const std::vector<double
   return c;
 }
 
-// The code whose light is nearest to each code's own plus `more`.
+// Returns the code whose light is nearest to each code's own plus `more`.
 std::vector<unsigned short> shifted_codes(const std::vector<double>& curve, double more) {
   std::vector<unsigned short> codes(kCodes);
   std::size_t at = 0;

@@ -31,8 +31,8 @@ std::size_t first_cell(int order, int n) {
   return static_cast<std::size_t>((order * cells::kCells + n) * kPlaneCells);
 }
 
-// Where a cell is compared: in steps from its middle node, and of the largest channel in half
-// floats' steps.
+// A Probe says where a cell is compared, in steps from its middle node, and of the largest channel
+// in half floats' steps.
 struct Probe {
   float grey, hue;
   int largest;
@@ -42,18 +42,18 @@ constexpr std::array kProbes{
     Probe{-0.5f, 0.5f, cells::kNodeStep / 4}, Probe{0.5f, -0.5f, 3 * cells::kNodeStep / 4},
     Probe{0, 0, cells::kNodeStep / 2}};
 // Most cells are so exact at the first two probes, or err so much there, that the others are left
-// out. These two are opposite corners: what errs by the largest channel has one sign at both, what
-// errs by grey and hue has two.
+// out.  These two are opposite corners.  What errs by the largest channel has one sign at both, and
+// what errs by grey and hue has two.
 constexpr int kFirstProbes = 2;
 constexpr double kSmallPart = 0.1;
 // Between the probes an error may be larger than at them.
 constexpr double kProbedPart = 0.8;
 
-// The code of 0 to 1 that is shown.  What is no number is shown as black.
+// Returns the code of 0 to 1 that is shown.  What is no number is shown as black.
 float clipped(float code) { return code > 0 ? std::min(code, 1.0f) : 0; }
 
-// Whether a channel leaves black within a cell: it is 0 at some of the cell's nodes, and not at
-// others.  The display's gamma is infinitely steep there, which probes may miss.
+// Says whether a channel leaves black within a cell.  It is then 0 at some of the cell's nodes, and
+// not at others.  The display's gamma is infinitely steep there, which probes may miss.
 bool leaves_black(const float* middle) {
   bool some[3]{}, all[3]{true, true, true};
   for (int i = -1; i <= 1; ++i)
@@ -74,8 +74,8 @@ void spread(float* line, int count, std::ptrdiff_t step) {
   }
 }
 
-// The same for all cells of an order along the largest channel, from plane to plane as they follow
-// each other in memory.
+// Does the same for all cells of an order along the largest channel, from plane to plane as they
+// follow each other in memory.
 void spread_planes(const float* errors, float* spread_out) {
   for (int n = 0; n < cells::kCells; ++n, errors += kPlaneCells, spread_out += kPlaneCells) {
     const float* before = n > 0 ? errors - kPlaneCells : errors;

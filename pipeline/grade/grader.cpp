@@ -52,7 +52,7 @@ Code graded_black(const ocio::CPUProcessor& cpu) {
   return code;
 }
 
-// The columns begin <= x < end, outside which a row is black.
+// These are the columns begin <= x < end, outside which a row is black.
 struct Lit {
   int begin, end;
 };
@@ -61,7 +61,7 @@ bool is_black(const Imath::half* rgb) {
   return (rgb[0].bits() | rgb[1].bits() | rgb[2].bits()) == 0;
 }
 
-// Whether four pixels are.
+// Says whether four pixels are.
 bool are_black(const Imath::half* rgb) {
   std::array<std::uint64_t, 3> words;
   std::memcpy(words.data(), rgb, sizeof words);
@@ -81,7 +81,7 @@ void fill_black(unsigned short* row, int begin, int end, const Code& black) {
   for (int x = begin; x < end; ++x) std::copy(black.begin(), black.end(), row + 3 * x);
 }
 
-// Pixels of all the colours that a table holds, and of all brightness that shows.
+// Returns pixels of all the colours that a table holds, and of all brightness that shows.
 std::vector<Imath::half> sampled_colours() {
   std::vector<Imath::half> rgb;
   for (int stop = -24; stop < 12; ++stop)
@@ -97,7 +97,7 @@ std::vector<Imath::half> sampled_colours() {
 
 }  // namespace
 
-// What further graders of the show are made from, and what they share.
+// Further graders of the show are made from this, and share it.
 struct Grader::Source {
   ocio::ConstConfigRcPtr config;
   GradeSettings settings;
@@ -125,7 +125,8 @@ struct Grader::Processor {
     std::copy_n(last.begin(), 3 * pixels, out);
   }
 
-  // The largest difference between table and formulas, as a part of white, over sampled colours.
+  // Returns the largest difference between table and formulas, as a part of white, over sampled
+  // colours.
   double measured_error(const GradeTable& table) const {
     static const std::vector<Imath::half> colours = sampled_colours();
     const int pixels = static_cast<int>(colours.size() / 3);
@@ -138,7 +139,7 @@ struct Grader::Processor {
     return most / 65535.0;
   }
 
-  // How exact the table is with this CDL, which the table knows nothing of.
+  // Returns how exact the table is with this CDL, which the table knows nothing of.
   double error(const GradeTable& table) const {
     if (!cdl) return table.error();
     std::call_once(measured_, [&] { error_ = measured_error(table); });
@@ -181,7 +182,7 @@ void ignore_environment() {
     ocio::UnsetEnvVariable(name);
 }
 
-// A table of what a processor does.
+// Returns a table of what a processor does.
 std::unique_ptr<GradeTable> table_of(const ocio::Processor& processor) {
   const auto floats = processor.getOptimizedCPUProcessor(ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32,
                                                          ocio::OPTIMIZATION_DEFAULT);

@@ -20,7 +20,7 @@ template <class Vector, class Value>
   std::memcpy(to, &from, sizeof from);
 }
 
-// The node next to a place that is not negative, but none at either end.
+// Finds the node next to a place that is not negative, but none at either end.
 [[gnu::always_inline]] inline void middle_node(const Lanes& place, int last, Ints& node) {
   node = __builtin_convertvector(place + 0.5f, Ints);
   node = node < last ? node : Ints{} + last;
@@ -40,7 +40,7 @@ template <class Vector, class Value>
 
 [[gnu::always_inline]] inline void locate_cells_loop(const float* red, const float* green,
                                                      const float* blue, int count, Places& places) {
-  // Halves are 2^-24 apart below 2^-14; above, a float has 13 bits more than a half.
+  // Halves are 2^-24 apart below 2^-14.  Above, a float has 13 bits more than a half.
   constexpr float kNormal = 0x1p-14f, kSubnormalSteps = 0x1p24f / kNodeStep;
   constexpr std::int32_t kLeastExponent = 112 << 23, kStepBits = 13 + 5;
   const Lanes zero{}, one = zero + 1.0f;
@@ -87,7 +87,7 @@ template <class Vector, class Value>
 }
 Dispatched<locate_cells_loop> locate_all;
 
-// Two nodes that follow each other in the largest channel.
+// Loads two nodes that follow each other in the largest channel.
 [[gnu::always_inline]] inline void load_pair(const float* nodes, Lanes& pair) {
   std::memcpy(&pair, nodes, sizeof pair);
 }

@@ -22,7 +22,7 @@
 namespace domefall {
 namespace {
 
-// The first byte of what the copy writes; the rest is a message.
+// This is the first byte of what the copy writes, and the rest is a message.
 constexpr char kDone = 'd', kInput = 'i', kTemporary = 't', kMemory = 'm';
 
 void limit(int resource, rlim_t bound) {
@@ -32,7 +32,7 @@ void limit(int resource, rlim_t bound) {
   setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-// What this process has of its address space, which sanitizers fill by terabytes.
+// Returns what this process has of its address space, which sanitizers fill by terabytes.
 rlim_t address_space() {
   unsigned long pages = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
@@ -112,7 +112,7 @@ pid_t copy_without_signals(int to, const std::function<void()>& step, const Tria
   return copy;
 }
 
-// Whatever the copy writes until it ends, and whether it ended in time.
+// Reads whatever the copy writes until it ends, and says whether it ended in time.
 bool read_in_time(int from, std::string& text, int seconds) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(seconds);

@@ -10,7 +10,7 @@ namespace ocio = OCIO_NAMESPACE;
 
 namespace {
 
-// The names at(0) to at(count - 1) in quotes, for a message.
+// Returns the names at(0) to at(count - 1) in quotes, for a message.
 template <class At>
 std::string listed(int count, At at) {
   std::vector<std::string> names;
