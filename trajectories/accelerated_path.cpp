@@ -24,7 +24,7 @@ constexpr double kIntegrandNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kEndRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
-// From key to key, of t = 0 to 1: c0 + t (c1 + t (c2 + t c3)).
+// A PathCubic goes from key to key.  It is c0 + t (c1 + t (c2 + t c3)) for t = 0 to 1.
 struct PathCubic {
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
 
@@ -53,7 +53,7 @@ Rates rates_of(const Piece& piece, double t) {
   return {r, u, l, u * u + (1 - 2 / r) * (1 + l * l)};
 }
 
-// As of geodesics, (1 - E^2) + l^2 being (2/r)(1 + l^2) - u^2.
+// This is as for geodesics, (1 - E^2) + l^2 being (2/r)(1 + l^2) - u^2.
 double path_celerity(const Rates& p, bool outgoing) {
   const double s = std::sqrt(2 / p.r), inward = outgoing ? p.radial : -p.radial;
   const double energy = std::sqrt(p.energy2), squares = 1 + p.tangential * p.tangential;
@@ -68,7 +68,7 @@ double null_rate(const Rates& p, bool outgoing) {
                      : (energy - inward) / (1 - 2 / p.r);
 }
 
-// Relative, of null_rate: what rounding of r and its slope does to 1 - 2/r and to E.
+// Returns, relative to null_rate, what rounding of r and its slope does to 1 - 2/r and to E.
 double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
   const double inward = outgoing ? p.radial : -p.radial,
                sum = std::sqrt(p.energy2) + std::abs(inward);
@@ -77,14 +77,16 @@ double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
   return (inward >= 0 ? place / (sum * sum) : place / std::abs(1 - 2 / p.r)) + rate / sum;
 }
 
-// Of a key inside: 0 at an extreme, else the harmonic mean weighted towards the shorter side.
+// Returns the rate of a key inside.  It is 0 at an extreme, and else the harmonic mean weighted
+// towards the shorter side.
 double key_slope(double before, double left, double after, double right) {
   if (left * right <= 0) return 0;
   const double a = 2 * after + before, b = after + 2 * before;
   return (a + b) / (a / left + b / right);
 }
 
-// Of the first or last key: the parabola's slope, within what keeps the cubic from turning.
+// Returns the rate of the first or last key.  It is the parabola's slope, within what keeps the
+// cubic from turning.
 double end_slope(double span, double own, double next_span, double next) {
   const double slope = ((2 * span + next_span) * own - span * next) / (span + next_span);
   if (slope * own <= 0) return 0;
@@ -110,7 +112,7 @@ std::vector<double> slopes(const std::vector<double>& taus, const std::vector<do
       fmt::format("key {}, at proper time {} (units of M): {}", key, short_number(tau), why));
 }
 
-// Of rates whose squares double precision does not hold well.
+// Says whether double precision does not hold the squares of the rates well.
 bool is_too_fast(const PathKey& from, const PathKey& to) {
   constexpr double kFastest = 1e100;
   const double span = to.tau - from.tau;
@@ -168,7 +170,7 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
     refuse(key, tau, place + "the path is faster than light: it must cross r faster, or turn less");
 }
 
-// Where the cubic turns, between 0 and 1, with both ends.
+// Returns where the cubic turns, between 0 and 1, with both ends.
 std::vector<double> turns_of(const PathCubic& c) {
   std::vector<double> cuts{0};
   const double a = 3 * c.c3, b = c.c2, under = b * b - a * c.c1;

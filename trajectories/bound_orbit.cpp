@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// w3 - w2 = (p - 6 - 2e)/(2p); E^2 - 1 = -(1 - e^2)(p - 4)/(p (p - 3 - e^2)).
+// Here w3 - w2 = (p - 6 - 2e)/(2p) and E^2 - 1 = -(1 - e^2)(p - 4)/(p (p - 3 - e^2)).
 Geodesic bound_orbit(double periastron, double apoastron, double p, double e, double excess) {
   const double below = p - 3 - e * e;
   const double excess_energy = -(1 - e) * (1 + e) * (p - 4) / (p * below);
@@ -27,7 +27,7 @@ void require_eccentricity(double e) {
 
 }  // namespace
 
-// p > 6 + 2e is  r_p (r_a - 6) > ... :  r_p r_a - 2 r_p... = (r_a + r_p)(p - 6 - 2e)/2.
+// p > 6 + 2e means r_p (r_a - 2) > 4 r_a, since p - 6 - 2e = 2 (r_p (r_a - 2) - 4 r_a)/(r_p + r_a).
 Geodesic bound_by_turning_points(double periastron, double apoastron) {
   const double a = apoastron, least = 4 * a / (a - 2);
   require_above("apoastron", "units of M", apoastron, 6, "no stable orbit is smaller");
@@ -36,7 +36,7 @@ Geodesic bound_by_turning_points(double periastron, double apoastron) {
   require_at_least("apoastron", "units of M", apoastron, periastron,
                    "it is the farthest point of the orbit");
   const double sum = periastron + a, p = 2 * periastron * a / sum, e = (a - periastron) / sum;
-  // p - 6 - 2e = 2 (r_p (r_a - 2) - 4 r_a)/(r_p + r_a).
+  // Here p - 6 - 2e = 2 (r_p (r_a - 2) - 4 r_a)/(r_p + r_a).
   return bound_orbit(periastron, a, p, e, 2 * ((periastron - 4) * (a - 2) - 8) / sum);
 }
 

@@ -2,7 +2,7 @@
 // rounded, and lo is what that leaves.  Proper times need it.  A fall from 1e9 M lasts 1.5e13 M,
 // which a double holds to 2e-3 M, and at r = 1e-6 M only 5e-10 M of it are left.  Beside any
 // double, here the end of the fall, a sum holds times to 16 digits of their distance from it.  The
-// sums are those of Knuth, The Art of Computer Programming, vol.  2, sec. 4.2.2, theorem B.
+// sums are those of Knuth, The Art of Computer Programming, vol. 2, sec. 4.2.2, theorem B.
 #pragma once
 
 #include <cmath>

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSlowest = 1e-9;        // of c
 constexpr double kLeastOfLight = 1e-12;  // 1 - v
 
-// E^2 - 1 = v^2/(1 - v^2).
+// Returns E^2 - 1 = v^2/(1 - v^2).
 double excess_energy(double speed) { return square(speed) / ((1 - speed) * (1 + speed)); }
 
 void require_speed(double speed) {
@@ -22,8 +22,8 @@ void require_speed(double speed) {
   require_below("v_inf", "fraction of c", speed, 1 - kLeastOfLight, "nothing outruns light");
 }
 
-// `over`: E^2 - 1 above that of the slowest orbit that turns at r_p.
-// w3 - w2 = (1 - 3 w2) over/((1 - 2 w2) L^2 w2 (w2 - w1)).
+// `over` is E^2 - 1 above that of the slowest orbit that turns at r_p.  w3 - w2 = (1 - 3 w2)
+// over/((1 - 2 w2) L^2 w2 (w2 - w1)).
 Geodesic turning_at(double periastron, double excess, double over) {
   const double w2 = 1 / periastron;
   const double l2 = (excess + 2 * w2) / ((1 - 2 * w2) * w2 * w2), l = std::sqrt(l2);
@@ -36,10 +36,12 @@ Geodesic turning_at(double periastron, double excess, double over) {
           -kInfinity};
 }
 
-// (4 - r)/(r (r - 3)), negative beyond 4: E^2 - 1 of the unstable circular orbit.
+// Returns (4 - r)/(r (r - 3)), which is negative beyond 4.  It is E^2 - 1 of the unstable circular
+// orbit.
 double barrier_energy(double r) { return (4 - r) / (r * (r - 3)); }
 
-// The unstable circular orbit of that energy, r = 2 (3 + e)/(1 + e), e = sqrt(1 + 8 v^2).
+// Returns the unstable circular orbit of that energy, r = 2 (3 + e)/(1 + e) with e = sqrt(1 + 8
+// v^2).
 double barrier_radius(double speed) {
   const double e = std::sqrt(1 + 8 * square(speed));
   return 2 * (3 + e) / (1 + e);
@@ -80,7 +82,7 @@ Geodesic hyperbolic_by_periastron(double speed, double periastron) {
                   "to turn at r = " + short_number(periastron) + " takes more than " +
                       short_number(bound * kLightSpeedKmPerS) + " km/s");
   const double energy = excess_energy(speed);
-  // Of a speed near its bound the difference is that of the speeds.
+  // For a speed near its bound the difference is that of the speeds.
   const double over =
       bound > 0 ? (speed - bound) * (speed + bound) * (1 + energy) * (1 + excess_energy(bound))
                 : energy - barrier_energy(periastron);

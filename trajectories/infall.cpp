@@ -14,11 +14,11 @@ namespace {
 
 using FallKind = OrbitCurve::Kind;
 
-// Of gamma: an energy below it is what rounding leaves of 0.
+// An energy below this part of gamma is what rounding leaves of 0.
 constexpr double kNoEnergy = 1e-14;
 const char* const kRadiusUnit = "units of M";
 
-// In rain from the throw on.
+// The states are in rain from the throw on.
 double turn_of(const OrbitStart& start) {
   const FallKind kind = start.curve.kind();
   if (kind == FallKind::kEscaping) return start.parameter;
@@ -64,7 +64,7 @@ Geodesic fall_with_speed(double speed, double impact_parameter, double from_r) {
   return geodesic_through({std::sqrt(1 + excess), excess, l}, from_r, -std::sqrt(p));
 }
 
-// G(w_a) > 0 of r_a < 6, the least G > 0 beyond: see OrbitCurve::returning.
+// G(w_a) > 0 holds for r_a < 6, and the least G > 0 beyond (OrbitCurve::returning).
 double fall_bound(double from_r) {
   const double w = 1 / from_r;
   if (from_r <= 3) return kInfinity;

@@ -12,7 +12,8 @@ namespace {
 // A difference of terms of about 1 that is less is taken from the roots.
 constexpr double kCancels = 0.01;
 
-// The zero of f in (low, high], of a function that changes its sign there; high if it does not.
+// Returns the zero of f in (low, high], of a function that changes its sign there, or high if it
+// does not.
 template <class Function>
 double zero(const Function& f, double low, double high) {
   const double at_low = f(low), at_high = f(high);
@@ -25,18 +26,19 @@ double zero(const Function& f, double low, double high) {
   return (found.first + found.second) / 2;
 }
 
-// The state whose orbit is sought, w = 1/r.
+// A State is the one whose orbit is sought, with w = 1/r.
 struct State {
   OrbitConstants c;
   double w, speed;
 
-  // (P(w + h) - P(w))/h.
+  // Returns (P(w + h) - P(w))/h.
   double slope(double h) const {
     const double l = c.angular_momentum, to = w + h;
     return 2 + l * l * (2 * (to * to + to * w + w * w) - (to + w));
   }
 
-  // How far the next turning point is on the side of `sign`, in w; it is at most `most` away.
+  // Returns how far the next turning point is on the side of `sign`, in w.  It is at most `most`
+  // away.
   double to_turn(double sign, double most) const {
     if (speed != 0)
       return zero([&](double h) { return speed * speed + sign * h * slope(sign * h); }, 0, most);
@@ -44,14 +46,14 @@ struct State {
     return zero([&](double h) { return sign * slope(sign * h); }, 0, most);
   }
 
-  // 1/r of the next apoastron, and how far it is in w, at most `most`.
+  // A Top is 1/r of the next apoastron, and how far it is in w, at most `most`.
   struct Top {
     double w, risen;
   };
   Top apoastron(double most) const;
 };
 
-// Of an apoastron far away the difference has lost digits, which Newton's rule gives back: it is
+// For an apoastron far away the difference has lost digits, which Newton's rule gives back.  It is
 // well conditioned there, P' being 2 nearly.
 State::Top State::apoastron(double most) const {
   if (c.energy == 0) return {0.5, w - 0.5};
@@ -75,8 +77,8 @@ OrbitStart unturned(const State& state, double w_b, double over) {
   return start;
 }
 
-// Falls from that apoastron; `excess` as OrbitCurve::returning wants it.
-// E^2 = (1 - 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
+// Returns the fall from that apoastron.  `excess` is as OrbitCurve::returning wants it.  E^2 = (1 -
+// 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
 OrbitStart returning(const State& state, const State::Top& top, double excess) {
   const double lw = state.c.angular_momentum * top.w;
   const double over_two = state.c.energy * state.c.energy / (top.w * (1 + lw * lw));
@@ -84,7 +86,7 @@ OrbitStart returning(const State& state, const State::Top& top, double excess) {
           -outward_sign(state.speed) * std::asinh(std::sqrt(top.risen / top.w))};
 }
 
-// G of OrbitCurve::returning, no barrier or one that is overcome by `over`.
+// Returns G of OrbitCurve::returning, with no barrier or one that is overcome by `over`.
 double returning_excess(const State& state, double w, const Barrier* barrier, double over) {
   const double l = state.c.angular_momentum;
   if (w >= 1.0 / 6) return 2 - 2 * l * l * w * (1 - 3 * w);
@@ -102,8 +104,8 @@ OrbitStart falling(const State& state, const Barrier* barrier, double over) {
 OrbitStart turned_inside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
   const State::Top top = state.apoastron(std::max(state.w - barrier.w, 0.0));
-  // Next to the barrier, 2 L^2 (w3 - w1)(w3 - w2) of the third root w1 = w_b - spread + below -
-  // above.
+  // Next to the barrier, this is 2 L^2 (w3 - w1)(w3 - w2) with the third root w1 = w_b - spread +
+  // below - above.
   const double plain = 2 - 2 * l * l * top.w * (1 - 3 * top.w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
   return returning(state, top, plain > kCancels ? plain : 2 * l * l * to_third * gap);

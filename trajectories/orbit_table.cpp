@@ -23,7 +23,7 @@ double rounding_of(double low, double high) {
   return kNoise * std::max(std::abs(low), std::abs(high));
 }
 
-// The greatest slope between nodes over the greatest value.
+// Returns the greatest slope between nodes over the greatest value.
 double steepness(const PanelValues& values) {
   double slope = 0, largest = std::abs(values[0]);
   for (std::size_t j = 1; j < kPanelTerms; ++j) {
@@ -54,9 +54,9 @@ OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, doub
   sum_up(origin);
 }
 
-// dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r), du/dtau = (E - u^r)/(1 - 2/r): of each
-// the form that does not cancel, and is regular at r = 2 where the motion crosses it.  What is left
-// to cancel is r - 2 where the motion leaves the other horizon.
+// Here dv/dtau = (E + u^r)/(1 - 2/r) = (1 + L^2/r^2)/(E - u^r) and du/dtau = (E - u^r)/(1 - 2/r).
+// Each is taken in the form that does not cancel, and is regular at r = 2 where the motion crosses
+// it.  What is left to cancel is r - 2 where the motion leaves the other horizon.
 OrbitTable::Sums OrbitTable::rates(double s, bool ingoing, double& noise) const {
   const OrbitCurve::Point p = curve_.at(s);
   const double e = curve_.constants().energy, l = curve_.constants().angular_momentum / p.r;
@@ -103,7 +103,7 @@ void OrbitTable::append(double low, double high, int depth) {
   append(middle, high, depth + 1);
 }
 
-// The singularities, the periastron and the origin, in the order of the parameter.
+// Returns the singularities, the periastron and the origin, in the order of the parameter.
 std::vector<double> OrbitTable::anchors(double origin) const {
   using Kind = OrbitCurve::Kind;
   const Kind kind = curve_.kind();
@@ -121,7 +121,8 @@ OrbitTable::Panels OrbitTable::from_parameter(double s) {
                           [](const Panel& p, double value) { return p.low < value; });
 }
 
-// At the panel's upper end, of what is `from` at its lower end and before it was shifted.
+// Returns the sums at the panel's upper end, of what is `from` at its lower end and before it was
+// shifted.
 OrbitTable::Sums OrbitTable::risen(const Sums& from, const Panel& panel) const {
   return {from.tau + panel_sum(panel.tau, 1), from.azimuth + panel_sum(panel.azimuth, 1),
           from.null_time + panel_sum(panel.null_time, 1) + (panel.high == turn_ ? jump_ : 0)};

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// w3 - w2 = q/2, w2 = (1 - q)/4, with q = sqrt(1 - 16/L^2).
+// Here w3 - w2 = q/2 and w2 = (1 - q)/4, with q = sqrt(1 - 16/L^2).
 Geodesic parabolic(double angular_momentum, double periastron, double q) {
   return {OrbitCurve::scattered({1, 0, angular_momentum}, periastron, 0, q / 2), 0, -kInfinity};
 }

@@ -6,13 +6,13 @@
 namespace domefall {
 namespace {
 
-// What stays at its radius.
+// This is true for what stays at its radius.
 template <class Motion>
 constexpr bool kStays =
     std::is_same_v<Motion, StaticObserver> || std::is_same_v<Motion, CircularOrbit> ||
     std::is_same_v<Motion, GivenVelocity> || std::is_same_v<Motion, SpeedRamp>;
 
-// To a few parts in 1e5 of the path's extent.
+// Returns the least and the largest r, to a few parts in 1e5 of the path's extent.
 std::pair<double, double> reach_of(const AcceleratedPath& path) {
   constexpr int kSteps = 1000;
   double low = path.at(path.begin()).r, high = low;

@@ -6,7 +6,7 @@
 namespace domefall {
 namespace {
 
-// int dr/(s (1 + s)), s = sqrt(2/r) = 1/x: dv = -dr/(s (1 + s)) along the fall.
+// Returns int dr/(s (1 + s)) with s = sqrt(2/r) = 1/x, because dv = -dr/(s (1 + s)) along the fall.
 double fallen_null_time(double r) {
   const double x = std::sqrt(r / 2);
   return 4 * (x * (1 + x * (x / 3 - 0.5)) - std::log1p(x));
