@@ -30,7 +30,7 @@ const char* format_name(FrameFormat format) {
   return "a TIFF";
 }
 
-// Nothing for what is damaged.
+// Returns nothing for what is damaged.
 std::optional<FrameHead> head_of(const FileBytes& file) {
   try {
     return read_frame_head(file);
@@ -39,7 +39,8 @@ std::optional<FrameHead> head_of(const FileBytes& file) {
   }
 }
 
-// What the file is where that is not what is wanted; nothing if it may be of the same show.
+// Returns what the file is where that is not what is wanted, or nothing if it may be of the same
+// show.
 std::optional<std::string> difference(const std::filesystem::path& path, const FrameHead& head,
                                       const WantedFrame& wanted) {
   if (!head.ours) return "an image that is not Domefall's";

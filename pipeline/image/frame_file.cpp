@@ -26,7 +26,7 @@
 namespace domefall {
 namespace {
 
-// ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
+// These are of ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
 constexpr ExrChromaticities kAcesCg{
     {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f}};
 constexpr const char *kShow = "showDigest", *kFrame = "frameNumber",
@@ -46,8 +46,8 @@ Imf::FrameBuffer buffer_of(ImageRgb<T>& frame, Imf::PixelType type) {
   return buffer;
 }
 
-// For the rates that SMPTE ST 12-1 counts by whole frames, or from above 30 on by pairs of them, of
-// which the second has the mark of a second field; other frames bear none.
+// Returns a time code for the rates that SMPTE ST 12-1 counts by whole frames, or from above 30 on
+// by pairs of them, of which the second has the mark of a second field.  Other frames bear none.
 std::optional<ExrTimeCode> time_code(const FrameInfo& info) {
   const auto rate = static_cast<int>(info.frames_per_second);
   constexpr int kFastest = 30, kMinute = 60, kHour = 60, kDay = 24;
@@ -128,7 +128,7 @@ Imf::PixelType check_layout(const Imf::Header& header) {
   return type;
 }
 
-// Throws std::exception of some kind for anything that is wrong with the file.
+// Decodes the pixels.  Throws std::exception of some kind for anything that is wrong with the file.
 std::pair<HalfFrame, FrameInfo> decode(const std::filesystem::path& path) {
   Imf::InputFile file(path.c_str(), Imf::globalThreadCount());
   const Imf::Header& header = file.header();

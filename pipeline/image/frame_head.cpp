@@ -25,7 +25,7 @@ void check_digest(const FrameHead& head, bool has_former_digest) {
 
 // ---- the description of a PNG, TIFF or JPEG: lines of "name: value" ----
 
-// Where the line's value begins, or npos.
+// Returns where the line's value begins, or npos.
 std::size_t place_of_value(std::string_view text, std::string_view line) {
   for (std::size_t begin = 0; begin < text.size();) {
     if (text.substr(begin).starts_with(line)) return begin + line.size();
@@ -61,7 +61,7 @@ struct Attribute {
   std::uint64_t at, size;
 };
 
-// A text that a zero ends, and moves `at` behind the zero.
+// Returns a text that a zero ends, and moves `at` behind the zero.
 std::string take_name(const FileBytes& file, std::uint64_t& at) {
   constexpr std::uint64_t kLongest = 256;  // with the zero
   const std::string bytes = file.at(at, std::min(kLongest, file.size() - at));
@@ -87,7 +87,7 @@ std::map<std::string, Attribute> read_attributes(const FileBytes& file, std::uin
   }
 }
 
-// Every part of the image has its place within the file; a header that promises more than there is
+// Every part of the image has its place within the file.  A header that promises more than there is
 // has a table that leads out of it.
 void check_exr_table(const FileBytes& file, std::uint64_t table, std::int64_t height,
                      std::int64_t rows_per_part) {
@@ -104,7 +104,7 @@ void check_exr_table(const FileBytes& file, std::uint64_t table, std::int64_t he
   }
 }
 
-// Rows in one part, by the number of the compression; nothing for a later one.
+// Returns the rows in one part, by the number of the compression, or nothing for a later one.
 std::optional<std::int64_t> rows_per_part(unsigned char compression) {
   constexpr std::int64_t kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   if (compression >= std::size(kRows)) return std::nullopt;
@@ -222,8 +222,8 @@ class TiffDirectory {
                                         : number<std::uint32_t>(value);
   }
 
-  // The first of several short numbers, which stand in the entry where there are at most two; 0 if
-  // there is none.
+  // Returns the first of several short numbers, which stand in the entry where there are at most
+  // two.  Returns 0 if there is none.
   int first_short(std::uint16_t tag) const {
     constexpr std::uint16_t kShort = 3, kMostInEntry = 2;
     const auto found = entries_.find(tag);
@@ -233,7 +233,8 @@ class TiffDirectory {
         found->second.count > kMostInEntry ? number<std::uint32_t>(file_.at(at, 4)) : at, 2));
   }
 
-  // Where the text stands; nothing if there is none.  Shorter ones than ours stand elsewhere.
+  // Returns where the text stands, or nothing if there is none.  Shorter ones than ours stand
+  // elsewhere.
   std::optional<std::pair<std::uint64_t, std::uint64_t>> text(std::uint16_t tag) const {
     constexpr std::uint16_t kAscii = 2;
     const auto found = entries_.find(tag);
@@ -259,7 +260,7 @@ class TiffDirectory {
   std::map<std::uint16_t, Entry> entries_;
 };
 
-// Whether the file holds a description of ours, which a damaged directory no longer leads to.
+// Says whether the file holds a description of ours, which a damaged directory no longer leads to.
 bool holds_our_lines(const FileBytes& file) { return holds_text(file, kSoftwareLine); }
 
 FrameHead read_tiff_head(const FileBytes& file, bool big) {

@@ -16,7 +16,7 @@
 namespace domefall {
 namespace {
 
-// One line for each field.
+// There is one line for each field.
 std::string description_of(const GradedInfo& info) {
   return fmt::format("{}{}\n{}{}\n{}{}\ndisplay: {}\nview: {}\nsoftware: {}\n{}{}\n{}{}\n",
                      kTitleLine, one_line(info.title), kFrameLine, info.frame, kProjectionLine,

@@ -26,7 +26,7 @@ void each_row(const InputImage& in, Use use) {
   }
 }
 
-// Integers and halves fit in halves as they are; of floats the greatest has to be known.
+// Integers and halves fit in halves as they are, but of floats the greatest has to be known.
 double unit_for(const InputImage& in) {
   if (in.layout().samples != SampleType::kFloat) return 1;
   float greatest = 0;
@@ -51,7 +51,8 @@ LightImage read_light_image(const std::filesystem::path& file, PixelEncoding enc
   const auto scale = static_cast<float>(1 / image.unit);
   const int floats = 3 * image.pixels.width;
   float least = 0, most = 0;  // of the file's values
-  // A second reading, since keeping the floats would take twice the memory of the result.
+  // The file is read a second time, since keeping the floats would take twice the memory of the
+  // result.
   each_row(in, [&](int y, const float* rgb) {
     Imath::half* out = image.pixels.row(y);
     for (int k = 0; k < floats; ++k) {

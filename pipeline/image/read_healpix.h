@@ -1,4 +1,4 @@
-// Reads all-sky maps in the HEALPix pixelisation (Gorski et al.  2005, ApJ 622, 759) from FITS
+// Reads all-sky maps in the HEALPix pixelisation (Gorski et al. 2005, ApJ 622, 759) from FITS
 // files.
 #pragma once
 

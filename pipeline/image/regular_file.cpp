@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As throw_file_error(), which the library of image formats does not have.
+// Throws as throw_file_error(), which the library of image formats does not have.
 [[noreturn]] void fail_to_open(const fs::path& path, int error) {
   const std::string what = path.string() + ": " + std::strerror(error);
   if (error == ENAMETOOLONG || error == ELOOP) throw InputError(what);
@@ -46,7 +46,7 @@ RegularFile::RegularFile(const fs::path& path) : path_(path) {
     fail_to_open(path, error);
   }
   check_regular(path, status);
-  // Without waiting, since the file may have become a pipe meanwhile.
+  // It is opened without waiting, since the file may have become a pipe meanwhile.
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor_ < 0) fail_to_open(path, errno);
   try {

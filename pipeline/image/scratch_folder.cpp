@@ -31,7 +31,7 @@ fs::path temporary_folder() {
   return folder;
 }
 
-// Nothing for a name that no ScratchFolder has.
+// Returns nothing for a name that no ScratchFolder has.
 std::optional<WriterId> writer_of_scratch(std::string_view name) {
   if (name.size() < kRandom.size() || name[name.size() - kRandom.size()] != '-')
     return std::nullopt;

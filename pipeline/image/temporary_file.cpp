@@ -30,7 +30,8 @@ fs::path folder_of(const fs::path& path) {
   return path.parent_path().empty() ? "." : path.parent_path();
 }
 
-// The beginning of a file's name, cut between characters, since some file systems take only UTF-8.
+// Returns the beginning of a file's name, cut between characters, since some file systems take only
+// UTF-8.
 std::string stem_of(const fs::path& path) {
   std::string stem = path.filename().string();
   if (stem.size() <= kLongestStem) return stem;
@@ -40,7 +41,7 @@ std::string stem_of(const fs::path& path) {
   return stem;
 }
 
-// New at every call.
+// Returns a new name at every call.
 fs::path temporary_name(const fs::path& path, std::uint64_t device) {
   static std::atomic<unsigned> count{0};
   WriterId writer = this_writer();
@@ -49,7 +50,7 @@ fs::path temporary_name(const fs::path& path, std::uint64_t device) {
                                std::to_string(count++) + std::string(kSuffix));
 }
 
-// Nothing for a name that temporary_name() does not give.
+// Returns nothing for a name that temporary_name() does not give.
 std::optional<WriterId> writer_of_temporary(std::string_view name) {
   const auto mark = name.rfind(kMark);
   if (!name.starts_with('.') || !name.ends_with(kSuffix) || mark == std::string_view::npos ||
@@ -83,7 +84,7 @@ void flush_folder(const fs::path& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.number() < 0 && errno == EACCES) return;  // it may be written to and not read
   if (opened.number() < 0) throw_file_error(folder, errno);
-  // Some file systems cannot flush a folder and say so; their renames are durable or nobody's.
+  // Some file systems cannot flush a folder and say so.  Their renames are durable or nobody's.
   if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
     throw_file_error(folder, errno);
 }
@@ -120,7 +121,7 @@ void TemporaryFile::create(std::uint64_t device) {
   unfinished.add(temporary_);
 }
 
-// False with errno where it cannot be locked, and with 0 where it has lost its name.
+// Returns false with errno where it cannot be locked, and with 0 where it has lost its name.
 bool TemporaryFile::lock() const {
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) return false;
   struct stat status {};

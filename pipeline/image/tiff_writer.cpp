@@ -34,7 +34,7 @@ class TiffStrip {
   const ByteBlock& packed() const { return packed_; }
 
  private:
-  // TIFF 6.0, section 14: each sample less that of the pixel on its left.
+  // By TIFF 6.0, section 14, each sample is stored less that of the pixel on its left.
   template <class Sample>
   void take_differences(Sample* samples, std::size_t row_samples) const {
     for (std::size_t row = 0; row < codes_.size(); row += row_samples)

@@ -28,7 +28,8 @@ void UnfinishedList::drop(const std::filesystem::path& path) { unfinished().path
 void remove_unfinished() noexcept {
   Unfinished& all = unfinished();
   all.mutex.lock();  // and never unlocked
-  // Other threads still run: a folder is not empty where one of them makes a file in it meanwhile.
+  // Other threads still run, so a folder is not empty where one of them makes a file in it
+  // meanwhile.
   constexpr int kMostTries = 100;
   for (const std::filesystem::path& path : all.paths) {
     std::error_code error;

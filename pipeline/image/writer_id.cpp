@@ -18,7 +18,7 @@
 namespace domefall {
 namespace {
 
-// Seconds.  A job that is suspended over a weekend goes on writing after it.
+// This is in seconds.  A job that is suspended over a weekend goes on writing after it.
 constexpr std::time_t kBeyondDoubt = std::time_t{7} * 24 * 3600;
 
 template <class Number>
@@ -27,7 +27,7 @@ bool read_whole_number(std::string_view text, Number& number, int base) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// 0 where it cannot be read.
+// Returns 0 where it cannot be read.
 std::uint64_t boot_of_this_machine() {
   std::ifstream file("/proc/sys/kernel/random/boot_id");
   std::string text, digits;
@@ -43,7 +43,8 @@ struct ProcessState {
   std::uint64_t start;
 };
 
-// From /proc/<process>/stat.  Nothing where there is no such process, or it is hidden.
+// Returns what /proc/<process>/stat has, or nothing where there is no such process, or it is
+// hidden.
 std::optional<ProcessState> state_of(const std::string& process) {
   std::ifstream file("/proc/" + process + "/stat");
   std::string text;
@@ -66,8 +67,8 @@ bool proc_has_our_numbers() {
   return std::filesystem::read_symlink("/proc/self", error) == std::to_string(getpid());
 }
 
-// Whether a process of this PID namespace runs still.  A zombie has a number and runs no more;
-// where nothing reaps it, as in some containers, it stays one.
+// Says whether a process of this PID namespace runs still.  A zombie has a number and runs no more.
+// Where nothing reaps it, as in some containers, it stays one.
 bool is_running(pid_t process, std::uint64_t start) {
   if (proc_has_our_numbers())
     if (const auto found = state_of(std::to_string(process)))

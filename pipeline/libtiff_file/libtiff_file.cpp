@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// libtiff's view of a sink.
+// This is libtiff's view of a sink.
 struct TiffBytes {
   ByteSink& sink;
   std::uint64_t size = 0;

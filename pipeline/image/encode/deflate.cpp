@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// What cannot be packed is stored in blocks of up to 65535 bytes, each with 5 bytes before it; the
+// What cannot be packed is stored in blocks of up to 65535 bytes, each with 5 bytes before it.  The
 // rest are wrappers and the block that ends a part.
 std::size_t most_packed(std::size_t bytes) {
   constexpr std::size_t kBlock = 32768, kBlockHead = 5, kWrappers = 1024;
@@ -25,9 +25,9 @@ unsigned char* bytes_of(std::string_view bytes) {
 
 __attribute__((target("avx"))) void clear_upper_halves() { _mm256_zeroupper(); }
 
-// To be had before each call of ISA-L, which leaves the upper halves of the vector registers in use
-// (2.30).  Until they are cleared, each instruction of SSE that follows on this thread waits for
-// the ones before it: OpenColorIO took ten times as long for a pixel.
+// This is to be had before each call of ISA-L, which leaves the upper halves of the vector
+// registers in use (2.30).  Until they are cleared, each instruction of SSE that follows on this
+// thread waits for the ones before it.  OpenColorIO took ten times as long for a pixel.
 class UpperHalvesCleared {
  public:
   UpperHalvesCleared() = default;
@@ -82,7 +82,7 @@ unsigned adler32_of(std::string_view bytes, unsigned before) {
   return isal_adler32(before, bytes_of(bytes), bytes.size());
 }
 
-// Both sums are modulo 65521: the low half is 1 plus all bytes, the high half adds up the low
+// Both sums are modulo 65521.  The low half is 1 plus all bytes, and the high half adds up the low
 // halves after each byte.
 unsigned adler32_joined(unsigned first, unsigned second, std::size_t count) {
   constexpr std::uint64_t kPrime = 65521;

@@ -21,7 +21,8 @@ std::string png_number(double value) {
   return bytes;
 }
 
-// Of the decoding curve; PNG states its inverse, and for sRGB the specification's 11.3.3.5.
+// This is of the decoding curve.  PNG states its inverse, and for sRGB the specification's
+// 11.3.3.5.
 std::string png_gamma(const DisplayColour& colour) {
   constexpr double kOfSrgb = 0.45455;
   return png_number(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);

@@ -5,17 +5,17 @@ namespace {
 
 constexpr std::uint32_t kCodeStep = 257;  // 16-bit codes in a step of 8 bits
 
-// A number without visible order.  [Wellons] "Prospecting for hash functions", lowbias32.
+// Returns a number without visible order.  [Wellons] "Prospecting for hash functions", lowbias32.
 constexpr std::uint32_t scrambled(std::uint32_t x) {
   x = (x ^ x >> 16) * 0x7feb352dU;
   x = (x ^ x >> 15) * 0x846ca68bU;
   return x ^ x >> 16;
 }
 
-// A 16-bit number as one below kStep.
+// Returns a 16-bit number as one below kStep.
 constexpr std::uint32_t even(std::uint32_t bits) { return bits * kCodeStep >> 16; }
 
-// x/kStep rounded down, for x below 2^16 + kStep: 65281 kStep is 2^24 + 1.
+// Returns x/kStep rounded down, for x below 2^16 + kStep, because 65281 kStep is 2^24 + 1.
 constexpr std::uint32_t steps_in(std::uint32_t x) { return x * 65281U >> 24; }
 static_assert(steps_in(257) == 1 && steps_in(256) == 0 && steps_in(65791) == 255);
 

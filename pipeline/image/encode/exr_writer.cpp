@@ -70,12 +70,12 @@ struct AttributeAdder {
   }
 };
 
-// Whether the channels are those for which our own packer is made.
+// Says whether the channels are those for which our own packer is made.
 bool is_rgb(const ExrPicture& picture) {
   return std::ranges::equal(picture.channels, std::array{"R", "G", "B"});
 }
 
-// A file in the making, its header written.
+// This is a file in the making, with its header written.
 class ExrInTheMaking {
  public:
   ExrInTheMaking(ByteSink& sink, const ExrPicture& picture) {
@@ -147,11 +147,11 @@ class BlockEncoder {
     };
     std::visit(encode_rows, picture.pixels);
   }
-  // The block as it stands in the file.
+  // Returns the block as it stands in the file.
   std::string_view bytes() const { return bytes_; }
 
  private:
-  // By OpenEXR's own steps, but for the last, which writes.
+  // This is done by OpenEXR's own steps, but for the last, which writes.
   template <class T>
   void run(exr_context_t file, const exr_chunk_info_t& block, const T* rows,
            const std::vector<std::string>& names) {

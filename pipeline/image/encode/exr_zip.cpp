@@ -6,7 +6,7 @@
 namespace domefall {
 namespace {
 
-// The words of 16 bits in a number, the lower one first.
+// These are the words of 16 bits in a number, the lower one first.
 constexpr std::size_t words_in(const Imath::half*) { return 1; }
 constexpr std::size_t words_in(const float*) { return 2; }
 
@@ -21,8 +21,8 @@ void each_word_of(float value, std::size_t place, Use use) {
   use(bits >> 16, 2 * place + 1);
 }
 
-// Calls use(word, place) for all words of the block in the order of the file: rows, in each its
-// channels B, G and R.
+// Calls use(word, place) for all words of the block in the order of the file, which has rows, and
+// in each its channels B, G and R.
 template <class T, class Use>
 void each_word(const T* rgb, int width, int height, Use use) {
   std::size_t place = 0;
@@ -36,7 +36,7 @@ std::size_t words_of(const T* rgb, int width, int height) {
   return words_in(rgb) * 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-// All low bytes and then all high ones, each less the one before it, plus 128.
+// All low bytes come first and then all high ones, each less the one before it, plus 128.
 template <class T>
 void take_differences(const T* rgb, int width, int height, unsigned char* out) {
   unsigned char* const low = out;
@@ -49,7 +49,8 @@ void take_differences(const T* rgb, int width, int height, unsigned char* out) {
     high[place] = static_cast<unsigned char>(up + kMiddle);
     before = bits;
   });
-  // The first byte of each half has another one before it: none, and the last low byte.
+  // Before the first low byte there is none, and before the first high byte there is the last low
+  // byte.
   low[0] = static_cast<unsigned char>(low[0] - kMiddle);
   high[0] = static_cast<unsigned char>(high[0] - (before & 0xffU));
 }

@@ -15,7 +15,7 @@
 namespace domefall {
 namespace {
 
-// Where libjpeg puts its bytes.
+// libjpeg puts its bytes here.
 struct JpegBytes {
   jpeg_destination_mgr manager{};
   ByteSink& sink;

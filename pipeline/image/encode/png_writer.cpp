@@ -15,7 +15,7 @@ std::string big_endian_bytes(std::uint32_t number) {
   return bytes;
 }
 
-// The data of a chunk in pieces, whose name is of four letters.
+// This has the data of a chunk in pieces, whose name is of four letters.
 void write_chunk(ByteSink& sink, std::string_view name,
                  std::initializer_list<std::string_view> data) {
   std::size_t length = 0;
@@ -27,8 +27,8 @@ void write_chunk(ByteSink& sink, std::string_view name,
   sink.write(big_endian_bytes(crc));
 }
 
-// The specification's 9.2.  The first row of a strip does not refer to the one above it, which
-// another thread makes.
+// This is the specification's 9.2.  The first row of a strip does not refer to the one above it,
+// which another thread makes.
 constexpr unsigned char kSub = 1, kUp = 2;
 
 class PngStrip {
@@ -58,12 +58,12 @@ class PngStrip {
   }
 
   std::string_view packed() const { return packed_.view(); }
-  // Adler-32 of the filtered rows and how many bytes they are.
+  // These return the Adler-32 of the filtered rows and how many bytes they are.
   unsigned sum() const { return sum_; }
   std::size_t size() const { return filtered_.size(); }
 
  private:
-  // The codes as they stand in the file, before the filter.
+  // Takes the codes as they stand in the file, before the filter.
   void take_bytes(const PngHead& head, int width, int first, int rows) {
     bytes_.reserve(codes_.size() * (head.eight_bits ? 1 : 2));
     if (head.eight_bits)

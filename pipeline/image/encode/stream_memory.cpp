@@ -12,14 +12,14 @@ namespace {
 constexpr int kGranuleBits = 16;
 constexpr std::uint32_t kSlots = 0x1fff;
 
-// The instruction crc32 of SSE4.2, beginning with 0.
+// This is the instruction crc32 of SSE4.2, beginning with 0.
 std::uint32_t crc32c(std::uint32_t value) {
   constexpr std::uint32_t kPolynomial = 0x82f63b78;
   for (int bit = 0; bit < 32; ++bit) value = value >> 1 ^ (value & 1 ? kPolynomial : 0);
   return value;
 }
 
-// Null where the kernel has no memory left.
+// Returns null where the kernel has no memory left.
 void* map_at(std::uintptr_t address, std::size_t bytes) {
   constexpr int kNew = MAP_PRIVATE | MAP_ANONYMOUS;
   void* hint = reinterpret_cast<void*>(address);  // NOLINT(performance-no-int-to-ptr)
@@ -33,8 +33,8 @@ void* map_at(std::uintptr_t address, std::size_t bytes) {
 void StreamMemory::Unmap::operator()(void* place) const { munmap(place, bytes); }
 
 StreamMemory::StreamMemory(std::size_t bytes) : place_(nullptr, Unmap{bytes}) {
-  // Below what the kernel gives, where it puts all else: one granule of 2^13 has slot 0, and those
-  // that are in use are passed over.
+  // The place is below what the kernel gives, where it puts all else.  One granule of 2^13 has slot
+  // 0, and those that are in use are passed over.
   void* somewhere = map_at(0, bytes);
   if (!somewhere) throw std::bad_alloc();
   auto granule = reinterpret_cast<std::uintptr_t>(somewhere) >> kGranuleBits;
