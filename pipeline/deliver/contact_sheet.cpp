@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSheetColumns = 6, kMostOnSheet = 36;
 
-// The pixel of `from` at which part `k` of `to` begins.
+// Returns the pixel of `from` at which part `k` of `to` begins.
 int part_begin(int k, int from, int to) {
   return static_cast<int>(static_cast<std::int64_t>(k) * from / to);
 }
@@ -66,7 +66,7 @@ GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPictu
   const int width = pictures.front().picture.width, height = pictures.front().picture.height;
   const int count = static_cast<int>(pictures.size()), across = std::min(count, kSheetColumns),
             down = (count + across - 1) / across;
-  // Room for a title over a single picture, too.
+  // There is room for a title over a single picture, too.
   const int cell = std::max(width, 160) + kGap;
   const std::unique_ptr<Drawing> drawing =
       new_drawing(kGap + across * cell, kTitle + down * (height + kLabel + kGap));

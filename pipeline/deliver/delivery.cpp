@@ -28,7 +28,7 @@ const char* kind_word(const GradedFormat& format) {
   return "JPEG";
 }
 
-// Whether the audience's front is at the bottom of the pictures.
+// Says whether the audience's front is at the bottom of the pictures.
 bool has_front_below(const Delivery& d) {
   return std::holds_alternative<Domemaster>(d.projection) ||
          std::holds_alternative<Fisheye>(d.projection);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What metadata.json says of the frames.
+// StatedFrames are what metadata.json says of the frames.
 struct StatedFrames {
   DeliveredNames names;
   int width, height, bits;
@@ -117,7 +117,7 @@ class DeliveryChecker {
       number_of_.emplace(stated_->names.path(k).string(), k + 1);
   }
 
-  // The number of a frame by its path; 0 for other files.
+  // Returns the number of a frame by its path, or 0 for other files.
   int number_of(const std::string& path) const {
     const auto found = number_of_.find(path);
     return found == number_of_.end() ? 0 : found->second;

@@ -13,7 +13,7 @@ constexpr const char* kDomeOrientation =
     "  Orientation    BOTTOM of the picture = FRONT of the dome. Left and right are those\n"
     "                 of the audience: nothing is mirrored.\n";
 
-// What is on the pictures, in lines below the word Projection.
+// Returns what is on the pictures, in lines below the word Projection.
 std::string projection_text(const Projection& p) {
   struct Text {
     std::string operator()(const Domemaster&) const {
@@ -80,7 +80,7 @@ std::string colour_text(const Delivery& d) {
   return text;
 }
 
-// Which channel is which is the file's to say; this is what programs write unless told otherwise.
+// The file says which channel is which.  This is what programs write unless told otherwise.
 std::string channels_text(int channels) {
   constexpr int kStereo = 2, kFiveAndOne = 6, kSevenAndOne = 8;
   const char* order = channels == kStereo        ? " (L R)"

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kArrow = "-->";
 
-// Takes a number of exactly that many digits from the front of a text; at least that many for the
-// hours, which come first.
+// Takes a number of exactly that many digits from the front of a text, or of at least that many for
+// the hours, which come first.
 std::optional<int> take_digits(std::string_view& text, std::size_t digits, bool more) {
   std::size_t count = 0;
   while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
@@ -34,7 +34,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-// The seconds of 00:00:01,000.  Some programs write a point.
+// Returns the seconds of 00:00:01,000.  Some programs write a point.
 std::optional<double> srt_time(std::string_view text) {
   const auto take = [&text](std::string_view marks) {
     const bool there = !text.empty() && marks.find(text[0]) != std::string_view::npos;

@@ -13,7 +13,7 @@
 namespace domefall {
 namespace {
 
-// A picture of letters and lines, which grow with it, and its projection.
+// A Board is a picture of letters and lines, which grow with it, and its projection.
 struct Board {
   explicit Board(const Projection& projection)
       : drawing(new_drawing(columns(projection), rows(projection))),
@@ -23,7 +23,8 @@ struct Board {
 
   DrawingPoint middle() const { return {drawing->width() / 2.0, drawing->height() / 2.0}; }
 
-  // The place of an altitude and an azimuth (degrees; 0 is the front, 90 the right hand) on a dome.
+  // Returns the place of an altitude and an azimuth (degrees; 0 is the front, 90 the right hand) on
+  // a dome.
   DrawingPoint on_dome(double altitude, double azimuth) const {
     const double a = altitude * kDegree, z = azimuth * kDegree;
     const auto pixel =
@@ -31,7 +32,7 @@ struct Board {
     return pixel ? DrawingPoint{pixel->i - 0.5, pixel->j - 0.5} : middle();
   }
 
-  // Where titles stand.
+  // Titles stand here.
   DrawingPoint front() const {
     constexpr double kAltitude = 35;
     return dome ? on_dome(kAltitude, 0) : middle();
@@ -43,7 +44,7 @@ struct Board {
   double thin;  // pixels
 };
 
-// A text that those read upright who turn towards it.
+// Draws a text that those read upright who turn towards it.
 void text_on_dome(Board& board, const std::string& text, double altitude, double azimuth,
                   double letters) {
   const DrawingPoint at = board.on_dome(altitude, azimuth);
@@ -104,11 +105,11 @@ void draw_flat_grid(Board& board) {
   drawing.circle(board.middle(), 0.45 * board.size, board.thin);
 }
 
-// Patches side by side about a place, each of one colour.
+// Draws patches side by side about a place, each of one colour.
 template <std::size_t Count>
 void draw_patches(Board& board, DrawingPoint middle, double side,
                   const std::array<std::array<double, 3>, Count>& colours) {
-  // Whole pixels, so that no border is a mixture.
+  // The patches have whole pixels, so that no border is a mixture.
   const double whole = std::round(side);
   double x = std::round(middle.x - whole * Count / 2);
   for (const auto& [red, green, blue] : colours) {
@@ -176,7 +177,7 @@ GradedFrame alignment_frame(const Projection& projection, const ShowLines& lines
     draw_dome_grid(board);
   else
     draw_flat_grid(board);
-  // A panel no larger than it must be, since it hides a part of the grid.
+  // The panel is no larger than it must be, since it hides a part of the grid.
   constexpr double kLetters = 0.011, kTitleAbove = 0.075, kPatchesBelow = 0.02;
   constexpr double kPanelWidth = 0.31, kPanelHeight = 0.165, kPanelAbove = 0.092, kLongest = 0.29;
   const DrawingPoint front = board.front();
@@ -197,7 +198,7 @@ int leader_frames(double frames_per_second) {
 GradedFrame leader_frame(const Projection& projection, const ShowLines& lines,
                          double frames_per_second, int k) {
   Board board(projection);
-  // So that a frame that begins with a second belongs to it.
+  // This keeps a frame that begins with a second within that second.
   constexpr double kTiny = 1e-6;
   const double left = (leader_frames(frames_per_second) - k) / frames_per_second;
   if (left > kCountdownSeconds + kTiny) {
