@@ -29,7 +29,7 @@ struct Ends {
   }
 };
 
-// The rest of what comes out of a pipe: its first bytes, or its last.
+// This reads the rest of what comes out of a pipe, and keeps its first bytes, or its last.
 std::string drain(int from, std::size_t most, bool last) {
   const Descriptor closed(from);
   std::string text;
@@ -56,8 +56,8 @@ struct Streams {
   int in, out, error, failed;
 };
 
-// What posix_spawn() has no way to ask for: to be killed with the parent.  Between fork() and
-// exec() nothing may be called that could take a lock.
+// Becomes the program, which is killed with the parent.  posix_spawn() has no way to ask for that.
+// Between fork() and exec() nothing may be called that could take a lock.
 [[noreturn]] void become(char* const* arguments, const Streams& streams,
                          const std::vector<int>& kept, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);

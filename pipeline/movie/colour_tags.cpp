@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// Those of DCI-P3 as Bradford's method gives them where its white is shown as D65.
+// These are those of DCI-P3 as Bradford's method gives them where its white is shown as D65.
 constexpr std::array<double, 8> kAdaptedDci{0.6807, 0.3189, 0.2812, 0.6742,
                                             0.1488, 0.0577, 0.3127, 0.3290};
 

@@ -23,7 +23,8 @@ void append_to(Arguments& all, const Arguments& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// A file of this process and of what it starts, under any name or under none.
+// Returns the path of a file of this process and of what it starts, which may have any name or
+// none.
 std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
 
 // ffmpeg reads subtitles from a file alone.

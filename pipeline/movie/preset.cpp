@@ -11,7 +11,8 @@
 namespace domefall {
 namespace {
 
-// Of x264 and x265: aq-mode 3 spends bits on what is dark, where a sky's gradients are.
+// These are options of x264 and x265.  aq-mode 3 spends bits on what is dark, where a sky's
+// gradients are.
 std::vector<std::string> h264() { return {"-c:v", "libx264", "-crf", "18", "-aq-mode", "3"}; }
 
 std::vector<std::string> hevc(const char* more) {
@@ -31,7 +32,7 @@ std::vector<std::string> uncompressed() { return {"-c:a", "pcm_s24le", "-ar", "4
 constexpr int kAnySize = 16384;  // the largest frame of a show
 
 std::vector<MoviePreset> make_presets() {
-  // Level 6.2, the highest, ends at 35.7 million pixels, half of an 8k dome; 8.5 names no level.
+  // Level 6.2, the highest, ends at 35.7 million pixels, half of an 8k dome.  8.5 names no level.
   constexpr const char* kBeyondLevels = ":level-idc=8.5";
   return {
       {"review",
@@ -75,7 +76,7 @@ void append(std::vector<std::string>& all, std::vector<std::string> more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// The values that a player uses to turn codes into light.  Matrix 0 is RGB itself.
+// These are the values that a player uses to turn codes into light.  Matrix 0 is RGB itself.
 struct VideoTags {
   const char* range;
   int matrix;

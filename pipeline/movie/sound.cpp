@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As file names have them, and as ffmpeg calls them.  It has the surrounds of 5.1 at the back.
+// These are the channels as file names have them, and as ffmpeg calls them.  It has the surrounds
+// of 5.1 at the back.
 struct Channel51 {
   std::string_view word, name, of_ffmpeg;
 };
@@ -29,7 +30,7 @@ constexpr std::array<Channel51, 6> kSurround{{{"l", "L", "FL"},
                                               {"rs", "Rs", "BR"}}};
 constexpr const char* kChannelNames = "L, R, C, LFE, Ls, Rs";
 
-// The last word of a file's name, in small letters.
+// Returns the last word of a file's name, in small letters.
 std::string channel_word(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::string word = stem.substr(stem.find_last_of("_-. ") + 1);
@@ -59,7 +60,7 @@ struct Track {
   double seconds = 0;
 };
 
-// The number behind `key` in lines of "key=number"; 0 if there is none.
+// Returns the number behind `key` in lines of "key=number", or 0 if there is none.
 template <class Number>
 Number number_of(std::string_view text, std::string_view key) {
   const std::size_t at = text.find(key);
