@@ -15,7 +15,8 @@
 namespace domefall {
 namespace {
 
-// Whether the connection is ready for any of the events, or is closed, within so many milliseconds.
+// Says whether the connection is ready for any of the events, or is closed, within so many
+// milliseconds.
 bool is_ready(socket_t connection, short events, int milliseconds) {
   pollfd polled{connection, events, 0};
   int found;
@@ -24,7 +25,7 @@ bool is_ready(socket_t connection, short events, int milliseconds) {
   return found > 0;
 }
 
-// Host and port of one end of a connection, by getpeername or getsockname.
+// Returns host and port of one end of a connection, by getpeername or getsockname.
 template <class End>
 void find_address(const End& end, socket_t connection, std::string& ip, int& port) {
   sockaddr_in address{};
@@ -36,8 +37,8 @@ void find_address(const End& end, socket_t connection, std::string& ip, int& por
   port = ntohs(address.sin_port);
 }
 
-// What comes and goes through one connection.  httplib reads byte by byte, hence the buffer.
-// begin_request() stands before each request.
+// This is what comes and goes through one connection.  httplib reads byte by byte, hence the
+// buffer.  begin_request() stands before each request.
 class Connection final : public httplib::Stream {
   using Clock = std::chrono::steady_clock;
 
@@ -49,7 +50,7 @@ class Connection final : public httplib::Stream {
     taken_ = 0;
     end_of_patience_ = Clock::now() + std::chrono::milliseconds(read_patience_);
   }
-  // Whether bytes of a further request have come already.
+  // Says whether bytes of a further request have come already.
   bool holds_bytes() const { return begin_ < end_; }
 
   // A client that sends its request byte by byte has no more time than others.

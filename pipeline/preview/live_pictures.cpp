@@ -12,8 +12,8 @@
 namespace domefall {
 namespace {
 
-// Of a moving picture, stars are left out that are fainter than this V: half of the time of a
-// picture would go into points that are lost among their neighbours while they move.
+// A moving picture leaves out stars that are fainter than this V.  Half of the time of a picture
+// would go into points that are lost among their neighbours while they move.
 constexpr double kFaintestMoving = 7;
 constexpr int kMovingQuality = 85, kStillQuality = 95;  // of JPEGs
 
@@ -34,7 +34,7 @@ bool keyframes_magnitudes(const Show& show) {
   });
 }
 
-// Whether what is loaded of one show's stars is what the other one's frames need.
+// Says whether what is loaded of one show's stars is what the other one's frames need.
 bool same_stars(const Show& a, const Show& b) {
   if (keyframes_magnitudes(a) || keyframes_magnitudes(b)) return false;
   return a.star_epoch == b.star_epoch &&
@@ -42,7 +42,7 @@ bool same_stars(const Show& a, const Show& b) {
                      [&](SkyRegion sky) { return a.sky[sky].stars == b.sky[sky].stars; });
 }
 
-// A state as a request changes it.
+// Returns a state as a request changes it.
 void change(const PictureRequest& request, FrameState& state) {
   state.settings.ev += request.ev;
   for (const SkyRegion region : kEverySky) {
@@ -60,7 +60,7 @@ void change(const PictureRequest& request, FrameState& state) {
   state.vanishing = vanishing;
 }
 
-// A string as the end of an encoder.
+// This is a string as the end of an encoder.
 class ByteString final : public ByteSink {
  public:
   void write(std::string_view piece) noexcept override {
@@ -95,8 +95,8 @@ void LivePictures::wait_for_tables() {
   making_tables_.clear();
 }
 
-// The first picture does not wait for the table: without it a grade takes ten times as long, 0.1 us
-// a pixel.  Nor does another grade wait for the table of the one before.
+// The first picture does not wait for the table, although without it a grade takes ten times as
+// long, 0.1 us a pixel.  Nor does another grade wait for the table of the one before.
 void LivePictures::make_table() {
   if (table_made_) return;
   constexpr std::size_t kMost = 4;

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// How often the watch looks whether it is to end.
+// The watch looks so often whether it is to end.
 constexpr int kPatience = 200;  // milliseconds
 
 // Leaves the turn at the end of a scope.

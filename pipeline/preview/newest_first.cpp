@@ -10,7 +10,7 @@ bool NewestFirst::is_outdated(const Ticket& ticket) const {
 }
 
 NewestFirst::Turn NewestFirst::enter(const Ticket& ticket) {
-  // Names are remembered, so that an old request that arrives late is known; but not for ever.
+  // Names are remembered, so that an old request that arrives late is known, but not for ever.
   constexpr std::size_t kMostNames = 256;
   std::unique_lock lock(mutex_);
   const bool own = ticket.name.empty();

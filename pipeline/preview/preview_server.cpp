@@ -86,7 +86,7 @@ HttpAnswer text_answer(int status, const std::string& text) {
 
 HttpAnswer json_answer(std::string json) { return {200, "application/json", std::move(json)}; }
 
-// What the page needs to know of a picture to turn it, in a header.
+// Returns what the page needs to know of a picture to turn it, in a header.
 std::string made_json(const LiveShow::Made& made) {
   const FrameState& state = made.picture.state;
   nlohmann::ordered_json camera = nlohmann::ordered_json::array();

@@ -31,7 +31,8 @@ void add_ray(const Show& show, const FrameState& state, const CameraDirection& a
   json["order"] = static_cast<int>(ray.bundle.azimuth / std::numbers::pi);
 }
 
-// The named star whose image is nearest to a place, within some pixels, and its images there.
+// Returns the named star whose image is nearest to a place, within some pixels, and its images
+// there.
 Json star_near(const std::vector<NamedImage>& images, const Projection& projection,
                PixelPosition at) {
   constexpr double kNear = 8;  // pixels

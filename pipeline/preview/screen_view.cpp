@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kHalfSquare = std::numbers::sqrt2 / 2;
 
-// The axes of a flat camera that looks 45 degrees up the front of a dome, and the other way around:
-// those of a dome whose seats look there.
+// These return the axes of a flat camera that looks 45 degrees up the front of a dome and, the
+// other way around, those of a dome whose seats look there.
 M33d from_the_seats(const M33d& dome_axes) {
   const V3d front = column(dome_axes, 1), zenith = column(dome_axes, 2);
   return from_columns(column(dome_axes, 0), (front - zenith) * kHalfSquare,
@@ -29,7 +29,7 @@ M33d dome_around(const M33d& flat_axes) {
                       (ahead - down) * kHalfSquare);
 }
 
-// Whether the camera of a segment is given by angles and not by a target.
+// Says whether the camera of a segment is given by angles and not by a target.
 bool turns_by_angles(const Segment& segment) {
   return std::holds_alternative<EulerAngles>(segment.camera.attitude) ||
          std::any_of(segment.attitudes.begin(), segment.attitudes.end(),
@@ -43,7 +43,7 @@ bool is_dome(const Projection& projection) {
          std::holds_alternative<Fisheye>(projection);
 }
 
-// The axes for the new projection, as columns in the tetrad.
+// Returns the axes for the new projection, as columns in the tetrad.
 M33d axes_in(const Show& show, const Projection& projection, const FrameState& state) {
   const M33d own = state.observer.tetrad_from_camera, audience = own * state.camera_from_audience;
   if (has_zenith(projection))
@@ -58,8 +58,8 @@ double dome_tilt(const Show& show, const FrameState& state) {
   return value_at(segment, Channel::kDomeTilt, state.show_time_s, segment.camera.dome_tilt);
 }
 
-// The axes of a dome that stands upright where another leans to its front by `tilt`, which a show
-// adds again to the angles of its camera.
+// Returns the axes of a dome that stands upright where another leans to its front by `tilt`, which
+// a show adds again to the angles of its camera.
 M33d untilted(const M33d& axes, double tilt) {
   const V3d front = column(axes, 1), zenith = column(axes, 2);
   const double c = std::cos(tilt), s = std::sin(tilt);
@@ -107,8 +107,8 @@ void turn_to(const ScreenLook& look, FrameState& state) {
   });
 }
 
-// The inverse of [Riazuelo] sec. sec_cam's rotations: Z = (cos theta, cos phi sin theta,
-// sin phi sin theta) in (R, Theta, Phi), and X at the angle psi from what the first two make of
+// This is the inverse of [Riazuelo] sec. sec_cam's rotations.  Z = (cos theta, cos phi sin theta,
+// sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two make of
 // Theta.
 std::string camera_as_yaml(const Show& show, const FrameState& state) {
   M33d axes = state.observer.tetrad_from_camera;

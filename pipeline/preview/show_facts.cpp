@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kMostCurveSamples = 2000;  // of a curve
 
-// Six digits, which a page shows; JSON has no infinity.
+// Returns six digits, which a page shows.  JSON has no infinity.
 Json rounded_number(double value) {
   if (!std::isfinite(value)) return {};
   return Json::parse(fmt::format("{:.6g}", value));
@@ -55,8 +55,8 @@ const char* group_of(Channel channel) {
   return channel < Channel::kSlopeR ? "sky" : "grade";
 }
 
-// Each instant at which something is keyframed, once for camera, exposure, sky and grade: keyframes
-// of the show stand in each of its segments.
+// Returns each instant at which something is keyframed, once for camera, exposure, sky and grade,
+// because keyframes of the show stand in each of its segments.
 Json keyframes_of(const Show& show) {
   std::set<std::pair<double, std::string>> keys;
   const double end = end_of(show);
@@ -95,7 +95,8 @@ Json titles_of(const Show& show) {
   return list;
 }
 
-// The speed against an observer at rest, or inside the horizon against one who falls freely.
+// Returns the speed against an observer at rest, or inside the horizon against one who falls
+// freely.
 double speed_of(const ObserverState& o) {
   const bool has_rest = is_flat(o) || o.r > 2;
   const double celerity = (has_rest ? static_celerity(o) : o.celerity).length();

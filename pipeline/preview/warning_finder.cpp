@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-// For how long a version of the show must stay as it is, so that saves in a row are not followed.
+// A version of the show must stay as it is for so long, so that saves in a row are not followed.
 constexpr int kCalmSeconds = 2;
 
 }  // namespace
