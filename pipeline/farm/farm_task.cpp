@@ -30,14 +30,14 @@ class TaskRun {
       const bool refused = ended->signal == 0 && ended->code == kRefusedCode;
       if (!refused || stopped_ != 0 || time_is_up_) return verdict(*ended);
       if (++refusals == kRefusalsBelieved) return verdict(*ended);
-      // The show was good when it was submitted: it may just have been away, or be half written.
+      // The show was good when it was submitted.  It may just have been away, or be half written.
       pause(refusals);
       if (stopped_ != 0 || time_is_up_) return verdict(*ended);
     }
   }
 
  private:
-  // Whether this machine can make frames of the plan at all.
+  // Looks whether this machine can make frames of the plan at all.
   std::optional<TaskEnd> unfit_node() const {
     if (const std::string missing = missing_path(plan_); !missing.empty())
       return TaskEnd{TaskEnd::Kind::kAgainElsewhere, "this node does not see " + missing};
@@ -48,7 +48,7 @@ class TaskRun {
     return std::nullopt;
   }
 
-  // How the worker ended; nothing if it could not be started.
+  // Returns how the worker ended, or nothing if it could not be started.
   std::optional<WorkerEnd> render() {
     try {
       WorkerProcess worker(render_command(plan_, chunk_.frames, place_.threads),

@@ -41,7 +41,8 @@ bool is_black(const std::filesystem::path& path, double brightest) {
   return brightest <= (path.extension() == ".exr" ? kBrightestOfBlack : kBrightestOfBlackCodes);
 }
 
-// Whether manifests have lines for the file with the wanted key, but none of them for such a one.
+// Says whether manifests have lines for the file with the wanted key, but none of them for such a
+// one.
 template <class Same>
 bool is_unlike_all(const Manifest& manifest, const ExpectedFile& file, const Same& same) {
   const auto lines = manifest.files.find(file.name);

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// One frame's files, and what they were found to be.
+// These are one frame's files, and what they were found to be.
 struct FoundFrame {
   std::span<const ExpectedFile> files;
   std::span<const FileFinding> findings;

@@ -35,7 +35,7 @@ std::vector<std::string> repair_command(const FarmPlan& plan) {
   return {plan.program, "farm", "verify", plan.out.string(), "--plan", plan.id, "--repair"};
 }
 
-// What comes after the frames: each step waits for the one before.
+// Returns what comes after the frames, in which each step waits for the one before.
 std::vector<std::pair<std::string, std::vector<std::string>>> later_steps(const FarmPlan& plan) {
   std::vector<std::pair<std::string, std::vector<std::string>>> steps{
       {"verify", repair_command(plan)}};

@@ -137,8 +137,9 @@ class LocalRun {
     waiting_.push_back(std::move(chunk));
   }
 
-  // False where the run ends early or all workers are busy, and while the show or the folder is
-  // away: a worker would make another folder where that of the others is to come back.
+  // Returns false where the run ends early or all workers are busy, and while the show or the
+  // folder is away, because a worker would make another folder where that of the others is to come
+  // back.
   bool is_time_to_start() {
     if (is_ending() || waiting_.empty() || running_.size() >= workers()) return false;
     const std::string missing = missing_path(plan_);
@@ -177,7 +178,7 @@ class LocalRun {
                                                      WorkerProcess::Way{.log = log->number()});
       running_.push_back({std::move(chunk), slot, std::move(log), std::move(process)});
     } catch (const TemporaryError& error) {
-      // Too many processes, say.  Those that run go on.
+      // There may be too many processes, say.  Those that run go on.
       say_line(chunk.name() + ": a worker cannot be started: " + error.what());
       try_again(chunk);
     }

@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string line_of(const Json& json) {
-  // A file's name need not be UTF-8; a name that is not is not found again, and its file is read.
+  // A file's name need not be UTF-8.  A name that is not is not found again, and its file is read.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -60,8 +60,8 @@ bool ManifestWriter::open_file() {
 void ManifestWriter::append(const std::string& line) {
   const std::lock_guard held(mutex_);
   if (!on_ || !open_file()) return;
-  // One call, so that a line is torn only where the machine stops or the disk is full.  Then what
-  // follows begins a line of its own.
+  // One call writes it, so that a line is torn only where the machine stops or the disk is full.
+  // Then what follows begins a line of its own.
   const ssize_t written = write(descriptor_, line.data(), line.size());
   if (written > 0 && static_cast<std::size_t>(written) < line.size())
     on_ = write(descriptor_, "\n", 1) == 1;

@@ -56,7 +56,7 @@ FarmPlan next_round(const FarmPlan& plan, const FramesVerdict& verdict) {
   return next;
 }
 
-// Throws where somebody has cancelled the tasks of a round: then they are not rendered again.
+// Throws where somebody has cancelled the tasks of a round, since then they are not rendered again.
 void stop_if_cancelled(const FarmPlan& plan, int round) {
   if (plan.engine != "slurm") return;
   for (const FarmRound& one : plan.rounds)
@@ -151,7 +151,7 @@ int run_rounds(FarmPlan plan) {
 std::string submit_round(FarmPlan plan, int round) {
   std::string job;
   if (!chunks_of_round(plan, round).empty()) job = submit_to_slurm(array_submission(plan, round));
-  // The array runs already: its plan is complete on the disk, but for the job's id.
+  // The array runs already, and its plan is complete on the disk, but for the job's id.
   std::string conclusion;
   try {
     conclusion = submit_to_slurm(conclusion_submission(plan, round, job));

@@ -35,7 +35,7 @@ std::string without_line_end(std::string text) {
   return text;
 }
 
-// What follows `name=` in the output of scontrol; empty if it is not there.
+// Returns what follows `name=` in the output of scontrol, or an empty text if it is not there.
 std::string field(const std::string& text, const std::string& name) {
   const std::size_t at = (" " + text).find(" " + name + "=");
   if (at == std::string::npos) return {};
@@ -180,7 +180,7 @@ SlurmTask this_slurm_task() {
 
 bool requeue_slurm_task(const SlurmTask& task, bool elsewhere, SignalInbox& inbox) {
   // A job that exits with 75 and is requeued for that would cancel those that wait for the array
-  // with afterok, even if the next try succeeds; one that is requeued while it runs does not.
+  // with afterok, even if the next try succeeds.  One that is requeued while it runs does not.
   // Slurm then ends it with TERM, but only a job that waits can be kept off a node.
   std::string said;
   const WorkerEnd end = run_program({"scontrol", "requeue", task.id}, said, true);

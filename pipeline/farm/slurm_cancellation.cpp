@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-// What follows a name in a line, up to the next space.
+// Returns what follows a name in a line, up to the next space.
 std::string value_behind(const std::string& line, const std::string& name) {
   const std::size_t at = line.find(name);
   if (at == std::string::npos) return {};
@@ -16,7 +16,7 @@ std::string value_behind(const std::string& line, const std::string& name) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
-// What a program prints; nothing where it fails.
+// Returns what a program prints, or nothing where it fails.
 std::istringstream printed_by(const std::vector<std::string>& command) {
   std::string said;
   const WorkerEnd end = run_program(command, said, true);

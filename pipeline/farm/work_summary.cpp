@@ -37,7 +37,7 @@ std::vector<FoundLog> logs_in(const fs::path& folder) {
   return logs;
 }
 
-// The one that was written last; empty if there is none.
+// Returns the one that was written last, or an empty path if there is none.
 fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_first) {
   for (const FoundLog& log : newest_first)
     if (std::ranges::any_of(task.logs,
@@ -46,7 +46,8 @@ fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_firs
   return {};
 }
 
-// What stands for the last line of an empty log; nothing where the task may just have begun.
+// Returns what stands for the last line of an empty log, or nothing where the task may just have
+// begun.
 std::string line_of_empty(const fs::path& log) {
   constexpr std::uintmax_t kFull = 1 << 16;  // bytes that are left
   constexpr std::chrono::seconds kBeginning(10);
@@ -58,7 +59,7 @@ std::string line_of_empty(const fs::path& log) {
   return "the log is empty";
 }
 
-// Whether a log ends with what `domefall render` says when it has made its frames.
+// Says whether a log ends with what `domefall render` says when it has made its frames.
 bool tells_of_success(const std::string& last_line) {
   return last_line.find(" frames made, ") != std::string::npos &&
          last_line.find(" already there, in ") != std::string::npos;
