@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <array>
 #include <cstdint>
 #include <new>
 
@@ -12,10 +13,21 @@ namespace {
 constexpr int kGranuleBits = 16;
 constexpr std::uint32_t kSlots = 0x1fff;
 
+constexpr std::array<std::uint32_t, 256> crc32c_of_bytes() {
+  constexpr std::uint32_t kPolynomial = 0x82f63b78;
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t value = byte;
+    for (int bit = 0; bit < 8; ++bit) value = value >> 1 ^ (value & 1 ? kPolynomial : 0);
+    table[byte] = value;
+  }
+  return table;
+}
+
 // This is the instruction crc32 of SSE4.2, beginning with 0.
 std::uint32_t crc32c(std::uint32_t value) {
-  constexpr std::uint32_t kPolynomial = 0x82f63b78;
-  for (int bit = 0; bit < 32; ++bit) value = value >> 1 ^ (value & 1 ? kPolynomial : 0);
+  static constexpr std::array kOfBytes = crc32c_of_bytes();
+  for (int byte = 0; byte < 4; ++byte) value = value >> 8 ^ kOfBytes[value & 0xff];
   return value;
 }
 

@@ -21,6 +21,11 @@ DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
   return image;
 }
 
+void redraw(DrawnBlobs& image, const BlobLayer& layer) {
+  std::fill(image.rgb.begin(), image.rgb.end(), 0.0f);
+  draw_onto(image, layer);
+}
+
 void draw_onto(DrawnBlobs& image, const BlobLayer& layer) {
   SplatBuffer buffer;
   layer.start_buffer(buffer);

@@ -20,6 +20,9 @@ struct DrawnBlobs {
 };
 
 DrawnBlobs drawn(const BlobLayer& layer, const Projection& p);
+// Draws a layer into an image that drawn() has made of another one.  To take new memory for each of
+// many images would cost more than to draw them.
+void redraw(DrawnBlobs& image, const BlobLayer& layer);
 // Adds the light of a layer to an image that drawn() has made.
 void draw_onto(DrawnBlobs& image, const BlobLayer& layer);
 DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
