@@ -15,7 +15,7 @@ std::size_t band_size(const Projection& p) {
 }  // namespace
 
 DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
-  DrawnBlobs image{p, {}};
+  DrawnBlobs image{p, {}, {}};
   image.rgb.resize(band_size(p) * band_count(p));
   draw_onto(image, layer);
   return image;
@@ -27,10 +27,9 @@ void redraw(DrawnBlobs& image, const BlobLayer& layer) {
 }
 
 void draw_onto(DrawnBlobs& image, const BlobLayer& layer) {
-  SplatBuffer buffer;
-  layer.start_buffer(buffer);
+  layer.start_buffer(image.buffer);
   for (int band = 0; band < band_count(image.projection); ++band)
-    layer.draw_band(band, buffer, image.rgb.data() + band_size(image.projection) * band);
+    layer.draw_band(band, image.buffer, image.rgb.data() + band_size(image.projection) * band);
 }
 
 DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
@@ -54,6 +53,13 @@ double flux_of(const DrawnBlobs& image) {
 
 float peak_of(const DrawnBlobs& image) {
   return *std::max_element(image.rgb.begin(), image.rgb.end());
+}
+
+float largest_difference(const DrawnBlobs& a, const DrawnBlobs& b) {
+  float largest = 0;
+  for (std::size_t k = 0; k < a.rgb.size(); ++k)
+    largest = std::max(largest, std::abs(a.rgb[k] - b.rgb[k]));
+  return largest;
 }
 
 Brought brought(const StarImage& image, const Projection& p, const PointSpread& widths, int reach) {

@@ -13,6 +13,7 @@ namespace domefall {
 struct DrawnBlobs {
   Projection projection;
   std::vector<float> rgb;
+  SplatBuffer buffer = {};  // of the last layer
 
   float at(int row, int column, int channel = 0) const {
     return rgb[3 * (static_cast<std::size_t>(row) * columns(projection) + column) + channel];
@@ -32,6 +33,8 @@ DrawnBlobs drawn(const std::vector<StarImage>& images, const Projection& p,
 double flux_of(const DrawnBlobs& image);
 // Returns the largest value of any channel.
 float peak_of(const DrawnBlobs& image);
+// Returns the largest difference of any channel between two images of the same size.
+float largest_difference(const DrawnBlobs& a, const DrawnBlobs& b);
 
 // The sum of red over the bands about a blob, each pixel times its solid angle, and the brightest
 // pixel.
