@@ -32,8 +32,8 @@ constexpr std::array kVerbs{
 
 // Throws InputError for a word that is no verb.
 void check_verb(std::string_view word) {
-  std::vector<std::string_view> known;
-  for (const Verb& verb : kVerbs) known.push_back(verb.name);
+  std::vector<std::string_view> known(kVerbs.size());
+  std::ranges::transform(kVerbs, known.begin(), &Verb::name);
   if (std::ranges::find(known, word) != known.end()) return;
   const std::string near = did_you_mean(word, known);
   throw InputError("domefall has no verb '" + shown(word) + "'" +

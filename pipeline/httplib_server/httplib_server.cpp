@@ -31,7 +31,7 @@ class HttplibRequest : public HttpRequest {
   const std::string& method() const override { return request_.method; }
   const std::string& path() const override { return request_.path; }
   std::string header(const std::string& name) const override {
-    return request_.get_header_value(name.c_str());
+    return request_.get_header_value(name);
   }
   std::optional<std::string> parameter(std::string_view name) const override {
     const auto found = request_.params.find(std::string(name));
