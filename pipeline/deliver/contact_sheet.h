@@ -25,7 +25,7 @@ struct SheetPicture {
 };
 
 // Makes a sheet with six in a row, with the title above and a label below each.  There is at least
-// one.  Throws as CairoCanvas.
+// one.  Throws as new_drawing() and Drawing::text.
 GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPicture>& pictures);
 
 }  // namespace domefall

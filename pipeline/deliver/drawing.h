@@ -1,7 +1,8 @@
-// Lines and texts in a picture.  Places are in pixels from the top left corner, where the middle of
-// the first pixel is (0.5, 0.5).  Greys and colours are display codes, 0 to 1.  Cairo draws them and
-// brings 15 other libraries, among them those of X11, so what calls it is a library of its own,
-// libdomefall_cairo_drawing.so (pipeline/cairo_drawing), which is loaded for the first picture.
+// A Drawing is a picture of lines and texts.  Places are in pixels from the top left corner, where
+// the middle of the first pixel is (0.5, 0.5).  Greys and colours are display codes, 0 to 1.  Cairo
+// draws them and brings 15 other libraries, among them those of X11, so what calls it is a library
+// of its own, libdomefall_cairo_drawing.so (pipeline/cairo_drawing), which is loaded for the first
+// picture.
 #pragma once
 
 #include <memory>
@@ -57,7 +58,8 @@ class DrawingMaker : public Interface {
   virtual std::unique_ptr<Drawing> make(int width, int height) const = 0;
 };
 
-// A black picture.  Throws as load_library, and std::runtime_error with Cairo's reason.
+// Begins a black picture.  Throws as load_library, std::bad_alloc, and std::runtime_error with
+// Cairo's reason.
 std::unique_ptr<Drawing> new_drawing(int width, int height);
 
 }  // namespace domefall

@@ -1,6 +1,6 @@
-// SHA-256 sums, by libcrypto.  Its tables and its start take a tenth of a start of the program, so
-// what calls it is a library of its own, libdomefall_libcrypto_sums.so (pipeline/libcrypto_sums),
-// which is loaded for the first sum.
+// SHA-256 sums are made by libcrypto.  To load it would take a tenth of each start of the program,
+// so what calls it is a library of its own, libdomefall_libcrypto_sums.so
+// (pipeline/libcrypto_sums), which is loaded for the first sum.
 #pragma once
 
 #include <cstddef>

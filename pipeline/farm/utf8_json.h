@@ -1,4 +1,4 @@
-// JSON of paths and names, which may be any bytes, while JSON is UTF-8.
+// Paths and names may be any bytes, while JSON is UTF-8.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

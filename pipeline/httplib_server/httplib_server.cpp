@@ -44,7 +44,8 @@ class HttplibRequest : public HttpRequest {
 };
 
 void send_answer(const HttpAnswer& answer, httplib::Response& response) {
-  response.status = answer.status;
+  // httplib answers 200, or 206 where a part was asked for, if nothing else is set.
+  if (answer.status != 200) response.status = answer.status;
   for (const auto& [name, value] : answer.headers) response.set_header(name, value);
   if (!answer.type.empty()) response.set_content(answer.body, answer.type);
 }

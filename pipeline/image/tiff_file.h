@@ -1,5 +1,5 @@
-// The parts of a TIFF file around its pixels, by libtiff, which brings the libraries of all packings
-// that such a file may have.  What calls it is therefore a library of its own,
+// The parts of a TIFF file around its pixels are written by libtiff, which brings the libraries of
+// all packings that such a file may have.  What calls it is therefore a library of its own,
 // libdomefall_libtiff_file.so (pipeline/libtiff_file), which is loaded for the first file.
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace domefall {
 
-// Of RGB without alpha, packed by deflate after each sample is reduced by that on its left.
+// The pixels are RGB without alpha, packed by deflate after each sample is reduced by that on its
+// left.
 struct TiffLayout {
   int width = 0, height = 0;
   int bits = 16;           // of a sample

@@ -16,7 +16,7 @@ struct TiffHead {
 };
 
 // Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the rows and the
-// head alone.  Throws std::runtime_error with libtiff's reason.
+// head alone.  Throws as begin_tiff(), and std::runtime_error for a part that libtiff cannot write.
 void write_tiff(ByteSink& sink, const RowPicture& picture, const TiffHead& head);
 
 }  // namespace domefall

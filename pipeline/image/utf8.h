@@ -1,4 +1,4 @@
-// The characters of UTF-8 text, and the bytes that are none.
+// These functions find the characters of UTF-8 text, and the bytes that belong to none.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Bisection for functions that cost as much at one point as at several.
+// This bisection is for functions that cost as much at one point as at several.
 #pragma once
 
 #include <array>
@@ -6,11 +6,12 @@
 
 namespace domefall {
 
-// The middles of three successive halvings, whichever way each of them goes.
+// The function is looked at in the middles of three successive halvings, whichever way each goes.
 inline constexpr int kHalvingsTogether = 3;
 inline constexpr std::size_t kHalvingPoints = (1 << kHalvingsTogether) - 1;
 
 inline constexpr int kMostBisections = 102;
+static_assert(kMostBisections % kHalvingsTogether == 0);
 
 // Halves the range from `low` to `high` until it has no middle, at most kMostBisections times, and
 // returns the middle of what is left, to the bit as if the points were looked at one by one.

@@ -1,6 +1,6 @@
-// An HTTP server on 127.0.0.1.  cpp-httplib, which speaks HTTP, brings OpenSSL and Brotli, so what
-// calls it is a library of its own, libdomefall_httplib_server.so (pipeline/httplib_server), which is
-// loaded when a preview is served.
+// The preview is served over HTTP on 127.0.0.1.  cpp-httplib, which speaks HTTP, brings OpenSSL and
+// Brotli, so what calls it is a library of its own, libdomefall_httplib_server.so
+// (pipeline/httplib_server), which is loaded when a preview is served.
 #pragma once
 
 #include <functional>
@@ -31,7 +31,8 @@ struct HttpAnswer {
   HttpHeaders headers = {};
 };
 
-// It is called by several threads at once, for each request that is well-formed, and throws nothing.
+// A handler is called by several threads at once, for each request that is well-formed, and throws
+// nothing.
 using HttpHandler = std::function<HttpAnswer(const HttpRequest&)>;
 
 class HttpServer : public Interface {
@@ -49,10 +50,10 @@ class HttpServers : public Interface {
                                            HttpHandler handler) const = 0;
 };
 
-// A server at `port`, or at one of its own choice if that is 0, which serves once serve() is called.
-// Each answer has the headers `always`.  A client that sends more than 64 KiB in a request, or takes
-// longer than two seconds for it, loses its connection.  Throws as load_library, and TemporaryError
-// if the port is taken.
+// Binds a server to `port`, or to one of its own choice if that is 0.  It serves once serve() is
+// called.  Each answer has the headers `always`.  A client that sends more than 64 KiB in a
+// request, or takes longer than two seconds for it, loses its connection.  Throws as load_library,
+// and TemporaryError if the port is taken.
 std::unique_ptr<HttpServer> bind_http_server(int port, const HttpHeaders& always,
                                              HttpHandler handler);
 

@@ -14,8 +14,8 @@ namespace domefall {
 
 class PreviewServer {
  public:
-  // Reads the show and binds a port of its own choice if `port` is 0.  Throws as LiveShow, and
-  // TemporaryError if the port is taken.
+  // Reads the show and binds a port of its own choice if `port` is 0.  Throws as LiveShow
+  // and bind_http_server().
   PreviewServer(const std::filesystem::path& show, int port, int threads);
   ~PreviewServer();
   PreviewServer(const PreviewServer&) = delete;

@@ -67,7 +67,7 @@ std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage
   return good ? std::optional(keys) : std::nullopt;
 }
 
-// What a table of states says of a path.
+// These columns of a table of states say what a path is.
 constexpr std::string_view kTimeColumn = state_column("proper_time"),
                            kRadiusColumn = state_column("r"),
                            kAzimuthColumn = state_column("azimuth_deg"),

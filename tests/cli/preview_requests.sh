@@ -86,6 +86,11 @@ for name in re.findall(rb'(?:src|href)="([^"]+)"', page):
     assert get(name.decode())[0] == 200, name
 assert not re.search(rb'https?://(?!127)', page.replace(b'http://www.w3.org/', b'')), 'no other host'
 
+status, headers, part = get('', [('Range', 'bytes=0-9')])
+assert status == 206 and part == page[:10] and headers['Content-Range'].startswith('bytes 0-9/')
+status, headers, text = get('nothing')
+assert status == 404 and text == b'the preview has no such page\n', text
+
 facts = json.loads(get('show')[2])
 assert facts['revision'] == 1 and facts['mistake'] is None and facts['frames'] > 6
 assert len(facts['states']['r']) == facts['frames']

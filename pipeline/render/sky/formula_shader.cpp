@@ -1,7 +1,7 @@
 #include "pipeline/render/sky/formula_shader.h"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -26,7 +26,7 @@ struct FormulaShader::Squares {
 };
 
 FormulaShader::FormulaShader(const SkyLight& light, double null_time, int samples)
-    : light_(light), samples_(samples) {
+    : light_(light), samples_(std::min(samples, kMostSamples)) {
   const Rings* rings = light.rings();
   if (rings == nullptr) return;
   per_time_ = 1 / rings->period;
@@ -89,7 +89,6 @@ struct FormulaShader::BorderSamples {
 void FormulaShader::sample_borders(const SampleBatch& pixels, int count, Squares& seen) const {
   // The columns hold the samples of one pixel at least; else no pixel would ever be taken.
   static_assert(kMostSamples * kMostSamples <= kSize);
-  assert(samples_ <= kMostSamples);
   const int per_pixel = samples_ * samples_, at_once = kSize / per_pixel;
   Squares light;
   for (int next = 0; next < count;) {

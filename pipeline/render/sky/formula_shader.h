@@ -19,7 +19,7 @@ class FormulaShader {
  public:
   // The light must be that of the grid or of rings, and must outlive this object.  `null_time` is
   // the observer's (M).  On the grid, a pixel that a border may cross is the mean of `samples`
-  // samples along each axis.  These must be at most kMostSamples if anything is shaded.
+  // samples along each axis, or of kMostSamples if that is less.
   static constexpr int kMostSamples = 16;
   FormulaShader(const SkyLight& light, double null_time, int samples);
 
