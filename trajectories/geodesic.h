@@ -17,8 +17,8 @@
 // to II through r = 2, where neither tetrad is regular.  There the states within |tau| < 4e-6 of it
 // are that of 4e-6 before or after, where r = 2 - 2e-12 and the celerity is 1e6.
 //
-// null_time is 0 at tau = 0, and for E = 0 t is 0 throughout.  For u and v of one geodesic v - u =
-// 2 r* where the tetrad changes.
+// null_time is 0 at tau = 0, and for E = 0 t is 0 throughout.  For u and v of one geodesic
+// v - u = 2 r* where the tetrad changes.
 //
 // The accuracy was measured over 246 states of tests/reference/orbits.csv (r from 1e-3 to 1e9 M,
 // 1e4 periods, whirls of excess 1e-14).  r is right to 2e-13 relative, and azimuth and null time to

@@ -1,8 +1,8 @@
 // An OrbitCurve is the radial motion of a timelike geodesic, (dr/dtau)^2 = E^2 - (1 - 2/r)(1 +
 // L^2/r^2).  It runs along a parameter s that grows with proper time, in which nothing is singular
 // or cancels: not the turning points, not the horizon, not r = 0 nor infinity.  With w = 1/r the
-// right side is the cubic P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2 (w - w1)(w - w2)(w -
-// w3).
+// right side is the cubic P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2
+// (w - w1)(w - w2)(w - w3).
 //
 //   scattered  r = r_p cosh^2 s                    from infinity to periastron at s = 0 and back
 //   bound      r = r_p + (r_a - r_p) sin^2(s/2)    periastron at s = 0, apoastron at s = +-pi

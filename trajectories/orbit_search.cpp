@@ -77,8 +77,8 @@ OrbitStart unturned(const State& state, double w_b, double over) {
   return start;
 }
 
-// Returns the fall from that apoastron.  `excess` is as OrbitCurve::returning wants it.  E^2 = (1 -
-// 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
+// Returns the fall from that apoastron.  `excess` is as OrbitCurve::returning wants it.
+// E^2 = (1 - 2/r_a)(1 + L^2/r_a^2) gives r_a - 2.
 OrbitStart returning(const State& state, const State::Top& top, double excess) {
   const double lw = state.c.angular_momentum * top.w;
   const double over_two = state.c.energy * state.c.energy / (top.w * (1 + lw * lw));
@@ -104,8 +104,8 @@ OrbitStart falling(const State& state, const Barrier* barrier, double over) {
 OrbitStart turned_inside(const State& state, const BarrierRoots& beside, const Barrier& barrier) {
   const double l = state.c.angular_momentum, gap = beside.below + beside.above;
   const State::Top top = state.apoastron(std::max(state.w - barrier.w, 0.0));
-  // Next to the barrier, this is 2 L^2 (w3 - w1)(w3 - w2) with the third root w1 = w_b - spread +
-  // below - above.
+  // Next to the barrier, this is 2 L^2 (w3 - w1)(w3 - w2) with the third root
+  // w1 = w_b - spread + below - above.
   const double plain = 2 - 2 * l * l * top.w * (1 - 3 * top.w);
   const double to_third = barrier.spread - beside.below + 2 * beside.above;
   return returning(state, top, plain > kCancels ? plain : 2 * l * l * to_third * gap);

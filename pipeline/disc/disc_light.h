@@ -22,8 +22,8 @@ class DiscLight {
   // Returns the temperature in the gas's own frame (K).  It is 0 where there is no gas of the
   // profile, whatever the disc's radii are.
   double temperature(double r) const;
-  // Returns the light of an opaque disc, in cd/m^2 in the working space, for r in units of M and g
-  // >= 0.  It is black where there is no gas, and at most some 1e37.
+  // Returns the light of an opaque disc, in cd/m^2 in the working space, for r in units of M and
+  // g >= 0.  It is black where there is no gas, and at most some 1e37.
   WorkingRgb light(double r, double g) const;
 
   // Returns the same of many places with as many ratios, for pixels.  r > 0 and g >= 0 are finite.

@@ -38,8 +38,8 @@ class Turbulence {
 
  private:
   TurbulencePattern pattern_;
-  // This is the time (M) from one generation of a row to the next, for the rows of each size from r
-  // = 1 on, and its inverse.
+  // This is the time (M) from one generation of a row to the next, for the rows of each size from
+  // r = 1 on, and its inverse.
   std::array<std::vector<double>, kSizes> spans_, rates_;
 };
 

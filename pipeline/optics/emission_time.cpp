@@ -109,8 +109,8 @@ double bounded_part(const Path& path, const Turning& t) {
 
 // With w = w1 + y^2 and y0^2 = 1/2 - w1, dt = e dw/(w^2 (1 - 2w) sqrt(P)) = e g(w) dy/(y0^2 - y^2),
 // where g = 1/(w^2 sqrt(Q)) and g = 4 y0/e on the pole.  The principal value of the pole alone is a
-// logarithm.  This is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q, g =
-// 1/sqrt(G), and the quotient of the polynomial G divided out.
+// logarithm.  This is the rest, (g - g(1/2))/(1/2 - w), from y = `from`, with G = w^4 Q,
+// g = 1/sqrt(G), and the quotient of the polynomial G divided out.
 double without_pole(const Turning& t, double y0, double from) {
   const auto divided = [](double w, int power) {  // (w^n - 2^-n)/(w - 1/2)
     double sum = 0, half = 1;

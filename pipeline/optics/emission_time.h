@@ -3,8 +3,8 @@
 // of region IV: "a series of rings of variable t".
 //
 // t itself is infinite on the horizons, so times count from the observer's own null coordinate.  It
-// is v = t + r* of an observer in free fall (rain), and u = t - r* in the outgoing frame, with r* =
-// r + 2 ln|r/2 - 1|.  Each is regular where its frame is.  At r = 0 both are t.
+// is v = t + r* of an observer in free fall (rain), and u = t - r* in the outgoing frame, with
+// r* = r + 2 ln|r/2 - 1|.  Each is regular where its frame is.  At r = 0 both are t.
 //
 // Let E > 0, b = L/E, w = 1/r and k = |k^r|/E = b sqrt(P) (exact_azimuth.h).  Light that moves out
 // gains du = b^2 |dw|/(k (1 + k)), and light that falls gains the same dv.  Since

@@ -2,8 +2,8 @@
 // is its angle alpha in the frame of radial free fall at the observer's place, and its distances
 // from the edges there.
 //
-// In rain (falling in) alpha = delta, the angle from -R, the direction of the hole.  With s =
-// sqrt(2/r) and M = 1,
+// In rain (falling in) alpha = delta, the angle from -R, the direction of the hole.  With
+// s = sqrt(2/r) and M = 1,
 //     k = T + cos(delta) R + sin(delta) Theta,   E = 1 - s cos(delta),   L = r sin(delta).
 // [Riazuelo] eq. def_k_prec, and app. app_geod for the origins.  In the outgoing frame (T_I' of
 // [Riazuelo]) alpha = pi - delta, the angle from +R.  Time reversal makes the two one: E and L are

@@ -94,8 +94,8 @@ struct RealTriple {
 };
 
 inline RealTriple real_triple(double e, double eps) {
-  // They come from d = 1/2 + x3 where the upper two roots are near each other, and from d = 1/2 -
-  // w1 where the lower two are.
+  // They come from d = 1/2 + x3 where the upper two roots are near each other, and from
+  // d = 1/2 - w1 where the lower two are.
   constexpr double kHalfWay = 1.0 / 54;
   const bool upper = -eps < kHalfWay;
   const double d = real_pair_root(2 * (upper ? -eps : e * e));

@@ -1,8 +1,8 @@
 // The paper's own method ([Riazuelo] sec. sec_cel1, ssec_max) is Runge-Kutta of fourth order with
 // the step doubled to tell its error, after Numerical Recipes, and a bound on the step by place.
 // What the paper leaves open is chosen here.  This is the factors of its step rules, and the radii
-// at which the charts change (charted_ray.h), by place and not by what E and L let expect.  Below r
-// = 1/2, where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
+// at which the charts change (charted_ray.h), by place and not by what E and L let expect.  Below
+// r = 1/2, where Kruskal's coordinates lose r, Schwarzschild's serve in regions II and IV as well.
 
 #include <algorithm>
 #include <cmath>

@@ -67,8 +67,8 @@ inline RayPoint point_from_singularity(double inverse_b, double eps, double sigm
   return {is_short ? start.x + 1.0 / 3 : last.w, is_short ? start.speed : last.speed};
 }
 
-// A SkyPoint is the point at the angle rho > 0 from a sky.  By the addition theorem, with e =
-// inverse_b > 0,
+// A SkyPoint is the point at the angle rho > 0 from a sky.  By the addition theorem, with
+// e = inverse_b > 0,
 //     w = e (e + s')/s^2,   |dw/dpsi| = e (1 - (1 - 2 w)/s)
 // with s and s' of the point as far from the singularity.
 struct SkyPoint {

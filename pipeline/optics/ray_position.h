@@ -1,6 +1,6 @@
 // exact_position() says where a ray is after having swept an angle, followed back in time from its
-// observer, in closed form.  It solves w'' = 3 w^2 - w with w = 1/r, w(0) = 1/r_observer and w'(0)
-// = k^r/L.
+// observer, in closed form.  It solves w'' = 3 w^2 - w with w = 1/r, w(0) = 1/r_observer and
+// w'(0) = k^r/L.
 //
 // The orbit is measured from its ends, of which exact_azimuth.h knows how far the observer is, and
 // on the half of the path next to each.  ray_point.h has the formulas.

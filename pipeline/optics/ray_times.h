@@ -25,8 +25,8 @@ class RayTimes {
   // Finds v (u in the outgoing frame) at each place less that at the observer, in units of M.  It
   // is negative for light on its way from region I.  `places` are those that the orbits find at
   // psi.  The time is 0 where a ray has ended, and exact_emission_time at r = 0.  Measured against
-  // quadrature of the metric outside and of N on the way through the horizon, it is within 1e-11 (1
-  // + |v|), next to an edge too, beside what an error of psi makes of it.  The rays take 150 ns
+  // quadrature of the metric outside and of N on the way through the horizon, it is within 1e-11
+  // (1 + |v|), next to an edge too, beside what an error of psi makes of it.  The rays take 150 ns
   // each once, and a place 45 ns (AVX2, g++ 12 -O3).
   void find(const double* psi, const RayPlaces& places, double* times) const;
 
