@@ -62,16 +62,6 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
   }
 }
 
-// Returns the state of a cubemap's face, whose camera is turned by the axes of the face.
-FrameState looking_through(const FrameState& state, const CubemapFace& face) {
-  FrameState looking = state;
-  looking.projection = face.projection;
-  const M33d& whole = state.observer.tetrad_from_camera;
-  looking.observer.tetrad_from_camera = from_columns(
-      apply(whole, face.axes[0]), apply(whole, face.axes[1]), apply(whole, face.axes[2]));
-  return looking;
-}
-
 }  // namespace
 
 // Memory holds the threads, and the memory that is kept from frame to frame, since getting new
@@ -174,31 +164,11 @@ void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& fr
   if (state.fade < 1) fade(frame, state.fade);
 }
 
-// The faces of a cubemap are images of their own.  Stars beyond the edges of a face still reach
-// into it.
+// The faces of a cubemap are images of their own, of one scene.  Stars beyond the edges of a face
+// still reach into it.
 template <class T>
 void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
                            StageTimes& times) {
-  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
-    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
-  const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
-  if (faces.empty()) return render_image(state, state.projection, gap, frame, times);
-  ImageRgb<T> image(columns(faces[0].projection), rows(faces[0].projection));
-  for (const CubemapFace& face : faces) {
-    StageTimes own;
-    render_image(looking_through(state, face), state.projection, gap, image, own);
-    for (int row = 0; row < image.height; ++row)
-      std::copy_n(image.row(row), 3 * image.width,
-                  frame.row(face.row + row) + 3 * static_cast<std::ptrdiff_t>(face.column));
-    times.add(own);
-  }
-}
-
-// Renders the image of one projection that is not put together from others.  `whole` is the
-// projection of the frame, of which this image is a face or the whole.
-template <class T>
-void Renderer::render_image(const FrameState& state, const Projection& whole, double gap,
-                            ImageRgb<T>& image, StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
   const PerSky<const Sky*> skies = skies_.skies_of(plan);
@@ -211,12 +181,32 @@ void Renderer::render_image(const FrameState& state, const Projection& whole, do
   times.tables_made = optics_.tables_made();
   times.table_nodes = node_count(optics);
   if (plan.disc && !disc_light_) disc_light_.emplace(*show_.disc);
-  const FrameScene scene(show_, state, plan, optics, skies, motion, &whole,
+  const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
+  const FrameScene scene(show_, state, plan, optics, skies, motion,
                          plan.disc ? &*disc_light_ : nullptr);
   times.tables_s = watch.lap();
+  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
+    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
+  if (faces.empty()) return render_image(scene, frame, times);
+  ImageRgb<T> image(columns(faces[0].projection), rows(faces[0].projection));
+  for (const CubemapFace& face : faces) {
+    StageTimes own;
+    const FrameScene scene_of_face(scene, face);
+    render_image(scene_of_face, image, own);
+    for (int row = 0; row < image.height; ++row)
+      std::copy_n(image.row(row), 3 * image.width,
+                  frame.row(face.row + row) + 3 * static_cast<std::ptrdiff_t>(face.column));
+    times.add(own);
+  }
+}
+
+// Renders the image of one projection that is not put together from others.
+template <class T>
+void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTimes& times) {
+  StopWatch watch;
   memory_->arena.execute([&] {
     BlobLayer& stars = memory_->stars;
-    stars.start(state.projection);
+    stars.start(scene.projection());
     lay_stars(scene, memory_->images, stars);
     UnresolvedSkies unresolved = find_unresolved_skies(scene);
     stars.add(unresolved.blobs);
@@ -224,8 +214,9 @@ void Renderer::render_image(const FrameState& state, const Projection& whole, do
     // The blob of an unresolved sky is in the same layer as the stars, and must not be cut off at
     // the border of that sky.
     std::optional<SkyBorders> borders;
-    if (plan.gravity && show_.effects.lensing && unresolved.blobs.empty() && stars.size() > 0) {
-      borders.emplace(state, optics, scene.tracer.vantage());
+    if (scene.plan.gravity && scene.effects.lensing && unresolved.blobs.empty() &&
+        stars.size() > 0) {
+      borders.emplace(scene.state, scene.optics, scene.tracer.vantage());
       if (!borders->usable()) borders.reset();
     }
     times.images = stars.size() - unresolved.blobs.size();

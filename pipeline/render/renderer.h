@@ -15,6 +15,8 @@
 
 namespace domefall {
 
+struct FrameScene;
+
 class Renderer {
  public:
   // `threads` is the number of threads, at most one for each processor, or 0 for that many.  The
@@ -72,8 +74,7 @@ class Renderer {
   template <class T>
   void render_view(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
   template <class T>
-  void render_image(const FrameState& state, const Projection& whole, double gap,
-                    ImageRgb<T>& image, StageTimes& times);
+  void render_image(const FrameScene& scene, ImageRgb<T>& image, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;

@@ -1,4 +1,4 @@
-// Defines the one scale on which skies and stars become pixel values.
+// Defines the one scale on which light becomes pixel values.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace domefall {
 // part.
 inline constexpr double kReferenceLuminance = 1e-3;
 
-// Returns the pixel value of 1 cd/m^2.  FrameScene takes it once for each frame, and the light of
-// its skies and stars is multiplied by it.
+// Returns the pixel value of 1 cd/m^2.  FrameScene takes it once for each instant, and the light of
+// skies, stars, discs and bodies is multiplied by it.
 inline double exposure_scale(const FrameSettings& settings) {
   return std::exp2(settings.ev) / kReferenceLuminance;
 }

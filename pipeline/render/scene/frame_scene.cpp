@@ -33,18 +33,28 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
   return light;
 }
 
+// Returns the state of a cubemap's face, whose camera is turned by the axes of the face.
+FrameState looking_through(const FrameState& state, const CubemapFace& face) {
+  FrameState looking = state;
+  looking.projection = face.projection;
+  const M33d& whole = state.observer.tetrad_from_camera;
+  looking.observer.tetrad_from_camera = from_columns(
+      apply(whole, face.axes[0]), apply(whole, face.axes[1]), apply(whole, face.axes[2]));
+  return looking;
+}
+
 }  // namespace
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-                       SkyMotion sky_motion, const Projection* whole, const DiscLight* disc_light)
+                       SkyMotion sky_motion, const DiscLight* disc_light)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
       optics(hole_optics),
-      tracer(frame, hole_optics, show.effects),
+      tracer(state, hole_optics, show.effects),
       exposure(exposure_scale(frame.settings)),
-      point_spread(show.point_spread, whole ? *whole : frame.projection, exposure),
+      point_spread(show.point_spread, frame.projection, exposure),
       star_saturation(static_cast<float>(show.star_saturation)),
       least_star_radius(show.least_star_radius),
       motion(std::move(sky_motion)),
@@ -52,5 +62,21 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       background(backgrounds_of(show, frame, plan, skies, exposure)),
       disc(disc_light),
       bodies(show.bodies) {}
+
+FrameScene::FrameScene(const FrameScene& whole, const CubemapFace& face)
+    : state(looking_through(whole.state, face)),
+      effects(whole.effects),
+      plan(whole.plan),
+      optics(whole.optics),
+      tracer(state, whole.optics, whole.effects),
+      exposure(whole.exposure),
+      point_spread(whole.point_spread),
+      star_saturation(whole.star_saturation),
+      least_star_radius(whole.least_star_radius),
+      motion(whole.motion),
+      stars(whole.stars),
+      background(whole.background),
+      disc(whole.disc),
+      bodies(whole.bodies) {}
 
 }  // namespace domefall

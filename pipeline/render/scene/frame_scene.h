@@ -1,7 +1,7 @@
 // A FrameScene is one instant of a show as every stage of its frame reads it: the observer and the
 // camera, how light reaches them, the skies that are seen, the bodies near the hole, and how light
-// becomes pixel values.  The renderer makes one for each frame, and no later stage derives anything
-// from the show again.
+// becomes pixel values.  The renderer makes one for each instant, and no later stage derives
+// anything from the show again.
 #pragma once
 
 #include <optional>
@@ -13,6 +13,7 @@
 #include "pipeline/render/scene/point_spread.h"
 #include "pipeline/render/scene/sky_light.h"
 #include "pipeline/show/body.h"
+#include "projections/cubemap_faces.h"
 
 namespace domefall {
 
@@ -27,16 +28,18 @@ struct SkyMotion {
 };
 
 struct FrameScene {
-  // `skies` has null for a sky that the plan leaves out.  All arguments except the plan must
-  // outlive the scene.  If the frame is a face of a cubemap, `whole` is the projection of the
-  // cubemap, which sets the widths of blobs.  `disc_light` is the light of the show's disc, or null
+  // `skies` has null for a sky that the plan leaves out.  The show, the optics, the skies
+  // and `disc_light` must outlive the scene.  `disc_light` is the light of the show's disc, or null
   // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
-             SkyMotion sky_motion = {}, const Projection* whole = nullptr,
-             const DiscLight* disc_light = nullptr);
+             SkyMotion sky_motion = {}, const DiscLight* disc_light = nullptr);
 
-  const FrameState& state;
+  // The face of a cubemap is the same scene in another direction.  Its blobs are as wide as in the
+  // whole.
+  FrameScene(const FrameScene& whole, const CubemapFace& face);
+
+  const FrameState state;
   const Effects& effects;
   const FramePlan plan;
   const HoleOptics& optics;

@@ -20,7 +20,7 @@ Drawn drawn_row(const DiscView& view, const Projection& projection) {
   const FrameState state = frame_state(show, 0);
   const HoleOptics optics = make_hole_optics(view.at.r, view.at.tetrad, {});
   const DiscLight light(*show.disc);
-  const FrameScene scene(show, state, plan_frame(show, state), optics, {}, {}, nullptr, &light);
+  const FrameScene scene(show, state, plan_frame(show, state), optics, {}, {}, &light);
   const DiscPass pass(scene);
   const int width = columns(projection), height = rows(projection);
   Drawn frames{FloatImage(width, height), FloatImage(width, height)};
