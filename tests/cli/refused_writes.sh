@@ -13,7 +13,11 @@ plot=("$DOMEFALL" states tiny.yaml --frames 0 --plot)
 stars=("$DOMEFALL" stars import csv "$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv" --faintest 5 --out)
 build=("$DOMEFALL" sky build --stars few.stars --fainter-than 5 --blur 4 --size 32 --out)
 still=("$DOMEFALL" preview tiny.yaml --size 64x36 --out)
-words() { python3 -c 'import errno, os, sys; print(os.strerror(getattr(errno, sys.argv[1])))' "$1"; }
+# An error's name leads to what the system says of it.
+declare -A words
+while IFS=$'\t' read -r name text; do words[$name]=$text; done < <(
+  python3 -c 'import errno, os; [print(n, os.strerror(e), sep="\t") for e, n in errno.errorcode.items()]')
+words[EOPNOTSUPP]=${words[ENOTSUP]}  # the same number
 nothing_else() { [ -z "$(find . -name '.*.tmp')" ] || fail "left: $(find . -name '.*.tmp')"; }
 count=0
 
@@ -25,7 +29,7 @@ refused() {
     echo old >"$file"
     exits "$code" "$refusing" "$call" "$error" "$@"
     if [ "$code" -ne 0 ]; then
-      says "^$file: $(words "$error")\$"
+      says "^$file: ${words[$error]}\$"
       [ "$(cat "$file")" = old ] || fail "$call, $error: the old file is gone"
     elif [ "$(head -c 4 "$file")" = "old" ]; then
       fail "$call, $error: there is no new file"
@@ -58,14 +62,14 @@ refused 0 reserve EOPNOTSUPP light.sky "${build[@]}" light.sky
 for call in write flush rename; do
   for error in ENOSPC EACCES ESTALE; do
     exits 75 "$refusing" $call $error "$DOMEFALL" render tiny.yaml --frames 0-1 --out frames
-    says "^frames/(linear|graded)/tiny_0000[01].*: $(words $error)\$"
+    says "^frames/(linear|graded)/tiny_0000[01].*: ${words[$error]}\$"
     [ -z "$(find frames -type f)" ] || fail "$call, $error: left $(find frames -type f)"
     count=$((count + 1))
   done
 done
 for error in ENOSPC EDQUOT EROFS EACCES; do
   exits 75 "$refusing" folder $error "$DOMEFALL" report --quick --out report
-  says ": $(words $error)\$"
+  says ": ${words[$error]}\$"
   exits 0 "$refusing" folder $error "$DOMEFALL" check tiny.yaml
   count=$((count + 2))
 done
