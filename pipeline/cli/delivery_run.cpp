@@ -167,7 +167,7 @@ class Deliverer {
     const std::vector<int> shown = frames_of_sheet(delivery_.names.count());
     std::vector<std::string> labels;
     labels.reserve(shown.size());
-    for (const int frame : shown) labels.push_back(std::to_string(frame + 1));
+    for (const int frame : shown) labels.push_back(fmt::to_string(frame + 1));
     write_graded(run_.out / kContactSheet,
                  sheet_of_frames(source_, run_.show, shown, labels, at_once), picture_info(),
                  {GradedKind::kPng8});

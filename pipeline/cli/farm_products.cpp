@@ -85,7 +85,7 @@ void add_delivery(FarmPlan& plan, const FarmProducts& products, const Show& show
   check_delivery_folder(run);
   std::vector<std::string>& options = plan.deliver_options;
   if (products.depth > 0)
-    options.insert(options.end(), {"--depth", std::to_string(products.depth)});
+    options.insert(options.end(), {"--depth", fmt::to_string(products.depth)});
   if (products.leader) options.emplace_back("--leader");
   add_files(options, "--audio", products.audio);
   add_files(options, "--subtitles", products.subtitles);

@@ -69,7 +69,7 @@ void add_frame_choice(CLI::App& verb, FrameChoice& choice) {
 
 int chosen_frame(const FrameChoice& choice, const Show& show) {
   if (choice.at.empty())
-    return parse_frames(std::to_string(choice.frame), frame_count(show)).front();
+    return parse_frames(fmt::to_string(choice.frame), frame_count(show)).front();
   const auto seconds = parse_time(choice.at, show.markers);
   const double end = end_of(show);
   if (!seconds) {

@@ -58,7 +58,7 @@ std::string list_of_segments(const std::map<int, int>& frames_of_segments, const
   std::vector<std::string> segments;
   int frames = 0;
   for (const auto& [segment, count] : frames_of_segments) {
-    segments.push_back(std::to_string(segment + 1));
+    segments.push_back(fmt::to_string(segment + 1));
     frames += count;
   }
   constexpr std::size_t kMost = 8;
@@ -130,7 +130,7 @@ std::string as_ranges(const std::vector<int>& frames) {
   for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
     while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
     if (!text.empty()) text += ',';
-    text += std::to_string(frames[first]);
+    text += fmt::to_string(frames[first]);
     if (last > first) text += fmt::format("-{}", frames[last]);
   }
   return text;

@@ -97,7 +97,7 @@ void make_sheet(const SheetOptions& o) {
   frames.check(shown, threads);
   std::vector<std::string> labels;
   labels.reserve(shown.size());
-  for (const int frame : shown) labels.push_back(std::to_string(frame));
+  for (const int frame : shown) labels.push_back(fmt::to_string(frame));
   GradedInfo info = frames.info(0);
   info.key.clear();
   write_graded(out.path(), sheet_of_frames(frames, show, shown, labels, threads), info, format);

@@ -24,7 +24,7 @@ namespace {
 std::string csv_text(const StateCell& cell) {
   if (const auto* number = std::get_if<StateNumber>(&cell))
     return fmt::format("{:.{}g}", number->value, number->digits);
-  if (const auto* count = std::get_if<int>(&cell)) return std::to_string(*count);
+  if (const auto* count = std::get_if<int>(&cell)) return fmt::to_string(*count);
   return std::get<const char*>(cell);
 }
 

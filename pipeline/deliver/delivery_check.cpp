@@ -64,7 +64,7 @@ FrameFinding examine_delivered(const fs::path& path, int index, const StatedFram
       return FrameFinding::kDamaged;
     const bool same = head->width == stated.width && head->height == stated.height &&
                       head->bits == stated.bits && head->title == one_line(stated.title) &&
-                      head->frame == std::to_string(index);
+                      head->frame == fmt::to_string(index);
     return same ? FrameFinding::kAsStated : FrameFinding::kOther;
   } catch (const DamagedFile&) {
     return FrameFinding::kDamaged;

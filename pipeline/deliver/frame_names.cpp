@@ -48,12 +48,12 @@ NamePattern default_name_pattern(const std::string& name, int count) {
   std::replace_if(
       before.begin(), before.end(), [](char c) { return !is_plain(c); }, '_');
   if (before.starts_with('.') || before.starts_with('-')) before[0] = '_';
-  return {before + "_", "", std::max(kLeastDigits, static_cast<int>(std::to_string(count).size()))};
+  return {before + "_", "", std::max(kLeastDigits, static_cast<int>(fmt::to_string(count).size()))};
 }
 
 DeliveredNames::DeliveredNames(NamePattern pattern, int count, std::string extension)
     : pattern_(std::move(pattern)), count_(count), extension_(std::move(extension)) {
-  const auto digits = static_cast<int>(std::to_string(count).size());
+  const auto digits = static_cast<int>(fmt::to_string(count).size());
   if (digits > pattern_.digits)
     throw InputError(
         fmt::format("--name {}: {} frames need {} '#'", pattern_text(pattern_), count, digits));

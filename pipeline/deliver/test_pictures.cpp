@@ -72,11 +72,11 @@ void draw_dome_grid(Board& board) {
   constexpr double kSmall = 0.014, kLarge = 0.04, kTurn = 7.5;
   for (int quarter = 0; quarter < 4; ++quarter)
     for (int altitude = 10; altitude < 90; altitude += 10)
-      text_on_dome(board, std::to_string(altitude), altitude + 1.5, 90 * quarter + 45 + kTurn,
+      text_on_dome(board, fmt::to_string(altitude), altitude + 1.5, 90 * quarter + 45 + kTurn,
                    kSmall * board.size);
   for (int azimuth = 15; azimuth < 360; azimuth += 15)
     if (azimuth % 90 != 0)
-      text_on_dome(board, std::to_string(azimuth), 3, azimuth + 2, kSmall * board.size);
+      text_on_dome(board, fmt::to_string(azimuth), 3, azimuth + 2, kSmall * board.size);
   constexpr std::array kSides{"FRONT", "RIGHT", "BACK", "LEFT"};
   for (std::size_t k = 0; k < kSides.size(); ++k) {
     const double azimuth = 90 * static_cast<double>(k);
@@ -166,7 +166,7 @@ void draw_countdown(Board& board, int left, double passed) {
   drawing.line(front, {front.x + radius * std::sin(turn), front.y - radius * std::cos(turn)},
                3 * board.thin);
   drawing.set_grey(1);
-  drawing.text(std::to_string(left), front, kNumber * board.size, board.size);
+  drawing.text(fmt::to_string(left), front, kNumber * board.size, board.size);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <string>
 
 #include "pipeline/deliver/delivery.h"
@@ -10,7 +12,7 @@ std::string verify_script(std::size_t files) {
 # Says whether this folder holds what was delivered, by the SHA-256 sums in checksums.sha256.
 # It ends with 0 if it does, with 1 if a file is missing, changed or not of the delivery, and with 2
 # if that cannot be told.  Hidden files, which file managers leave behind, do not matter.
-files=)sh" + std::to_string(files) + R"sh(
+files=)sh" + fmt::to_string(files) + R"sh(
 cd "$(dirname "$0")" || exit 2
 if [ -e INCOMPLETE.txt ] || [ ! -f checksums.sha256 ]; then
   echo "This delivery was never finished, or checksums.sha256 is gone."

@@ -126,7 +126,7 @@ std::vector<std::string> render_command(const FarmPlan& plan, const std::string&
                                         int threads) {
   std::vector<std::string> command{plan.program,      "render",    plan.show.string(),
                                    "--frames",        frames,      "--out",
-                                   plan.out.string(), "--threads", std::to_string(threads)};
+                                   plan.out.string(), "--threads", fmt::to_string(threads)};
   command.insert(command.end(), plan.options.begin(), plan.options.end());
   return command;
 }

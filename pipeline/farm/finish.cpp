@@ -88,8 +88,8 @@ FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most) {
     for (std::size_t i = k; i < last;) {
       std::size_t j = i;
       while (j + 1 < last && frames[j + 1] == frames[j] + 1) ++j;
-      text += (text.empty() ? "" : ",") + std::to_string(frames[i]) +
-              (j > i ? "-" + std::to_string(frames[j]) : "");
+      text += fmt::format("{}{}", text.empty() ? "" : ",", frames[i]);
+      if (j > i) text += fmt::format("-{}", frames[j]);
       i = j + 1;
     }
     plan.chunks.push_back({round, task++, text, 0});

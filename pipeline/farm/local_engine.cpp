@@ -201,9 +201,9 @@ class LocalRun {
     return {plan_.program, "farm",
             "work",        plan_.out.string(),
             "--plan",      plan_.id,
-            "--round",     std::to_string(chunk.round),
-            "--task",      std::to_string(chunk.task),
-            "--threads",   std::to_string(std::max(1, share))};
+            "--round",     fmt::to_string(chunk.round),
+            "--task",      fmt::to_string(chunk.task),
+            "--threads",   fmt::to_string(std::max(1, share))};
   }
 
   const FarmPlan& plan_;

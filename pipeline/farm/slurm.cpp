@@ -88,7 +88,7 @@ void leave_out_this_node(const SlurmTask& task) {
 int most_array_tasks(int patience_s) {
   std::string said;
   std::vector<std::string> command{"scontrol", "show", "config"};
-  if (patience_s > 0) command.insert(command.begin(), {"timeout", std::to_string(patience_s)});
+  if (patience_s > 0) command.insert(command.begin(), {"timeout", fmt::to_string(patience_s)});
   const WorkerEnd end = run_program(command, said);
   if (end.code == kNoSuchProgram)
     throw InputError("scontrol: no such program; Slurm is not installed here");
@@ -114,7 +114,7 @@ std::vector<std::string> array_submission(const FarmPlan& plan, int round) {
   command.push_back(fmt::format("--array=0-{}{}", tasks - 1, throttle));
   command.push_back("--wrap=exec " +
                     shell_line({plan.program, "farm", "work", plan.out.string(), "--plan", plan.id,
-                                "--round", std::to_string(round)}) +
+                                "--round", fmt::to_string(round)}) +
                     " --task \"$SLURM_ARRAY_TASK_ID\"");
   return command;
 }
@@ -130,7 +130,7 @@ std::vector<std::string> conclusion_submission(const FarmPlan& plan, int round,
   if (!after.empty()) command.push_back("--dependency=afterany:" + after);
   command.push_back("--wrap=exec " +
                     shell_line({plan.program, "farm", "conclude", plan.out.string(), "--plan",
-                                plan.id, "--round", std::to_string(round)}));
+                                plan.id, "--round", fmt::to_string(round)}));
   return command;
 }
 

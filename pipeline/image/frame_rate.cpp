@@ -1,5 +1,7 @@
 #include "pipeline/image/frame_rate.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -37,9 +39,8 @@ FrameRate frame_rate_of(double frames_per_second) {
 }
 
 std::string text_of(const FrameRate& rate) {
-  std::string text = std::to_string(rate.frames);
-  if (rate.seconds != 1) text += "/" + std::to_string(rate.seconds);
-  return text;
+  return rate.seconds == 1 ? fmt::to_string(rate.frames)
+                           : fmt::format("{}/{}", rate.frames, rate.seconds);
 }
 
 double duration_of(std::int64_t frames, const FrameRate& rate) {

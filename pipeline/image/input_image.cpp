@@ -1,5 +1,7 @@
 #include "pipeline/image/input_image.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
@@ -41,8 +43,8 @@ void InputImage::read(unsigned short* rgb) const {
 }
 
 void InputImage::fail_not_finite(int x, int y) const {
-  throw InputError(file_.string() + ": pixel (" + std::to_string(x + 1) + ", " +
-                   std::to_string(y + 1) + ") is not a finite number");
+  throw InputError(
+      fmt::format("{}: pixel ({}, {}) is not a finite number", file_.string(), x + 1, y + 1));
 }
 
 float linear_from_srgb(float v) {

@@ -1,6 +1,7 @@
 #include "pipeline/image/regular_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -86,8 +87,8 @@ std::size_t read_at(int descriptor, const fs::path& path, std::uint64_t position
 std::string read_file(const fs::path& path, std::uint64_t most) {
   RegularFile file(path);
   if (file.size() > most)
-    throw InputError(path.string() + ": the file has " + std::to_string(file.size()) +
-                     " bytes; at most " + std::to_string(most) + " can be read");
+    throw InputError(fmt::format("{}: the file has {} bytes; at most {} can be read", path.string(),
+                                 file.size(), most));
   std::string bytes(static_cast<std::size_t>(file.size()), '\0');
   bytes.resize(file.read(bytes.data(), bytes.size()));
   return bytes;

@@ -1,6 +1,7 @@
 #include "pipeline/image/temporary_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -46,8 +47,8 @@ fs::path temporary_name(const fs::path& path, std::uint64_t device) {
   static std::atomic<unsigned> count{0};
   WriterId writer = this_writer();
   writer.device = device;
-  return path.parent_path() / ("." + stem_of(path) + "." + text_of(writer) + "-" +
-                               std::to_string(count++) + std::string(kSuffix));
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}{}", stem_of(path), text_of(writer), count++, kSuffix);
 }
 
 // Returns nothing for a name that temporary_name() does not give.
@@ -61,7 +62,7 @@ std::optional<WriterId> writer_of_temporary(std::string_view name) {
   unsigned count = 0;
   const auto [end, error] =
       std::from_chars(name.data() + count_at, name.data() + name.size(), count);
-  if (error != std::errc() || std::to_string(count) != name.substr(count_at)) return std::nullopt;
+  if (error != std::errc() || fmt::to_string(count) != name.substr(count_at)) return std::nullopt;
   return writer_of(name.substr(mark + 1, count_at - 1 - (mark + 1)));
 }
 

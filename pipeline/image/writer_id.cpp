@@ -64,14 +64,14 @@ std::optional<ProcessState> state_of(const std::string& process) {
 // A container may see the /proc of another PID namespace, with other numbers.
 bool proc_has_our_numbers() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self", error) == std::to_string(getpid());
+  return std::filesystem::read_symlink("/proc/self", error) == fmt::to_string(getpid());
 }
 
 // Says whether a process of this PID namespace runs still.  A zombie has a number and runs no more.
 // Where nothing reaps it, as in some containers, it stays one.
 bool is_running(pid_t process, std::uint64_t start) {
   if (proc_has_our_numbers())
-    if (const auto found = state_of(std::to_string(process)))
+    if (const auto found = state_of(fmt::to_string(process)))
       return found->start == start && found->letter != 'Z';
   return kill(process, 0) == 0 || errno != ESRCH;
 }

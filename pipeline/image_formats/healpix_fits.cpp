@@ -1,6 +1,7 @@
 #include "pipeline/image_formats/healpix_fits.h"
 
 #include <fitsio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -55,8 +56,9 @@ class Fits {
       check("the file is damaged");
       if (type == BINARY_TBL && !text("NSIDE").empty()) return;
     }
-    fail("there is no HEALPix map among its first " + std::to_string(kMostExtensions) +
-         " extensions (no table with a keyword NSIDE)");
+    fail(fmt::format(
+        "there is no HEALPix map among its first {} extensions (no table with a keyword NSIDE)",
+        kMostExtensions));
   }
 
   // Without quotes and spaces at the end; empty if there is no such keyword.
@@ -79,21 +81,20 @@ class Fits {
     long repeat = 0, width = 0, rows = 0;
     fits_get_coltype(file_, number, &type, &repeat, &width, &status_);
     fits_get_num_rows(file_, &rows, &status_);
-    check("column " + std::to_string(number));
+    check(fmt::format("column {}", number));
     const bool whole = type != TSTRING && type >= 0 && repeat >= 1 && rows >= 1 &&
                        static_cast<std::size_t>(repeat) <= count &&
                        static_cast<std::size_t>(rows) <= count &&
                        static_cast<std::size_t>(repeat) * static_cast<std::size_t>(rows) == count;
     if (!whole)
-      fail("column " + std::to_string(number) + " does not hold the " + std::to_string(count) +
-           " numbers of a whole sky");
+      fail(fmt::format("column {} does not hold the {} numbers of a whole sky", number, count));
     check_length();
     std::vector<float> values(count);
     float bad = std::numeric_limits<float>::quiet_NaN();
     int any = 0;
     fits_read_col(file_, TFLOAT, number, 1, 1, static_cast<LONGLONG>(count), &bad, values.data(),
                   &any, &status_);
-    check("column " + std::to_string(number) + " cannot be read to its end");
+    check(fmt::format("column {} cannot be read to its end", number));
     return values;
   }
 
@@ -110,8 +111,9 @@ class Fits {
         file_bytes_ - std::min(file_bytes_, static_cast<std::uint64_t>(data));
     if (row < 1 || rows < 1 ||
         static_cast<std::uint64_t>(rows) > left / static_cast<std::uint64_t>(row))
-      fail("the file is cut short: its table of " + std::to_string(rows) + " rows of " +
-           std::to_string(row) + " bytes is longer than the file");
+      fail(fmt::format(
+          "the file is cut short: its table of {} rows of {} bytes is longer than the file", rows,
+          row));
   }
 
   void check(const std::string& what) const {
@@ -136,7 +138,7 @@ HealpixFile read_healpix_fits(const std::filesystem::path& path, int column) {
   HealpixFile map;
   map.nside = fits.integer("NSIDE");
   if (map.nside < 1 || map.nside > kLargestNside || (map.nside & (map.nside - 1)) != 0)
-    fits.fail("NSIDE must be a power of two from 1 to 8192, got " + std::to_string(map.nside));
+    fits.fail(fmt::format("NSIDE must be a power of two from 1 to 8192, got {}", map.nside));
   const std::string ordering = fits.text("ORDERING");
   if (!ordering.starts_with("RING") && !ordering.starts_with("NEST"))
     fits.fail("ORDERING must be RING or NESTED, got '" + ordering + "'");
@@ -144,9 +146,9 @@ HealpixFile read_healpix_fits(const std::filesystem::path& path, int column) {
   if (fits.text("INDXSCHM") == "EXPLICIT")
     fits.fail("it lists its pixels (INDXSCHM EXPLICIT); only maps of the whole sky can be read");
   if (column < 1 || column > fits.integer("TFIELDS"))
-    fits.fail("it has no column " + std::to_string(column));
+    fits.fail(fmt::format("it has no column {}", column));
   map.coordinates = fits.text("COORDSYS");
-  map.units = fits.text("TUNIT" + std::to_string(column));
+  map.units = fits.text(fmt::format("TUNIT{}", column));
   const auto side = static_cast<std::size_t>(map.nside);
   map.values = fits.column(column, 12 * side * side);
   for (float& v : map.values)

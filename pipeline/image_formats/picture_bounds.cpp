@@ -1,5 +1,7 @@
 #include "pipeline/image_formats/picture_bounds.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -30,15 +32,16 @@ double most_pixels_per_byte(std::string_view format, std::string_view packing) {
 
 void check_size(std::int64_t width, std::int64_t height, std::string_view format,
                 std::string_view packing, std::uint64_t file_bytes) {
-  const std::string size = std::to_string(width) + " x " + std::to_string(height);
+  const std::string size = fmt::format("{} x {}", width, height);
   if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
-    fail("the image must be 1 to " + std::to_string(kLargestSide) + " pixels a side, got " + size);
+    fail(fmt::format("the image must be 1 to {} pixels a side, got {}", kLargestSide, size));
   if (static_cast<std::uint64_t>(width * height) > kMostPixels)
     fail("the image has more than 32768 x 16384 pixels: " + size);
   const double most = most_pixels_per_byte(format, packing) * static_cast<double>(file_bytes);
   if (static_cast<double>(width * height) > most)
-    fail("the file is cut short, or its header is wrong: " + std::to_string(file_bytes) +
-         " bytes cannot hold " + size + " pixels");
+    fail(
+        fmt::format("the file is cut short, or its header is wrong: {} bytes cannot hold {} pixels",
+                    file_bytes, size));
 }
 
 void check_picture(std::string_view format, const OIIO::ImageSpec& spec, std::uint64_t file_bytes) {
@@ -46,12 +49,12 @@ void check_picture(std::string_view format, const OIIO::ImageSpec& spec, std::ui
              file_bytes);
   if (spec.depth > 1 || spec.deep) fail("the image is a volume or has deep pixels");
   if (spec.nchannels < 1 || spec.nchannels > kMostChannels)
-    fail("the image must have 1 to " + std::to_string(kMostChannels) + " channels, got " +
-         std::to_string(spec.nchannels));
+    fail(
+        fmt::format("the image must have 1 to {} channels, got {}", kMostChannels, spec.nchannels));
   if (spec.tile_width > 0 && (spec.tile_width > kLargestSide || spec.tile_height > kLargestSide ||
                               spec.tile_bytes(true) > kLargestTile))
-    fail("the image is stored in tiles of " + std::to_string(spec.tile_width) + " x " +
-         std::to_string(spec.tile_height) + " pixels; they may have 256 MiB");
+    fail(fmt::format("the image is stored in tiles of {} x {} pixels; they may have 256 MiB",
+                     spec.tile_width, spec.tile_height));
 }
 
 }  // namespace domefall

@@ -139,7 +139,7 @@ void MovieFile::count_frames(const ChildOutcome& made) const {
   const ChildOutcome outcome = probe.wait();
   std::string found = probe.output();
   found.resize(std::min(found.size(), found.find('\n')));
-  if (!outcome.good() || found != std::to_string(count_))
+  if (!outcome.good() || found != fmt::to_string(count_))
     throw TemporaryError(fmt::format(
         "{}: ffmpeg was given {} frames, and the movie that it wrote has {}; nothing was kept{}",
         path_.string(), count_, found.empty() ? "none that can be read" : found,

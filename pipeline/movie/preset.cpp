@@ -158,8 +158,8 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
   append(options, preset.video);
   // Without it ffmpeg takes 119.88 for 120.
   append(options, {"-r", text_of(rate), "-color_range", video.range, "-color_primaries",
-                   std::to_string(tags.primaries), "-color_trc", std::to_string(tags.transfer),
-                   "-colorspace", std::to_string(video.matrix)});
+                   fmt::to_string(tags.primaries), "-color_trc", fmt::to_string(tags.transfer),
+                   "-colorspace", fmt::to_string(video.matrix)});
   return options;
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/python/record_array.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -13,7 +15,7 @@ namespace {
 py::dtype record_type(const std::vector<RecordColumn>& columns) {
   py::list fields;
   for (const auto& [name, kind] : columns) {
-    const std::string text = "U" + std::to_string(RecordArray::kMostLetters);
+    const std::string text = fmt::format("U{}", RecordArray::kMostLetters);
     fields.append(py::make_tuple(name, kind == CellKind::kCount    ? "i4"
                                        : kind == CellKind::kNumber ? "f8"
                                                                    : text));

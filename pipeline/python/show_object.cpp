@@ -45,7 +45,7 @@ int frame_number(const Show& show, long long number) {
 std::string size_text(const py::object& size) {
   if (size.is_none()) return {};
   if (py::isinstance<py::str>(size)) return size.cast<std::string>();
-  if (!py::isinstance<py::sequence>(size)) return std::to_string(whole_number(size));
+  if (!py::isinstance<py::sequence>(size)) return fmt::to_string(whole_number(size));
   const auto sides = py::reinterpret_borrow<py::sequence>(size);
   if (sides.size() != 2)
     throw InputError(fmt::format(
