@@ -38,18 +38,12 @@ bool same_stars(const RegionSky& a, const RegionSky& b) {
 
 }  // namespace
 
-bool SkyStore::limit_changes(SkyRegion which) const {
-  return std::any_of(show_.timeline.begin(), show_.timeline.end(), [which](const Segment& segment) {
-    return segment.curves[max_magnitude_channel(which)].has_value();
-  });
-}
-
-double SkyStore::faintest_magnitude(SkyRegion which) const {
-  double faintest = show_.sky[which].stars.value_or(StarField{}).max_magnitude;
+SkyStore::MagnitudeLimit SkyStore::limit_of(SkyRegion which) const {
+  MagnitudeLimit limit{show_.sky[which].stars.value_or(StarField{}).max_magnitude, false};
   for (const Segment& segment : show_.timeline)
     if (const auto& curve = segment.curves[max_magnitude_channel(which)])
-      faintest = std::max(faintest, largest(*curve));
-  return faintest;
+      limit = {std::max(limit.faintest, largest(*curve)), true};
+  return limit;
 }
 
 void SkyStore::load_background(Kept& kept) {
@@ -75,17 +69,17 @@ void SkyStore::load_background(Kept& kept) {
 void SkyStore::load_stars(SkyRegion which, Kept& kept) {
   const RegionSky& own = show_.sky[which];
   if (!own.stars) return;
-  const double faintest = faintest_magnitude(which);
+  const MagnitudeLimit limit = limit_of(which);
   for (const SkyRegion other : kEverySky)
     for (const Kept& loaded : skies_[other])
-      if (loaded.has_stars && same_stars(own, show_.sky[other]) &&
-          faintest == faintest_magnitude(other)) {
+      if (loaded.has_stars && same_stars(own, show_.sky[other]) && limit == limit_of(other)) {
         kept.sky.stars = loaded.sky.stars;
         return;
       }
-  StarCatalogue catalogue = read_star_catalogue(own.stars->catalogue, faintest, show_.star_epoch);
+  StarCatalogue catalogue =
+      read_star_catalogue(own.stars->catalogue, limit.faintest, show_.star_epoch);
   // Where the limit changes, a star that stands for others would come and go with the light of all.
-  if (detail_.whole_stars > 0 && !limit_changes(which))
+  if (detail_.whole_stars > 0 && !limit.changes)
     catalogue.stars = thinned(catalogue.stars, detail_.whole_stars);
   kept.sky.stars = std::make_shared<const SceneStars>(catalogue.stars);
 }

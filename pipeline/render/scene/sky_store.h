@@ -79,9 +79,12 @@ class SkyStore {
   // Drops maps until another one fits, as long as there is one that may be dropped.
   void make_room();
   void load_stars(SkyRegion which, Kept& kept);
-  bool limit_changes(SkyRegion which) const;
-  // Returns the magnitude of the faintest stars that any frame of the show draws.
-  double faintest_magnitude(SkyRegion which) const;
+  struct MagnitudeLimit {
+    double faintest;  // the magnitude of the faintest stars that any frame of the show draws
+    bool changes;     // whether the show keyframes it
+    bool operator==(const MagnitudeLimit&) const = default;
+  };
+  MagnitudeLimit limit_of(SkyRegion which) const;
 
   const Show& show_;
   SkyDetail detail_;

@@ -82,5 +82,26 @@ TEST_F(SkyStores, ReadsButDoesNotMakeWhatHasNoRoomBeforeTheFirstFrame) {
   EXPECT_THROW(store.load(plan_of(2)), InputError);
 }
 
+// A star that stands for others would come and go with the light of all.
+TEST_F(SkyStores, SharesStarsOnlyWhereTheLimitChangesForBothSkiesOrNeither) {
+  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+    show_.sky[sky].stars = StarField{folder_ / "assets/stars_to_9.stars", 6};
+  Segment& segment = show_.timeline.emplace_back();
+  SkyDetail detail;
+  detail.whole_stars = 1;
+  const auto stars_of = [](SkyStore& store, SkyRegion sky) {
+    return store.sky(sky, std::nullopt, true).stars;
+  };
+  SkyStore steady(show_, detail);
+  const auto of_both = stars_of(steady, SkyRegion::kI);
+  EXPECT_LT(of_both->size(), 3U);
+  EXPECT_EQ(of_both, stars_of(steady, SkyRegion::kIII));
+
+  segment.curves[max_magnitude_channel(SkyRegion::kIII)] = Curve{{{0, 6}}};
+  SkyStore store(show_, detail);
+  EXPECT_EQ(stars_of(store, SkyRegion::kI)->size(), of_both->size());
+  EXPECT_EQ(stars_of(store, SkyRegion::kIII)->size(), 3U);
+}
+
 }  // namespace
 }  // namespace domefall
