@@ -11,9 +11,8 @@ void Drawing::text(const std::string& line, DrawingPoint middle, double size, do
 }
 
 std::unique_ptr<Drawing> new_drawing(int width, int height) {
-  static const auto& maker = static_cast<const DrawingMaker&>(
-      load_library("libdomefall_cairo_drawing.so", "domefall_cairo_drawing",
-                   "draws contact sheets and leaders"));
+  static const auto& maker =
+      late_library<DrawingMaker>("domefall_cairo_drawing", "draws contact sheets and leaders");
   return maker.make(width, height);
 }
 

@@ -3,8 +3,8 @@
 namespace domefall {
 
 std::unique_ptr<Sha256Sum> begin_sha256() {
-  static const auto& loaded = static_cast<const Sha256Sums&>(
-      load_library("libdomefall_libcrypto_sums.so", "domefall_libcrypto_sums", "makes checksums"));
+  static const auto& loaded =
+      late_library<Sha256Sums>("domefall_libcrypto_sums", "makes checksums");
   return loaded.begin();
 }
 

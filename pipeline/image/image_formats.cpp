@@ -4,8 +4,7 @@ namespace domefall {
 
 // The library stays for good, since OpenImageIO keeps threads.
 const ImageFormats& image_formats() {
-  static const auto& loaded = static_cast<const ImageFormats&>(
-      load_library("libdomefall_image_formats.so", "domefall_image_formats", "reads images"));
+  static const auto& loaded = late_library<ImageFormats>("domefall_image_formats", "reads images");
   return loaded;
 }
 

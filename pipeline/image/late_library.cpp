@@ -1,21 +1,21 @@
 #include "pipeline/image/late_library.h"
 
 #include <dlfcn.h>
-
-#include <string>
+#include <fmt/format.h>
 
 #include "pipeline/image/errors.h"
 
 namespace domefall {
 
-const Interface& load_library(const char* library, const char* entry, const char* work) {
-  void* loaded = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+const Interface& load_library(const std::string& name, const char* work) {
+  const std::string library = "lib" + name + ".so";
+  void* loaded = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
   using Entry = const Interface* (*)();
-  const auto function = loaded ? reinterpret_cast<Entry>(dlsym(loaded, entry)) : nullptr;
+  const auto function = loaded ? reinterpret_cast<Entry>(dlsym(loaded, name.c_str())) : nullptr;
   if (function) return *function();
   const char* reason = dlerror();
-  throw TemporaryError(std::string("the part of this program that ") + work +
-                       " cannot be loaded: " + (reason ? reason : library));
+  throw TemporaryError(fmt::format("the part of this program that {} cannot be loaded: {}", work,
+                                   reason ? reason : library));
 }
 
 }  // namespace domefall

@@ -3,8 +3,7 @@
 namespace domefall {
 
 std::unique_ptr<TiffFile> begin_tiff(ByteSink& sink, const TiffLayout& layout) {
-  static const auto& files = static_cast<const TiffFiles&>(
-      load_library("libdomefall_libtiff_file.so", "domefall_libtiff_file", "writes TIFF files"));
+  static const auto& files = late_library<TiffFiles>("domefall_libtiff_file", "writes TIFF files");
   return files.begin(sink, layout);
 }
 

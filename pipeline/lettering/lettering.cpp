@@ -4,8 +4,7 @@ namespace domefall {
 
 // The library stays for good, since fontconfig keeps what it has read of the machine's fonts.
 const Lettering& lettering() {
-  static const auto& loaded = static_cast<const Lettering&>(
-      load_library("libdomefall_pango_lettering.so", "domefall_pango_lettering", "writes text"));
+  static const auto& loaded = late_library<Lettering>("domefall_pango_lettering", "writes text");
   return loaded;
 }
 
