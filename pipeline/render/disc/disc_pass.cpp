@@ -69,7 +69,7 @@ DiscPass::DiscPass(const FrameScene& scene)
 double DiscPass::left_before(const CameraDirection& n, double psi) const {
   // A body that moves in the plane itself is not hidden by the disc there.
   constexpr double kInPlane = 1e-6;
-  Pixels pixel;
+  Crossings pixel;
   const double angle = central_pixel_angle(scene_.projection());
   locate(&n, &angle, 1, pixel);
   if (!(pixel.energy[0] > 0)) return 1;

@@ -37,13 +37,13 @@ class DiscPass {
   // disc the part changes smoothly over a pixel.
   double left_before(const CameraDirection& n, double psi) const;
 
-  struct Pixels;
+  struct Crossings;
 
  private:
   class Strip;
   class Row;
   void draw(Row& line, int first, int end, float* rgb) const;
-  void locate(const CameraDirection* n, const double* angle, int count, Pixels& pixels) const;
+  void locate(const CameraDirection* n, const double* angle, int count, Crossings& crossings) const;
 
   const FrameScene& scene_;
   DiscImages images_;

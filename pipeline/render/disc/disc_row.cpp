@@ -107,19 +107,19 @@ void DiscPass::Row::locate(int row, int count, const ColumnOf& column_of) {
     j[static_cast<std::size_t>(k)] = row + 1;
   }
   find_directions(pass_.scene_.projection(), i.data(), j.data(), count, n.data(), angle.data());
-  pass_.locate(n.data(), angle.data(), count, pixels_);
+  pass_.locate(n.data(), angle.data(), count, crossings_);
 }
 
 void DiscPass::Row::find_nodes(int row, int first, int count) {
   locate(row, count, [&](int k) { return first_ + (first + k) * kStep; });
   std::array<bool, Strip::kSize> lit{};
   for (int k = 0; k < count; ++k) {
-    const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(pixels_, k);
+    const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(crossings_, k);
     lit[static_cast<std::size_t>(k)] = node.lit;
   }
   // A pattern is too fine for cubics.  Its nodes only show where nothing is lit, and need no light.
   if (pass_.pattern_) return;
-  strip_.look(pixels_, count, lit.data());
+  strip_.look(crossings_, count, lit.data());
   for (int k = 0; k < count; ++k) {
     Node& node = nodes_[static_cast<std::size_t>(first + k)];
     node.light = strip_.light(k);
@@ -127,21 +127,21 @@ void DiscPass::Row::find_nodes(int row, int first, int count) {
   }
 }
 
-DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
+DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) const {
   constexpr double kFar = 1e3;
   constexpr unsigned kNoLight = ~0u;
   Node node;
-  if (!(pixels.energy[k] > 0)) {
+  if (!(crossings.energy[k] > 0)) {
     node.sight = kNoLight;
     node.clearance = kFar;
     return node;
   }
   // Where the azimuth or psi_0 changes too much from node to node, the clearance stays 0.
-  const double turned = kStep * pixels.azimuth_per[k];
-  const double toward = pass_.normal_across_ * pixels.azimuth_cosine[k];
+  const double turned = kStep * crossings.azimuth_per[k];
+  const double toward = pass_.normal_across_ * crossings.azimuth_cosine[k];
   const double from_plane = std::sqrt(pass_.normal_up_ * pass_.normal_up_ + toward * toward);
   if (turned > kSteady || turned * pass_.normal_across_ > kSteady * from_plane) return node;
-  const double p = pixels.label[k], per = pixels.label_per[k];
+  const double p = crossings.label[k], per = crossings.label_per[k];
   const DiscImages& images = pass_.images_;
   double clearance = kFar;
   // Each order sets two bits of the sight.  A ray far from the range of an order needs no interval.
@@ -153,7 +153,7 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Pixels& pixels, int k) const {
     if (above > kNotNear) {
       place = kAbove;
     } else if (!(beneath > kNotNear)) {
-      const double turn = pixels.turn[k] + order * pi, turn_per = pixels.turn_per[k];
+      const double turn = crossings.turn[k] + order * pi, turn_per = crossings.turn_per[k];
       const DiscImages::Interval rims = images.interval(turn);
       const double over_low = (p - rims.low) / (per + std::abs(rims.low_slope) * turn_per),
                    over_high = (p - rims.high) / (per + std::abs(rims.high_slope) * turn_per);
@@ -236,7 +236,7 @@ void DiscPass::Row::draw_singly(int row, float* rgb) {
     const int* column = &single_[at];
     const int count = static_cast<int>(std::min<std::size_t>(single_.size() - at, Strip::kSize));
     locate(row, count, [column](int k) { return column[k]; });
-    strip_.look(pixels_, count);
+    strip_.look(crossings_, count);
     for (int k = 0; k < count; ++k) {
       const auto left = static_cast<float>(strip_.left(k));
       const WorkingRgb& light = strip_.light(k);

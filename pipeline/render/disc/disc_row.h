@@ -39,7 +39,7 @@ class DiscPass::Row {
   template <class ColumnOf>
   void locate(int row, int count, const ColumnOf& column_of);
   void find_nodes(int row, int first, int count);
-  Node sighted(const Pixels& pixels, int k) const;
+  Node sighted(const Crossings& crossings, int k) const;
   bool joined(const Node& a, const Node& b) const;
   void draw_run(std::size_t first, std::size_t last, float* rgb);
   bool draw_cell(std::size_t cell, std::size_t first, std::size_t last, float* rgb) const;
@@ -49,7 +49,7 @@ class DiscPass::Row {
   float exposure_;
   bool with_nodes_;
   Strip strip_;
-  Pixels pixels_;
+  Crossings crossings_;
   int first_ = 0;  // column of the first node
   std::vector<Node> nodes_;
   std::vector<int> single_;  // columns of pixels that are computed one by one

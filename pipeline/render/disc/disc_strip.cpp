@@ -26,29 +26,29 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 DiscPass::Strip::Strip(const DiscPass& pass)
     : pass_(pass), effects_(pass.scene_.effects), disc_(pass.scene_.disc->disc()) {}
 
-void DiscPass::Strip::look(const Pixels& pixels, int count, const bool* wanted) {
+void DiscPass::Strip::look(const Crossings& crossings, int count, const bool* wanted) {
   light_.fill(WorkingRgb{0, 0, 0});
   for (int k = 0; k < count; ++k) {
     double& left = left_[static_cast<std::size_t>(k)];
     left = 1;
-    if (!(pixels.energy[k] > 0) || (wanted && !wanted[k])) continue;
-    const double turn_per = pixels.turn_per[k];
-    left = turn_per < kMostTurn && pixels.azimuth_per[k] < 0.5
-               ? look_at(pixels, k,
-                         {pixels.turn[k], turn_per, pixels.azimuth_cosine[k],
-                          pixels.azimuth_sine[k], 1})
-               : look_at_divisions(pixels, k);
+    if (!(crossings.energy[k] > 0) || (wanted && !wanted[k])) continue;
+    const double turn_per = crossings.turn_per[k];
+    left = turn_per < kMostTurn && crossings.azimuth_per[k] < 0.5
+               ? look_at(crossings, k,
+                         {crossings.turn[k], turn_per, crossings.azimuth_cosine[k],
+                          crossings.azimuth_sine[k], 1})
+               : look_at_divisions(crossings, k);
   }
   flush();
 }
 
 // Divides a pixel so that psi_0 changes little in each division, and returns the part of the light
 // from behind that is left.
-double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
+double DiscPass::Strip::look_at_divisions(const Crossings& crossings, int k) {
   // psi_0 = atan2(up, across cos(azimuth)) grows as |azimuth| grows from 0 to pi.
   const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
-  const double azimuth = arc_tangent2(pixels.azimuth_sine[k], pixels.azimuth_cosine[k]);
-  const double half = std::min(pixels.azimuth_per[k], pi) / 2;
+  const double azimuth = arc_tangent2(crossings.azimuth_sine[k], crossings.azimuth_cosine[k]);
+  const double half = std::min(crossings.azimuth_per[k], pi) / 2;
   const auto turn_at = [&](double at) {
     const double turn = arc_tangent2(up, across * sin_cos(at).cosine);
     return turn > 0 ? turn : pi;
@@ -73,7 +73,7 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
       const double after = n == count ? last : sign * turned;
       const double part = std::abs(after - before) / (2 * half);
       const SineCosine middle = sin_cos((before + after) / 2);
-      left += part * look_at(pixels, k,
+      left += part * look_at(crossings, k,
                              {turn_at((before + after) / 2), std::abs(end - begin) / count,
                               middle.cosine, middle.sine, part});
       before = after;
@@ -92,9 +92,9 @@ double DiscPass::Strip::look_at_divisions(const Pixels& pixels, int k) {
 }
 
 // Adds the samples of a division, and returns the part of the light from behind that is left there.
-double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& division) {
+double DiscPass::Strip::look_at(const Crossings& crossings, int k, const Division& division) {
   const DiscImages& images = pass_.images_;
-  const double p = pixels.label[k], per = pixels.label_per[k];
+  const double p = crossings.label[k], per = crossings.label_per[k];
   Veil<DiscImages::kOrders> veil;
   double left = 1;
   for (int order = 0; order < images.orders() && left > 1e-4; ++order) {
@@ -106,7 +106,7 @@ double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& div
         beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
     if (!(share.to - share.from > 1e-5)) continue;
     const double seen = veil.lay(share.from, share.to, disc_.opacity);
-    shade(pixels, k, division, turn, rims, share, seen * division.part);
+    shade(crossings, k, division, turn, rims, share, seen * division.part);
     left = veil.left();
   }
   return left;
@@ -114,14 +114,15 @@ double DiscPass::Strip::look_at(const Pixels& pixels, int k, const Division& div
 
 // Adds the light of the part of an image that a pixel sees.  This is the mean over that part of the
 // interval, with the pixel's own weights, so that all pixels together count each place once.
-void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& division, double turn,
-                            const DiscImages::Interval& rims, const Share& share, double weight) {
-  const double width = rims.high - rims.low, p = pixels.label[k];
+void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& division,
+                            double turn, const DiscImages::Interval& rims, const Share& share,
+                            double weight) {
+  const double width = rims.high - rims.low, p = crossings.label[k];
   // `per` is the change of p across the pixel, relative to the image.  The slope of the image along
   // psi is interpolated between those of the two rims.
   const double near = std::clamp((p - rims.low) / width, 0.0, 1.0);
   const double slope = rims.low_slope + (rims.high_slope - rims.low_slope) * near;
-  const double per = length(pixels.label_per[k], slope * division.turn_per);
+  const double per = length(crossings.label_per[k], slope * division.turn_per);
   const auto label_at = [&](double covered) {
     return std::clamp(p - distance_to_rim(covered) * per, rims.low, rims.high);
   };
@@ -133,14 +134,14 @@ void DiscPass::Strip::shade(const Pixels& pixels, int k, const Division& divisio
   for (int n = 0; n < count; ++n) {
     const double label = label_at(share.to + (share.from - share.to) * (n + 0.5) / count);
     const double u = (label - rims.low) / width;
-    put(pixels, k, division, turn, label, u, weight / count);
-    if (pass_.pattern_) note_place(pixels, k, division, turn, u, seen / count);
+    put(crossings, k, division, turn, label, u, weight / count);
+    if (pass_.pattern_) note_place(crossings, k, division, turn, u, seen / count);
     if (count_ == kSize) flush();
   }
 }
 
 // Notes one sample: its radius, its frequency ratio g as the observer measures it, and its weight.
-void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division, double turn,
+void DiscPass::Strip::put(const Crossings& crossings, int k, const Division& division, double turn,
                           double label, double u, double weight) {
   const double r = 1 / pass_.images_.inverse_radius(turn, u);
   const double w0 = 1 / pass_.r_;
@@ -148,14 +149,14 @@ void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division,
   // The orbit equation w'^2 = 1/b^2 - w^2 + 2 w^3, taken at the observer, where w' = p, gives
   // 1/b^2 = p^2 + w_0^2 - 2 w_0^3.  Straight light has no cubic term.
   const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
-  const double energy = pixels.energy[k];
+  const double energy = crossings.energy[k];
   const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
   // L times `about` is L_n = -L (r^ x e^).n of disc_shift.h.
   const double about =
       (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * division.azimuth_sine;
   const double shift = disc_shift({energy, momentum, momentum * about}, r,
                                   r < kLastStableOrbit && outward(turn, label, u));
-  const double g = pixels.rays.frequency[k] / shift;
+  const double g = crossings.rays.frequency[k] / shift;
   samples_.r[count_] = static_cast<float>(r);
   samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
   samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
@@ -165,8 +166,8 @@ void DiscPass::Strip::put(const Pixels& pixels, int k, const Division& division,
 
 // Notes the place and the time of the last sample for the pattern.  `part` is the range of u that
 // the sample covers.
-void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& division, double turn,
-                                 double u, double part) {
+void DiscPass::Strip::note_place(const Crossings& crossings, int k, const Division& division,
+                                 double turn, double u, double part) {
   const DiscImages::Moment at = pass_.images_.moment(turn, u);
   const SineCosine turned = sin_cos(turn);
   const double r = 1 / at.w;
@@ -180,8 +181,8 @@ void DiscPass::Strip::note_place(const Pixels& pixels, int k, const Division& di
   const double time = disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
   // Across the pixel the place moves along psi, and at right angles to that about R.  The gas also
   // turns on while the time of emission changes.
-  const double moved =
-                   length(division.turn_per, turned.sine * pixels.azimuth_per[k] * division.part),
+  const double moved = length(division.turn_per,
+                              turned.sine * crossings.azimuth_per[k] * division.part),
                aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
   samples_.place[count_ - 1] = {r, arc_tangent2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
                                 time, std::abs(at.w_slope) * part * r * r, length(moved, aged)};

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "pipeline/render/disc/disc_pixels.h"
+#include "pipeline/render/disc/disc_crossings.h"
 
 namespace domefall {
 
@@ -16,7 +16,7 @@ class DiscPass::Strip {
   explicit Strip(const DiscPass& pass);
 
   // Finds light() and left() of `count` <= kSize pixels, or only of those that are `wanted`.
-  void look(const Pixels& pixels, int count, const bool* wanted = nullptr);
+  void look(const Crossings& crossings, int count, const bool* wanted = nullptr);
 
   // These return the light that the k-th pixel gets from the disc (cd/m^2), and the part of the
   // light from behind that is left there.
@@ -37,14 +37,14 @@ class DiscPass::Strip {
     double from, to;
   };
 
-  double look_at_divisions(const Pixels& pixels, int k);
-  double look_at(const Pixels& pixels, int k, const Division& division);
-  void shade(const Pixels& pixels, int k, const Division& division, double turn,
+  double look_at_divisions(const Crossings& crossings, int k);
+  double look_at(const Crossings& crossings, int k, const Division& division);
+  void shade(const Crossings& crossings, int k, const Division& division, double turn,
              const DiscImages::Interval& rims, const Share& share, double weight);
-  void put(const Pixels& pixels, int k, const Division& division, double turn, double label,
+  void put(const Crossings& crossings, int k, const Division& division, double turn, double label,
            double u, double weight);
-  void note_place(const Pixels& pixels, int k, const Division& division, double turn, double u,
-                  double part);
+  void note_place(const Crossings& crossings, int k, const Division& division, double turn,
+                  double u, double part);
   bool outward(double turn, double label, double u) const;
   void flush();
 

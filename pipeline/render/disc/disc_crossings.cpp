@@ -1,4 +1,4 @@
-#include "pipeline/render/disc/disc_pixels.h"
+#include "pipeline/render/disc/disc_crossings.h"
 
 #include <cmath>
 
@@ -16,10 +16,10 @@ struct DiscSight {
 };
 
 [[gnu::always_inline]] inline void locate_on_disc_loop(const DiscSight& sight, const double* angle,
-                                                       int count, DiscPass::Pixels& pixels) {
+                                                       int count, DiscPass::Crossings& crossings) {
   const DiscSight o = sight;
   for (int k = 0; k < count; ++k) {
-    const double x = pixels.rays.x[k], y = pixels.rays.y[k], z = pixels.rays.z[k];
+    const double x = crossings.rays.x[k], y = crossings.rays.y[k], z = crossings.rays.z[k];
     const double across2 = y * y + z * z, across = std::sqrt(across2);
     const double sine = across > 1e-12 ? across : 1e-12;
     // The angle alpha counts from the hole in the rain frame and from the opposite direction in the
@@ -32,7 +32,7 @@ struct DiscSight {
     const double free = o.energy_sign * energy;
     const double kept = free > 0 ? free : 0;
     const double e = o.straight > 0 ? o.straight : kept;
-    const double pixel = angle[k] * pixels.rays.scale[k];
+    const double pixel = angle[k] * crossings.rays.scale[k];
     const double labelled = (cosine - o.s) / (o.r * sine);
     // These are the cosine and the sine of the azimuth about R from the normal's part across R to
     // the tangent in which the ray sweeps psi.
@@ -41,40 +41,40 @@ struct DiscSight {
     const double side = o.normal_up > 0 ? -1 : 1;
     const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
     const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
-    pixels.energy[k] = e;
-    pixels.label[k] = o.label_sign * labelled;
+    crossings.energy[k] = e;
+    crossings.label[k] = o.label_sign * labelled;
     // The derivative of p = (cos alpha - s)/(r sin alpha) is dp/dalpha = -E/(r sin^2 alpha).  For
     // straight light s = 0, and 1 stands for E.
     const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
-    pixels.label_per[k] = rate / (o.r * sine * sine) * pixel;
+    crossings.label_per[k] = rate / (o.r * sine * sine) * pixel;
     // After psi the ray is at cos(psi) r^ + sin(psi) e^, which lies in the plane of the normal n
     // where tan psi = -(n.r^)/(n.e^).
     const double turn = arc_tangent2(up, toward);
-    pixels.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
-    pixels.azimuth_cosine[k] = side * along;
-    pixels.azimuth_sine[k] = side * beside;
-    pixels.azimuth_per[k] = pixel / sine;
+    crossings.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
+    crossings.azimuth_cosine[k] = side * along;
+    crossings.azimuth_sine[k] = side * beside;
+    crossings.azimuth_per[k] = pixel / sine;
     // By tan psi_0 = up/toward, psi_0 changes by up/(up^2 + toward^2) for each unit of `toward`.
     // The smallest `toward` within the pixel makes this an upper bound.
     const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
     const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
     const double square = up * up + off * off;
-    pixels.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
+    crossings.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
   }
 }
 
 }  // namespace
 
 void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
-                      Pixels& pixels) const {
+                      Crossings& crossings) const {
   static const Dispatched<locate_on_disc_loop> loop;
-  scene_.tracer.into_frame(n, count, pixels.rays);
+  scene_.tracer.into_frame(n, count, crossings.rays);
   const bool straight = scene_.tracer.goes_straight();
   const DiscSight sight{r_,          straight ? 0 : s_, straight ? 1 : one_minus_s_,
                         label_sign_, energy_sign_,      straight ? std::sqrt((r_ - 2) / r_) : 0.0,
                         normal_up_,  normal_across_,    normal_cosine_,
                         normal_sine_};
-  loop(sight, angle, count, pixels);
+  loop(sight, angle, count, crossings);
 }
 
 }  // namespace domefall

@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-struct DiscPass::Pixels {
+struct DiscPass::Crossings {
   template <class T>
   using Column = std::array<T, ViewRayBatch::kSize>;
   FrameRayBatch rays;
