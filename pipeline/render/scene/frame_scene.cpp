@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pipeline/render/scene/exposure.h"
+#include "trajectories/directions.h"
 
 namespace domefall {
 namespace {

@@ -28,8 +28,8 @@ struct SkyMotion {
 };
 
 struct FrameScene {
-  // `skies` has null for a sky that the plan leaves out.  The show, the optics, the skies
-  // and `disc_light` must outlive the scene.  `disc_light` is the light of the show's disc, or null
+  // `skies` has null for a sky that the plan leaves out.  The show, the optics, the skies and
+  // `disc_light` must outlive the scene.  `disc_light` is the light of the show's disc, or null
   // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
