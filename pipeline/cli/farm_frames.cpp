@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/farm/manifest.h"
 #include "pipeline/farm/plan.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/cli/interruption.h"
+#include "pipeline/image/frame_list.h"
 
 namespace domefall {
 namespace {

@@ -20,6 +20,7 @@
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_condition.h"
 #include "pipeline/image/frame_file.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/render/rays/steady.h"

@@ -125,15 +125,4 @@ std::string describe_strangers(const FrameFolder& folder) {
   return names.empty() ? std::string() : folder.path().string() + ": " + describe_strangers(names);
 }
 
-std::string as_ranges(const std::vector<int>& frames) {
-  std::string text;
-  for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
-    if (!text.empty()) text += ',';
-    text += fmt::to_string(frames[first]);
-    if (last > first) text += fmt::format("-{}", frames[last]);
-  }
-  return text;
-}
-
 }  // namespace domefall

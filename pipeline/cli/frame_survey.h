@@ -41,7 +41,4 @@ std::string describe_strangers(const std::vector<std::string>& files);
 // nothing.
 std::string describe_strangers(const FrameFolder& folder);
 
-// 0-9,12
-std::string as_ranges(const std::vector<int>& frames);
-
 }  // namespace domefall

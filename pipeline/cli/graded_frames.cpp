@@ -9,6 +9,7 @@
 #include "pipeline/cli/frame_survey.h"
 #include "pipeline/deliver/in_parallel.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/image/image_formats.h"
 
 namespace domefall {

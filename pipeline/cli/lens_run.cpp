@@ -11,6 +11,7 @@
 #include "pipeline/cli/progress.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/render/lens_map.h"
 #include "pipeline/render/overlay/seen_better.h"

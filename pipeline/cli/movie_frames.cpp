@@ -14,6 +14,7 @@
 #include "pipeline/cli/keyed_renderer.h"
 #include "pipeline/cli/progress.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/image/read_graded.h"
 #include "pipeline/render/frame_grading.h"
 

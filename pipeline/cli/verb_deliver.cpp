@@ -17,6 +17,7 @@
 #include "pipeline/deliver/contact_sheet.h"
 #include "pipeline/deliver/delivery_check.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 

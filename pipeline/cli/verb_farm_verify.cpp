@@ -13,6 +13,7 @@
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
 
 namespace domefall {
 namespace {

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/movie_frames.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
@@ -13,6 +12,7 @@
 #include "pipeline/image/atomic_file.h"
 #include "pipeline/image/errors.h"
 #include "pipeline/image/frame_file.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/movie/burn_in.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/render/thread_limit.h"

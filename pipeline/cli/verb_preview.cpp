@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "pipeline/cli/browser.h"
-#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_choice.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/interruption.h"
 #include "pipeline/cli/number_in.h"

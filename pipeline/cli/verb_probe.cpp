@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipeline/cli/bodies_at_pixel.h"
-#include "pipeline/cli/frame_range.h"
+#include "pipeline/cli/frame_choice.h"
 #include "pipeline/cli/json_number.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/stars_at_pixel.h"

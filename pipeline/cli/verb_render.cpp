@@ -1,13 +1,13 @@
 #include <CLI/CLI.hpp>
 
 #include "pipeline/cli/frame_folder.h"
-#include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/frame_run.h"
 #include "pipeline/cli/lens_run.h"
 #include "pipeline/cli/number_in.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/overlay_option.h"
 #include "pipeline/cli/verbs.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/show/frame_size.h"
 #include "pipeline/show/read_show.h"
 

@@ -8,12 +8,12 @@
 #include <variant>
 #include <vector>
 
-#include "pipeline/cli/frame_range.h"
 #include "pipeline/cli/json_number.h"
 #include "pipeline/cli/option_types.h"
 #include "pipeline/cli/output_file.h"
 #include "pipeline/cli/verbs.h"
 #include "pipeline/diagram/page.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/read_show.h"
 #include "pipeline/show/state_columns.h"

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "pipeline/farm/worker_process.h"
 #include "pipeline/image/errors.h"
+#include "pipeline/image/frame_list.h"
+#include "pipeline/show/show.h"
 
 namespace domefall {
 namespace {
@@ -68,31 +70,15 @@ FramesVerdict verify_frames(const FarmPlan& plan) {
 FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most) {
   const int round = plan.rounds.empty() ? 1 : plan.rounds.back().round + 1;
   const auto first = chunks_of_round(plan, 0);
-  std::vector<int> frames;
-  for (std::size_t at = 0; at < verdict.to_make.size();) {
-    int from = 0, to = 0;
-    const char* const end = verdict.to_make.data() + verdict.to_make.size();
-    const char* next = std::from_chars(verdict.to_make.data() + at, end, from).ptr;
-    to = from;
-    if (next != end && *next == '-') next = std::from_chars(next + 1, end, to).ptr;
-    for (int frame = from; frame <= to; ++frame) frames.push_back(frame);
-    at = static_cast<std::size_t>(next - verdict.to_make.data()) + 1;
-  }
+  const std::vector<int> frames = parse_frames(verdict.to_make, kMostFrames);
   const int wanted = std::max<int>(1, static_cast<int>(first.size()));
   const int per_chunk =
       std::max({1, verdict.frames / wanted, (static_cast<int>(frames.size()) + most - 1) / most});
   int task = 0;
-  for (std::size_t k = 0; k < frames.size(); k += static_cast<std::size_t>(per_chunk)) {
-    const std::size_t last = std::min(frames.size(), k + static_cast<std::size_t>(per_chunk));
-    std::string text;
-    for (std::size_t i = k; i < last;) {
-      std::size_t j = i;
-      while (j + 1 < last && frames[j + 1] == frames[j] + 1) ++j;
-      text += fmt::format("{}{}", text.empty() ? "" : ",", frames[i]);
-      if (j > i) text += fmt::format("-{}", frames[j]);
-      i = j + 1;
-    }
-    plan.chunks.push_back({round, task++, text, 0});
+  for (auto rest = std::span(frames); !rest.empty();) {
+    const auto chunk = rest.first(std::min(rest.size(), static_cast<std::size_t>(per_chunk)));
+    plan.chunks.push_back({round, task++, as_ranges({chunk.begin(), chunk.end()}), 0});
+    rest = rest.subspan(chunk.size());
   }
   plan.rounds.push_back({round, {}, utc_now()});
   return plan;

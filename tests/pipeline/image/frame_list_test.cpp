@@ -1,4 +1,4 @@
-#include "pipeline/cli/frame_range.h"
+#include "pipeline/image/frame_list.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using testing::ElementsAre;
 
-TEST(FrameRange, NamesFramesOneByOneByRangeAndByStep) {
+TEST(FrameLists, NamesFramesOneByOneByRangeAndByStep) {
   EXPECT_THAT(parse_frames("", 3), ElementsAre(0, 1, 2));
   EXPECT_THAT(parse_frames("7", 10), ElementsAre(7));
   EXPECT_THAT(parse_frames("2-5", 10), ElementsAre(2, 3, 4, 5));
@@ -18,10 +18,17 @@ TEST(FrameRange, NamesFramesOneByOneByRangeAndByStep) {
   EXPECT_THAT(parse_frames("5-9x2147483647", 10), ElementsAre(5));
 }
 
-TEST(FrameRange, RefusesWhatTheShowHasNotAndWhatIsNoRange) {
+TEST(FrameLists, RefusesWhatTheShowHasNotAndWhatIsNoRange) {
   for (const char* text :
        {"10", "0-10", "5-2", "x", "-1", "1-", "1,", "1 2", "0-9x0", "99999999999", "1.5", "0-9y2"})
     EXPECT_THROW(parse_frames(text, 10), InputError) << text;
+}
+
+TEST(FrameLists, AreWrittenAsRanges) {
+  EXPECT_EQ(as_ranges({}), "");
+  EXPECT_EQ(as_ranges({7}), "7");
+  EXPECT_EQ(as_ranges({0, 1, 2, 9, 11, 12}), "0-2,9,11-12");
+  EXPECT_THAT(parse_frames(as_ranges({0, 1, 2, 9, 11, 12}), 13), ElementsAre(0, 1, 2, 9, 11, 12));
 }
 
 }  // namespace

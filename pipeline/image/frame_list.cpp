@@ -1,16 +1,13 @@
-#include "pipeline/cli/frame_range.h"
+#include "pipeline/image/frame_list.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <numeric>
 #include <set>
+#include <string_view>
 
-#include "pipeline/cli/number_in.h"
 #include "pipeline/image/errors.h"
-#include "pipeline/show/nearest_word.h"
-#include "pipeline/show/show_time.h"
 
 namespace domefall {
 namespace {
@@ -59,29 +56,15 @@ std::vector<int> parse_frames(const std::string& text, int count) {
   return {frames.begin(), frames.end()};
 }
 
-void add_frame_choice(CLI::App& verb, FrameChoice& choice) {
-  auto* frame = verb.add_option("--frame", choice.frame, "frame number, from 0")
-                    ->check(number_in(0, kMostFrames - 1));
-  verb.add_option("--at", choice.at, "instead: a time of the show, 34.5, 0:34.5 or a marker")
-      ->type_name("TIME")
-      ->excludes(frame);
-}
-
-int chosen_frame(const FrameChoice& choice, const Show& show) {
-  if (choice.at.empty())
-    return parse_frames(fmt::to_string(choice.frame), frame_count(show)).front();
-  const auto seconds = parse_time(choice.at, show.markers);
-  const double end = end_of(show);
-  if (!seconds) {
-    std::vector<std::string_view> names;
-    for (const Marker& marker : show.markers) names.push_back(marker.name);
-    throw InputError("--at " + choice.at + ": expected seconds, a time such as 1:02.5" +
-                     (names.empty() ? "" : " or a marker (" + listed(names) + ")"));
+std::string as_ranges(const std::vector<int>& frames) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
+    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+    if (!text.empty()) text += ',';
+    text += fmt::to_string(frames[first]);
+    if (last > first) text += fmt::format("-{}", frames[last]);
   }
-  if (*seconds > end)
-    throw InputError(fmt::format("--at {}: the show ends at {} s ({})", choice.at,
-                                 short_number(end), clock_text(end)));
-  return nearest_frame(show, *seconds);
+  return text;
 }
 
 }  // namespace domefall

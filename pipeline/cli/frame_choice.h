@@ -1,4 +1,4 @@
-// The options --frames, --frame and --at.
+// The options --frame and --at.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,11 +8,6 @@
 #include "pipeline/show/show.h"
 
 namespace domefall {
-
-// The frames that a text names, sorted and each once: "7", "0-299", "0-599x10" (every tenth), or
-// several of these joined by commas.  An empty text stands for all `count` frames.  Throws
-// InputError for any other text and for frames that the show does not have.
-std::vector<int> parse_frames(const std::string& text, int count);
 
 // The options --frame and --at of verbs for one frame.
 struct FrameChoice {
