@@ -12,8 +12,8 @@ namespace domefall {
 namespace {
 
 // Says whether the observer is outside a body of that radius, which then has an angular radius
-// below 1 radian.  The size within the ray's plane decides, since the lens stretches an image behind the
-// hole about the axis only.
+// below 1 radian.  The size within the ray's plane decides, since the lens stretches an image
+// behind the hole about the axis only.
 bool is_outside(const BodyImage& image, double radius) {
   return image.angle_per_length * radius < 1;
 }
