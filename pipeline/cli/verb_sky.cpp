@@ -140,7 +140,7 @@ void check_map(const std::string& path, const std::string& stars) {
   require_file(path);
   Orientation stated;
   if (is_sky_file(path)) stated = SkyFile(path).origin().panorama.value_or(stated);
-  const auto map = read_sky(path);
+  const auto map = read_sky(path).map;
   const StarCatalogue catalogue = check_stars(stars);
   const SkyCheck check = check_orientation(*map, stated, catalogue);
   print_check(check, known_places(*map, catalogue));

@@ -32,15 +32,21 @@ FloatImage read_panorama(const std::filesystem::path& file) {
 // not, because only the parts that are sampled should be read.
 constexpr std::uint64_t kReadWhole = std::uint64_t{256} << 20;
 
+// The line never comes first in the text, because import_sky() writes the source before it.
+bool is_microwave_background(const SkyOrigin& origin) {
+  return origin.text.find(std::string("\n") + kMicrowaveBackground) != std::string::npos;
+}
+
 }  // namespace
 
-std::shared_ptr<const SkyMap> read_sky(const std::filesystem::path& file, int largest_face) {
+BackgroundMap read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
     const SkyFile opened(file);
     if (opened.bytes() <= kReadWhole) opened.verify(largest_face);
-    return std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face));
+    return {std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face)),
+            is_microwave_background(opened.origin())};
   }
-  return std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face));
+  return {std::make_shared<const SkyMap>(map_of_panorama(read_panorama(file), largest_face))};
 }
 
 void try_sky(const std::filesystem::path& file) {
@@ -48,12 +54,6 @@ void try_sky(const std::filesystem::path& file) {
     read_sky(file);
   else
     read_panorama(file);
-}
-
-// The line never comes first in the text, because import_sky() writes the source before it.
-bool is_microwave_background(const std::filesystem::path& file) {
-  return is_sky_file(file) && SkyFile(file).origin().text.find(
-                                  std::string("\n") + kMicrowaveBackground) != std::string::npos;
 }
 
 std::string sky_digest(const std::filesystem::path& file) {

@@ -6,7 +6,6 @@
 
 #include "pipeline/sky/catalogue/read_star_catalogue.h"
 #include "pipeline/sky/maps/sky_file.h"
-#include "pipeline/sky/read_sky.h"
 
 namespace domefall {
 namespace {
@@ -14,9 +13,10 @@ namespace {
 // Returns what is subtracted from a map's light as its black: the level that the show gives, or
 // else the map's own dark level.  The microwave background has no such level, since it is a glow of
 // its own, whose darkest parts are no floor of a panorama.
-DarkLevel black_of(const PanoramaSky& sky, const SkyMap& map) {
-  if (sky.black) return {light_of_luminance(map, *sky.black / sky.brightness), *sky.black};
-  if (is_microwave_background(sky.image)) return {};
+DarkLevel black_of(const PanoramaSky& sky, const BackgroundMap& background) {
+  const SkyMap& map = *background.map;
+  if (sky.black) return {*sky.black / sky.brightness * light_per_luminance(map), *sky.black};
+  if (background.is_microwave_background) return {};
   DarkLevel level = dark_level(map);
   level.luminance *= sky.brightness;
   return level;
@@ -60,9 +60,8 @@ void SkyStore::load_background(Kept& kept) {
     found = maps_.emplace(panorama->image, read_sky(panorama->image, detail_.largest_face)).first;
     if (is_made) made_.insert(panorama->image);
   }
-  const auto& map = found->second;
-  background = map;
-  kept.sky.black = black_of(*panorama, *map);
+  background = found->second.map;
+  kept.sky.black = black_of(*panorama, found->second);
 }
 
 // Stars that another sky has loaded already are shared.
@@ -94,7 +93,7 @@ SkyStore::Kept& SkyStore::kept_sky(SkyRegion which,
 bool SkyStore::has_room() const {
   std::size_t sum = 0, largest_map = 0;
   for (const auto& file : made_) {
-    const std::size_t bytes = maps_.at(file)->bytes();
+    const std::size_t bytes = maps_.at(file).map->bytes();
     sum += bytes;
     largest_map = std::max(largest_map, bytes);
   }

@@ -18,6 +18,7 @@
 #include "pipeline/show/show.h"
 #include "pipeline/sky/maps/dark_level.h"
 #include "pipeline/sky/maps/sky_map.h"
+#include "pipeline/sky/read_sky.h"
 #include "trajectories/sky_region.h"
 
 namespace domefall {
@@ -90,7 +91,7 @@ class SkyStore {
   SkyDetail detail_;
   std::mutex loading_;
   PerSky<std::deque<Kept>> skies_;  // a deque, so that elements stay where they are
-  std::map<std::filesystem::path, std::shared_ptr<const SkyMap>> maps_;
+  std::map<std::filesystem::path, BackgroundMap> maps_;
   std::set<std::filesystem::path> made_;   // the files of maps that are made of images
   std::set<std::filesystem::path> tried_;  // the files that were tested and not loaded
   std::uint64_t plans_ = 0;

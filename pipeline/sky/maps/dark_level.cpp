@@ -82,8 +82,8 @@ DarkLevel dark_level(const SkyMap& map) {
   return {darkest.light, darkest.luminance};
 }
 
-double light_of_luminance(const SkyMap& map, double luminance) {
-  if (map.kind() == SkyMapKind::kColour) return luminance;
+double light_per_luminance(const SkyMap& map) {
+  if (map.kind() == SkyMapKind::kColour) return 1;
   // A map may be dark in many places.  Only a part that shines has a temperature, so the darkest of
   // these is taken.
   std::vector<Patch> patches = patches_of(map);
@@ -91,7 +91,7 @@ double light_of_luminance(const SkyMap& map, double luminance) {
   const auto darkest =
       std::min_element(patches.begin(), patches.end(),
                        [](const Patch& a, const Patch& b) { return a.light < b.light; });
-  return darkest == patches.end() ? 0 : luminance * darkest->light / darkest->luminance;
+  return darkest == patches.end() ? 0 : darkest->light / darkest->luminance;
 }
 
 }  // namespace domefall

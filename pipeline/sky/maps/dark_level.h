@@ -21,9 +21,9 @@ struct DarkLevel {
 // below, because a sky so even has no dark parts.
 DarkLevel dark_level(const SkyMap& map);
 
-// Returns the light (in the unit of DarkLevel::light) that has this luminance in cd/m^2 at the
-// temperature of the map's darkest parts.  For a colour map it is the luminance itself.  For a
-// thermal map without any visible light it is 0.
-double light_of_luminance(const SkyMap& map, double luminance);
+// Returns the light (in the unit of DarkLevel::light) that has a luminance of 1 cd/m^2 at the
+// temperature of the map's darkest parts.  For a colour map it is 1.  For a thermal map without any
+// visible light it is 0.
+double light_per_luminance(const SkyMap& map);
 
 }  // namespace domefall

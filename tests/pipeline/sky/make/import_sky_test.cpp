@@ -94,11 +94,10 @@ TEST_F(ImportSky, TheMicrowaveBackgroundIsKnownByItsFile) {
   SkyImport import = healpix([](int k) { return 1e-5f * static_cast<float>(k); });
   import.text = "licence: a map of the microwave background: free\n";
   EXPECT_EQ(refusal_of(import), "");
-  EXPECT_FALSE(is_microwave_background(import.out));
+  EXPECT_FALSE(read_sky(import.out).is_microwave_background);
   import.cmb = CmbSettings{};
   EXPECT_EQ(refusal_of(import), "");
-  EXPECT_TRUE(is_microwave_background(import.out));
-  EXPECT_FALSE(is_microwave_background(import.image));
+  EXPECT_TRUE(read_sky(import.out).is_microwave_background);
 }
 
 TEST_F(ImportSky, OnePixelOfLightIsEnough) {

@@ -73,11 +73,11 @@ TEST(DarkLevel, OfAThermalMapIsARadianceAndTheLuminanceThatBelongsToIt) {
   EXPECT_NEAR(dark.light, kRadiance, 1e-3 * kRadiance);
   // Half floats hold the temperature to 0.3 %, which enters about five times.
   EXPECT_NEAR(dark.luminance, efficacy * kRadiance, 0.015 * efficacy * kRadiance);
-  EXPECT_NEAR(light_of_luminance(map, efficacy * kRadiance), kRadiance, 0.015 * kRadiance);
+  EXPECT_NEAR(light_per_luminance(map), 1 / efficacy, 0.015 / efficacy);
 }
 
 TEST(DarkLevel, OfAColourMapIsItsLuminanceAlready) {
-  EXPECT_EQ(light_of_luminance(capped(0.02, V3d(1, 0, 0), 8), 0.125), 0.125);
+  EXPECT_EQ(light_per_luminance(capped(0.02, V3d(1, 0, 0), 8)), 1);
 }
 
 }  // namespace

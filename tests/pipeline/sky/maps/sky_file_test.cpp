@@ -81,7 +81,7 @@ TEST_F(SkyFiles, OnlyTheLevelsThatAreUsedAreVerified) {
   EXPECT_THROW(file.verify(), InputError);
   EXPECT_NO_THROW(file.verify(32));
   EXPECT_THROW(read_sky(path), InputError);
-  EXPECT_EQ(read_sky(path, 32)->levels().front().size, 32);
+  EXPECT_EQ(read_sky(path, 32).map->levels().front().size, 32);
 }
 
 TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
@@ -98,11 +98,11 @@ TEST_F(SkyFiles, AMapComesBackAsItWasWithWhatIsSaidOfIt) {
   for (const V3d& d : {V3d(0, 0, 1), V3d(1, 0, 0), V3d(-0.6, 0, -0.8)})
     EXPECT_NEAR(file.map().sample(d, 0).r, (2 + d.z) * 0x1p-20, 2e-3 * 0x1p-20);
   EXPECT_NO_THROW(file.verify());
-  EXPECT_NEAR(read_sky(path)->sample({0, 0, 1}, 0).r, 3 * 0x1p-20, 2e-3 * 0x1p-20);
-  const auto coarse = read_sky(path, 9);
+  EXPECT_NEAR(read_sky(path).map->sample({0, 0, 1}, 0).r, 3 * 0x1p-20, 2e-3 * 0x1p-20);
+  const auto coarse = read_sky(path, 9).map;
   ASSERT_EQ(coarse->levels().size(), 4u);
   EXPECT_EQ(coarse->levels().front().size, 8);
-  EXPECT_EQ(read_sky(path, 0)->levels().size(), 1u);
+  EXPECT_EQ(read_sky(path, 0).map->levels().size(), 1u);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary is left";
 }
 
