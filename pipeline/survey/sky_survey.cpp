@@ -75,7 +75,7 @@ std::vector<ShownSky> shown_skies(const Show& show, const ShowSurvey& survey) {
 // A Magnitudes object gives the V of a catalogue's stars, ascending.  It reads a file only once.
 class Magnitudes {
  public:
-  Magnitudes(const Show& show, const std::vector<ShownSky>& shown) : epoch_(show.star_epoch) {
+  Magnitudes(const Show& show, const std::vector<ShownSky>& shown) {
     // Several skies may use one catalogue to different limits, of which the deepest is read.
     for (const ShownSky& sky : shown)
       if (const auto& stars = show.sky[sky.region].stars)
@@ -83,18 +83,15 @@ class Magnitudes {
             limits_.try_emplace(stars->catalogue, -HUGE_VAL).first->second, sky.max_magnitude);
   }
 
-  const std::vector<double>& of(const std::filesystem::path& catalogue) {
+  const std::vector<float>& of(const std::filesystem::path& catalogue) {
     const auto [known, is_new] = read_.try_emplace(catalogue);
-    if (is_new)
-      for (const auto& star : read_star_catalogue(catalogue, limits_.at(catalogue), epoch_).stars)
-        known->second.push_back(star.v_magnitude);
+    if (is_new) known->second = star_magnitudes(catalogue, limits_.at(catalogue));
     return known->second;
   }
 
  private:
-  double epoch_;
   std::map<std::filesystem::path, double> limits_;
-  std::map<std::filesystem::path, std::vector<double>> read_;
+  std::map<std::filesystem::path, std::vector<float>> read_;
 };
 
 // Returns the files of a sky.  A star is counted twice if it is drawn and is fainter than the limit
@@ -112,7 +109,7 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   const auto& stars = show.sky[sky.region].stars;
   if (!stars) return found;
   found.catalogue = stars->catalogue.filename().string();
-  const std::vector<double>& all = magnitudes.of(stars->catalogue);
+  const std::vector<float>& all = magnitudes.of(stars->catalogue);
   const auto end = std::upper_bound(all.begin(), all.end(), sky.max_magnitude);
   found.stars = static_cast<std::size_t>(end - all.begin());
   if (found.stars == 0) return found;
@@ -120,7 +117,7 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   if (!found.map_fainter_than) return found;
   // A star of magnitude v is as bright as 10^(0.4 (10 - v)) stars of V = 10.
   for (auto v = std::upper_bound(all.begin(), end, *found.map_fainter_than); v != end; ++v)
-    found.twice += std::pow(10, 0.4 * (10 - *v)) / kSquareDegrees;
+    found.twice += std::pow(10, 0.4 * (10 - double{*v})) / kSquareDegrees;
   return found;
 }
 

@@ -79,7 +79,7 @@ struct Flash {
 };
 
 void report(const std::string& name, const Show& show, bool instants) {
-  SkyStore skies(show, SkyDetail{1, 0});
+  SkyStore skies(show, SkyDetail{1});
   OpticsStore optics;
   const int frames = frame_count(show);
   std::array<Cells, 3> here, around;

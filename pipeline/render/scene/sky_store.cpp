@@ -75,12 +75,10 @@ void SkyStore::load_stars(SkyRegion which, Kept& kept) {
         kept.sky.stars = loaded.sky.stars;
         return;
       }
-  StarCatalogue catalogue =
-      read_star_catalogue(own.stars->catalogue, limit.faintest, show_.star_epoch);
   // Where the limit changes, a star that stands for others would come and go with the light of all.
-  if (detail_.whole_stars > 0 && !limit.changes)
-    catalogue.stars = thinned(catalogue.stars, detail_.whole_stars);
-  kept.sky.stars = std::make_shared<const SceneStars>(catalogue.stars);
+  const std::size_t whole = limit.changes ? kAllWhole : detail_.whole_stars;
+  kept.sky.stars = std::make_shared<const SceneStars>(
+      read_star_catalogue(own.stars->catalogue, limit.faintest, show_.star_epoch, whole).stars);
 }
 
 SkyStore::Kept& SkyStore::kept_sky(SkyRegion which,

@@ -39,9 +39,9 @@ struct Sky {
 // SkyDetail says how much of the files is loaded.  A frame of few pixels needs less than is there.
 struct SkyDetail {
   int largest_face = kLargestFace;  // no level of a map has more texels along an edge (read_sky)
-  // This many of the brightest stars are loaded as they are, and fewer of the rest (thinned).  All
-  // are loaded as they are if the show keyframes the faintest magnitude, or with 0.
-  std::size_t whole_stars = 0;
+  // This many of the brightest stars are loaded as they are, and fewer of the rest (thin_out).  All
+  // are loaded as they are if the show keyframes the faintest magnitude.
+  std::size_t whole_stars = kAllWhole;
   // Maps that are made of images are dropped to keep their sum within this many bytes, except those
   // that one of the last two plans shows.  A frame in a dissolve has two plans.  The map of an
   // image that is 8192 pixels wide takes a gigabyte.

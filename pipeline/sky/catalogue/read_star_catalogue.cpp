@@ -20,13 +20,27 @@ bool is_colour(float colour) {
          (colour >= kColdest && colour <= kHottest);
 }
 
-// Says whether the numbers of a record, whose vector has this squared length, can be those of a
-// star.
-bool is_star(const StarRecord& r, double length2) {
+V3d vector_of(const StarRecord& r) {
+  return {r.x / kUnitLength, r.y / kUnitLength, r.z / kUnitLength};
+}
+
+// Says whether the numbers of a record can be those of a star.
+bool is_star(const StarRecord& r) {
   // Rounding to 2^-31 changes the square of a unit vector's length by at most 2e-9.
   constexpr double kLengthTolerance = 1e-8;
-  return std::abs(length2 - 1) < kLengthTolerance && r.v >= kBrightestV && r.v <= kFaintestV &&
-         is_colour(r.colour) && std::isfinite(r.pm_ra) && std::isfinite(r.pm_dec);
+  return std::abs(vector_of(r).length2() - 1) < kLengthTolerance && r.v >= kBrightestV &&
+         r.v <= kFaintestV && is_colour(r.colour) && std::isfinite(r.pm_ra) &&
+         std::isfinite(r.pm_dec);
+}
+
+// Returns the direction of a star after some years.
+SkyDirection direction_of(const StarRecord& r, double years) {
+  const V3d v = vector_of(r);
+  // The length differs from 1 by the rounding of the components.
+  SkyDirection direction{v / std::sqrt(v.length2())};
+  // Moving a star by nothing would take time and could change its last digits.
+  if (years == 0 || (r.pm_ra == 0 && r.pm_dec == 0)) return direction;
+  return moved(direction, r.pm_ra, r.pm_dec, years);
 }
 
 // Returns the direction of the row's star in that year.
@@ -39,8 +53,10 @@ SkyDirection direction_in_row(const CsvFile& row, double epoch) {
   return moved(direction, pm_ra, pm_dec, epoch - kCatalogueEpoch);
 }
 
-StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude, double epoch) {
+StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude, double epoch,
+                         std::size_t whole) {
   CsvFile row(file, {"ra_deg", "dec_deg", "v_mag", "b_v"});
+  std::vector<Star> stars;
   StarCatalogue catalogue;
   while (row.next()) {
     const SkyDirection direction = direction_in_row(row, epoch);
@@ -50,11 +66,14 @@ StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude
       if (const std::string_view name = row.text(column); !name.empty())
         catalogue.names.push_back({std::string(name), direction});
     if (v <= max_magnitude)
-      catalogue.stars.push_back(
+      stars.push_back(
           {direction, static_cast<float>(v), static_cast<float>(temperature_from_b_v(b_v))});
   }
-  std::stable_sort(catalogue.stars.begin(), catalogue.stars.end(),
-                   [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; });
+  sort_by_magnitude(stars);
+  thin_out(stars.size(), whole, [&](std::size_t k, std::size_t count) {
+    catalogue.stars.push_back(standing_for(stars[k], count));
+  });
+  sort_by_magnitude(catalogue.stars);
   return catalogue;
 }
 
@@ -65,31 +84,44 @@ bool begins_as_star_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch) {
+StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch,
+                       std::size_t whole) {
   const auto records = file.up_to(max_magnitude);
+  // A record is refused wherever it is read, even if another star stands for it.
+  for (const StarRecord& r : records)
+    if (!is_star(r)) file.fail_at(r, "this record is no star");
   const double years = epoch - file.epoch();
   StarCatalogue catalogue;
-  catalogue.stars.reserve(records.size());
-  for (const StarRecord& r : records) {
-    const V3d v(r.x / kUnitLength, r.y / kUnitLength, r.z / kUnitLength);
-    const double length2 = v.x * v.x + v.y * v.y + v.z * v.z;
-    if (!is_star(r, length2)) file.fail_at(r, "this record is no star");
-    // The length differs from 1 by the rounding of the components.
-    SkyDirection direction{v / std::sqrt(length2)};
-    // Moving a star by nothing would take time and could change its last digits.
-    if (years != 0 && (r.pm_ra != 0 || r.pm_dec != 0))
-      direction = moved(direction, r.pm_ra, r.pm_dec, years);
-    catalogue.stars.push_back({direction, r.v, static_cast<float>(temperature_of(r.colour))});
-  }
+  if (whole >= records.size()) catalogue.stars.reserve(records.size());
+  thin_out(records.size(), whole, [&](std::size_t k, std::size_t count) {
+    const StarRecord& r = records[k];
+    catalogue.stars.push_back(
+        {direction_of(r, years), r.v, static_cast<float>(temperature_of(r.colour))});
+    if (count > 1) catalogue.stars.back() = standing_for(catalogue.stars.back(), count);
+  });
+  sort_by_magnitude(catalogue.stars);
   for (StarName& name : file.names(records.size()))
-    catalogue.names.push_back({std::move(name.name), catalogue.stars[name.star].direction});
+    catalogue.names.push_back({std::move(name.name), direction_of(records[name.star], years)});
   return catalogue;
 }
 
 StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
-                                  double epoch) {
-  if (begins_as_star_file(file)) return stars_of(StarFile(file), max_magnitude, epoch);
-  return read_table(file, max_magnitude, epoch);
+                                  double epoch, std::size_t whole) {
+  if (begins_as_star_file(file)) return stars_of(StarFile(file), max_magnitude, epoch, whole);
+  return read_table(file, max_magnitude, epoch, whole);
+}
+
+std::vector<float> star_magnitudes(const std::filesystem::path& file, double max_magnitude) {
+  std::vector<float> magnitudes;
+  const auto copy = [&](const auto& stars, auto magnitude) {
+    magnitudes.resize(stars.size());
+    std::ranges::transform(stars, magnitudes.begin(), magnitude);
+  };
+  if (begins_as_star_file(file))
+    copy(StarFile(file).up_to(max_magnitude), &StarRecord::v);
+  else
+    copy(read_table(file, max_magnitude, kCatalogueEpoch, kAllWhole).stars, &Star::v_magnitude);
+  return magnitudes;
 }
 
 std::optional<std::string> star_file_fingerprint(const std::filesystem::path& file) {

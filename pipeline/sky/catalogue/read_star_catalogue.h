@@ -1,9 +1,11 @@
 // A show may name two kinds of star catalogue: .stars files and tables.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/sky/catalogue/star_catalogue.h"
 
@@ -22,13 +24,19 @@ class StarFile;
 //   designation, pm_ra_mas_yr (times cos Dec) and pm_dec_mas_yr.  Other columns are ignored.  The
 //   names of all its stars are kept.  Throws InputError with file and line where a row is damaged.
 //
-// A star without colour is drawn as one of kAssumedColour.
+// A star without colour is drawn as one of kAssumedColour.  All stars but the `whole` brightest are
+// thinned out (thin_out), which leaves the names as they are.
 StarCatalogue read_star_catalogue(const std::filesystem::path& file, double max_magnitude,
-                                  double epoch = kCatalogueEpoch);
+                                  double epoch = kCatalogueEpoch, std::size_t whole = kAllWhole);
 
 // Reads the stars of a .stars file that is open already.  Also throws InputError, with the byte,
 // where a record holds no unit vector or a number out of its range.
-StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch);
+StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch,
+                       std::size_t whole = kAllWhole);
+
+// Returns V of the stars of V <= max_magnitude, ascending.  Of a .stars file nothing else is looked
+// at.  Throws InputError as read_star_catalogue does.
+std::vector<float> star_magnitudes(const std::filesystem::path& file, double max_magnitude);
 
 // Returns digits that tell a .stars file from every other, which it takes from the header alone.
 // Returns nothing for another kind of file.  Throws InputError as read_star_catalogue does.

@@ -51,7 +51,7 @@ TEST_F(SkyStores, KeepsAllMapsThatFit) {
 
 // They were kept for ever: six panoramas of 8k took 6.8 GB.
 TEST_F(SkyStores, DropsMapsThatTheLastTwoPlansDoNotShowWhereRoomIsShort) {
-  SkyStore store(show_, {kLargestFace, 0, 1});
+  SkyStore store(show_, {kLargestFace, kAllWhole, 1});
   const auto first = map_of(store.skies_of(plan_of(0)));
   const auto second = map_of(store.skies_of(plan_of(1)));
   EXPECT_FALSE(first.expired()) << "a dissolve needs both";
@@ -71,7 +71,7 @@ TEST_F(SkyStores, DropsMapsThatTheLastTwoPlansDoNotShowWhereRoomIsShort) {
 }
 
 TEST_F(SkyStores, ReadsButDoesNotMakeWhatHasNoRoomBeforeTheFirstFrame) {
-  SkyStore store(show_, {kLargestFace, 0, 1});
+  SkyStore store(show_, {kLargestFace, kAllWhole, 1});
   store.load(plan_of(0));
   store.load(plan_of(1));
   std::filesystem::remove(images_[0]);

@@ -30,6 +30,16 @@ TEST(Stars, ToTheNakedEyesLimitAreItsSky) {
   EXPECT_EQ(read_star_catalogue(kAssets + "stars_to_9.stars", 1.5).stars.size(), 23u);
 }
 
+TEST(Stars, HaveTheSameMagnitudesWithoutTheRest) {
+  for (const char* name : {"stars_to_9.stars", "stars_to_8.csv"})
+    for (const double limit : {-9.0, 1.5, 6.5}) {
+      std::vector<float> expected;
+      for (const Star& star : read_star_catalogue(kAssets + name, limit).stars)
+        expected.push_back(star.v_magnitude);
+      EXPECT_EQ(star_magnitudes(kAssets + name, limit), expected) << name << " to " << limit;
+    }
+}
+
 TEST(Stars, ADamagedRowIsNamedByFileAndLine) {
   const auto file = std::filesystem::temp_directory_path() / "domefall_damaged_catalogue.csv";
   std::ofstream(file) << "ra_deg,dec_deg,v_mag,b_v,name,designation\n1,2,3,0.5,,\n1,200,3,0.5,,\n";
