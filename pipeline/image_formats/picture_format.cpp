@@ -18,7 +18,8 @@ constexpr std::array kStarts{
     std::pair{"#?RGBE"sv, "hdr"sv},
 };
 
-// The number of `count` bytes at `place`, the least significant first; 0 beyond the end.
+// Returns the number in `count` bytes at `place`, the least significant first.  Bytes beyond the
+// end count as 0.
 std::int64_t little_endian(std::string_view bytes, std::size_t place, std::size_t count) {
   std::int64_t value = 0;
   for (std::size_t k = count; k-- > 0;)
@@ -32,7 +33,8 @@ std::int64_t big_endian(std::string_view bytes, std::size_t place) {
   return value >> 8 | (value & 0xff) << 8;
 }
 
-// ITU-T T.81, B.1: segments, each a marker and a length, up to the frame header (SOF).
+// By ITU-T T.81, B.1, a file has segments, each with a marker and a length, up to the frame header
+// (SOF), which states the size.
 std::optional<PictureSize> jpeg_size(std::string_view start) {
   std::size_t at = 2;
   while (at + 9 <= start.size()) {
@@ -54,7 +56,7 @@ std::optional<PictureSize> jpeg_size(std::string_view start) {
   return std::nullopt;
 }
 
-// RFC 9649: the first chunk says how large the picture, or the canvas of an animation, is.
+// By RFC 9649 the first chunk says how large the picture, or the canvas of an animation, is.
 std::optional<PictureSize> webp_size(std::string_view start) {
   constexpr std::size_t kChunk = 12, kData = 20;
   const std::string_view name = start.substr(kChunk, 4);
@@ -79,9 +81,9 @@ std::string_view picture_format(std::string_view start) {
   return {};
 }
 
-// The OpenEXR file layout: after magic number and version come headers, each a row of attributes
-// (name, 0, type, 0, length in 4 bytes, value) and a 0.  A file of several parts has a header for
-// each, and another 0 after them.
+// In the layout of OpenEXR files, headers follow the magic number and the version.  Each is a row
+// of attributes (name, 0, type, 0, length in 4 bytes, value) and a 0.  A file of several parts has
+// a header for each, and another 0 after them.
 bool exr_attributes_fit(std::string_view start, std::uint64_t file_bytes) {
   constexpr std::size_t kHeader = 8, kLength = 4;
   const bool parts = little_endian(start, 4, 4) & 0x1000;
@@ -104,7 +106,9 @@ bool exr_attributes_fit(std::string_view start, std::uint64_t file_bytes) {
 }
 
 std::optional<PictureSize> stated_size(std::string_view format, std::string_view start) {
-  return format == "jpeg" ? jpeg_size(start) : webp_size(start);
+  if (format == "jpeg") return jpeg_size(start);
+  if (format == "webp") return webp_size(start);
+  return std::nullopt;
 }
 
 }  // namespace domefall

@@ -39,6 +39,12 @@ exits 0 "$DOMEFALL" sky check small.exr
 # What cannot be read is told by name, and where.
 exits 2 "$DOMEFALL" sky import nowhere.png --out x.sky
 says '^nowhere.png: '
+# What the first bytes say is there is not.
+for start in 'II*\0\10\0\0\0' '\x89PNG\r\n\x1a\n' 'v/1\1\2\0\0\0' '#?RADIANCE' '\xff\xd8\xff'; do
+  printf '%b' "$start" >short.tif
+  exits 2 "$DOMEFALL" sky import short.tif --out x.sky
+  says '^short.tif: '
+done
 exits 2 "$DOMEFALL" sky import "$stars" --projection healpix --out x.sky
 says 'not a FITS file'
 head -c 100000 as_it_is.sky >short.sky
