@@ -40,7 +40,7 @@ WaveChunks wave_chunks(const FileBytes& file) {
       if (size < kLeastFormat || size > kMostHead) throw DamagedFile("its format makes no sense");
       chunks.format = file.at(at + kChunkHead, size);
     }
-    at += kChunkHead + size + size % 2;  // chunks begin at even places
+    at += kChunkHead + size + size % 2;  // chunks begin at even offsets
   }
   return chunks;
 }
@@ -51,9 +51,14 @@ SoundFile sound_of(const FileBytes& file) {
     return little_endian<std::uint16_t>(std::string_view(chunks.format).substr(at));
   };
   constexpr unsigned kPcm = 1, kFloat = 3, kExtensible = 0xfffe;
-  const unsigned tag = number(0);
-  if (tag != kPcm && tag != kFloat && tag != kExtensible)
-    throw DamagedFile("its sound is packed; PCM is asked for");
+  unsigned tag = number(0);
+  if (tag == kExtensible) {
+    // The subformat is a GUID whose first two bytes are the tag that a short format would have.
+    constexpr std::size_t kSubformat = 24, kGuid = 16;
+    if (chunks.format.size() < kSubformat + kGuid) throw DamagedFile("its format makes no sense");
+    tag = number(kSubformat);
+  }
+  if (tag != kPcm && tag != kFloat) throw DamagedFile("its sound is packed; PCM is asked for");
   SoundFile sound;
   sound.channels = number(2);
   sound.rate = little_endian<std::uint32_t>(std::string_view(chunks.format).substr(4));

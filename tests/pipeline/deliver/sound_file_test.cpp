@@ -21,11 +21,19 @@ std::string chunk_of(const std::string& name, const std::string& data) {
   return name + bytes_of(data.size(), 4) + data + std::string(data.size() % 2, '\0');
 }
 
-std::string format_chunk(unsigned tag, unsigned channels, unsigned rate, unsigned bits) {
+std::string format_chunk(unsigned tag, unsigned channels, unsigned rate, unsigned bits,
+                         const std::string& extension = "") {
   const unsigned block = channels * ((bits + 7) / 8);
   return chunk_of("fmt ", bytes_of(tag, 2) + bytes_of(channels, 2) + bytes_of(rate, 4) +
                               bytes_of(std::uint64_t{rate} * block, 4) + bytes_of(block, 2) +
-                              bytes_of(bits, 2));
+                              bytes_of(bits, 2) + extension);
+}
+
+// WAVE_FORMAT_EXTENSIBLE has the tag in a GUID behind its own size, the valid bits and the speakers.
+std::string extensible_chunk(unsigned tag) {
+  return format_chunk(0xfffe, 2, 48000, 24,
+                      bytes_of(22, 2) + bytes_of(24, 2) + bytes_of(3, 4) + bytes_of(tag, 2) +
+                          std::string("\0\0\0\0\x10\0\x80\0\0\xaa\0\x38\x9b\x71", 14));
 }
 
 std::string wave_of(const std::string& chunks) {
@@ -67,6 +75,9 @@ TEST_F(SoundFiles, ThatAreCutShortOrPackedAreRefused) {
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_THROW(read(whole.substr(0, size)), InputError) << size << " bytes";
   EXPECT_THROW(read(wave_of(format_chunk(0x55, 2, 48000, 16) + data)), InputError) << "MP3";
+  EXPECT_NO_THROW(read(wave_of(extensible_chunk(1) + data)));
+  EXPECT_THROW(read(wave_of(extensible_chunk(0x55) + data)), InputError) << "MP3";
+  EXPECT_THROW(read(wave_of(format_chunk(0xfffe, 2, 48000, 24) + data)), InputError);
   EXPECT_THROW(read(wave_of(format_chunk(1, 0, 48000, 16) + data)), InputError);
   EXPECT_THROW(read(wave_of(format_chunk(1, 2, 0, 16) + data)), InputError);
   EXPECT_THROW(read(wave_of(data)), InputError) << "no format";
