@@ -26,7 +26,7 @@
 namespace domefall {
 namespace {
 
-// These are of ACEScg, SMPTE ST 2065-1's AP1 primaries and the ACES white.
+// These are the AP1 primaries of ACEScg and the ACES white (Academy S-2014-004).
 constexpr ExrChromaticities kAcesCg{
     {0.713f, 0.293f, 0.165f, 0.830f, 0.128f, 0.044f, 0.32168f, 0.33767f}};
 constexpr const char *kShow = "showDigest", *kFrame = "frameNumber",
@@ -47,7 +47,8 @@ Imf::FrameBuffer buffer_of(ImageRgb<T>& frame, Imf::PixelType type) {
 }
 
 // Returns a time code for the rates that SMPTE ST 12-1 counts by whole frames, or from above 30 on
-// by pairs of them, of which the second has the mark of a second field.  Other frames bear none.
+// by pairs of them, of which the second has the mark of a second field.  Frames of other rates bear
+// none.
 std::optional<ExrTimeCode> time_code(const FrameInfo& info) {
   const auto rate = static_cast<int>(info.frames_per_second);
   constexpr int kFastest = 30, kMinute = 60, kHour = 60, kDay = 24;
@@ -57,8 +58,8 @@ std::optional<ExrTimeCode> time_code(const FrameInfo& info) {
   const int seconds = info.frame / rate, minutes = seconds / kMinute, frame = info.frame % rate;
   Imf::TimeCode code(minutes / kHour % kDay, minutes % kHour, seconds % kMinute, frame / counted);
   code.setFieldPhase(frame % counted == 1);
-  return ExrTimeCode{
-      code.timeAndFlags(rate == 50 ? Imf::TimeCode::TV50_PACKING : Imf::TimeCode::TV60_PACKING)};
+  // OpenEXR's library reads and writes the attribute in its default packing, at any rate.
+  return ExrTimeCode{code.timeAndFlags()};
 }
 
 std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& info) {
@@ -109,7 +110,7 @@ FrameInfo info_of(const Imf::Header& header) {
   return info;
 }
 
-// Returns what the pixels are.
+// Returns the type of the pixels.  Throws std::runtime_error for a layout that no frame has.
 Imf::PixelType check_layout(const Imf::Header& header) {
   const auto& box = header.dataWindow();
   if (box.min != Imath::V2i(0) || box != header.displayWindow())

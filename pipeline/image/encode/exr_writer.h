@@ -1,5 +1,5 @@
-// Writes OpenEXR files of scan lines, whose channels are R, G, B, or others, of floats of 16 or 32
-// bits.
+// This file writes OpenEXR files of scan lines.  The channels are R, G and B or others, in floats
+// of 16 or 32 bits.
 #pragma once
 
 #include <Imath/half.h>
@@ -24,7 +24,7 @@ struct ExrRational {
   unsigned denominator;
 };
 struct ExrTimeCode {
-  unsigned time_and_flags;  // as SMPTE ST 12-1 packs them for 60-field television
+  unsigned time_and_flags;  // as SMPTE ST 12-1 packs them for television of 60 fields
 };
 
 using ExrValue =

@@ -122,13 +122,15 @@ TEST_F(FrameFile, SaysItsRateAndItsTime) {
   EXPECT_EQ(rate[0], 30);
   EXPECT_EQ(rate[1], 1);
   EXPECT_EQ(spec.find_attribute("smpte:TimeCode")->get_string(), "01:02:03:04");
-  info.frames_per_second = 60;
-  info.frame = 60 * (60 * 2 + 3) + 9;
-  write_frame(folder_ / "pairs.exr", sample_frame(), info);
-  std::uint32_t code[2] = {};
-  ASSERT_TRUE(spec_of("pairs.exr").getattribute("smpte:TimeCode", OIIO::TypeTimeCode, code));
-  const std::uint32_t second_of_pair = 1u << 15, two_minutes_three = 0x00020300;
-  EXPECT_EQ(code[0], two_minutes_three | second_of_pair | 4);
+  for (const int pairs : {50, 60}) {
+    info.frames_per_second = pairs;
+    info.frame = pairs * (60 * 2 + 3) + 9;
+    write_frame(folder_ / "pairs.exr", sample_frame(), info);
+    std::uint32_t code[2] = {};
+    ASSERT_TRUE(spec_of("pairs.exr").getattribute("smpte:TimeCode", OIIO::TypeTimeCode, code));
+    const std::uint32_t second_of_pair = 1u << 15, two_minutes_three = 0x00020300;
+    EXPECT_EQ(code[0], two_minutes_three | second_of_pair | 4) << pairs;
+  }
   info.frames_per_second = 59.94;
   write_frame(folder_ / "b.exr", sample_frame(), info);
   spec = spec_of("b.exr");
