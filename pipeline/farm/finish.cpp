@@ -71,9 +71,13 @@ FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most) {
   const int round = plan.rounds.empty() ? 1 : plan.rounds.back().round + 1;
   const auto first = chunks_of_round(plan, 0);
   const std::vector<int> frames = parse_frames(verdict.to_make, kMostFrames);
+  // A chunk is as long as those of the first round, which left out the frames that were there.
+  int planned = 0;
+  for (const PlannedChunk& chunk : first)
+    planned += static_cast<int>(parse_frames(chunk.frames, kMostFrames).size());
   const int wanted = std::max<int>(1, static_cast<int>(first.size()));
-  const int per_chunk =
-      std::max({1, verdict.frames / wanted, (static_cast<int>(frames.size()) + most - 1) / most});
+  const int per_chunk = std::max(
+      {1, (planned + wanted - 1) / wanted, (static_cast<int>(frames.size()) + most - 1) / most});
   int task = 0;
   for (auto rest = std::span(frames); !rest.empty();) {
     const auto chunk = rest.first(std::min(rest.size(), static_cast<std::size_t>(per_chunk)));

@@ -63,8 +63,14 @@ WorkerProcess::WorkerProcess(std::vector<std::string> arguments, const Way& way)
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   std::array<int, 2> talk{}, failed{};
-  if (pipe2(talk.data(), O_CLOEXEC) != 0 || pipe2(failed.data(), O_CLOEXEC) != 0)
-    throw TemporaryError(arguments.front() + ": no pipe can be made: " + std::strerror(errno));
+  const auto require_pipe = [&](std::array<int, 2>& pipe) {
+    if (pipe2(pipe.data(), O_CLOEXEC) == 0) return;
+    const std::string why = std::strerror(errno);
+    if (&pipe == &failed) close(talk[0]), close(talk[1]);
+    throw TemporaryError(arguments.front() + ": no pipe can be made: " + why);
+  };
+  require_pipe(talk);
+  require_pipe(failed);
   // No signal reaches the child while it still has the handlers of this process.
   sigset_t all, before;
   sigfillset(&all);
@@ -151,7 +157,8 @@ WorkerEnd run_program(const std::vector<std::string>& arguments, std::string& sa
       pollfd talk{worker.talk(), POLLIN, 0};
       constexpr int kPollMs = 100;  // what it has started may keep the pipe open
       poll(&talk, 1, kPollMs);
-      // Once it has closed its end, the pipe can always be read.
+      // Once the program has closed its end, poll() returns at once, and the loop would keep a
+      // processor busy.
       if ((talk.revents & POLLHUP) != 0) usleep(1000);
     }
   } catch (const TemporaryError& error) {

@@ -70,6 +70,12 @@ TEST(FarmPlan, AFurtherRoundHasTheFramesThatLackInChunksOfTheUsualLength) {
   EXPECT_EQ(with_round(plan, verdict, 100).rounds.back().round, 2);
 }
 
+TEST(FarmPlan, AFurtherRoundIsInSmallChunksWhereTheFirstLeftFramesOutThatWereThere) {
+  FarmPlan partial = small_plan();
+  partial.frames = "0-999";
+  EXPECT_EQ(chunks_of_round(with_round(partial, {false, "0-7,9", 9, 1000}, 100), 1).size(), 2U);
+}
+
 TEST(JobLists, AListHasALineForEachChunk) {
   EXPECT_EQ(list_of_commands(small_plan()),
             "'/opt/dome fall/domefall' render '/shows/a fall'\\''s.yaml' --frames 0-4 --out "
