@@ -29,11 +29,14 @@ std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
     item.fail("must be " + wanted + ", got " + kind_of(item));
     return std::nullopt;
   }
+  // A tag such as !!str would say of what kind a value is, which in a show its key decides.
   const std::string& tag = item.node.Tag();
   if (!tag.empty() && tag != "?" && tag != "!") {
     item.fail("bears the YAML tag '" + shown(tag) + "'; shows use none");
     return std::nullopt;
   }
+  // yaml-cpp lets the end of the file close a quote, so that the comment which parse_yaml() has
+  // appended becomes a part of the text.
   if (is_quoted(item) && item.node.Scalar().find(kEndOfShow) != std::string::npos) {
     item.fail("opens a quote that is never closed");
     return std::nullopt;
@@ -51,9 +54,13 @@ bool is_yaml_special(std::string_view text) {
 }
 
 // Says whether a number that no double holds is beyond the largest one, and not below the smallest.
+// std::from_chars() has one error for both, while std::strtod() returns infinity or a number next
+// to 0.
 bool is_huge(const std::string& text) { return std::isinf(std::strtod(text.c_str(), nullptr)); }
 
-// Returns the advice for a text that would be a number without its `rest`.
+// Returns the advice for a text that would be a number without its `rest`.  The rest begins with
+// what the parser stopped at: a decimal comma, a group of digits, a number in base 60 (YAML 1.1 had
+// these), or a unit.  An x stands in hexadecimal numbers, for which there is no advice.
 std::string_view mended(std::string_view rest, const Range& range) {
   if (rest.empty()) return "; leave the quotes out";
   if (rest[0] == ',') return "; write a decimal point";
@@ -63,7 +70,7 @@ std::string_view mended(std::string_view rest, const Range& range) {
 }
 
 // Says what the value must do to keep the bound that it breaks, or returns nothing if it keeps
-// both.
+// both.  Each test is negated, so that NaN breaks every bound.
 std::optional<std::string> broken_bound(const Range& range, double value) {
   if (range.low_excluded && !(value > range.low)) return "exceed " + short_number(range.low);
   if (!range.low_excluded && !(value >= range.low)) return "be at least " + short_number(range.low);
@@ -86,6 +93,7 @@ void Item::miss_file(const std::string& what) const {
 std::string kind_of(const Item& item) {
   if (item.node.IsMap()) return "a map";
   if (item.node.IsSequence()) return "a list";
+  // A key without a value has a null node, which is no map, list or scalar.
   if (!item.node.IsScalar()) return "nothing";
   return std::string(is_quoted(item) ? "the text '" : "'")
       .append(shown(item.node.Scalar()))
@@ -118,6 +126,7 @@ std::optional<std::string> read_text(const Item& item) {
 std::optional<std::string> read_lines(const Item& item) {
   auto text = scalar(item, "text");
   if (!text) return std::nullopt;
+  // A block of YAML ends with a line end that is no line of the text.
   const std::size_t first = text->find_first_not_of(" \n"), last = text->find_last_not_of(" \n");
   if (first == std::string::npos) {
     item.fail("must not be empty");
@@ -134,8 +143,10 @@ std::optional<double> read_number(const Item& item, const Range& range) {
   const std::string wanted = "a number" + in_unit(range);
   const auto text = scalar(item, wanted);
   if (!text) return std::nullopt;
-  // from_chars takes no plus sign.
-  const char* begin = text->data() + (text->starts_with('+') ? 1 : 0);
+  // from_chars takes no plus sign.  Unlike std::strtod() it ignores the locale, in which a comma
+  // may be the decimal point.
+  const bool has_plus = text->starts_with('+') && !text->starts_with("+-");
+  const char* begin = text->data() + (has_plus ? 1 : 0);
   const char* end = text->data() + text->size();
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
@@ -150,6 +161,7 @@ std::optional<double> read_number(const Item& item, const Range& range) {
               shown(*text));
     return std::nullopt;
   }
+  // A number in quotes is text to YAML, and one with a rest behind its digits is no number.
   if (is_quoted(item) || (error != std::errc() && !bounded) || stop != end) {
     item.fail("must be " + wanted + ", got " + kind_of(item) +
               std::string(stop == begin ? "" : mended({stop, end}, range)));
@@ -161,6 +173,7 @@ std::optional<double> read_number(const Item& item, const Range& range) {
 std::optional<double> in_range(const Item& item, double value, const Range& range) {
   const auto bound = broken_bound(range, value);
   if (!bound) return value;
+  // The reason is that of the lower bound, and is left out where the upper one is broken.
   const bool low = value <= range.low && !range.low_reason.empty();
   item.fail("must " + *bound + in_unit(range) + ", got " + as_written(item) +
             (low ? ": " + std::string(range.low_reason) : ""));
@@ -170,6 +183,7 @@ std::optional<double> in_range(const Item& item, double value, const Range& rang
 std::optional<int> read_whole_number(const Item& item, const Range& range) {
   const auto value = read_number(item, range);
   if (!value) return std::nullopt;
+  // The ranges of whole numbers in shows end at 1e9, which an int holds.
   if (*value == std::floor(*value)) return static_cast<int>(*value);
   item.fail("must be a whole number" + in_unit(range) + ", got " + as_written(item));
   return std::nullopt;
@@ -198,7 +212,8 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
     return std::nullopt;
   }
   std::vector<Item> items;
-  // The value of an iterator is a node and, for maps, also a pair.
+  // The value of an iterator is a node and, for maps, also a pair.  Users count the entries of a
+  // list from 1.
   for (const auto& child : item.node) {
     const auto mark = child.Mark();
     items.push_back({static_cast<const YAML::Node&>(child),
@@ -217,6 +232,7 @@ std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t co
                     item.node.IsSequence() ? fmt::to_string(item.node.size()) : kind_of(item)));
     return std::nullopt;
   }
+  // All entries are read before one in error gives up the list, so that each mistake is reported.
   std::vector<double> values;
   const auto children = read_list(item);
   for (const Item& child : *children)

@@ -133,6 +133,8 @@ TEST_F(ShowErrorsInYaml, NumbersMustBePlainAndFinite) {
        kShow + "exposure:\n"
                "  ev: 0,5\n",
        "4:7: exposure.ev must be a number (stops), got '0,5'; write a decimal point"},
+      {"TwoSigns", kShow + "exposure: {ev: +-3}\n",
+       "3:16: exposure.ev must be a number (stops), got '+-3'"},
       {"Sexagesimal", kShow + "camera: {look_at: {ra_deg: 17:45:40, dec_deg: -29}}\n",
        "3:28: camera.look_at.ra_deg must be a number (degrees), got '17:45:40'; write one decimal "
        "number, not parts of sixty"},
