@@ -1,4 +1,4 @@
-// The program domefall, which makes graded Domemaster frames from a show file.
+// This is the program domefall, which makes graded Domemaster frames from a show file.
 //
 // Its exit codes are
 //   0        it is done
@@ -33,11 +33,12 @@ int report(const char* message, int code) {
   return code;
 }
 
-// A file must not get the number of a standard stream that the caller has closed: what is said
-// there would go into the file.
+// Opens /dev/null in the place of each standard stream that the caller has closed.  Otherwise a
+// file would get the stream's number, and whatever is said on that stream would go into the file.
 void occupy_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    // An open takes the lowest free number.  What is printed on the second still fails.
+    // An open takes the lowest free number.  Standard output is opened for reading, so that
+    // printing still fails.
     if (fcntl(number, F_GETFD) < 0)
       (void)!open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
@@ -47,14 +48,20 @@ bool reader_has_gone() {
   return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
 }
 
-// Returns the code if all output has been written, since other programs may read it.
+// Returns the code of a program whose standard output could not be written, and says why.
+int output_failure(int error) {
+  // `domefall states SHOW | head` ends like any program that is told of it by the signal.
+  if (reader_has_gone()) return 128 + SIGPIPE;
+  const std::string why = error ? std::strerror(error) : "not all could be written";
+  return report(("standard output: " + why).c_str(), domefall::kTryAgain);
+}
+
+// Flushes standard output, and returns the code if all of it has been written.  Other programs may
+// read it, so that anything less is a failure.
 int flushed(int code) {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  // `domefall states SHOW | head` ends as any program does that is told by the signal.
-  if (reader_has_gone()) return 128 + SIGPIPE;
-  throw domefall::TemporaryError(std::string("standard output: ") +
-                                 (errno ? std::strerror(errno) : "not all could be written"));
+  return output_failure(errno);
 }
 
 }  // namespace
@@ -63,7 +70,8 @@ int main(int argc, char** argv) {
   domefall::end_in_words_without_threads();
   try {
     occupy_standard_streams();
-    // They would end the program where it stands: a reader who has gone, a limit on a file's size.
+    // By default these signals end the program where it stands, when a reader has gone or a file
+    // exceeds its size limit.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     domefall::leave_nothing_when_stopped();
@@ -77,7 +85,10 @@ int main(int argc, char** argv) {
   } catch (const domefall::TemporaryError& error) {
     return report(error.what(), domefall::kTryAgain);
   } catch (const std::system_error& error) {
-    // Of the machine and the moment: threads that may not be started, a folder that is gone.
+    // What is printed in the middle of a verb fails where it is printed.
+    if (std::ferror(stdout)) return output_failure(error.code().value());
+    // Such errors are due to the machine and the moment, as when threads cannot be started or a
+    // folder is gone.
     if (error.code() != std::errc::resource_unavailable_try_again)
       return report(error.what(), domefall::kTryAgain);
     return report("no more threads can be started: raise the limit, or take fewer --threads",

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "pipeline/image/errors.h"
@@ -53,9 +54,12 @@ void Progress::print(int frame, bool made) const {
       fmt::print("{}\n", plain);
       break;
     case ProgressForm::kJson:
-      fmt::print(R"({{"frame":{},"done":{},"total":{},"made":{},"seconds":{:.3f}}})"
-                 "\n",
-                 frame, done, total_, made, seconds());
+      fmt::print("{}\n", nlohmann::ordered_json{{"frame", frame},
+                                                {"done", done},
+                                                {"total", total_},
+                                                {"made", made},
+                                                {"seconds", std::round(seconds() * 1e3) / 1e3}}
+                             .dump());
       break;
     case ProgressForm::kOpenJd:
       fmt::print("openjd_progress: {:.1f}\nopenjd_status: {}\n", percent, plain);
@@ -64,7 +68,7 @@ void Progress::print(int frame, bool made) const {
       fmt::print("FRAME: {}\nPROGRESS: 100%\n", frame);
       break;
   }
-  // A manager reads a pipe, and wants each line at once.
+  // A queue manager reads a pipe, and wants each line at once.
   std::fflush(stdout);
 }
 
@@ -78,7 +82,7 @@ void Progress::draw() const {
   const std::size_t done = made_ + skipped_;
   const std::size_t filled = total_ > 0 ? kWidth * done / total_ : kWidth;
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  // The rate is of frames that were made, since skipping one takes next to no time.
+  // Only frames that were made count for the rate, since skipping one takes next to no time.
   const double rate = static_cast<double>(made_) / seconds();
   std::fprintf(stderr, "\r[%s] %zu/%zu frames", bar.c_str(), done, total_);
   if (made_ > 0) {

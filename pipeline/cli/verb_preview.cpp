@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
@@ -67,12 +69,12 @@ void write_still(const PreviewOptions& o) {
   out.finish();
 }
 
-// Serves until a signal ends it.
+// Serves the viewer until a signal ends it.
 void serve(const PreviewOptions& o) {
   PreviewServer server(o.show, o.port, o.threads);
-  std::printf("%s\n", server.url().c_str());
-  std::printf("from another machine: ssh -L %d:127.0.0.1:%d %s, then the same address there\n",
-              server.port(), server.port(), host_name().c_str());
+  fmt::print("{}\n", server.url());
+  fmt::print("from another machine: ssh -L {}:127.0.0.1:{} {}, then the same address there\n",
+             server.port(), server.port(), host_name());
   std::fflush(stdout);
   catch_interruptions();
   std::atomic<bool> served = false;
@@ -83,11 +85,12 @@ void serve(const PreviewOptions& o) {
   if (!o.no_open) open_browser(server.url());
   while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   server.stop();
-  // Whoever sends a byte now and then could keep a connection for ever.
+  // The server does not stop before its connections end, and whoever sends a byte now and then
+  // could keep one for ever.
   constexpr int kGrace = 20;  // tenths of a second
   for (int k = 0; k < kGrace && !served; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  if (!served) std::_Exit(128 + *was_interrupted());
+  if (!served) std::_Exit(code_after(*was_interrupted()));
   serving.join();
   throw Interrupted{*was_interrupted(), true};
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -42,7 +44,7 @@ PixelPosition parse_pixel(const std::string& text) {
   return at;
 }
 
-// What is known of the pixel that is asked for.
+// Probed is what is known of the pixel that is asked for.
 struct Probed {
   const Show& show;
   FrameState state;
@@ -61,35 +63,35 @@ struct Probed {
 void print_effects(const Effects& effects, const ViewRay& ray, double width) {
   const double g = ray.frequency_ratio, colour = colour_ratio(effects, g);
   const double colour2 = colour * colour;
-  std::printf("thermal sky  temperature times %.6g, bolometric intensity times %.6g\n", colour,
-              surface_brightness_ratio(effects, g) * colour2 * colour2);
+  fmt::print("thermal sky  temperature times {:.6g}, bolometric intensity times {:.6g}\n", colour,
+             surface_brightness_ratio(effects, g) * colour2 * colour2);
   if (effects.amplification == Amplification::kEverything)
-    std::printf("amplified    %.6g times, over the pixel's width\n",
-                amplification(ray.bundle, width));
+    fmt::print("amplified    {:.6g} times, over the pixel's width\n",
+               amplification(ray.bundle, width));
 }
 
 void print_text(const Probed& p) {
   const ObserverState& observer = p.state.observer;
-  std::printf("observer     region %s, r = %.9g M\n", region_name(observer.region), observer.r);
-  if (!p.inside()) std::puts("pixel        outside the dome");
+  fmt::print("observer     region {}, r = {:.9g} M\n", region_name(observer.region), observer.r);
+  if (!p.inside()) fmt::print("pixel        outside the dome\n");
   const Equatorial at = equatorial({p.ray.sky_direction});
-  std::printf("sees         %s %s, RA %.6f deg, Dec %.6f deg\n",
-              p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
-              at.ra_deg, at.dec_deg);
-  if (!p.from_singularity()) std::printf("1 + z        %.9g\n", 1 / p.ray.frequency_ratio);
-  std::printf("compression  %.6g towards the hole, %.6g across\n", p.ray.radial_scale,
-              p.ray.tangential_scale);
+  fmt::print("sees         {} {}, RA {:.6f} deg, Dec {:.6f} deg\n",
+             p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
+             at.ra_deg, at.dec_deg);
+  if (!p.from_singularity()) fmt::print("1 + z        {:.9g}\n", 1 / p.ray.frequency_ratio);
+  fmt::print("compression  {:.6g} towards the hole, {:.6g} across\n", p.ray.radial_scale,
+             p.ray.tangential_scale);
   if (!p.from_singularity() && p.show.effects != Effects{})
     print_effects(p.show.effects, p.ray, p.width());
   for (const StarAtPixel& star : p.stars) {
     const std::string name = star.names.empty() ? "without a name" : star.names.front();
-    std::printf("star         %s, V %.2f seen as %.2f, image %d at %.2f,%.2f\n", name.c_str(),
-                star.v, star.seen_v, star.order, star.at.i, star.at.j);
+    fmt::print("star         {}, V {:.2f} seen as {:.2f}, image {} at {:.2f},{:.2f}\n", name,
+               star.v, star.seen_v, star.order, star.at.i, star.at.j);
   }
   for (const BodyAtPixel& body : p.bodies)
-    std::printf("body         %s, at %.6g M, 1 + z %.6g, seen as V %.2f, image %d at %.2f,%.2f\n",
-                body.name.c_str(), body.r, 1 / body.frequency_ratio, body.seen_v, body.order,
-                body.at.i, body.at.j);
+    fmt::print(
+        "body         {}, at {:.6g} M, 1 + z {:.6g}, seen as V {:.2f}, image {} at {:.2f},{:.2f}\n",
+        body.name, body.r, 1 / body.frequency_ratio, body.seen_v, body.order, body.at.i, body.at.j);
 }
 
 Json json_of_star(const StarAtPixel& star) {

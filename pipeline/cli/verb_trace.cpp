@@ -19,7 +19,7 @@
 namespace domefall {
 namespace {
 
-// The cells of a ray, as written.
+// RayCells are the cells of a ray, as written.
 struct RayCells {
   std::string observer, r, delta, edge, offset, psi;
 };
@@ -28,7 +28,7 @@ class RayTable {
  public:
   explicit RayTable(const std::string& file) : rows_(file, {"observer", "r", "delta"}) {}
 
-  // Reads the next ray; false at the end.
+  // Reads the next ray, and returns false at the end.
   bool next(RayCells& cells) {
     if (!rows_.next()) return false;
     cells = {cell("observer"), cell("r"), cell("delta"), cell("edge"), cell("offset"), cell("psi")};
@@ -37,8 +37,8 @@ class RayTable {
 
   bool asks_for_positions() const { return rows_.has("psi"); }
 
-  // Where the ray is after having swept psi; none where it has ended or the cell is empty.  Throws
-  // InputError, with the line, for a psi that is no angle.
+  // Returns where the ray is after having swept psi, or nothing where it has ended or the cell is
+  // empty.  Throws InputError, with the line, for a psi that is no angle.
   std::optional<TracedPlace> place(const RayCells& cells, const RayRequest& ray, TraceMethod method,
                                    const TraceOptions& options) const {
     if (cells.psi.empty()) return std::nullopt;
@@ -88,30 +88,31 @@ std::vector<std::string> method_names() {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// A further cell, empty if there is no number.
+// Prints a further cell, which is empty for NaN.
 void print_cell(double value) {
-  std::isnan(value) ? std::printf(",") : std::printf(",%.17g", value);
+  fmt::print(",");
+  if (!std::isnan(value)) fmt::print("{:.17g}", value);
 }
 
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   RayTable table(file);
   const bool positions = table.asks_for_positions();
-  std::printf("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification%s\n",
-              positions ? ",r_there,null_time" : "");
+  fmt::print("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification{}\n",
+             positions ? ",r_there,null_time" : "");
   for (RayCells cells; table.next(cells);) {
     const RayRequest request = table.request(cells);
     const TracedRay ray = trace_ray(request, method, options);
     for (const std::string* text :
          {&cells.observer, &cells.r, &cells.delta, &cells.edge, &cells.offset})
-      std::printf("%s,", text->c_str());
-    std::printf("%s", ray.decided ? name_of(ray.origin) : "");
+      fmt::print("{},", *text);
+    fmt::print("{}", ray.decided ? name_of(ray.origin) : "");
     for (const double v : {ray.phi, ray.one_plus_z, ray.slope, ray.amplification}) print_cell(v);
     if (positions) {
       const std::optional<TracedPlace> place = table.place(cells, request, method, options);
       print_cell(place ? place->r : kNothing);
       print_cell(place ? place->null_time : kNothing);
     }
-    std::puts("");
+    fmt::print("\n");
   }
 }
 

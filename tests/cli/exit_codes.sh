@@ -41,6 +41,12 @@ done
 # Data that did not reach its reader is no success.
 exits 75 bash -c "'$DOMEFALL' states fall.yaml >/dev/full"
 says '^standard output: '
+# So it is where printing fails in the middle of a verb. A reader that goes has what it asked for.
+awk 'BEGIN { print "observer,r,delta"; for (k = 0; k < 3000; ++k) print "rain,10,1" }' >rays.csv
+exits 75 bash -c "'$DOMEFALL' trace --table rays.csv >/dev/full"
+says '^standard output: '
+exits 141 bash -c "set -o pipefail; '$DOMEFALL' trace --table rays.csv | head -n 1"
+[ ! -s "$folder/stderr" ] || fail "a reader that goes is no mistake: $(cat "$folder/stderr")"
 
 # Asked to stop, it ends in order, and may be sent again.
 "$DOMEFALL" render fall.yaml --size 512 --out stopped 2>stderr &

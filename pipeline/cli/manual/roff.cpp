@@ -1,5 +1,6 @@
 #include "pipeline/cli/manual/roff.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace domefall {
@@ -7,7 +8,7 @@ namespace {
 
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 
-// Whether a sentence ends at place k of a text, before a space.
+// Says whether a sentence ends at place k of a text, before a space.
 bool ends_sentence(std::string_view text, std::size_t k) {
   return (text[k] == '.' || text[k] == '?' || text[k] == '!') && k + 2 < text.size() &&
          text[k + 1] == ' ' && is_upper(text[k + 2]);
