@@ -12,6 +12,8 @@ namespace domefall {
 // A SkyRegion is the region in which light started that reaches the observer.
 enum class SkyRegion : char { kI, kIII, kIV };
 inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV};
+// These are the skies of the two exteriors.  Only they have stars.
+inline constexpr std::array kExteriorSkies{SkyRegion::kI, SkyRegion::kIII};
 
 inline const char* name_of(SkyRegion sky) {
   constexpr std::array kNames{"I", "III", "IV"};
@@ -40,7 +42,7 @@ constexpr PerSky<bool> seen_skies(const ObserverState& observer) {
   const bool own = observer.region != Region::kIV;
   const bool other = observer.region == Region::kII && observer.r < 2;
   PerSky<bool> seen;
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+  for (const SkyRegion sky : kExteriorSkies)
     seen[sky] = sky == own_sky(observer.tetrad) ? own : other;
   return seen;
 }

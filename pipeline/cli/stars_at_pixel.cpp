@@ -28,7 +28,7 @@ std::vector<StarAtPixel> stars_at_pixel(const Show& show, const FrameState& stat
   const V3d towards = direction_at(state.projection, pixel).v;
   const StarSight sight(state, show.effects);
   std::vector<StarAtPixel> found;
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion sky : kExteriorSkies) {
     const auto& field = show.sky[sky].stars;
     if (!field || !sight.sees(sky)) continue;
     const FrameSettings::Sky& settings = state.settings.sky[sky];
@@ -42,8 +42,8 @@ std::vector<StarAtPixel> stars_at_pixel(const Show& show, const FrameState& stat
       for (int order = 0; order < sight.orders(); ++order) {
         const StarSight::Image image = sight.image(sky, star.direction, order);
         const double seen = v - 2.5 * std::log10(drawn * image.brightening);
-        // Both images of a pair of orders lie on opposite sides of the hole, where motion may dim
-        // one of them alone; beyond a pair that is too faint there is only fainter.
+        // The images of a pair of orders lie on opposite sides of the hole, where motion may dim
+        // one of them alone.  If both are too faint, so are all that follow.
         faint = seen <= kFaintestSeen ? 0 : faint + 1;
         if (faint == 2) break;
         if (faint > 0) continue;

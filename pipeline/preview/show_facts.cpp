@@ -26,9 +26,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMostCurveSamples = 2000;  // of a curve
+constexpr int kMostCurveSamples = 2000;
 
-// Returns six digits, which a page shows.  JSON has no infinity.
+// Returns the six digits that a page shows.  JSON has no infinity, for which this returns null.
 Json rounded_number(double value) {
   if (!std::isfinite(value)) return {};
   return Json::parse(fmt::format("{:.6g}", value));
@@ -174,7 +174,7 @@ ShowWarning light_warning(const FrameLight& light, const char* text) {
   return {light.time_s, light.frame, light.segment, text};
 }
 
-// Bytes that are not UTF-8, of a configuration's names, do not end the page.
+// A configuration's names may hold bytes that are not UTF-8, which must not end the page.
 std::string page_json(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -234,6 +234,10 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   Json list = Json::array();
   for (const ShowWarning& warning : warnings) list.push_back(warning_json(warning));
   return page_json({{"done", true}, {"warnings", list}});
+}
+
+std::string no_warnings_as_json(bool done) {
+  return page_json({{"done", done}, {"warnings", Json::array()}});
 }
 
 }  // namespace domefall

@@ -12,8 +12,12 @@ namespace domefall {
 // It takes some 0.1 s for a long show.
 std::string show_facts(const LiveShow::Version& version, int threads);
 
-// Returns what `check` warns of, which is jumps, titles that nobody sees, and brightness.  A short
-// show takes 0.1 s, a long one seconds.  It returns early, with nothing, once `stop` is set.
+// Returns a part of what `check` reports.  This is of jumps, of stars that blind behind the hole,
+// of titles that nobody sees, and of where the show is brightest and darkest.  A short show takes
+// 0.1 s, a long one seconds.  Returns nothing, and early, once `stop` is set.
 std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& stop);
+
+// Returns an empty list of warnings.  It says whether the search for them is `done`.
+std::string no_warnings_as_json(bool done);
 
 }  // namespace domefall

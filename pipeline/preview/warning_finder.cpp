@@ -8,7 +8,8 @@
 namespace domefall {
 namespace {
 
-// A version of the show must stay as it is for so long, so that saves in a row are not followed.
+// A version of the show must stay as it is for this long, so that not every save of a series is
+// examined.
 constexpr int kCalmSeconds = 2;
 
 }  // namespace
@@ -23,7 +24,7 @@ WarningFinder::~WarningFinder() {
 
 std::string WarningFinder::as_json() const {
   const std::lock_guard lock(mutex_);
-  if (revision_ != show_.version().revision) return R"({"done": false, "warnings": []})";
+  if (revision_ != show_.version().revision) return no_warnings_as_json(false);
   return found_;
 }
 
@@ -45,7 +46,7 @@ void WarningFinder::find() {
       found = show_warnings_as_json(*version.show, stop_);
     } catch (const std::exception&) {
       // What cannot be read now is told where a picture needs it.
-      found = R"({"done": true, "warnings": []})";
+      found = no_warnings_as_json(true);
     }
     const std::lock_guard lock(mutex_);
     revision_ = version.revision;

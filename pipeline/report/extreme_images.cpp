@@ -24,15 +24,21 @@ ExtremeResult star_on_the_axis() {
   double ring = 0, front = 0;
   for (const double r : {1e-3, 0.5, 2.5, 10.0, 1e4}) {
     const HoleOptics optics = make_hole_optics(r, Tetrad::kRain, {true, r < 2, true});
-    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+    for (const SkyRegion sky : kExteriorSkies) {
       const SkyTable* table = optics.table_of(sky);
       if (table == nullptr) continue;
       const SkyImage behind = image_of(table, V3d(-1, 0, 0), 0, size);
       const SkyImage before = image_of(table, V3d(1, 0, 0), 0, size);
+      // The table ends on the axis in front, where the azimuth is 0.
       const double slope = table->slope(table->x_max());
       worst = std::max(worst, std::abs(before.amplification * slope * slope - 1));
+      // Behind, no value is expected.  The amplification has to be finite, and the page shows how
+      // large it is.
       if (!std::isfinite(behind.amplification)) worst = behind.amplification;
       ring = std::max(ring, behind.amplification * size);
+      // At the last radius, 1e4, hardly more than aberration is left.  With s = sqrt(2/r) the light
+      // from in front has 1 + z = 1 + s for the faller, so the amplification is near
+      // (1 + s)^2 = 1.0285.
       front = before.amplification;
     }
     const WhiteHoleImages images = images_of(*optics.white_hole, V3d(1, 0, 0), 2, size);
@@ -60,6 +66,7 @@ ExtremeResult seventh_ghost() {
       const double phi = order % 2 == 0 ? phi_star + order * pi : (order + 1) * pi - phi_star;
       const NullRay ray = table.ray_at_distance(table.distance(phi));
       worst = std::max(worst, std::abs(exact_azimuth(ray) - phi));
+      // After the loops this is the seventh ghost of the last star, whose azimuth is 8 pi - 3.
       nearest = alpha_of(ray) - table.edge_angle();
     }
   return {

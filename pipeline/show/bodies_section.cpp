@@ -12,15 +12,11 @@
 namespace domefall {
 namespace {
 
+// A Julian year has 365.25 days of 86,400 s.
 constexpr double kLongestPeriod = 1e9, kSecondsPerYear = 31557600;  // Julian years
 constexpr Range kYears = Range{"years"}.within(-1e6, 1e6);
 constexpr double kCoolestBodyK = 100, kHottestBodyK = 1e9, kLargestBody = 1e6;
 constexpr double kBrightestMagnitude = -100, kFaintestMagnitude = 100;
-
-// A body can follow these types of trajectory by itself.  The other types need a segment, or an
-// engine.
-constexpr std::array<std::string_view, 7> kOrbitTypes{
-    "static", "circular", "parabolic", "hyperbolic", "bound", "infall", "thrown"};
 
 // Reads the trajectory of a body and the proper time at which it begins.  Returns true if there was
 // no mistake.
@@ -36,7 +32,8 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
   }
-  if (const auto type = peek(*way, "type"); type && !read_choice(*type, kOrbitTypes)) return false;
+  if (const auto type = peek(*way, "type"); type && !read_choice(*type, trajectories_of_bodies()))
+    return false;
   // These keys choose the part of a trajectory that a segment shows, the rate of its clock or a
   // region.  A body has neither part nor clock, and it is in region I or comes from there.
   for (const std::string_view key :
@@ -110,6 +107,7 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
 // Returns V at kBodyMagnitudeDistance of a body with this absolute magnitude, which is that at 10
 // pc.  The two differ by 5 log10 of the ratio of the distances (the distance modulus).
 double near_magnitude(double absolute, double mass_solar) {
+  // A parsec is 648000/pi astronomical units (IAU 2015), of 149,597,870,700 m each.
   constexpr double kTenParsecs = 1.0292712503e9;  // light seconds
   const double distance = kBodyMagnitudeDistance * kSecondsPerSolarMass * mass_solar;
   return absolute + 5 * std::log10(distance / kTenParsecs);

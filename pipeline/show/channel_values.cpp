@@ -29,6 +29,8 @@ void read_colours(const Section& cdl, std::string_view key, const Range& range, 
 }  // namespace
 
 void read_cdl(const Section& grade, ChannelValues& values) {
+  // The ASC CDL asks for a slope and a saturation of at least 0 and for a power above 0.  The other
+  // bounds are those of docs/show-format.md.
   const Section cdl = subsection(grade, "cdl", {"slope", "offset", "power", "saturation"});
   read_colours(cdl, "slope", kPureNumber.within(0, 1e6), Channel::kSlopeR, values);
   read_colours(cdl, "offset", kPureNumber.within(-1e6, 1e6), Channel::kOffsetR, values);
@@ -41,7 +43,9 @@ ChannelValues read_values(const Section& section, bool has_backgrounds) {
   values[Channel::kEv] = subsection(section, "exposure", {"ev"}).number("ev", kStops);
   read_cdl(subsection(section, "grade", {"cdl"}), values);
   const Section sky = subsection(section, "sky", kSkyKeys.values);
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion region : kExteriorSkies) {
+    // A segment's background is read by read_backgrounds(), but its keys must be known here, or
+    // they would be reported.
     const Section own =
         subsection(sky, kSkyKeys[region], std::span(kOutsideKeys.data(), has_backgrounds ? 5 : 2));
     const Section stars = subsection(own, "stars", {"max_magnitude", "gain"});

@@ -41,6 +41,7 @@ void suit_milky_way(const Item& item, const Lookup& lookup, const std::optional<
                     SkyBackground& background) {
   auto* panorama = std::get_if<PanoramaSky>(&background);
   if (!panorama) return;
+  // A file of the show's own that bears the same name is left alone.
   const auto name = panorama->image.filename();
   if ((name != kMilkyWay && name != kDeepMilkyWay) ||
       panorama->image != shipped_asset(name.string()))
@@ -239,7 +240,7 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
   const Section sky = subsection(
       section, "sky", {"region_I", "region_III", "region_IV", "blueshift_power", "epoch"});
   RegionSky before;  // region III begins with what region I has
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion region : kExteriorSkies) {
     const Section own = subsection(sky, kSkyKeys[region],
                                    {"background", "gain", "black_cd_m2", "stars", "white_cd_m2"});
     if (region == SkyRegion::kI) {
@@ -263,6 +264,7 @@ void read_backgrounds(const Item& sky, const Lookup& lookup, const PerSky<Region
   for (const SkyRegion region : kEverySky) {
     const auto own = peek(sky, kSkyKeys[region]);
     if (!own) continue;
+    // read_values() has checked the keys of this section, so that they need only be looked at.
     const auto background = peek(*own, "background"), white = peek(*own, "white_cd_m2"),
                black = peek(*own, "black_cd_m2"), period = peek(*own, "period_m");
     if (!background && !white && !black && !period) continue;

@@ -38,6 +38,7 @@ PointSpreadLaw read_point_spread(const Section& s) {
   const Range sigma = kDegrees.above(0).at_most(10);
   PointSpreadLaw law;
   const double least = s.number("min_sigma_deg", sigma, kMinSigmaDeg);
+  // A show that widens only the faint stars need not give the widest blob as well.
   const double most = s.number("max_sigma_deg", sigma, std::max(kMaxSigmaDeg, least));
   if (!psf && most < least)
     s.find("max_sigma_deg")
@@ -68,7 +69,7 @@ void read_stars(const Section& show, Show& to) {
   to.star_saturation =
       s.number("saturation", kPureNumber.within(0, 2), to.point_spread.halo > 0 ? kSaturation : 1);
   const double gain = default_star_gain(to.point_spread);
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) to.sky[region].star_gain = gain;
+  for (const SkyRegion region : kExteriorSkies) to.sky[region].star_gain = gain;
   to.least_star_radius =
       radians(s.number("least_radius_deg", kDegrees.above(0).at_most(1), kLeastStarRadiusDeg));
 }

@@ -26,6 +26,7 @@ std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& traject
 // Returns the timing of a trajectory that is given by a rate, from tau = 0 on.
 Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
 
+// Reads an observer at rest, near a hole at a given r and in flat space without one.
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage) {
   const Section s(item, {"type", "r", "rate_m_per_s", "time_lapse", "region"});
   Timing timing{0, proper_time_in(stage, stage.duration_s)};
@@ -62,6 +63,7 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   const bool mirrored = is_in_region_three(s);
   const auto rate = read_rate(s, stage, r ? std::optional(period({*r})) : std::nullopt);
   if (!r || !rate) return std::nullopt;
+  // A rate leads to any number of orbits, so that their bound is checked here too.
   const double orbits = rate->span / period({*r});
   if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
     const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
@@ -71,6 +73,7 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
     return std::nullopt;
   }
   Timing timing = timing_of(*rate);
+  // A number of orbits fixes the end, so that two rates only shape the way there.
   if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
   return paced(s, CircularOrbit{*r}, timing, mirrored);
 }
@@ -98,8 +101,11 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   const auto to_r = s.number("to_r", kUnitsOfM.at_least(kNearest).at_most(kFarthest));
   const auto from_r = s.required_number("from_r", kUnitsOfM.above(0).at_most(kFarthest));
   if (!from_r || (to && !to_r)) return std::nullopt;
+  // A radial fall from rest at infinity has r^(3/2) linear in tau, so that both ends are found in
+  // closed form.
   const RadialInfall fall{*from_r};
   const bool mirrored = is_in_region_three(s);
+  // With a rate alone the fall ends wherever the segment's time has led.
   if (given && !to) {
     const Item* pace = s.find("pace");
     if (pace && is_word(*pace, "slowing")) {
@@ -109,6 +115,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
     const auto rate = read_fall_time(s, stage, fall);
     return rate ? paced(s, fall, timing_of(*rate), mirrored) : std::nullopt;
   }
+  // The end that does not lie below the beginning may be the default, and then from_r is blamed.
   const double end = to_r.value_or(kDefaultEnd);
   if (end >= *from_r) {
     (to ? to : s.find("from_r"))
@@ -120,6 +127,7 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
                                 short_number(end), as_written(*s.find("from_r"))));
     return std::nullopt;
   }
+  // A fall has its tau = 0 at from_r (radial_infall.h).
   Timing timing{0, proper_time_to(fall, end)};
   if (!read_end_rates(s, stage, timing)) return std::nullopt;
   return paced(s, fall, timing, mirrored);
@@ -176,10 +184,11 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
   return is_curved(item) ? read_curved_infall(item, stage) : read_radial_infall(item, stage);
 }
 
-// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its reader.
+// A Type holds the word for a kind of trajectory, whether flat space has that kind, whether a body
+// may move so, and its reader.
 struct Type {
   std::string_view name;
-  bool in_flat_space;
+  bool in_flat_space, for_bodies;
   std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
 };
 
@@ -190,26 +199,38 @@ std::optional<TimedTrajectory> without_lookup(const Item& item, const Stage& sta
 }
 
 // These are the types of trajectory that a show can name.
-constexpr std::array kTypes{Type{"static", true, without_lookup<read_static>},
-                            Type{"circular", false, without_lookup<read_circular>},
-                            Type{"parabolic", false, without_lookup<read_parabolic>},
-                            Type{"hyperbolic", false, without_lookup<read_hyperbolic>},
-                            Type{"bound", false, without_lookup<read_bound>},
-                            Type{"infall", false, without_lookup<read_infall>},
-                            Type{"thrown", false, read_thrown},
-                            Type{"kruskal", false, without_lookup<read_kruskal>},
-                            Type{"path", false, read_path},
-                            Type{"velocity", true, read_velocity},
-                            Type{"body", false, without_lookup<read_ride>},
-                            Type{"continue", true, without_lookup<read_continue>}};
+constexpr std::array kTypes{Type{"static", true, true, without_lookup<read_static>},
+                            Type{"circular", false, true, without_lookup<read_circular>},
+                            Type{"parabolic", false, true, without_lookup<read_parabolic>},
+                            Type{"hyperbolic", false, true, without_lookup<read_hyperbolic>},
+                            Type{"bound", false, true, without_lookup<read_bound>},
+                            Type{"infall", false, true, without_lookup<read_infall>},
+                            Type{"thrown", false, true, read_thrown},
+                            Type{"kruskal", false, false, without_lookup<read_kruskal>},
+                            Type{"path", false, false, read_path},
+                            Type{"velocity", true, false, read_velocity},
+                            Type{"body", false, false, without_lookup<read_ride>},
+                            Type{"continue", true, false, without_lookup<read_continue>}};
 
-constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
-  std::array<std::string_view, kTypes.size()> names;
-  for (std::size_t k = 0; k < names.size(); ++k) names[k] = kTypes[k].name;
+// Returns the names of the types for which `chosen` holds.
+template <std::size_t count>
+constexpr std::array<std::string_view, count> names_where(bool (*chosen)(const Type&)) {
+  std::array<std::string_view, count> names;
+  std::size_t k = 0;
+  for (const Type& type : kTypes)
+    if (chosen(type)) names[k++] = type.name;
   return names;
-}();
+}
+
+constexpr bool is_any(const Type&) { return true; }
+constexpr bool is_for_bodies(const Type& type) { return type.for_bodies; }
+constexpr auto kTypeNames = names_where<kTypes.size()>(is_any);
+constexpr auto kTypesOfBodies =
+    names_where<std::count_if(kTypes.begin(), kTypes.end(), is_for_bodies)>(is_for_bodies);
 
 }  // namespace
+
+std::span<const std::string_view> trajectories_of_bodies() { return kTypesOfBodies; }
 
 bool is_in_region_three(const Section& s) {
   return s.word<bool>("region", {{"I", false}, {"III", true}}).value_or(false);
@@ -225,6 +246,7 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
       item.fail("must be a map with a type, e.g. {type: infall, from_r: 30}, got " + kind_of(item));
     return std::nullopt;
   }
+  // Each reader checks the keys of its own type, so that only the type is looked at here.
   const auto chosen = read_choice(*type, kTypeNames);
   if (!chosen) return std::nullopt;
   const Type& kind = kTypes[*chosen];

@@ -24,6 +24,7 @@ constexpr std::size_t kMostWarnings = 50;
 // Both numbers are larger than any show was seen to need.
 constexpr double kMostPerSine = 4, kMostBlueshift = 10;
 
+// Returns by how many magnitudes a factor makes light brighter.
 double magnitudes(double factor) { return 2.5 * std::log10(factor); }
 
 // Returns the largest value of a channel over the whole show, which has `own` where no curve sets
@@ -59,7 +60,7 @@ AxisStars::AxisStars(const Show& show) : show_(show) {
   if (!show.mass_solar || !show.effects.lensing ||
       show.effects.amplification == Amplification::kNone)
     return;
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) read(region);
+  for (const SkyRegion region : kExteriorSkies) read(region);
 }
 
 void AxisStars::read(SkyRegion region) {
@@ -78,6 +79,7 @@ void AxisStars::read(SkyRegion region) {
   for (std::size_t k = 0; k < stars.size(); ++k) {
     const SceneStar star = stars[k];
     // Beyond this sine the brightest that the star can be is fainter than kBlindingMagnitude.
+    // It solves kMostPerSine/sine gain kMostBlueshift 10^(-0.4 m) = 10^(-0.4 kBlindingMagnitude).
     const double window = kMostPerSine * gain * kMostBlueshift *
                           std::pow(10, 0.4 * (kBlindingMagnitude - star.magnitude));
     // Each class has windows within a factor of 2, and the brightest come first.
@@ -106,13 +108,13 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
   // The first axis is R, which points away from the hole.
   const V3d behind(-axes[0][0], -axes[1][0], -axes[2][0]);
   const PerSky<bool> seen = seen_skies(o);
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion region : kExteriorSkies) {
     if (!seen[region]) continue;
     for (const Class& each : stars_[region])
       for (const double side : {1.0, -1.0}) {
         const V3d axis = behind * side;
-        // Stars within the window have a z within the window of that of the axis, and they are
-        // sorted by z.
+        // Stars within the window have a z within the window of that of the axis, but for the third
+        // power of the window, and they are sorted by z.
         auto star = std::partition_point(each.stars.begin(), each.stars.end(), [&](const auto& c) {
           return c.star.direction.v.z < axis.z - each.window;
         });
@@ -122,7 +124,7 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
           if (sine > star->window || star->star.direction.v.dot(axis) < 0) continue;
           const double least = std::max(show_.least_star_radius, star->star.angular_radius) / 2;
           note({region, &*star, state.frame, state.frame, vanishes,
-                star->star.flux / std::max(sine, least) * std::exp2(state.settings.ev)});
+                star->star.flux / std::max(sine, least) * exposure_scale(state.settings)});
         }
       }
   }
@@ -162,6 +164,9 @@ double AxisStars::magnitude(const Show& show, const Passage& passage) const {
   const double left =
       passage.vanishes ? whole.vanishing_part : 1 - (whole.vanishing ? whole.vanishing_part : 0);
   const double pixel_value = light_of(images, state.projection) * state.fade * left;
+  // An image's light is its illuminance times the pixel value of 1 cd/m^2 (star_image.h).  Times
+  // the luminance of pixel value 1 at 0 EV it is in lux again, with the exposure still in it.  A
+  // star without any light is given 1e-30 of that of magnitude 0, which is magnitude 75.
   return -magnitudes(std::max(pixel_value * kReferenceLuminance / kMagnitudeZeroLux, 1e-30));
 }
 
@@ -176,6 +181,8 @@ std::vector<ShowWarning> AxisStars::warnings() const {
   std::vector<Passage> brightest = passages_;
   std::sort(brightest.begin(), brightest.end(),
             [](const Passage& a, const Passage& b) { return a.light > b.light; });
+  // More are looked at than may be told, because a passage that is bright by its estimate may turn
+  // out not to blind.
   brightest.resize(std::min(brightest.size(), 2 * kMostWarnings));
   std::vector<ShowWarning> found;
   for (const Passage& passage : brightest) {

@@ -11,6 +11,7 @@ namespace domefall {
 namespace {
 
 constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
+// Three stops are an eighth of the light.
 constexpr double kFadeStops = 3;
 // From this part of white's code value on, the steps that remain to white cannot be seen.
 constexpr double kNearWhite = 0.99;
@@ -62,6 +63,7 @@ class LightMeter {
         const unsigned short* code = &graded.pixels[3 * k];
         white += std::max({code[0], code[1], code[2]}) >= kNearWhite * brightest;
       } else {
+        // Without a grade a display would show everything above 1 as white.
         white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
       }
     }

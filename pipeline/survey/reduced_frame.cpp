@@ -21,6 +21,7 @@ FrameState reduced(FrameState state, int width) {
   return state;
 }
 
+// The gain is a number of the frame, so one renderer makes the frame with stars and without.
 FrameState without_stars(FrameState state) {
   for (const SkyRegion sky : kEverySky) state.settings.sky[sky].star_gain = 0;
   if (state.vanishing)

@@ -21,6 +21,7 @@ namespace {
 // quarter of it.
 constexpr int kLarge = 1024;
 constexpr int kFrames = 3;  // measured at each size
+// This is the twentieth of is_worth_measuring().
 constexpr double kWorth = 0.05;
 
 int largest_width(const Show& show) { return std::min(columns(show.projection), kLarge); }
@@ -31,8 +32,9 @@ double doublings_of(const Show& show) {
   return std::log2(1.0 * columns(show.projection) / largest_width(show));
 }
 
-// Returns the state of one of the measured frames, k from 0 to kFrames.  The first two are the
-// same.
+// Returns the state of one of the measured frames, k from 0 to kFrames.  The first is the show's
+// first frame, which warms up what the others need, and the others stand in the middles of three
+// equal parts of the show.
 FrameState measured_state(const Show& show, int k) {
   const auto last = static_cast<long>(frame_count(show) - 1);
   return frame_state(show, static_cast<int>(last * std::max(0, 2 * k - 1) / (2 * kFrames)));
@@ -161,6 +163,7 @@ bool is_worth_measuring(const Show& show) {
   const double part = std::pow(1.0 * largest_width(show) / columns(show.projection), 2);
   // Frames of a half and a quarter of the width have a quarter and a sixteenth of the pixels.
   const double sizes = doublings_of(show) > 0 ? 1 + 1.0 / 4 + 1.0 / 16 : 1;
+  // The frames that are rendered again for their light alone are not counted.
   return (kFrames + 1) * part * sizes < kWorth * frame_count(show);
 }
 
@@ -204,6 +207,8 @@ RenderTime estimate_render_time(const Show& show, Renderer& renderer, const Grad
   const double all_light = instants * light, all = processor + all_light - light;
   time.processor_s = all;
   time.light_part = std::clamp(all_light / std::max(all, 1e-9), 0.0, 1.0);
+  // Seconds by the clock are processor seconds at the ratio that was found at the largest size, for
+  // the frame with its files and for each further instant of its light.
   time.frame_s = whole.wall * processor / std::max(whole.processor, 1e-9) +
                  (instants - 1) * whole_light.wall * light / std::max(whole_light.processor, 1e-9);
   time.seconds = time.frame_s * frame_count(show);

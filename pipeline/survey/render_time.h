@@ -15,8 +15,9 @@ struct RenderTime {
   double linear_bytes = 0, graded_bytes = 0;  // of one frame's files; 0 where none is made
 };
 
-// Says whether the estimate renders less than a twentieth of the show's pixels.  A single frame of
-// 4096 pixels or a few seconds of small frames are rendered almost as soon as measured.
+// Says whether the estimate renders less than a twentieth of the show's pixels, without those that
+// it renders again for the light alone.  A single frame of 4096 pixels or a few seconds of small
+// frames are rendered almost as soon as measured.
 bool is_worth_measuring(const Show& show);
 
 // Renders, grades and writes frames spread over the show, as domefall render does it but into a

@@ -22,6 +22,8 @@ constexpr double kRadianDeg = 180 / std::numbers::pi;
 // has the Lorentz factor gamma gamma' - c.c' for the other.
 std::optional<double> relative_speed(const ObserverState& a, const ObserverState& b) {
   V3d c = a.celerity, d = b.celerity;
+  // Against different tetrads celerities do not compare, but each of them can be given against the
+  // static observer, whom there is outside the horizon.
   if (a.tetrad != b.tetrad) {
     if (!(a.r > 2) || !(b.r > 2)) return std::nullopt;
     c = static_celerity(a), d = static_celerity(b);
@@ -59,6 +61,8 @@ M33d on_sky(const ObserverState& o) {
   return from_columns(axis(0), axis(1), axis(2));
 }
 
+// Returns the change between neighbouring frames.  Across a cut nothing is compared, since a cut is
+// meant to jump.
 FramePair compare(const FrameState& a, const FrameState& b) {
   if (a.segment != b.segment) return {};
   FramePair pair;
@@ -97,6 +101,7 @@ std::vector<int> chosen_frames(const Show& show) {
 }
 
 Pairs compare_frames(const Show& show) {
+  // In chunks of 32 neighbours 33 states are computed for 32 pairs.
   constexpr std::size_t kTogether = 32;
   Pairs found;
   found.frames = chosen_frames(show);
@@ -133,6 +138,7 @@ void warn_of_runs(const Show& show, const Pairs& found, double FramePair::*quant
     const int frame = found.frames[worst];
     warnings.push_back(
         {frame / show.frames_per_second, frame, segment, text_of(found.pairs[worst].*quantity)});
+    // The loop above has gone one pair too far for the outer loop.
     --k;
   }
 }
@@ -179,6 +185,8 @@ class Holds {
   std::vector<ShowWarning>& warnings_;
 };
 
+// Warns of joints at which place and velocity go on but the clock does not, unless a dissolve hides
+// it.
 void warn_of_rates(const Show& show, std::vector<ShowWarning>& warnings) {
   for (const SegmentJoint& j : segment_joints(show)) {
     const double least = std::min(j.rate_before, j.rate_after),
@@ -220,6 +228,7 @@ std::vector<SegmentJoint> segment_joints(const Show& show) {
     j.segment = later, j.time_s = times[k], j.dissolve_s = show.timeline[k].dissolve_s;
     j.r_before = a.r, j.r_after = b.r;
     j.region_before = a.region, j.region_after = b.region;
+    // A speed against each other has a meaning only for observers at one place.
     if (!j.place_jumps()) j.speed = relative_speed(a, b);
     j.rate_before = clock_rate(show.timeline[k - 1], 1),
     j.rate_after = clock_rate(show.timeline[k], 0);
@@ -232,6 +241,7 @@ std::vector<ShowWarning> jump_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
   const Pairs found = compare_frames(show);
   const double deg_per_s = kRadianDeg * show.frames_per_second;  // equals a radian a frame
+  // A change that a show states as exactly the limit may come out above it by rounding.
   constexpr double kRounding = 1e-9;
   warn_of_runs(
       show, found, &FramePair::turn, kFastestTurnDeg / deg_per_s * (1 + kRounding),

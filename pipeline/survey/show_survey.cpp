@@ -23,6 +23,8 @@ void visit(std::vector<Region>& regions, Region region) {
   if (regions.empty() || regions.back() != region) regions.push_back(region);
 }
 
+// Returns the last frame that is not later than an instant.  An instant at most kCutTolerance
+// frames before a frame counts as that frame's, since it is a sum of rounded durations.
 int frame_at(const Show& show, double time_s) {
   const double frame = std::floor(time_s * show.frames_per_second + kCutTolerance);
   return std::clamp(static_cast<int>(frame), 0, frame_count(show) - 1);
@@ -93,6 +95,7 @@ class SampledPath {
 // Returns the part of a segment, 0 to 1, after which its clock shows tau.  It is found by
 // bisection.
 double part_of(const Segment& segment, const ProperTime& tau) {
+  // 2^-60 is far below the spacing of doubles near 1.
   constexpr int kSteps = 60;
   if (tau <= segment.timing.tau_begin) return 0;
   if (tau >= segment.timing.tau_end) return 1;
@@ -133,7 +136,7 @@ class Extremes {
     const ObserverState& o = state.observer;
     if (o.r > 2) raise(found_.fastest, static_celerity(o).length(), state);
     const FramePlan plan = plan_frame(show_, state);
-    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+    for (const SkyRegion sky : kExteriorSkies) {
       if (!plan[sky].lit()) continue;
       const auto range = frequency_range(o, sky, !show_.effects.lensing);
       if (!range) continue;
@@ -160,6 +163,7 @@ class Extremes {
 
 }  // namespace
 
+// At an end of the segment the difference is taken on its inner side.
 double clock_rate(const Segment& segment, double part) {
   constexpr double kStep = 1e-6;
   const double from = std::clamp(part - kStep / 2, 0.0, 1 - kStep);

@@ -121,7 +121,8 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   return found;
 }
 
-// Says whether a sky of region III is one of region I, seen from the other side.
+// Says whether a sky of region III is one of region I, seen from the other side.  Then what is said
+// of region I, whose limit is at least as deep, is true of it.
 bool is_as_in_region_one(const Show& show, const ShownSky& sky,
                          const std::vector<ShownSky>& shown) {
   if (sky.region != SkyRegion::kIII ||
@@ -151,6 +152,7 @@ std::vector<SkySources> survey_skies(const Show& show, const ShowSurvey& survey)
   return found;
 }
 
+// Segments count from 1 for users.
 std::string segments_text(const SkySources& s) {
   if (s.throughout) return "";
   std::vector<int> numbers = s.segments;

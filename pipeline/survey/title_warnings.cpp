@@ -38,6 +38,8 @@ bool has_ink(const LetteredText& letters) {
                              [](const TextOutline& outline) { return !outline.curves.empty(); });
 }
 
+// Adds the warnings of one title.  A title outside the picture is not warned of for the height of
+// its capitals too, which it does not have there.
 void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>& warnings) {
   const std::optional<int> shown_at = first_frame_with(show, title);
   // A title that is seen in no frame is judged by the frame nearest to its beginning.

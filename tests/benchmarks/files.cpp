@@ -1,7 +1,7 @@
 // What the files of a 4k frame cost, stage by stage, in CPU time of one thread, and what the
-// encoders cost that they have replaced: OpenEXR with zlib, OpenImageIO's PNG and TIFF.  The frame is
-// the first of shows/last_stable_orbit.yaml, or the scene-linear file that DOMEFALL_FRAME names.  Files
-// are flushed to the disk as in a run.
+// encoders cost that they have replaced: OpenEXR with zlib, OpenImageIO's PNG and TIFF.  The frame
+// is the first of shows/last_stable_orbit.yaml, or the scene-linear file that DOMEFALL_FRAME names.
+// Files are flushed to the disk as in a run.
 //
 //     build/release/tests/bench_files
 #include <OpenEXR/ImfChannelList.h>

@@ -1,5 +1,6 @@
-// What a dome frame costs, as multiples of copying it: first light at r = 7 M, the Milky Way and
-// the 131,085 standard stars with every image that matters.  Files and grading are measured apart, at 4k.
+// These benchmarks measure what a dome frame costs, as multiples of copying it.  The frame is first
+// light at r = 7 M, with the Milky Way and every image that matters of the 131,085 standard stars.
+// Files and grading are measured apart, at 4k.
 //
 //     build/release/tests/bench_frame
 #include <benchmark/benchmark.h>

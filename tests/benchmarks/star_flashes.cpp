@@ -122,7 +122,7 @@ Show random_orbit(std::mt19937& random) {
   Show show;
   show.projection = Domemaster{kSize};
   show.hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()};
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+  for (const SkyRegion sky : kExteriorSkies)
     show.sky[sky].stars = StarField{source_file("shows/assets/stars_to_9.stars"), 6.5};
   Segment segment;
   segment.duration_s = 20;

@@ -119,7 +119,7 @@ void DiscPass::Row::find_nodes(int row, int first, int count) {
   }
   // A pattern is too fine for cubics.  Its nodes only show where nothing is lit, and need no light.
   if (pass_.pattern_) return;
-  strip_.look(crossings_, count, lit.data());
+  strip_.gather(crossings_, count, lit.data());
   for (int k = 0; k < count; ++k) {
     Node& node = nodes_[static_cast<std::size_t>(first + k)];
     node.light = strip_.light(k);
@@ -236,7 +236,7 @@ void DiscPass::Row::draw_singly(int row, float* rgb) {
     const int* column = &single_[at];
     const int count = static_cast<int>(std::min<std::size_t>(single_.size() - at, Strip::kSize));
     locate(row, count, [column](int k) { return column[k]; });
-    strip_.look(crossings_, count);
+    strip_.gather(crossings_, count);
     for (int k = 0; k < count; ++k) {
       const auto left = static_cast<float>(strip_.left(k));
       const WorkingRgb& light = strip_.light(k);

@@ -26,7 +26,7 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 DiscPass::Strip::Strip(const DiscPass& pass)
     : pass_(pass), effects_(pass.scene_.effects), disc_(pass.scene_.disc->disc()) {}
 
-void DiscPass::Strip::look(const Crossings& crossings, int count, const bool* wanted) {
+void DiscPass::Strip::gather(const Crossings& crossings, int count, const bool* wanted) {
   light_.fill(WorkingRgb{0, 0, 0});
   for (int k = 0; k < count; ++k) {
     double& left = left_[static_cast<std::size_t>(k)];
@@ -34,17 +34,17 @@ void DiscPass::Strip::look(const Crossings& crossings, int count, const bool* wa
     if (!(crossings.energy[k] > 0) || (wanted && !wanted[k])) continue;
     const double turn_per = crossings.turn_per[k];
     left = turn_per < kMostTurn && crossings.azimuth_per[k] < 0.5
-               ? look_at(crossings, k,
-                         {crossings.turn[k], turn_per, crossings.azimuth_cosine[k],
-                          crossings.azimuth_sine[k], 1})
-               : look_at_divisions(crossings, k);
+               ? gather_division(crossings, k,
+                                 {crossings.turn[k], turn_per, crossings.azimuth_cosine[k],
+                                  crossings.azimuth_sine[k], 1})
+               : gather_by_divisions(crossings, k);
   }
   flush();
 }
 
 // Divides a pixel so that psi_0 changes little in each division, and returns the part of the light
 // from behind that is left.
-double DiscPass::Strip::look_at_divisions(const Crossings& crossings, int k) {
+double DiscPass::Strip::gather_by_divisions(const Crossings& crossings, int k) {
   // psi_0 = atan2(up, across cos(azimuth)) grows as |azimuth| grows from 0 to pi.
   const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
   const double azimuth = arc_tangent2(crossings.azimuth_sine[k], crossings.azimuth_cosine[k]);
@@ -73,9 +73,9 @@ double DiscPass::Strip::look_at_divisions(const Crossings& crossings, int k) {
       const double after = n == count ? last : sign * turned;
       const double part = std::abs(after - before) / (2 * half);
       const SineCosine middle = sin_cos((before + after) / 2);
-      left += part * look_at(crossings, k,
-                             {turn_at((before + after) / 2), std::abs(end - begin) / count,
-                              middle.cosine, middle.sine, part});
+      left += part * gather_division(crossings, k,
+                                     {turn_at((before + after) / 2), std::abs(end - begin) / count,
+                                      middle.cosine, middle.sine, part});
       before = after;
     }
   };
@@ -92,7 +92,8 @@ double DiscPass::Strip::look_at_divisions(const Crossings& crossings, int k) {
 }
 
 // Adds the samples of a division, and returns the part of the light from behind that is left there.
-double DiscPass::Strip::look_at(const Crossings& crossings, int k, const Division& division) {
+double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
+                                        const Division& division) {
   const DiscImages& images = pass_.images_;
   const double p = crossings.label[k], per = crossings.label_per[k];
   Veil<DiscImages::kOrders> veil;

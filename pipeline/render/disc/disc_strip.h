@@ -16,7 +16,7 @@ class DiscPass::Strip {
   explicit Strip(const DiscPass& pass);
 
   // Finds light() and left() of `count` <= kSize pixels, or only of those that are `wanted`.
-  void look(const Crossings& crossings, int count, const bool* wanted = nullptr);
+  void gather(const Crossings& crossings, int count, const bool* wanted = nullptr);
 
   // These return the light that the k-th pixel gets from the disc (cd/m^2), and the part of the
   // light from behind that is left there.
@@ -37,8 +37,8 @@ class DiscPass::Strip {
     double from, to;
   };
 
-  double look_at_divisions(const Crossings& crossings, int k);
-  double look_at(const Crossings& crossings, int k, const Division& division);
+  double gather_by_divisions(const Crossings& crossings, int k);
+  double gather_division(const Crossings& crossings, int k, const Division& division);
   void shade(const Crossings& crossings, int k, const Division& division, double turn,
              const DiscImages::Interval& rims, const Share& share, double weight);
   void put(const Crossings& crossings, int k, const Division& division, double turn, double label,

@@ -12,9 +12,10 @@
 #include "pipeline/render/rays/steady.h"
 
 namespace domefall {
+
 std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
   std::vector<SeenTitle> seen;
-  const auto look = [&](const std::vector<Title>& titles) {
+  const auto add_seen = [&](const std::vector<Title>& titles) {
     for (const Title& title : titles) {
       const double t = state.show_time_s;
       if (!(t >= title.begin_s && t < title.end_s)) continue;
@@ -22,16 +23,16 @@ std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
       if (opacity > 0) seen.push_back({&title, opacity});
     }
   };
-  look(show.titles);
-  for (const Segment& segment : show.timeline) look(segment.titles);
+  add_seen(show.titles);
+  for (const Segment& segment : show.timeline) add_seen(segment.titles);
   return seen;
 }
 
 const LetteredText& title_letters(const Title& title) {
   // The references that are returned stay valid, because a map moves none of its elements.
-  static std::mutex one_looks;
+  static std::mutex mutex;
   static std::map<std::tuple<std::string, std::string, TextAlign>, LetteredText> known;
-  const std::lock_guard lock(one_looks);
+  const std::lock_guard lock(mutex);
   const auto key = std::tuple(title.text, title.style.font, title.style.align);
   const auto found = known.find(key);
   if (found != known.end()) return found->second;

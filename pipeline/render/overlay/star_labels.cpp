@@ -103,7 +103,7 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
 std::vector<NamedImage> StarLabels::images(const FrameState& state) {
   std::vector<NamedImage> found;
   const StarSight finder(state, show_.effects);
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion sky : kExteriorSkies) {
     if (!finder.sees(sky)) continue;
     const FrameSettings::Sky& settings = state.settings.sky[sky];
     const double gain = settings.star_gain / default_star_gain(show_.point_spread);

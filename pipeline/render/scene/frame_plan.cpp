@@ -37,7 +37,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);
   };
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+  for (const SkyRegion sky : kExteriorSkies)
     if (seen[sky]) add(sky);
   // Rays that neither sky has come from the past singularity.
   if (plan.gravity) add(SkyRegion::kIV);

@@ -42,7 +42,7 @@ FormulaShader::RingNode FormulaShader::ring_node(double emission_time, double ti
           static_cast<float>(std::abs(time_scale) * pixel_angle * per_time_)};
 }
 
-void FormulaShader::look(const SampleBatch& pixels, int count, Squares& seen) const {
+void FormulaShader::find_squares(const SampleBatch& pixels, int count, Squares& seen) const {
   alignas(64) Doubles x, y, z, footprint, reach;
   for (int k = 0; k < count; ++k) {
     x[k] = pixels.x[k];
@@ -117,7 +117,7 @@ void FormulaShader::sample_borders(const SampleBatch& pixels, int count, Squares
 
 void FormulaShader::shade_grid(const SampleBatch& pixels, int count, float* rgb) const {
   Squares seen;
-  look(pixels, count, seen);
+  find_squares(pixels, count, seen);
   if (samples_ > 1) sample_borders(pixels, count, seen);
   for (int k = 0; k < count; ++k, rgb += 3) {
     const WorkingRgb c = grid_colour({seen.squares[k], seen.discs[k]}, pixels.tone[k]);

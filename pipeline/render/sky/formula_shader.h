@@ -45,7 +45,7 @@ class FormulaShader {
   struct BorderSamples;
   void shade_grid(const SampleBatch& pixels, int count, float* rgb) const;
   void shade_rings(const SampleBatch& pixels, int count, float* rgb) const;
-  void look(const SampleBatch& pixels, int count, Squares& seen) const;
+  void find_squares(const SampleBatch& pixels, int count, Squares& seen) const;
   void sample_borders(const SampleBatch& pixels, int count, Squares& seen) const;
 
   const SkyLight& light_;

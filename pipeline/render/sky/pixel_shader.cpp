@@ -50,8 +50,8 @@ bool PixelShader::is_grid(SkyRegion sky) const {
   return scene_.background[sky] && scene_.background[sky]->is_grid();
 }
 
-void PixelShader::look_at_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
-                                GridSamples& grid) const {
+void PixelShader::find_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
+                             GridSamples& grid) const {
   if (std::none_of(kEverySky.begin(), kEverySky.end(),
                    [this](SkyRegion sky) { return is_grid(sky); }))
     return;
@@ -182,7 +182,7 @@ void PixelShader::shade_batch(Samples& samples, int first, int count, bool fine,
   ViewRayBatch rays;
   scene_.tracer.trace(&samples.n[first], count, rays);
   GridSamples grid;
-  look_at_grids(rays, &samples.angle[first], count, fine, grid);
+  find_grids(rays, &samples.angle[first], count, fine, grid);
   bool maps_seen = false;
   float* rgb = &samples.rgb[3 * first];
   for (int k = 0; k < count; ++k, rgb += 3) {

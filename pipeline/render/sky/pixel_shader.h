@@ -59,8 +59,8 @@ class PixelShader {
   bool is_darkened(SkyRegion sky, const CameraDirection& n) const;
   bool is_grid(SkyRegion sky) const;
   // A fine sample is one of many in its pixel.
-  void look_at_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
-                     GridSamples& grid) const;
+  void find_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
+                  GridSamples& grid) const;
   WorkingRgb light(const ViewRayBatch& rays, int k, double sample_angle,
                    const GridSamples& grid) const;
   double amplification(const CameraDirection& n, double pixel_angle) const;

@@ -193,8 +193,7 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
        {Projection(Domemaster{512}), Projection(Stereographic{640, 360, 2.0})}) {
     const Show show = show_of(trajectory, p);
     FrameState state = frame_state(show, 0);
-    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
-      state.settings.sky[sky].max_magnitude = 99;
+    for (const SkyRegion sky : kExteriorSkies) state.settings.sky[sky].max_magnitude = 99;
     state.settings.ev = 8;
     const ObserverState& o = state.observer;
     const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});

@@ -229,8 +229,7 @@ class StarLabelLight : public StarLabelImages {
   }
 
   void set_gain(double gain) {
-    for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII})
-      show_.sky[region].star_gain = gain;
+    for (const SkyRegion region : kExteriorSkies) show_.sky[region].star_gain = gain;
   }
   std::vector<NamedImage> images() { return StarLabels(show_).images(frame_state(show_, 0)); }
   std::string key() { return FrameKeys(show_).scene(frame_state(show_, 0)); }

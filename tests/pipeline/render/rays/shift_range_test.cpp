@@ -37,7 +37,7 @@ TEST(FrequencyRange, IsThatOfManyViewRays) {
     const ViewTracer tracer(state, optics);
     std::mt19937 generator(7);
     std::normal_distribution<double> normal;
-    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+    for (const SkyRegion sky : kExteriorSkies) {
       const auto range = frequency_range(state.observer, sky, false);
       ASSERT_EQ(range.has_value(), sky == own_sky(c.tetrad) || c.r < 2) << c.name;
       if (!range) continue;

@@ -84,7 +84,7 @@ TEST_F(SkyStores, ReadsButDoesNotMakeWhatHasNoRoomBeforeTheFirstFrame) {
 
 // A star that stands for others would come and go with the light of all.
 TEST_F(SkyStores, SharesStarsOnlyWhereTheLimitChangesForBothSkiesOrNeither) {
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+  for (const SkyRegion sky : kExteriorSkies)
     show_.sky[sky].stars = StarField{folder_ / "assets/stars_to_9.stars", 6};
   Segment& segment = show_.timeline.emplace_back();
   SkyDetail detail;

@@ -165,7 +165,7 @@ TEST(RayGrid, SparesNearlyAllViewRaysOfALargeImage) {
 
 Show without_stars(const Trajectory& t, const Projection& p) {
   Show show = starry(show_of(t, p));
-  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
+  for (const SkyRegion sky : kExteriorSkies) {
     show.sky[sky].stars.reset();
     // Next to black a small error of the light is a large part of what is left.
     std::get<PanoramaSky>(show.sky[sky].background).black = 0;
@@ -189,7 +189,8 @@ TEST(SkyPass, MakesTheFrameThatTracingEveryPixelMakes) {
     }
 }
 
-// The errors of a frame against one all of whose view rays are traced, as parts of the larger value.
+// These are a frame's errors against one whose view rays are all traced, as parts of the larger
+// value.
 struct PixelErrors {
   double worst = 0;
   std::size_t large = 0, all = 0;  // pixels with an error above a hundredth, lit pixels
