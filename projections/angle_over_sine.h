@@ -1,4 +1,5 @@
-// Finds theta/sin(theta) from cos(theta), which takes a direction to its place on a Domemaster.
+// This file finds theta/sin(theta) from cos(theta), which takes a direction to its place on a
+// Domemaster.
 #pragma once
 
 #include <array>

@@ -88,7 +88,7 @@ inline CameraDirection direction(const Stereographic& s, Centred at) {
 }
 
 inline double magnification(const Stereographic& s, const CameraDirection& n) {
-  // Returns 1 + cos(theta), from the sine where the sum would cancel.
+  // 1 + cos(theta) is found from the sine where the sum would cancel.
   const double sine2 = n.v.x * n.v.x + n.v.y * n.v.y;
   const double one_plus_cos = n.v.z >= 0 ? 1 + n.v.z : sine2 / (1 - n.v.z);
   return 1 / (half_tangent_per_pixel(s) * one_plus_cos);

@@ -1,6 +1,6 @@
-// Finds the directions of pixels, for loops over many.  The formulas have neither a branch nor a
-// library function, so that they become SIMD code where they are called.  The tests hold them
-// against direction_at.
+// This file finds the directions of pixels, for loops over many.  The formulas have neither a
+// branch nor a library function, so that they become SIMD code where they are called.  The tests
+// compare them with direction_at.
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ inline constexpr HalfAngleSeries kHalfAngleSeries = [] {
 // x and y are pixels from the middle of the image.
 
 // A DomemasterView finds its sines by half of theta, whose series is as good as that of theta with
-// twice as many terms.  The next term is below 1e-19 up to theta = pi/2, and below 3e-15 up to 0.75
-// pi.
+// twice as many terms.  The next term is below 3e-18 up to theta = pi/2, and below 3e-15 up to
+// theta = 0.75 pi.
 struct DomemasterView {
   double scale;  // radians per pixel
 

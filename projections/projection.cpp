@@ -24,7 +24,8 @@ int height(const Sized& p) {
   return p.rows;
 }
 
-// The row that looks along Z lies below the middle by what more is cut above than below.
+// Returns the row that looks along Z.  On a fisheye it lies below the middle by half of what more
+// is cut at the bottom than at the top.
 double middle_row(const Projection& p) {
   const double middle = (rows(p) + 1) / 2.0;
   const auto* fisheye = std::get_if<Fisheye>(&p);

@@ -28,17 +28,17 @@ struct PixelPosition {
   double i, j;
 };
 
-// A Domemaster is an equidistant azimuthal fisheye of a half sphere in a square of `size` pixels.
-// Z is the dome's zenith (its axis), the bottom edge is the audience's front, and the right edge
-// its right hand.  [Riazuelo] eq. pix_i_geode, pix_j_geode.  It is valid outside the incircle too,
+// A Domemaster is an equidistant azimuthal fisheye of a half sphere in a square of `size` pixels
+// ([Riazuelo] eq. pix_i_geode, pix_j_geode).  Z is the dome's zenith (its axis), the bottom edge is
+// the audience's front, and the right edge its right hand.  It is valid outside the incircle too,
 // up to theta = pi.
 struct Domemaster {
   static constexpr std::string_view kName = "domemaster";
   int size;  // pixels, > 0
 };
 
-// A Stereographic image is a conformal flat image, in which the hole's silhouette stays a circle.
-// [Riazuelo] eq. pix_i, pix_j.
+// A Stereographic image is a conformal flat image, in which the hole's silhouette stays a circle
+// ([Riazuelo] eq. pix_i, pix_j).
 struct Stereographic {
   static constexpr std::string_view kName = "stereographic";
   int columns, rows;  // pixels, > 0

@@ -53,7 +53,8 @@ Rates rates_of(const Piece& piece, double t) {
   return {r, u, l, u * u + (1 - 2 / r) * (1 + l * l)};
 }
 
-// This is as for geodesics, (1 - E^2) + l^2 being (2/r)(1 + l^2) - u^2.
+// This is the formula for geodesics (radial_celerity in geodesic.cpp), in which (1 - E^2) + l^2 is
+// (2/r)(1 + l^2) - u^2.
 double path_celerity(const Rates& p, bool outgoing) {
   const double s = std::sqrt(2 / p.r), inward = outgoing ? p.radial : -p.radial;
   const double energy = std::sqrt(p.energy2), squares = 1 + p.tangential * p.tangential;
@@ -77,8 +78,8 @@ double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
   return (inward >= 0 ? place / (sum * sum) : place / std::abs(1 - 2 / p.r)) + rate / sum;
 }
 
-// Returns the rate of a key inside.  It is 0 at an extreme, and else the harmonic mean weighted
-// towards the shorter side.
+// Returns the rate of a key that is neither the first nor the last.  It is 0 at an extreme, and
+// else the harmonic mean weighted towards the shorter side.
 double key_slope(double before, double left, double after, double right) {
   if (left * right <= 0) return 0;
   const double a = 2 * after + before, b = after + 2 * before;
@@ -190,7 +191,7 @@ std::vector<double> turns_of(const PathCubic& c) {
 void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
   for (int k = 0; k <= kSamples; ++k)
     check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing);
-  // It may touch the horizon between two samples.
+  // The path may touch the horizon between two samples.
   for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
 }
 

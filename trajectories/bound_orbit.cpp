@@ -36,7 +36,7 @@ Geodesic bound_by_turning_points(double periastron, double apoastron) {
   require_at_least("apoastron", "units of M", apoastron, periastron,
                    "it is the farthest point of the orbit");
   const double sum = periastron + a, p = 2 * periastron * a / sum, e = (a - periastron) / sum;
-  // Here p - 6 - 2e = 2 (r_p (r_a - 2) - 4 r_a)/(r_p + r_a).
+  // The excess is that difference with r_p (r_a - 2) - 4 r_a = (r_p - 4)(r_a - 2) - 8.
   return bound_orbit(periastron, a, p, e, 2 * ((periastron - 4) * (a - 2) - 8) / sum);
 }
 

@@ -1,7 +1,8 @@
-// A bound orbit stays between a periastron and an apoastron for ever.  It has r = p/(1 + e cos
-// chi), with p > 6 + 2e and 0 <= e < 1, and E^2 = ((p - 2)^2 - 4 e^2)/(p (p - 3 - e^2)), L^2 =
-// p^2/(p - 3 - e^2).  tau = 0 at a periastron.  Near p = 6 + 2e the orbit whirls at its periastron.
-// The functions throw std::domain_error that names the bound.
+// A bound orbit stays between a periastron and an apoastron for ever.  It has
+// r = p/(1 + e cos chi), with p > 6 + 2e and 0 <= e < 1.  Its constants are
+// E^2 = ((p - 2)^2 - 4 e^2)/(p (p - 3 - e^2)) and L^2 = p^2/(p - 3 - e^2).  tau = 0 at a
+// periastron.  Near p = 6 + 2e the orbit whirls at its periastron.  The functions throw
+// std::domain_error that names the bound.
 #pragma once
 
 #include "trajectories/geodesic.h"

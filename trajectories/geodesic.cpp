@@ -16,9 +16,9 @@ using PathKind = OrbitCurve::Kind;
 
 constexpr double kApexParameter = 1e-6;  // E = 0: 1 - r/2 = tanh^2 of it
 
-// Returns the celerity along R of radial velocity `speed` (dr/dtau).  It is w = (u^r + sE)/(1 -
-// 2/r), or ((1 - E)(1 + E) + l^2)/(sE - u^r), whichever has no cancellation.  The outgoing tetrad
-// is rain's mirror image under r -> -r.
+// Returns the celerity along R for the radial velocity u^r = dr/dtau.  In rain it is
+// w = (u^r + sE)/(1 - 2/r) or ((1 - E)(1 + E) + l^2)/(sE - u^r), whichever has no cancellation.
+// The outgoing tetrad is the mirror image of rain with the opposite signs of u^r and w.
 double radial_celerity(const OrbitCurve::Point& p, const OrbitConstants& c, bool outgoing) {
   const double s = std::sqrt(2 / p.r), l = c.angular_momentum / p.r;
   const double inward = outgoing ? p.radial_speed : -p.radial_speed;
@@ -46,7 +46,7 @@ struct Geodesic::Tables {
   OrbitPoint apex_state(double s) const;
 };
 
-// With E = 0 the observer is at rest in t.
+// This is the state for E = 0, where the observer is at rest in t.
 OrbitPoint Geodesic::Tables::apex_state(double s) const {
   if (std::abs(s) < kApexParameter) s = s < 0 ? -kApexParameter : kApexParameter;
   const bool outgoing = s < 0;

@@ -31,9 +31,9 @@
 // gamma -+ s w_R and r w_Phi, keep to 1e-13 gamma and 1e-15 L.
 //
 // Proper time, azimuth and null time are quadratures made once by the factory (below 1 ms), and a
-// copy shares them.  at() takes 1 to 2 microseconds.  Beyond r = 1e30 M nothing is tabulated.
-// Where tau leaves (birth, death) or that table at() throws std::domain_error.  So do all factories
-// of an orbit of E, L or a periastron beyond 1e15.
+// copy shares them.  at() takes 1 to 2 microseconds.  Beyond r = 1e30 M nothing is tabulated.  at()
+// throws std::domain_error for a tau that is not in (birth, death) or not in the table.  All
+// factories throw it for an orbit of E, L or a periastron of 1e15 or more.
 #pragma once
 
 #include <limits>

@@ -22,8 +22,8 @@ void require_speed(double speed) {
   require_below("v_inf", "fraction of c", speed, 1 - kLeastOfLight, "nothing outruns light");
 }
 
-// `over` is E^2 - 1 above that of the slowest orbit that turns at r_p.  w3 - w2 = (1 - 3 w2)
-// over/((1 - 2 w2) L^2 w2 (w2 - w1)).
+// `over` is E^2 - 1 above that of the slowest orbit that turns at r_p.  Then
+// w3 - w2 = (1 - 3 w2) over/((1 - 2 w2) L^2 w2 (w2 - w1)).
 Geodesic turning_at(double periastron, double excess, double over) {
   const double w2 = 1 / periastron;
   const double l2 = (excess + 2 * w2) / ((1 - 2 * w2) * w2 * w2), l = std::sqrt(l2);
@@ -36,17 +36,20 @@ Geodesic turning_at(double periastron, double excess, double over) {
           -kInfinity};
 }
 
-// Returns (4 - r)/(r (r - 3)), which is negative beyond 4.  It is E^2 - 1 of the unstable circular
-// orbit.
+// Returns E^2 - 1 of the unstable circular orbit at r, which is negative beyond 4.
 double barrier_energy(double r) { return (4 - r) / (r * (r - 3)); }
 
-// Returns the unstable circular orbit of that energy, r = 2 (3 + e)/(1 + e) with e = sqrt(1 + 8
-// v^2).
+// Returns the radius of the unstable circular orbit that has the energy of the speed v at infinity.
+// It is r = 2 (3 + e)/(1 + e) with e = sqrt(1 + 8 v^2).
 double barrier_radius(double speed) {
   const double e = std::sqrt(1 + 8 * square(speed));
   return 2 * (3 + e) / (1 + e);
 }
 
+// Let L_c be the L of capture and w the top of its barrier, where P has a double zero.  At x = 1/r
+// the P of any L is 2 L_c^2 (x - w)^2 (x + 2w - 1/2) - (L^2 - L_c^2) x^2 (1 - 2x).  `depth` is -P
+// at the top of its own barrier.  L^2 - L_c^2 is taken from the excess, so that it keeps its
+// digits.
 Geodesic past_capture(double speed, double l, double excess) {
   const double critical = capture_angular_momentum(speed), w = 1 / barrier_radius(speed);
   const Barrier barrier = barrier_of(l);
@@ -82,7 +85,8 @@ Geodesic hyperbolic_by_periastron(double speed, double periastron) {
                   "to turn at r = " + short_number(periastron) + " takes more than " +
                       short_number(bound * kLightSpeedKmPerS) + " km/s");
   const double energy = excess_energy(speed);
-  // For a speed near its bound the difference is that of the speeds.
+  // Near the bound b, v^2/(1 - v^2) - b^2/(1 - b^2) = (v^2 - b^2)/((1 - v^2)(1 - b^2)) does not
+  // cancel.
   const double over =
       bound > 0 ? (speed - bound) * (speed + bound) * (1 + energy) * (1 + excess_energy(bound))
                 : energy - barrier_energy(periastron);

@@ -1,7 +1,8 @@
-// A hyperbolic orbit comes from infinity with a speed v, goes around the hole and back.  [Riazuelo]
-// app. app_img, fig. fighy1.  E = 1/sqrt(1 - v^2), and L = b v E for an impact parameter b (M).
+// A hyperbolic orbit comes from infinity with a speed v, goes around the hole and back ([Riazuelo]
+// app. app_img, fig. fighy1).  E = 1/sqrt(1 - v^2), and L = b v E for an impact parameter b (M).
 // tau = 0 at the periastron.  v is between 1e-9 and 1 - 1e-12, as a fraction of c.  The functions
-// throw std::domain_error that names the bound, that of a speed in both units.
+// throw std::domain_error that names the bound.  The speed that a periastron needs is named in
+// km/s, too.
 #pragma once
 
 #include "trajectories/geodesic.h"

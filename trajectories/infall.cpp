@@ -18,7 +18,7 @@ using FallKind = OrbitCurve::Kind;
 constexpr double kNoEnergy = 1e-14;
 const char* const kRadiusUnit = "units of M";
 
-// The states are in rain from the throw on.
+// Returns the parameter from which on the states are given in rain, which includes the throw.
 double turn_of(const OrbitStart& start) {
   const FallKind kind = start.curve.kind();
   if (kind == FallKind::kEscaping) return start.parameter;
@@ -64,7 +64,9 @@ Geodesic fall_with_speed(double speed, double impact_parameter, double from_r) {
   return geodesic_through({std::sqrt(1 + excess), excess, l}, from_r, -std::sqrt(p));
 }
 
-// G(w_a) > 0 holds for r_a < 6, and the least G > 0 beyond (OrbitCurve::returning).
+// An orbit from rest at r_a falls in if G of OrbitCurve::returning is positive all the way.  Its
+// least value is G(w_a) for r_a <= 6, and beyond that G at w_m = (1 - 2 w_a)/4.  The bound is the L
+// at which that is 0.
 double fall_bound(double from_r) {
   const double w = 1 / from_r;
   if (from_r <= 3) return kInfinity;

@@ -1,6 +1,6 @@
 // ObserverState is all that crosses from trajectories to light.  It says where the observer is, how
-// it moves against a tetrad that is regular at the horizon, and how its camera is turned.  It never
-// has a four-velocity in (t, r), which is singular at r = 2M.  [Riazuelo] sec. sec_cam.
+// it moves against a tetrad that is regular at the horizon, and how its camera is turned
+// ([Riazuelo] sec. sec_cam).  It never has a four-velocity in (t, r), which is singular at r = 2M.
 #pragma once
 
 #include <limits>

@@ -83,8 +83,8 @@ OrbitCurve::Point OrbitCurve::bound_at(double s) const {
   return {r, width * sine * std::cos(s / 2) / rate, rate};
 }
 
-// Here G = G(w_a) + L^2 (w - w_a)(2w + 4 w_a - 1) = G_least + 2 L^2 (w - w_m)^2 with w_m = (1 - 2
-// w_a)/4.  The first is a sum of positive terms for r_a <= 6, and the second beyond.
+// Here G = G(w_a) + L^2 (w - w_a)(2w + 4 w_a - 1) = G_least + 2 L^2 (w - w_m)^2 with
+// w_m = (1 - 2 w_a)/4.  The first is a sum of positive terms for r_a <= 6, and the second beyond.
 OrbitCurve::Point OrbitCurve::returning_at(double s) const {
   const double sine = std::sinh(s), cosine = std::cosh(s), wa = 1 / far_;
   const double r = far_ / square(cosine), l2 = square(constants_.angular_momentum);
@@ -95,8 +95,8 @@ OrbitCurve::Point OrbitCurve::returning_at(double s) const {
   return {r, -sine * root, 2 * r / (cosine * root)};
 }
 
-// Here P = P(w_b) + 2 L^2 (w - w_b)^2 (w + 2 w_b - 1/2), or for L <= 4 P = (E^2 - 1) + 2w (L^2 (w -
-// 1/4)^2 + 1 - L^2/16).  Both are sums of positive terms for E >= 1.
+// Here P = P(w_b) + 2 L^2 (w - w_b)^2 (w + 2 w_b - 1/2) or, for L <= 4,
+// P = (E^2 - 1) + 2w (L^2 (w - 1/4)^2 + 1 - L^2/16).  Both are sums of positive terms for E >= 1.
 OrbitCurve::Point OrbitCurve::unturned_at(double s) const {
   const double outward = kind_ == Kind::kEscaping ? 1 : -1, l = constants_.angular_momentum;
   const double r = near_ * std::exp(2 * outward * s), w = 1 / r;

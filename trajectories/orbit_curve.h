@@ -1,8 +1,8 @@
-// An OrbitCurve is the radial motion of a timelike geodesic, (dr/dtau)^2 = E^2 - (1 - 2/r)(1 +
-// L^2/r^2).  It runs along a parameter s that grows with proper time, in which nothing is singular
-// or cancels: not the turning points, not the horizon, not r = 0 nor infinity.  With w = 1/r the
-// right side is the cubic P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2
-// (w - w1)(w - w2)(w - w3).
+// An OrbitCurve is the radial motion of a timelike geodesic,
+// (dr/dtau)^2 = E^2 - (1 - 2/r)(1 + L^2/r^2).  It runs along a parameter s that grows with proper
+// time.  In s nothing is singular or cancels, neither at the turning points nor at the horizon, the
+// singularity or infinity.  With w = 1/r the right side is the cubic
+// P(w) = (E^2 - 1) + 2w - L^2 w^2 + 2 L^2 w^3 = 2 L^2 (w - w1)(w - w2)(w - w3).
 //
 //   scattered  r = r_p cosh^2 s                    from infinity to periastron at s = 0 and back
 //   bound      r = r_p + (r_a - r_p) sin^2(s/2)    periastron at s = 0, apoastron at s = +-pi
@@ -11,7 +11,7 @@
 //   escaping   r = r_c exp(2s)                     from the past singularity to infinity
 //
 // What decides how long an orbit whirls is a difference of roots or the height over the barrier.
-// It is a member of its own (`excess`), to be given without cancellation.
+// It is a parameter of its own (`excess`), so that it can be given without cancellation.
 #pragma once
 
 namespace domefall {
@@ -70,7 +70,7 @@ class OrbitCurve {
   OrbitConstants constants_;
   double near_ = 0, far_ = 0;  // the turning radii; near_ is r_c of the unturned
   double over_two_ = 0;
-  double w_ = 0;  // w1 of the scattered; (w_m - w_a) ... see the kinds
+  double w_ = 0;  // w1 of the scattered, w_m of the returning, 1/r_c of the unturned
   double excess_ = 0;
 };
 

@@ -9,7 +9,8 @@
 namespace domefall {
 namespace {
 
-// A difference of terms of about 1 that is less is taken from the roots.
+// If a difference of terms of about 1 is less than this, it has lost digits and is found from the
+// roots instead.
 constexpr double kCancels = 0.01;
 
 // Returns the zero of f in (low, high], of a function that changes its sign there, or high if it
@@ -53,8 +54,8 @@ struct State {
   Top apoastron(double most) const;
 };
 
-// For an apoastron far away the difference has lost digits, which Newton's rule gives back.  It is
-// well conditioned there, P' being 2 nearly.
+// For an apoastron far away the difference has lost digits, which Newton's method gives back.  It
+// is well conditioned there, because P' is nearly 2.
 State::Top State::apoastron(double most) const {
   if (c.energy == 0) return {0.5, w - 0.5};
   const double risen = to_turn(-1, most), l2 = c.angular_momentum * c.angular_momentum;

@@ -7,8 +7,8 @@
 namespace domefall {
 
 // A Barrier is the unstable circular orbit of an angular momentum, at the top of the potential
-// V = (1 - 2w)(1 + L^2 w^2) with w = 1/r.  There E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2
-// (w - w_b + spread).
+// V = (1 - 2w)(1 + L^2 w^2) with w = 1/r.  About it
+// E^2 - V = P(w_b) + 2 L^2 (w - w_b)^2 (w - w_b + spread).
 struct Barrier {
   double w;       // of its radius; 1/6 to 1/3
   double spread;  // 3w - 1/2 = sqrt(1 - 12/L^2)/2: from w to the third root of the top's cubic

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDepth = 60;  // halvings of a panel
 constexpr std::size_t kMostPanels = 4000;
-constexpr double kMost = 1e15;  // squares are added to 1
+constexpr double kMost = 1e15;  // E, L (M) and the innermost r (M) stay below it
 constexpr double kWidest = 1;   // of a parameter in which tau grows like exp(3s)
 constexpr double kNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr int kNewtonSteps = 80;

@@ -1,7 +1,7 @@
-// A parabolic orbit comes from rest at infinity, goes around the hole and back.  It has E = 1 and
-// L > 4.  [Riazuelo] eq. r_par, vit_par, fig. figpar.  tau = 0 at the periastron, which is 4 < r_p,
-// and L = r_p sqrt(2/(r_p - 2)).  Close to L = 4 the orbit whirls at r = 4, some
-// ln(1/excess)/sqrt(2) radians longer.  The functions throw std::domain_error that names the bound.
+// A parabolic orbit comes from rest at infinity, goes around the hole and back ([Riazuelo] eq.
+// r_par, vit_par, fig. figpar).  It has E = 1 and L = r_p sqrt(2/(r_p - 2)) > 4.  tau = 0 at the
+// periastron r_p > 4.  Close to L = 4 the orbit whirls at r = 4, through some sqrt(2) ln(1/excess)
+// radians more.  The functions throw std::domain_error that names the bound.
 #pragma once
 
 #include "trajectories/geodesic.h"

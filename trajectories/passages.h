@@ -12,8 +12,8 @@ namespace domefall {
 // or just before the first key of a path, and -infinity without either.
 double birth(const Trajectory& trajectory);
 
-// Returns the first proper time >= after at which r (M) is passed on that leg, or nothing if it
-// never is, or if r does not change.
+// Returns the first proper time >= after at which r (M) is passed on that leg.  Returns nothing if
+// it never is, or if r does not change.
 std::optional<ProperTime> time_at(
     const Trajectory& trajectory, double r, Leg leg,
     const ProperTime& after = -std::numeric_limits<double>::infinity());

@@ -19,7 +19,7 @@ OrbitPoint point_at(const Trajectory& trajectory, const ProperTime& tau) {
 
 double lifetime(const Trajectory& trajectory) {
   if (const auto* geodesic = std::get_if<Geodesic>(&trajectory)) return geodesic->death();
-  // Its last instant belongs to it.
+  // The last instant of a path still belongs to it.
   if (const auto* path = std::get_if<AcceleratedPath>(&trajectory))
     return std::nextafter(path->end(), std::numeric_limits<double>::infinity());
   const auto* fall = std::get_if<RadialInfall>(&trajectory);

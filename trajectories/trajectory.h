@@ -1,5 +1,5 @@
-// A trajectory is a small value that answers one question: where is the observer, and how does it
-// move, at proper time tau.  There is one header per kind, and this one makes them exchangeable.
+// A trajectory is a small value that says where the observer is, and how it moves, at proper time
+// tau.  There is one header per kind, and this one makes them exchangeable.
 #pragma once
 
 #include <variant>
@@ -18,9 +18,9 @@ namespace domefall {
 using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
                                 SpeedRamp, Geodesic, AcceleratedPath>;
 
-// Returns the point of the orbit at proper time tau (units of M; seconds in flat space) since its
-// start.  tau must be in [0, lifetime).  For a geodesic it must be in (birth, death), and for a
-// path on it.
+// Returns the point of the orbit at proper time tau (units of M, or seconds in flat space) since
+// its start.  tau must be in [0, lifetime).  For a geodesic it must be in (birth, death), and for a
+// path from its first key to its last.
 OrbitPoint point_at(const Trajectory& trajectory, const ProperTime& tau);
 
 // Returns the proper time before which the trajectory ends.  It ends at the singularity, or just

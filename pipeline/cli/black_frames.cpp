@@ -13,7 +13,7 @@ namespace {
 constexpr int kSmallWidth = 96;
 constexpr double kSurelyBrighter = 10;
 
-// The greatest code as a part of white.
+// Returns the greatest code as a part of white.
 double brightest_of(const GradedFrame& frame) {
   constexpr double kWhite = 65535;
   return *std::max_element(frame.pixels.begin(), frame.pixels.end()) / kWhite;

@@ -1,4 +1,4 @@
-// Which black frames ought not to be.
+// This file finds the black frames of a folder that ought not to be black.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,10 @@
 
 namespace domefall {
 
-// Those of the black frames that the renderer, asked for a small one, finds ten times as bright as
-// the brightest black: sorted.  In a fade's dark, and where no light comes, it finds none.
-// `grader` is the show's, or null.  Throws as Renderer.
+// Returns, sorted, those of the black frames that ought to have light.  Each is rendered again,
+// small, and ought to have light if that is more than ten times as bright as a frame may be that
+// counts as black.  So frames in the dark of a fade, and frames that no light reaches, are not
+// returned.  `grader` is the show's, or null.  Throws as Renderer.
 std::vector<int> unexpectedly_black(const Show& show, const FolderFindings& found,
                                     const Grader* grader, int threads);
 

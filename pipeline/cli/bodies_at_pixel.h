@@ -1,4 +1,4 @@
-// The bodies of a show whose images a pixel shows.
+// This file finds the bodies of a show whose images a pixel shows.
 #pragma once
 
 #include <string>
@@ -18,8 +18,9 @@ struct BodyAtPixel {
   PixelPosition at;        // of its middle
 };
 
-// The images whose middles, or those of the pieces that they are drawn in, are so near to the pixel
-// that the smallest blob of the frame reaches it, the brightest first.
+// Returns the images that reach the pixel, the brightest first.  An image reaches it if the
+// smallest blob of the frame would, drawn at the image's middle or at that of a piece that the
+// image is drawn in.
 std::vector<BodyAtPixel> bodies_at_pixel(const Show& show, const FrameState& state,
                                          PixelPosition pixel);
 

@@ -8,8 +8,8 @@
 
 namespace domefall {
 
-// The desktop's own opener ends when the browser has the address, and whatever it says is not for
-// the terminal.
+// Starts the desktop's own opener, and does not wait for it.  The opener ends when the browser has
+// the address, and whatever it says is not for the terminal.
 void open_browser(const std::string& url) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   std::string program = "xdg-open", address = url;

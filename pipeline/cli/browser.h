@@ -1,14 +1,14 @@
-// The browser of whoever sits at this machine.
+// These functions concern the desktop and the name of this machine.
 #pragma once
 
 #include <string>
 
 namespace domefall {
 
-// Opens an address, where there is a desktop with a browser; nothing happens where there is none.
+// Opens an address in the browser of this desktop, and does nothing where there is no desktop.
 void open_browser(const std::string& url);
 
-// The name of this machine, as others may know it.
+// Returns the name by which others may know this machine, or HOST if the system does not tell.
 std::string host_name();
 
 }  // namespace domefall

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Twelve digits, which are those that repeat on every machine; JSON has no infinity.
+// Writes twelve digits, which are those that repeat on every machine.  An infinite value becomes
+// null, because JSON has none.
 Json rounded_json(double value) {
   return std::isfinite(value) ? Json::parse(fmt::format("{:.12g}", value)) : Json();
 }
@@ -26,7 +27,7 @@ Json region_names(const std::vector<Region>& regions) {
   return names;
 }
 
-// `value` is what is reached there, in the unit of the page.
+// Tells where an extreme is.  `value` is what is reached there, in the unit of the page.
 Json extreme(const std::optional<Extreme>& e, double value) {
   if (!e) return {};
   return {{"value", rounded_json(value)},
@@ -143,7 +144,7 @@ Json json_of(const CheckedSky& sky) {
           {"faintest", s.stars > 0 ? rounded_json(s.faintest) : Json()}};
 }
 
-// Of the whole show, after its segments and joints.
+// Adds what holds of the whole show, after its segments and joints.
 void add_whole(const CheckReport& report, Json& json) {
   const ShowSurvey& survey = report.survey;
   if (report.show.mass_solar) json["regions"] = region_names(survey.regions);

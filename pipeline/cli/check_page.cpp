@@ -72,7 +72,7 @@ class Page {
     }
   }
 
-  // What the frames leave out of nature, or add to it.
+  // Says what the frames leave out of nature, or add to it.
   void effects() {
     const Effects& e = show_.effects;
     if (e == Effects{}) return;
@@ -151,7 +151,7 @@ class Page {
     return fmt::format("frame {} ({:.5g} s)", e.frame, e.time_s);
   }
 
-  // What is taken from maps as their black.
+  // Says what is taken for the black of each map.
   void black() {
     for (const auto& [sky, level] : r_.skies) {
       if (!level) continue;

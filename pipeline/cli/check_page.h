@@ -1,4 +1,5 @@
-// What domefall check says of a show: a page to read, or the same facts as JSON.
+// This file says what `domefall check` finds out about a show, as a page to read or as JSON with
+// the same facts.
 #pragma once
 
 #include <filesystem>
@@ -20,12 +21,12 @@ struct CheckedSky {
   std::optional<double> black;  // of its map, cd/m^2
 };
 
-// The disk that a folder of frames is on, or would be on.
+// DiskRoom describes the disk that a folder of frames is on, or would be on.
 struct DiskRoom {
   std::filesystem::path folder;
   double free = 0, taken = 0;  // bytes; taken by what is in the folder already
 };
-// Nothing where the system does not tell.
+// Returns nothing where the system does not tell.
 std::optional<DiskRoom> disk_room(const std::filesystem::path& folder);
 
 struct CheckReport {
@@ -40,31 +41,31 @@ struct CheckReport {
   std::optional<DiskRoom> room;    // for the frames, where the system tells
 };
 
-// What the frames take on the disk, in bytes: as estimated from a few of them, or else without any
-// compression.
+// DiskSize says how many bytes the frames take on the disk.  They are estimated from a few frames
+// where those have been rendered, and otherwise counted without any compression.
 struct DiskSize {
   int frames = 0;
-  double linear = 0, graded = 0;  // of one frame; 0 without a grade
+  double linear = 0, graded = 0;  // bytes of one frame; 0 for files that are not kept
   bool measured = false;
 
   double total() const { return frames * (linear + graded); }
 };
 DiskSize disk_size(const CheckReport& report);
 
-// What to say of frames that will not fit on the disk; empty if they will.
+// Returns what to say of frames that will not fit on the disk, or an empty text if they will.
 std::string lack_of_room(const CheckReport& report);
 
-// About 40 lines: the show, its segments and joints, its extremes, its light, its warnings.
+// Returns some 40 lines about the show, its segments and joints, its extremes, light and warnings.
 std::string check_page(const CheckReport& report);
 
-// One JSON object on one line.  Numbers have twelve digits, and an infinite one is null.
+// Returns one JSON object on one line.  Numbers have twelve digits, and an infinite one is null.
 std::string check_json(const CheckReport& report);
 
-// Three digits in the unit that suits: "850 kB", "12.3 GB".
+// Returns three digits in the unit that suits, such as "850 kB" or "12.3 GB".
 std::string bytes_text(double bytes);
 
-// Three digits in the unit that suits: "41 s", "12 min", "3.5 h", "20 days", "1.6 ms".  The seconds
-// may be negative.
+// Returns three digits in the unit that suits, such as "41 s", "12 min", "3.5 h", "20 days" or "1.6
+// ms".  The seconds may be negative.
 std::string duration_text(double seconds);
 
 }  // namespace domefall

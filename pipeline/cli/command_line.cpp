@@ -40,7 +40,8 @@ void check_verb(std::string_view word) {
                    (near.empty() ? "; it has " + listed(known) : near));
 }
 
-// The verb that notes are about.  Throws where there is none, so that no test can miss it.
+// Returns the verb that notes are about.  Throws CLI::OptionNotFound where there is none, so that
+// no test can miss it.
 CLI::App& verb_of(CLI::App& app, const VerbNotes& notes) {
   CLI::App* verb = &app;
   for (const std::string& word : CLI::detail::split(std::string(notes.verb), ' '))
@@ -75,10 +76,10 @@ int run_command_line(int argc, char** argv) {
   const std::string_view first = argc > 1 ? argv[1] : "-";
   const bool is_verb = !first.starts_with('-'), is_version = argc == 2 && first == "--version";
   if (is_verb) check_verb(first);
-  // To describe all verbs would take a fifth of the program's start.
+  // Only the verb that is used is described, because all would take a fifth of the program's start.
   const std::unique_ptr<CLI::App> app =
       describe_verbs([&](std::string_view name) { return is_verb ? name == first : !is_version; });
-  // A wrong DOMEFALL_SIMD is told before anything is made.
+  // A wrong DOMEFALL_SIMD is refused before anything is made.
   app->parse_complete_callback([] { simd_in_use(); });
   try {
     app->parse(argc, argv);

@@ -1,13 +1,14 @@
-// The command line: its verbs and the options that all of them share.
+// This file runs a command line, whose first word is a verb.
 #pragma once
 
 namespace domefall {
 
-// The exit code for input that is wrong, so that trying again is useless.
+// This is the exit code for input that is wrong, so that trying again is useless.
 inline constexpr int kBadInput = 2;
 
-// Parses the line, does what it asks for, and returns the exit code: 0, or kBadInput for a line
-// that no verb understands. What fails while it is done is thrown.
+// Parses the line, does what it asks for, and returns the exit code.  That is 0, or kBadInput for
+// options and values that are not understood.  Throws InputError for a verb that there is not, and
+// whatever the verb throws.
 int run_command_line(int argc, char** argv);
 
 }  // namespace domefall

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name as it stands in lists and scripts.
+// Returns a file's name.  Throws InputError for a name that is hidden, or that lists and scripts
+// could not hold without escapes.
 std::string plain_file_name(const fs::path& file) {
   std::string name = file.filename().string();
   const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
@@ -36,7 +37,8 @@ DeliveredNames delivered_names(const DeliveryRun& run, const GradedFormat& forma
   return {pattern, count, extension_of(format.kind)};
 }
 
-// A sound lasts as long as the frames, to within one; a subtitle is gone by their end.
+// Throws InputError unless each sound lasts as long as the frames, to within one frame, and each
+// subtitle is gone a frame after their end at the latest.  Sounds must also agree in rate and bits.
 void check_lengths(const DeliveryRun& run, const Delivery& d) {
   const double length = duration_s(d), frame = length / d.names.count();
   for (std::size_t k = 0; k < d.sounds.size(); ++k) {

@@ -1,4 +1,4 @@
-// What a delivery will hold, which is found before anything is written.
+// This file says what a delivery will hold, before any of it is written.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,16 @@ namespace domefall {
 // given.  Throws InputError if they are more than the frames have.
 GradedFormat delivered_format(const Show& show, std::optional<int> bits);
 
-// Reads the sounds and the subtitles.  Throws InputError for names that are refused, and for sounds
-// and subtitles that do not last as long as the frames; and as GradedFrames.
+// Reads the sounds and the subtitles, and describes the delivery.  Throws InputError for names that
+// are refused, for sounds that do not last as long as the frames, and for subtitles that last
+// longer.  Also throws as GradedFrames.
 Delivery describe_delivery(const DeliveryRun& run, const GradedFrames& frames,
                            const GradedFormat& format);
 
-// Frame k of the leader, from 0.
+// Returns the path of frame k of the leader, counted from 0, below the delivery.
 std::string leader_path(const Delivery& delivery, int k);
 
-// All files but the list of checksums.  Throws InputError if two would have the same name.
+// Returns all files but the list of checksums.  Throws InputError if two would have the same name.
 std::set<std::string> delivered_files(const Delivery& delivery);
 
 }  // namespace domefall

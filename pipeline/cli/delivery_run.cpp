@@ -122,7 +122,7 @@ class Deliverer {
         link_or_copy_file(source_.file(frame), to);
       else
         write_graded(to, source_.read(frame), target_.info(frame), target_.format());
-      // It may have been changed since it was checked.
+      // The source may have been changed since it was checked.
       if (examine_frame(to, wanted) != FrameCondition::kGood)
         throw TemporaryError(source_.file(frame).string() +
                              ": the file was changed meanwhile; run again");
@@ -131,8 +131,8 @@ class Deliverer {
     });
   }
 
-  // A picture that is no frame of the show, in the format of the frames.  One that is there and
-  // good is left.
+  // Writes a picture that is no frame of the show, in the format of the frames.  One that is there
+  // and good is left.
   template <class Draw>
   void write_drawn(const std::string& path, const char* kind, int number, const Draw& draw) const {
     GradedInfo info = picture_info();

@@ -1,4 +1,4 @@
-// Makes the folder that festivals and dome operators ask for, out of finished frames.
+// This file makes the folder that festivals and dome operators ask for, out of finished frames.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,22 @@ struct DeliveryRun {
   const Show& show;            // as large as its frames are
   std::filesystem::path from;  // holds graded/NAME_00000.png
   std::filesystem::path out;
-  std::optional<int> bits;  // of a colour; nothing leaves the frames as they are
+  std::optional<int> bits;  // a colour; with nothing the frames stay as they are
   std::string name;         // a NamePattern; empty for the show's own name
   std::vector<std::filesystem::path> sounds, subtitles;
   bool leader = false;
   int threads = 1;
 };
 
-// Holds every frame and file against what it should be before it writes any.  The list of checksums
-// comes last, and until it is there INCOMPLETE.txt is; another run goes on with what is good.
-// Throws InputError for frames, sounds and subtitles that do not fit, and for a folder that holds
-// anything else; TemporaryError as GradedFrames::check() and where the disk fails.
+// Makes the delivery.  Every frame and file is held against what it should be before any is
+// written.  The list of checksums comes last, and INCOMPLETE.txt is there until then.  Another run
+// keeps what is good and makes the rest.  Throws InputError for frames, sounds and subtitles that
+// do not fit, and for a folder that holds anything else.  Throws TemporaryError as
+// GradedFrames::check(), and where the disk fails.
 void run_delivery(const DeliveryRun& run);
 
-// Throws InputError for what run_delivery() would refuse, however good the frames will be: a name,
-// a sound, or the folder.
+// Throws InputError for what run_delivery() would refuse however good the frames will be, such as a
+// name, a sound or the folder.
 void check_delivery_folder(const DeliveryRun& run);
 
 }  // namespace domefall

@@ -23,7 +23,7 @@ double bytes_below(const fs::path& folder) {
   return bytes;
 }
 
-// Without any compression.
+// Returns the size of a pixel without any compression.
 double pixel_bytes(GradedKind kind) {
   constexpr double kBytes16 = 6, kBytes8 = 3;
   return kind == GradedKind::kPng16 || kind == GradedKind::kTiff16 ? kBytes16 : kBytes8;

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The value behind an option, as "--size 512" or as "--size=512"; empty if it is not there.
+// Returns the value of an option, given as "--size 512" or as "--size=512", or an empty text if the
+// option is not there.
 std::string option_in(const std::vector<std::string>& options, const std::string& name) {
   for (std::size_t k = 0; k < options.size(); ++k) {
     if (options[k] == name && k + 1 < options.size()) return options[k + 1];
@@ -34,7 +35,8 @@ std::string grade_id_of(const std::optional<Grader>& grader, const Show& show) {
   return grader ? grader->transform_id() + format_id(*show.output.graded) : std::string();
 }
 
-// Its log is named after the engine's job and the task, or where there are no jobs after the plan.
+// Returns what is known of a task.  Its log is named after the engine's job and the task, or after
+// the plan, its round and the task where there are no jobs.
 TaskFrames task_of(const PlannedChunk& chunk, const FarmPlan& plan) {
   TaskFrames task{chunk.round, chunk.task, parse_frames(chunk.frames, kMostFrames), {}};
   task.logs.push_back(fmt::format("_{}_{}_{}", plan.id, chunk.round, chunk.task));
@@ -48,7 +50,7 @@ void require_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) return;
   if (!error && fs::exists(folder, error)) throw InputError(folder.string() + ": is no folder");
-  // Another machine may have it, or a file server may come back.
+  // Another machine may have the folder, or a file server may come back.
   throw TemporaryError(folder.string() + ": there is no such folder here");
 }
 

@@ -1,4 +1,4 @@
-// What a folder of frames is to hold, as the verbs of the farm are asked for it.
+// FarmFrames say what a folder of frames is to hold, as the verbs of the farm are asked for it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,8 +16,9 @@
 
 namespace domefall {
 
-// Texts are those of the options of `domefall render`; an empty one stands for what
-// the plan in DIR/farm says, or else for that option's default.
+// The texts are those of the options of `domefall render`.  An empty one stands for what the plan
+// in DIR/farm says.  Where there is no plan, or `show` is given, it stands for the default of that
+// option.
 struct FarmRequest {
   std::string folder, plan, show, frames, size, overlays;
   int threads = 0;
@@ -25,14 +26,15 @@ struct FarmRequest {
 
 void add_farm_options(CLI::App& verb, FarmRequest& request);
 
-// How many threads look at files: as many as are asked for, or else four at least, since they wait
-// for disks and file servers and not for processors.
+// Returns how many threads look at files, which is as many as are asked for.  Otherwise it is at
+// least four, because these threads wait for disks and file servers and not for processors.
 int reading_threads(const FarmRequest& request);
 
 class FarmFrames {
  public:
-  // Throws InputError where no show is named, by the request or by a plan, as read_plan(), and as
-  // read_show, parse_frames, Grader and FrameKeys; TemporaryError if there is no such folder.
+  // Throws InputError where neither the request nor a plan names a show.  Throws TemporaryError if
+  // there is no such folder.  Also throws as domefall::read_plan, read_show, parse_frames, Grader
+  // and FrameKeys.
   explicit FarmFrames(FarmRequest request);
   FarmFrames(const FarmFrames&) = delete;
   FarmFrames(FarmFrames&&) = delete;
@@ -43,21 +45,23 @@ class FarmFrames {
   const Show& show() const { return show_; }
   const FrameFolder& folder() const { return *folder_; }
   const std::vector<int>& frames() const { return frames_; }
-  // Of the work after the frames of the plan (conclusion_of()); empty where there is no plan.
+  // Returns what conclusion_of() says of the work after the plan's frames, or an empty text where
+  // there is no plan.
   std::string conclusion() const { return conclusion_of(folder_->path(), plan_id_); }
-  // Of the plan; empty where there is none.
+  // Returns the tasks of the plan, or none where there is no plan.
   const std::vector<TaskFrames>& tasks() const { return tasks_; }
-  // The grade of the show; nothing where it keeps no graded frames.
+  // Returns the grader of the show, or nothing where the show keeps no graded frames.
   const std::optional<Grader>& grader() const { return grader_; }
 
-  // The files of the frames, each with the key that it has today.
+  // Returns the files of the frames, each with the key that it has today.
   std::vector<ExpectedFile> files() const;
 
-  // What a changed show costs, by segments, as `domefall render` says it.
+  // Counts by segment the frames that a changed show makes stale, which `domefall render` reports
+  // too.
   FrameSurvey invalidated(const FolderFindings& found) const;
 
-  // Files that are not the show's (FrameFolder::strangers), and those of others under the names of
-  // its frames, sorted and below the folder.
+  // Returns the files that are not the show's, sorted and below the folder.  They are `strangers`
+  // (FrameFolder::strangers), and files of others under the names of the show's frames.
   static std::vector<std::string> foreign(const FolderFindings& found,
                                           const std::vector<std::filesystem::path>& strangers);
 

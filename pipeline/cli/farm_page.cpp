@@ -20,13 +20,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostSlow = 3, kMostShown = 8;
 
-// 1:02:03
+// Writes hours, minutes and seconds, as in 1:02:03.
 std::string short_duration(double seconds) {
   const auto s = std::lround(std::max(seconds, 0.0));
   return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-// By this machine's clock and time zone.
+// Writes a date and a time by this machine's clock and time zone.
 std::string clock_of(double since_1970_s) {
   const auto time = static_cast<std::time_t>(since_1970_s);
   std::tm local{};
@@ -68,7 +68,8 @@ void add_failed(std::string& page, const FarmStatus& status) {
 FarmStatus farm_status(const FarmFrames& frames, int threads) {
   FarmStatus status;
   const std::filesystem::path& folder = frames.folder().path();
-  // Keys, names and manifests take about as long, and do not wait for each other.
+  // Keys, names and manifests take about as long as each other and do not depend on one another, so
+  // they are looked at side by side.
   auto manifest = std::async(std::launch::async, [&] { return read_manifest(folder, threads); });
   auto strangers = std::async(std::launch::async, [&] { return frames.folder().strangers(); });
   const std::vector<ExpectedFile> files = frames.files();

@@ -1,4 +1,4 @@
-// What `domefall farm status` says, for people and for programs.
+// This file says what `domefall farm status` prints, for people and for programs.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace domefall {
 
-// The state of a folder at one moment.
+// A FarmStatus is the state of a folder at one moment.
 struct FarmStatus {
   FolderFindings found;
   Manifest manifest;
@@ -22,15 +22,15 @@ struct FarmStatus {
   double now_s = 0;        // since 1970
 };
 
-// Looks at the files at a glance, and reads the manifests.  Throws as read_manifest and
+// Reads the beginnings of the files, and the manifests.  Throws as read_manifest and
 // stop_if_interrupted.
 FarmStatus farm_status(const FarmFrames& frames, int threads);
 
-// Whether nothing is left to do.
+// Says whether every frame is made and can be read.
 bool is_complete(const FarmStatus& status);
 
 std::string farm_page(const FarmFrames& frames, const FarmStatus& status);
-// One object, without the line's end.
+// Returns one JSON object, without a newline after it.
 std::string farm_json(const FarmFrames& frames, const FarmStatus& status, int indent);
 
 }  // namespace domefall

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As the nodes find it.
+// Returns the path as the nodes find it, whose working folder may be another.
 std::string absolute_path(const std::string& path) {
   return fs::absolute(path).lexically_normal().string();
 }

@@ -31,15 +31,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kTaskSeconds = 300;  // of a task where there is much to do
-// The start of a process, 0.55 s with a grade, is a hundredth of this.
+// To share the work among many, a show is cut into tasks no shorter than this.  The start of a
+// process takes 0.55 s with a grade, which is a hundredth of it.
 constexpr double kShortTaskSeconds = 60;
-constexpr int kFewestFrames = 10;   // a task of this length spends little time on being started
-constexpr int kManyMachines = 100;  // a show is cut for, if its tasks are not too short then
+constexpr int kFewestFrames = 10;   // a task of so many spends little of its time on being started
+constexpr int kManyMachines = 100;  // a show is cut for so many where its tasks stay long enough
 constexpr int kLongestLocalChunk = 100, kMostChunks = 10000, kTaskThreads = 4;
 
-// Seconds that each of these frames takes on a machine that does nothing else, with that many
-// threads.  Renders a few small frames in any case: so what the show reads is there and can be
-// read.
+// Returns the seconds that each of these frames takes on a machine that does nothing else, with
+// that many threads.  If they are not `measured`, each counts 1.  A few small frames are rendered
+// in any case, which shows that what the show reads is there and can be read.
 std::vector<double> frame_seconds(const Show& show, const std::vector<int>& frames, int threads,
                                   bool measured) {
   Renderer renderer(show);
@@ -51,7 +52,7 @@ std::vector<double> frame_seconds(const Show& show, const std::vector<int>& fram
   std::optional<Grader> grader;
   if (show.output.graded) grader.emplace(show.grade);
   const RenderTime time = estimate_render_time(show, renderer, grader ? &*grader : nullptr);
-  // Grading and files take about as long for each.
+  // Grading and writing take about as long for each frame, so only the time for its light varies.
   constexpr double kLeastPart = 1e-3;
   for (double& cost : costs)
     cost = time.processor_s / threads *
@@ -59,7 +60,8 @@ std::vector<double> frame_seconds(const Show& show, const std::vector<int>& fram
   return costs;
 }
 
-// A plan that is only printed needs no controller.
+// Returns Slurm's limit, or its default where no controller answers, since a plan that is only
+// printed needs none.
 int most_array_tasks_if_known() {
   constexpr int kPatienceS = 3;
   try {
@@ -81,7 +83,8 @@ int most_tasks(const SubmitOptions& o) {
 
 int divided_up(int count, int by) { return (count + by - 1) / by; }
 
-// How many chunks to cut frames into, that take `seconds` one after another on one machine.
+// Returns how many chunks to cut frames into that take `seconds` one after another on one machine.
+// `seconds` is 0 where they have not been measured.
 int chunk_count(const SubmitOptions& o, const FarmPlan& plan, int frames, double seconds) {
   const int most = most_tasks(o);
   if (o.chunk > 0) {
@@ -98,8 +101,8 @@ int chunk_count(const SubmitOptions& o, const FarmPlan& plan, int frames, double
   const bool local = o.engine == "local";
   const int by_time = static_cast<int>(std::min(1e6, std::ceil(seconds / kTaskSeconds)));
   const int by_frames = divided_up(frames, local ? kLongestLocalChunk : kFewestFrames);
-  // So many that the last tasks do not keep the others waiting, where they are long enough for
-  // that.
+  // There are so many chunks that the last ones do not keep others waiting, unless the chunks would
+  // become too short.
   int many = local ? 4 * plan.at_once : std::min(kManyMachines, by_frames);
   if (seconds > 0) many = std::min(many, static_cast<int>(seconds / kShortTaskSeconds));
   if (local) many = std::max({many, plan.at_once, seconds > 0 ? 1 : by_frames});
@@ -146,7 +149,8 @@ FarmPlan make_plan(const SubmitOptions& o) {
   plan.program = farm_program(o.program, o.engine == "local");
   plan.show = fs::absolute(o.show).lexically_normal();
   plan.out = fs::absolute(frames_folder(show, o.out)).lexically_normal();
-  // A plan of all frames stays one when the show becomes longer or shorter.
+  // The plan does not list all frames, so that it stays one of all frames when the show changes
+  // length.
   if (!o.frames.empty()) plan.frames = as_ranges(frames);
   if (!o.size.empty()) plan.options = {"--size", o.size};
   if (!o.overlays.empty()) plan.options.insert(plan.options.end(), {"--overlay", o.overlays});

@@ -1,5 +1,5 @@
-// The plan of `domefall farm submit`: which frames are to be made, and which chunks take equal
-// time.
+// This file makes the plan of `domefall farm submit`, which says what frames are to be made and
+// which chunks of them take equal time.
 #pragma once
 
 #include <string>

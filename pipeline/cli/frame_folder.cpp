@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char *kLinear = "linear", *kGraded = "graded", *kLens = "lens";
 
-// The first part of the path that is a link to nothing; empty if there is none.
+// Returns the first part of the path that is a link to nothing, or an empty path if there is none.
 fs::path dangling_link(const fs::path& path) {
   fs::path part;
   for (const fs::path& name : path) {
@@ -49,9 +49,9 @@ void make_folder(const fs::path& folder) {
   sweep_temporaries(folder);
 }
 
-// The files in a folder and in those below it.
+// Visits the files in a folder and in those below it, except for hidden ones.
 void for_each_file(const fs::path& folder, const std::function<void(const fs::path&)>& use) {
-  std::error_code error;  // a folder that cannot be read has none
+  std::error_code error;  // a folder that cannot be read has no files
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;
@@ -65,7 +65,7 @@ std::string numbered(const FrameNames& names, int number) {
   return fmt::format("{:0{}d}", number, names.digits);
 }
 
-// Null for no record, and for one that cannot be understood.
+// Returns null where there is no record, or one that cannot be understood.
 Json read_record(const fs::path& path) {
   const auto file = FileBytes::open(path);
   if (!file || file->size() > FileBytes::kMost) return {};
@@ -121,7 +121,8 @@ fs::path FrameFolder::graded(int frame) const {
   return path_of(kGraded, frame, extension_of(format.kind));
 }
 
-// The frame whose number is in NAME_00000.EXTENSION, in whatever folder; nothing for other names.
+// Returns the frame whose number is in NAME_00000.EXTENSION, in whatever folder the file is.
+// Returns nothing for other names.
 std::optional<int> FrameFolder::frame_of(const fs::path& file) const {
   const FrameNames& names = show_.output.names;
   const std::string stem = file.stem().string();
@@ -163,7 +164,8 @@ std::string FrameFolder::record() const {
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// Another show may call its files by the same name.
+// Throws InputError where the record of another show, which may call its files by the same name,
+// claims files that are there.
 void FrameFolder::check_namesakes() const {
   std::error_code error;  // a folder that is not there has no records
   for (const auto& entry : fs::directory_iterator(folder_, error)) {

@@ -1,5 +1,5 @@
-// The folder of a show's frames: where each frame lies, and the record that says whose frames they
-// are.
+// A FrameFolder is the folder of a show's frames.  It says where each frame lies, and has the
+// record that says whose frames they are.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace domefall {
 
-// The folder of a show's frames: what --out says, or else out/NAME.
+// Returns the folder of a show's frames, which is what --out says, or else out/NAME.
 std::filesystem::path frames_folder(const Show& show, const std::string& out);
 
 class FrameFolder {
@@ -21,16 +21,16 @@ class FrameFolder {
   FrameFolder(std::filesystem::path folder, const Show& show);
 
   const std::filesystem::path& path() const { return folder_; }
-  // linear/NAME_00000.exr and graded/NAME_00000.png, by the show's FrameNames.  Where these ask for
-  // folders, linear/NAME_00000-09999/NAME_00000.exr.
+  // These are linear/NAME_00000.exr and graded/NAME_00000.png, by the show's FrameNames.  Where
+  // those ask for folders, the file is linear/NAME_00000-09999/NAME_00000.exr.
   std::filesystem::path linear(int frame) const;
   std::filesystem::path graded(int frame) const;
-  // lens/NAME_00000.exr, likewise.
+  // This is lens/NAME_00000.exr, likewise.
   std::filesystem::path lens(int frame) const;
   bool has_linear() const { return show_.output.linear.has_value(); }
   bool has_graded() const { return show_.output.graded.has_value(); }
 
-  // The frame with this key as the folder is to hold it.
+  // Returns what the file of the frame with this key has to be.
   WantedFrame wanted(std::string key) const;
 
   // Throws InputError if there are frames in the folder and they belong to another show.  They do
@@ -39,18 +39,19 @@ class FrameFolder {
   // understood, belongs to nobody.
   void check_owner() const;
 
-  // Files beside the frames that are not this show's, sorted and below the folder: beyond its end,
-  // of another name or kind.  Hidden ones are none.
+  // Returns the files among the frames that are not this show's, sorted and below the folder.  Such
+  // files have numbers beyond the show's end, or another name or kind.  Hidden files do not count.
   std::vector<std::filesystem::path> strangers() const;
 
   // Makes the folders that files of these frames are to be put into, and removes what dead writers
-  // left.  Throws InputError where the path leads through a file, else TemporaryError.
+  // left.  Throws InputError where the path leads through a file or round a circle of links, or is
+  // too long.  Throws TemporaryError for any other failure.
   void prepare(const std::vector<int>& frames) const;
-  // The same for lens maps.
+  // Does the same for lens maps.
   void prepare_lens(const std::vector<int>& frames) const;
 
-  // Writes the record, to which a folder has a right once a frame is there.  It depends on the show
-  // and its size alone, so that any number of workers may do this at once.
+  // Writes the record, which belongs in a folder once a frame is there.  It depends on nothing but
+  // the show and its size, so that any number of workers may write it at once.
   void write_record() const;
 
  private:

@@ -30,7 +30,7 @@
 namespace domefall {
 namespace {
 
-// Frames of more pixels are made one at a time.
+// Larger frames are made one at a time.
 constexpr std::int64_t kMostPixelsOfTwo = 40'000'000;
 
 class Stopwatch {
@@ -43,7 +43,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// A run with what it makes once: the grader, the keys, the renderer.
+// A Run holds what a run makes once, such as the grader, the keys and the renderer.
 class Run {
  public:
   explicit Run(const FrameRun& run)
@@ -78,9 +78,9 @@ class Run {
   void all() {
     Progress progress(run_.frames.size(), run_.progress);
     int being_written = 0;
-    // While one frame is graded and written, the next is rendered, into the memory of the one
-    // before.  A large frame is written first, since two of 8k and a graded one would take more
-    // than 1.5 GiB.
+    // While one frame is graded and written, the next is rendered into the memory of the frame
+    // before.  A large frame is written before the next is rendered, since two frames of 8k and a
+    // graded one would take more than 1.5 GiB.
     const bool large =
         std::int64_t{columns(run_.show.projection)} * rows(run_.show.projection) > kMostPixelsOfTwo;
     std::future<void> writing;
@@ -141,14 +141,14 @@ class Run {
     return grader_ ? grader_->transform_id() + format_id(*run_.show.output.graded) : std::string();
   }
 
-  // Whether the frame can be graded from its scene-linear file.
+  // Says whether the frame can be graded from its scene-linear file.
   bool has_good_linear(int number, const std::string& key) const {
     return (folder_.has_linear() || !run_.render) &&
            is_good(folder_.linear(number), key, run_.render);
   }
 
-  // Frames that another run may yet render are for later; of a show that keeps no scene-linear
-  // files there never will be any.
+  // Another run may yet render the frames that are missing, so they are worth trying again later.
+  // A show that keeps no scene-linear files never will have them.
   [[noreturn]] void fail_for_missing() const {
     const bool one = missing_.size() == 1;
     const std::string what = fmt::format(
@@ -166,7 +166,7 @@ class Run {
   bool is_good(const std::filesystem::path& file, const std::string& key, bool replaces) const {
     const WantedFrame wanted = folder_.wanted(key);
     const FrameCondition condition = examine_frame(file, wanted);
-    // Another run may have put it there since the survey.
+    // Another run may have put the file there since the survey.
     if (condition == FrameCondition::kOther && replaces && !run_.replace)
       throw InputError(fmt::format("{}: a good frame, but another one than this run makes ({})",
                                    file.string(), describe_difference(file, wanted)));
@@ -191,8 +191,8 @@ class Run {
     return info;
   }
 
-  // Writes the files that are asked for, side by side: while one waits for the disk, the other is
-  // packed.
+  // Writes the files that are asked for, side by side, so that one is packed while the other waits
+  // for the disk.
   void write(const FrameState& state, const std::string& key, const RenderedFrame& frame,
              bool linear, bool graded, double render_s) {
     const Stopwatch all;
@@ -227,7 +227,7 @@ class Run {
                    linear_s, graded_s, graded ? describe_grade(frame.half).c_str() : "");
   }
 
-  // By what the frame was graded, and how exactly.
+  // Says by what the frame was graded, and how exactly.
   std::string describe_grade(const HalfFrame& frame) const {
     const auto table = grading_->table_error(frame);
     if (!table) return "grade by formulas\n";

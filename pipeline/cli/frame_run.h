@@ -1,6 +1,6 @@
-// A run over the frames of a show.  It makes what is missing, damaged or of another version of the
-// show, leaves alone what is good, and replaces good frames of another size, show or kind only if
-// that is asked for.
+// A FrameRun goes over the frames of a show.  It makes what is missing, damaged or of another
+// version of the show, and leaves alone what is good.  Good frames of another size, show or kind it
+// replaces only if that is asked for.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace domefall {
 
-// The program that frames name in their headers.
+// Frames name this program in their headers.
 inline constexpr const char* kSoftware = "Domefall " DOMEFALL_VERSION;
 
 struct FrameRun {
@@ -24,7 +24,7 @@ struct FrameRun {
   bool render = true;            // false for a run that only grades frames that are there
   bool replace = false;          // good frames of another size, show or kind too
   bool dry = false;              // only prints the frames that it would make, judged by their heads
-  std::optional<ProgressForm> progress = std::nullopt;  // nothing: a bar on the terminal
+  std::optional<ProgressForm> progress = std::nullopt;  // with nothing, a bar on the terminal
 };
 
 // Returns the frames that a run would make, judged by the heads of the files that are there.  Says
@@ -32,7 +32,8 @@ struct FrameRun {
 // run_frames().
 std::vector<int> frames_to_make(const FrameRun& run);
 
-// Makes the frames.  Throws InputError, TemporaryError or Interrupted; frames finished before stay.
+// Makes the frames.  Throws InputError, TemporaryError or Interrupted.  Frames finished before
+// stay.
 void run_frames(const FrameRun& run);
 
 }  // namespace domefall

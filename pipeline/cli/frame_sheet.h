@@ -1,4 +1,4 @@
-// A contact sheet of finished frames.
+// This file makes a contact sheet of finished frames.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace domefall {
 
-// Frames with a label each, which are read on several threads.  Throws as GradedFrames::read().
+// Returns a sheet of these frames with a label each.  They are read on several threads.  Throws as
+// GradedFrames::read().
 GradedFrame sheet_of_frames(const GradedFrames& from, const Show& show,
                             const std::vector<int>& frames, const std::vector<std::string>& labels,
                             int threads);

@@ -9,7 +9,8 @@
 namespace domefall {
 namespace {
 
-// Looks at files one by one, and at the whole of those that may have to be protected.
+// A Surveyor looks at files one by one.  It reads the whole of those that may have to be protected,
+// until it finds one that must be.
 class Surveyor {
  public:
   explicit Surveyor(FrameSurvey& survey) : survey_(survey) {}
@@ -29,7 +30,7 @@ class Surveyor {
   FrameSurvey& survey_;
 };
 
-// 1,260
+// Writes a number with its thousands grouped, as in 1,260.
 std::string grouped(int number) {
   return number < 1000 ? fmt::format("{}", number)
                        : fmt::format("{},{:03}", grouped(number / 1000), number % 1000);
@@ -44,7 +45,8 @@ std::string joined(const std::vector<std::string>& items) {
   return text;
 }
 
-// The first of many, and how many more there are.
+// Keeps the first `most` items, and says how many more there are.  A single item more is kept,
+// since "1 more" would hardly be shorter.
 std::vector<std::string> shortened_list(std::vector<std::string> items, std::size_t most) {
   if (items.size() <= most + 1) return items;
   const std::size_t more = items.size() - most;

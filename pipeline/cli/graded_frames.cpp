@@ -89,14 +89,15 @@ GradedFrame GradedFrames::read(int frame) const {
   const bool ours = picture.width == columns(show_.projection) &&
                     picture.height == rows(show_.projection) && reader->layout().channels == 3;
   if (ours) reader->read(picture.row(0));
-  // A file that was changed since it was checked may have been changed before it was read.
+  // The file may have been changed between its check and its reading, and so is held against its
+  // key again.
   if (!ours || examine_frame(file(frame), wanted(frame)) != FrameCondition::kGood)
     throw TemporaryError(file(frame).string() + ": the file was changed meanwhile; run again");
   return picture;
 }
 
 int frames_at_once(const Show& show, int threads) {
-  // A picture of 16 bits, as it is read and as it is drawn or packed.
+  // A pixel of 16 bits is held twice, as it is read and as it is drawn or packed.
   constexpr std::int64_t kMost = std::int64_t{1} << 30, kBytesOfPixel = 16;
   const std::int64_t pixels = std::int64_t{columns(show.projection)} * rows(show.projection);
   return static_cast<int>(

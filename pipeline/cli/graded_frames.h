@@ -1,4 +1,4 @@
-// The graded frames of a show that are made already.
+// GradedFrames are the graded frames of a show that are made already.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace domefall {
 class GradedFrames {
  public:
   // The show, as large as its frames are, must outlive this.  Throws InputError if the show keeps
-  // no graded frames, and as Grader and FrameKeys.
+  // no graded frames.  Also throws as Grader and FrameKeys.
   GradedFrames(const Show& show, const std::filesystem::path& folder);
 
   std::filesystem::path file(int frame) const { return folder_.graded(frame); }
@@ -23,16 +23,16 @@ class GradedFrames {
   const Grader& grader() const { return grader_; }
   const std::string& show_digest() const { return keys_.show(); }
 
-  // The file as it is to be.
+  // Returns what the file has to be.
   WantedFrame wanted(int frame) const;
   GradedInfo info(int frame) const;
 
-  // Holds each file against its key and its digest.  Throws, naming the frames in ranges,
-  // InputError if some are good ones of another size, show or kind, else TemporaryError if some are
-  // missing, damaged or of another version of the show.
+  // Holds each file against its key and its digest.  Both exceptions name the frames in ranges.
+  // Throws InputError if some are good ones of another size, show or kind.  Otherwise throws
+  // TemporaryError if some are missing, damaged or of another version of the show.
   void check(const std::vector<int>& frames, int threads) const;
 
-  // The pixels.  Throws TemporaryError if the file is not good any more.
+  // Returns the pixels.  Throws TemporaryError if the file is not good any more.
   GradedFrame read(int frame) const;
 
  private:
@@ -44,7 +44,8 @@ class GradedFrames {
   FrameKeys keys_;
 };
 
-// How many frames of a show can be worked on at once within a gibibyte, at most `threads`.
+// Returns how many frames of a show can be worked on at once within a gibibyte, which is at least
+// one and at most `threads`.
 int frames_at_once(const Show& show, int threads);
 
 }  // namespace domefall

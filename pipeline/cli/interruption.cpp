@@ -21,7 +21,7 @@ namespace {
 
 std::atomic<bool> first_is_remembered{false}, nothing_is_unfinished{false};
 std::atomic<int> remembered{0};
-std::array<int, 2> told{-1, -1};  // a pipe, through which a handler may speak to a thread
+std::array<int, 2> told{-1, -1};  // a pipe, by which a handler tells a thread
 
 constexpr int kSignalsCode = 128, kTryAgainCode = 75;
 
@@ -35,15 +35,16 @@ void on_signal(int signal) {
   errno = error;
 }
 
-// Says it only where it can be said at once: a pipe may be full that nobody reads, and a thread
-// that waits for it holds the lock of the stream.
+// Writes the line only if that can be done at once.  Nobody may be reading a pipe that is full, and
+// a thread that waits for it holds the lock of the stream.
 void say_to_terminal(std::string_view line) {
   pollfd out{STDERR_FILENO, POLLOUT, 0};
   if (poll(&out, 1, 0) > 0 && (out.revents & POLLOUT) != 0)
     (void)!write(STDERR_FILENO, line.data(), line.size());
 }
 
-// Little is allowed in a handler, and removing a folder is not.
+// A thread waits for the signal's number and ends the program, because a handler is not allowed to
+// remove folders.
 void end_when_told() {
   unsigned char signal = 0;
   while (read(told[0], &signal, 1) != 1) {

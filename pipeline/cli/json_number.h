@@ -1,4 +1,4 @@
-// Numbers as the verbs write them into JSON.
+// This file writes numbers into JSON as the verbs do.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace domefall {
 
-// All digits of `value`, so that it is read back as it is.  JSON has no infinity and no NaN, for
-// which null stands: what has no such value.
+// Keeps all digits of `value`, so that it is read back as it is.  JSON has no infinity and no NaN,
+// for which this writes null.
 inline nlohmann::ordered_json json_number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }

@@ -35,14 +35,14 @@ void KeyedRenderer::render_keyed(const FrameState& state, ImageRgb<T>& frame) {
   }
 }
 
-// Takes the digests of the assets again, and keeps the new keys if they are those of before.
+// Takes the digests of the assets again, and keeps the new keys if the digests have not changed.
 bool KeyedRenderer::assets_are_the_same() {
   try {
     FrameKeys now(show_, grade_);
     if (!now.same_assets(*keys_)) return false;
     keys_.emplace(std::move(now));
     return true;
-  } catch (const InputError&) {  // one is gone
+  } catch (const InputError&) {  // one of them is gone
     return false;
   } catch (const TemporaryError&) {  // one went while it was read
     return false;

@@ -1,4 +1,5 @@
-// Renders the frames of a show from the assets that its frames' keys stand for.
+// A KeyedRenderer renders the frames of a show from the assets that the keys of its frames stand
+// for.
 #pragma once
 
 #include <optional>

@@ -37,8 +37,8 @@ FrameInfo info_of_map(const Show& show, const FrameState& state, const std::stri
   return info;
 }
 
-// The frames whose maps are to be made.  Throws InputError if good ones of another size or show
-// would be replaced unasked.
+// Returns the frames whose maps are to be made.  Throws InputError if good ones of another size or
+// show would be replaced unasked.
 std::vector<int> maps_to_make(const LensRun& run, const FrameFolder& folder) {
   std::vector<int> found;
   for (const int number : run.frames) {

@@ -1,4 +1,4 @@
-// A run that writes the lens maps of a show's frames.
+// A LensRun writes the lens maps of a show's frames.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct LensRun {
 };
 
 // Makes what is missing, damaged or of another version of the show, and leaves alone what is good.
-// No sky and no catalogue is read.  Throws InputError, TemporaryError or Interrupted; maps finished
-// before stay.
+// No sky and no catalogue is read.  Throws InputError, TemporaryError or Interrupted.  Maps
+// finished before stay.
 void run_lens_maps(const LensRun& run);
 
 }  // namespace domefall

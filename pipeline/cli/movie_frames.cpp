@@ -21,7 +21,7 @@
 namespace domefall {
 namespace {
 
-// Graded frames of a folder, with the keys that they must have.
+// FinishedFrames are the graded frames of a folder, with the keys that they must have.
 class FinishedFrames {
  public:
   FinishedFrames(const MovieRun& run, const std::filesystem::path& folder)
@@ -71,7 +71,7 @@ class FinishedFrames {
  private:
   static constexpr std::size_t kConditions = 5;
 
-  // Side by side, since each takes the time to read a file.
+  // Examines the frames side by side, since each takes the time to read a file.
   std::vector<FrameCondition> examine() const {
     const auto threads = static_cast<std::size_t>(run_.threads);
     std::vector<FrameCondition> conditions(run_.frames.size());
@@ -99,7 +99,7 @@ GradedFrame read_finished(const FinishedFrames& frames, int number) {
   return frame;
 }
 
-// How many frames are unpacked ahead, within half a gibibyte.
+// Returns how many frames are unpacked ahead, within half a gibibyte but at least one.
 std::size_t frames_ahead(const MovieRun& run) {
   constexpr std::size_t kMost = std::size_t{512} << 20;
   const std::size_t bytes = sizeof(unsigned short) * 3 *

@@ -1,4 +1,5 @@
-// The frames of a movie: finished ones out of a folder, or such as are rendered for it.
+// This file makes movies, either of finished frames out of a folder or of frames that are rendered
+// for the movie.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +12,8 @@
 
 namespace domefall {
 
-// The size of a preset's movie of frames that are projected so.  Throws InputError where the preset
-// takes no such frames.
+// Returns the size of a preset's movie of frames that have this projection.  Throws InputError
+// where the preset takes no such frames.
 MovieSize movie_size_of(const MoviePreset& preset, const Projection& frames);
 
 struct MovieRun {
@@ -26,9 +27,10 @@ struct MovieRun {
 
 // Makes a movie of graded frames in a folder.  All are read and held against their keys and digests
 // before ffmpeg is started, and each again when it is handed over.  Throws InputError if the show
-// has no graded frames, and if some are good ones of another size, show or kind; TemporaryError,
-// with the numbers of all frames that cannot be used, if some are missing, damaged or of another
-// version of the show, and if one is changed while the movie is made; and as MovieFile.
+// has no graded frames, or if some are good ones of another size, show or kind.  Throws
+// TemporaryError, with the numbers of all frames that cannot be used, if some are missing, damaged
+// or of another version of the show, and also if one is changed while the movie is made.  Also
+// throws as MovieFile.
 void movie_of_finished(const MovieRun& run, const std::filesystem::path& folder);
 
 // Makes a movie of frames that are rendered and graded for it and written nowhere.  While ffmpeg

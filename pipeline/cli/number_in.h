@@ -1,4 +1,4 @@
-// A check of an option's number against its bounds, which NaN does not pass either.
+// This file checks that the number of an option lies within its bounds.  NaN does not pass either.
 #pragma once
 
 #include <CLI/CLI.hpp>

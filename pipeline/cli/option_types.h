@@ -1,5 +1,5 @@
-// What the values of options are, in the words of --help and of the manual.  Bash completion goes
-// by them: it offers files, folders, shows or the words in braces.
+// These names say what the values of options are, in the words of --help and of the manual.  Bash
+// completion goes by them when it offers files, folders, shows or the words in braces.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,21 +12,22 @@
 namespace domefall {
 
 inline constexpr const char *kFileType = "FILE", *kFolderType = "FOLDER", *kShowName = "SHOW";
-// It follows the words of a list whose members are joined by commas.
+// This mark follows the words of a list whose members are joined by commas.
 inline constexpr std::string_view kListMark = ",...";
 
-// One of several words, as CLI::IsMember also writes them: {review,dome}.
+// Writes one of several words as CLI::IsMember does, such as {review,dome}.
 template <class Names>
 std::string one_of(const Names& names) {
   return fmt::format("{{{}}}", fmt::join(names, ","));
 }
 
-// An empty path would stand for the default, which a script with an unset variable does not mean.
+// Refuses an empty path.  It would stand for the default, which a script with an unset variable
+// does not mean.
 inline std::string refuse_empty(const std::string& path) {
   return path.empty() ? std::string("got an empty path") : std::string();
 }
 
-// The show that a verb is about.
+// Adds the argument that names the show.
 inline CLI::Option* add_show(CLI::App& verb, std::string& file) {
   return verb.add_option(kShowName, file, "show file (YAML)")->type_name(kFileType);
 }

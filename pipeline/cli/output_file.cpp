@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The number of this process's descriptor that a path such as /proc/self/fd/1 names; else -1.
+// Returns the number of this process's descriptor that a path such as /proc/self/fd/1 names, or
+// else -1.
 int own_descriptor(const fs::path& path) {
   std::error_code error;
   const fs::path folder = fs::canonical(path.parent_path(), error);
@@ -34,7 +35,7 @@ int own_descriptor(const fs::path& path) {
   return wrong == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
-// Where a link, or a link to a link, leads, or the path itself.  There need be nothing there.
+// Returns where a link leads, or a link to a link, or else the path itself.  Nothing need be there.
 fs::path end_of_links(const fs::path& path) {
   constexpr int kMostLinks = 40;  // as many as the kernel follows
   fs::path at = path;
@@ -48,13 +49,14 @@ fs::path end_of_links(const fs::path& path) {
   throw_file_error(path, ELOOP);
 }
 
-// Waits a second for a pipe's reader, who may have been started together with this program.
+// Opens a pipe or a device.  Waits a second for a pipe's reader, who may have been started together
+// with this program.
 int open_stream(const fs::path& path, const fs::path& named) {
   constexpr int kMostTries = 100;
   for (int tries = 0; tries < kMostTries; ++tries) {
     const int opened = open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (opened >= 0) {
-      fcntl(opened, F_SETFL, 0);  // no O_NONBLOCK any more
+      fcntl(opened, F_SETFL, 0);  // writing has to wait for the reader
       return opened;
     }
     if (errno != ENXIO) throw_file_error(named, errno);
@@ -68,7 +70,7 @@ int open_stream(const fs::path& path, const fs::path& named) {
       fmt::format("{}: is {}, which is not written into; name a file", named.string(), what));
 }
 
-// A descriptor for what is not replaced but written into; -1 for a file.
+// Returns a descriptor of what is not replaced but written into, or -1 for a file.
 int stream_at(const fs::path& path, const fs::path& named) {
   if (const int own = own_descriptor(path); own >= 0) {
     const int copy = fcntl(own, F_DUPFD_CLOEXEC, 0);
@@ -128,7 +130,7 @@ void OutputFile::finish() {
   if (stream_ < 0) return;
   const Descriptor content(open(path_.c_str(), O_RDONLY | O_CLOEXEC));
   if (content.number() < 0) throw_file_error(path_, errno);
-  std::fflush(stdout);  // it may lead to the same place
+  std::fflush(stdout);  // standard output may lead to the same place
   copy_all(content.number(), stream_, named_);
 }
 
@@ -139,7 +141,7 @@ void write_output(const fs::path& path, std::string_view contents) {
 }
 
 void refuse_overwriting(const fs::path& out, const fs::path& input) {
-  std::error_code neither;  // set if one of them does not exist, and then they are not the same
+  std::error_code neither;  // one of them does not exist
   if (fs::equivalent(out, input, neither) && !neither)
     throw InputError("--out " + out.string() + ": that is the file to be read; name another");
 }

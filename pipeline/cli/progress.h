@@ -1,4 +1,4 @@
-// Says how far a run is: on the terminal, or in a form that a queue manager reads.
+// A Progress says how far a run is, either on the terminal or in a form that a queue manager reads.
 #pragma once
 
 #include <chrono>
@@ -8,13 +8,14 @@
 
 namespace domefall {
 
-// A line on standard output for each frame, made or found good.
+// A form prints a line on standard output for each frame that is made or found good.
 enum class ProgressForm {
   kPlain,   // frame 12: 3 of 40
   kJson,    // {"frame":12,"done":3,"total":40,"made":true,"seconds":4.2}
   kOpenJd,  // openjd_progress: 7.5, and openjd_status: with the plain text
-  // FRAME: 12 and PROGRESS: 100%.  Afanasy's generic parser counts the frames, takes the percentage
-  // for that of the frame, and knows how many frames a task of a numbered block has.
+  // This form prints FRAME: 12 and PROGRESS: 100%.  Afanasy's generic parser counts the frames,
+  // takes the percentage for that of the frame, and knows how many frames a task of a numbered
+  // block has.
   kAfanasy,
 };
 
@@ -31,8 +32,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  // Each counts one more frame: one that was made, or one that was there and good.  Which one
-  // matters only where a form prints it.
+  // Each counts one more frame, which was made or which was there and good.  Its number matters
+  // only where a form prints it.
   void made(int frame = 0);
   void skipped(int frame = 0);
 

@@ -53,7 +53,7 @@ std::string sky_json(const SkyFile& file, bool verified) {
       {"text", origin.text},
       {"digest", file.digest()},
       {"verified", verified ? Json(true) : Json()}};
-  // The text of another program's file need not be UTF-8.
+  // The text in another program's file need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// What a .sky file holds, for people and for other programs.
+// This file says what a .sky file holds, for people and for other programs.
 #pragma once
 
 #include <string>
@@ -7,11 +7,10 @@
 
 namespace domefall {
 
-// Returns lines of text.
 std::string sky_page(const SkyFile& file);
 
 // Returns one JSON object with the facts of the page.  `verified` says that all checksums have been
-// compared and are right; otherwise its key is null.
+// compared and are right.  Otherwise its key is null.
 std::string sky_json(const SkyFile& file, bool verified);
 
 }  // namespace domefall

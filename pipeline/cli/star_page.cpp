@@ -29,7 +29,7 @@ struct Facts {
 };
 
 Facts facts_of(const StarFile& file) {
-  // Making stars of all records names the byte of one that is none.
+  // Making stars of all records throws an error that names the byte of a record that is no star.
   stars_of(file, std::numeric_limits<double>::infinity(), file.epoch());
   const auto stars = file.up_to(std::numeric_limits<double>::infinity());
   Facts facts;
@@ -57,7 +57,7 @@ std::string line(std::string_view name, const std::string& value) {
   return value.empty() ? "" : fmt::format("{:12} {}\n", name, value);
 }
 
-// The decimals of a magnitude, without those that a float adds to them.
+// Returns a magnitude without the decimals that a float adds to it.
 double rounded(double v) { return std::round(v * 1e4) / 1e4; }
 
 }  // namespace

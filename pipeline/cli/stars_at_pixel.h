@@ -1,4 +1,4 @@
-// The images of stars that fall on a pixel.
+// This file finds the images of stars that fall on a pixel.
 #pragma once
 
 #include <string>
@@ -21,9 +21,9 @@ struct StarAtPixel {
 
 inline constexpr double kFaintestSeen = 25;
 
-// The images, the brightest first, of the stars that the frame draws whose middles are so near to
-// the pixel that the smallest blob of the frame (PointSpread) reaches it.  Those that are seen
-// fainter than kFaintestSeen are left out.  Reads the show's catalogues; throws as
+// Returns the images of the stars that the frame draws, the brightest first.  The middle of each is
+// so near to the pixel that the smallest blob of the frame (PointSpread) reaches it.  Images that
+// are seen fainter than kFaintestSeen are left out.  Reads the show's catalogues.  Throws as
 // read_star_catalogue.
 std::vector<StarAtPixel> stars_at_pixel(const Show& show, const FrameState& state,
                                         PixelPosition pixel);

@@ -17,22 +17,22 @@
 namespace domefall {
 namespace {
 
-// Whether a show sees the sky of a region, from there or from inside the hole.
+// Says whether a show sees the sky of a region, from there or from inside the hole.
 bool is_seen(const ShowSurvey& survey, Region region) {
   return std::any_of(survey.regions.begin(), survey.regions.end(),
                      [region](Region r) { return r == region || r == Region::kII; });
 }
 
-// Loads all that the frames will read, since a file may be damaged and none of the frames that are
-// measured need show it.
+// Loads all that the frames will read, since a file may be damaged though none of the measured
+// frames shows it.
 void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
   if (is_seen(survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
   if (is_seen(survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
   if (show.mass_solar) renderer.load_sky(SkyRegion::kIV);
 }
 
-// The time to render; nothing where it is not worth measuring, or where no temporary file can be
-// written, which is no fault of the show.
+// Returns the time to render.  Returns nothing where that is not worth measuring, or where no
+// temporary file can be written, which is no fault of the show.
 std::optional<RenderTime> time_to_render(const Show& show, const Grader* grader) {
   if (!is_worth_measuring(show)) return std::nullopt;
   try {

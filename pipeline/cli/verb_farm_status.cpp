@@ -19,7 +19,7 @@ struct StatusOptions {
   bool json = false, watch = false;
 };
 
-// A whole object on a line where there will be more of them.
+// Returns a page, or JSON.  An object takes one line where others will follow it.
 std::string status_text(const StatusOptions& o, const FarmFrames& frames,
                         const FarmStatus& status) {
   constexpr int kIndent = 2, kOneLine = -1;
@@ -27,8 +27,8 @@ std::string status_text(const StatusOptions& o, const FarmFrames& frames,
   return farm_page(frames, status);
 }
 
-// Says it anew every two seconds until all is done: on a terminal in the place of what was there,
-// elsewhere below it.  A signal is how it is meant to end.
+// Says the status anew every two seconds until all is done.  On a terminal it replaces the text
+// before, and elsewhere it follows that.  A signal is the way in which this is meant to end.
 void watch_folder(const StatusOptions& o) {
   constexpr std::chrono::milliseconds kPause(2000), kStep(50);
   const bool terminal = isatty(STDOUT_FILENO) != 0;

@@ -18,7 +18,7 @@
 namespace domefall {
 namespace {
 
-// What a submission would hand to the engine.
+// Returns what a submission would hand to the engine.
 std::string text_for_engine(const FarmPlan& plan) {
   if (plan.engine == "openjd") return openjd_template(plan);
   if (plan.engine == "flamenco") return flamenco_job(plan);

@@ -25,10 +25,11 @@ struct VerifyOptions {
   bool json = false, repair = false;
 };
 
-// Looks at every byte of a folder's frames, and has those made again that are not good.
+// A Verification looks at every byte of a folder's frames, and has those made again that are not
+// good.
 class Verification {
  public:
-  // Renders by so many threads, 0 standing for one per processor, and reads by so many.
+  // `threads` render, where 0 stands for one per processor, and `readers` read.
   Verification(const FarmFrames& frames, int threads, int readers)
       : frames_(frames), threads_(threads), readers_(readers), files_(frames.files()) {
     findings_ = look(files_);
@@ -39,7 +40,8 @@ class Verification {
   const std::vector<std::string>& foreign() const { return foreign_; }
   const std::vector<int>& black() const { return black_; }
 
-  // What a run has to make again; of what cannot be read nobody knows.
+  // Returns the frames that a run has to make again.  Those that cannot be read are not among them,
+  // because they may be good.
   std::vector<int> to_make() const {
     const std::vector<int> bad = found_.to_make(), suspicious = this->suspicious();
     return joined_frames({&bad, &suspicious});
@@ -47,8 +49,8 @@ class Verification {
 
   std::size_t good() const { return found_.good.size() - suspicious().size(); }
 
-  // Makes what is to do and what cannot be read, and looks at it again.  Throws InputError if the
-  // folder is another show's, and as run_frames.
+  // Makes the frames of to_make() and those that cannot be read, and looks at them again.  Throws
+  // InputError if the folder is another show's.  Also throws as run_frames.
   void repair() {
     const std::vector<int> bad = to_make();
     const std::vector<int> frames = joined_frames({&bad, &found_.unreadable});
@@ -96,8 +98,8 @@ class Verification {
     for (std::size_t k = 0; k < places.size(); ++k) findings_[places[k]] = findings[k];
   }
 
-  // A run keeps a frame of the right key and digest, whatever is to be seen on it, and ends at a
-  // file that it cannot read.
+  // Removes files that a run would not replace.  It keeps a frame of the right key and digest,
+  // whatever is to be seen on it, and ends at a file that it cannot read.
   void remove_what_would_be_kept() const {
     const std::vector<int> suspects = suspicious();
     for (std::size_t k = 0; k < files_.size(); ++k) {
@@ -156,8 +158,8 @@ void print_page(const FarmFrames& frames, const Verification& verified) {
   for (const std::string& file : verified.foreign()) fmt::print("    {}\n", file);
 }
 
-// Ends with the code that the findings come to.  A repair is about the frames: a job that follows
-// it does not wait until somebody has removed a foreign file.
+// Throws what leads to the exit code for the findings.  After a repair foreign files do not count,
+// so that a job that depends on it does not wait until somebody has removed them.
 void end_by(const FarmFrames& frames, const Verification& verified, bool repair) {
   const std::string folder = frames.folder().path().string();
   const auto counted = [](std::size_t count, const char* what) {

@@ -40,7 +40,7 @@ PlannedChunk chunk_of(const FarmPlan& plan, const WorkOptions& o) {
                                o.task, o.round));
 }
 
-// The plan, from a folder that this machine may not see yet.
+// Reads the plan from a folder that this machine may not see yet.
 std::optional<FarmPlan> plan_if_seen(const WorkOptions& o, std::string& why) {
   try {
     return read_plan(o.out, o.plan);
@@ -66,8 +66,8 @@ std::optional<FarmPlan> plan_if_seen(const WorkOptions& o, std::string& why) {
   }
 }
 
-// In Slurm a task goes back into the queue by itself, and nobody but the one who submitted may say
-// that the input is wrong.
+// Ends a task of Slurm.  It goes back into the queue by itself, because nobody but the one who
+// submitted it may say that the input is wrong.
 [[noreturn]] void end_slurm_work(const TaskEnd& end, const SlurmTask& task, int retries,
                                  const std::string& where, SignalInbox& inbox) {
   using Kind = TaskEnd::Kind;
@@ -107,7 +107,8 @@ void work(const WorkOptions& o) {
   end_work(end, where);
 }
 
-// A folder that is away for a moment does not end the rounds.
+// Concludes a round.  In Slurm a folder that is away for a moment does not end the rounds, because
+// this job goes back into the queue.
 void conclude(const WorkOptions& o) {
   try {
     conclude_round(read_plan(o.out, o.plan), o.round);

@@ -46,8 +46,8 @@ std::vector<std::string_view> preset_names() {
 
 MovieSize size_of(const Projection& projection) { return {columns(projection), rows(projection)}; }
 
-// Frames that are rendered for the movie are no larger than it unless --size says so, since what
-// is larger would be scaled down.
+// Returns the projection of frames that are rendered for the movie.  They are no larger than the
+// movie unless --size says so, since larger ones would be scaled down.
 Projection fitted(const Projection& projection, const MoviePreset& preset) {
   const MovieSize frames = size_of(projection);
   if (frames.width <= preset.most_width && frames.height <= preset.most_height) return projection;

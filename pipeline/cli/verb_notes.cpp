@@ -16,7 +16,7 @@ const VerbNotes kProgram{
      {"domefall render fall.yaml --size 4k", "renders all frames to out/fall"}},
     "show-format.md"};
 
-// The verbs from a show's file to its frames.
+// These verbs lead from a show's file to its frames.
 std::vector<VerbNotes> notes_of_shows() {
   return {
       {"check",
@@ -51,7 +51,7 @@ std::vector<VerbNotes> notes_of_shows() {
   };
 }
 
-// The verbs from finished frames to the audience.
+// These verbs lead from finished frames to the audience.
 std::vector<VerbNotes> notes_of_deliveries() {
   return {
       {"movie",
@@ -78,7 +78,7 @@ std::vector<VerbNotes> notes_of_deliveries() {
   };
 }
 
-// The verbs by which many processes make one show.
+// By these verbs many processes make one show.
 std::vector<VerbNotes> notes_of_farms() {
   return {
       {"farm",
@@ -119,7 +119,7 @@ std::vector<VerbNotes> notes_of_farms() {
   };
 }
 
-// The verbs that answer with numbers.
+// These verbs answer with numbers.
 std::vector<VerbNotes> notes_of_numbers() {
   return {
       {"states",
@@ -151,7 +151,7 @@ std::vector<VerbNotes> notes_of_numbers() {
   };
 }
 
-// The verbs about what is in the sky.
+// These verbs are about what is in the sky.
 std::vector<VerbNotes> notes_of_skies() {
   return {
       {"stars", "Star catalogues are .stars files, which a show names.", {}, "stars.md"},

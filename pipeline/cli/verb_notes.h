@@ -1,4 +1,4 @@
-// The notes on a verb are what the manual says about it beyond its options.  They are written once:
+// The notes on a verb are what the manual says about it beyond its options.  They are written once.
 // --help closes with them, and the manual pages are made of them.
 #pragma once
 
@@ -17,15 +17,16 @@ struct VerbNotes {
   std::string_view document;                                            // below docs, or empty
 };
 
-// In the order of the verbs.
+// Returns the notes in the order of the verbs.
 const std::vector<VerbNotes>& all_verb_notes();
 
-// A name and what it means: an exit code, a variable of the environment, a folder.
+// A Meaning is a name and what it means, such as an exit code, a variable of the environment or a
+// folder.
 using Meaning = std::pair<std::string_view, std::string_view>;
 const std::vector<Meaning>& exit_code_meanings();
 const std::vector<Meaning>& environment_meanings();
 
-// What --help says after the options.
+// Returns what --help says after the options.
 std::string help_footer(const VerbNotes& notes);
 
 }  // namespace domefall

@@ -31,7 +31,7 @@ void write_drawings(const std::vector<NamedPlot>& figures, const fs::path& folde
 }
 
 void report(const fs::path& out, bool quick, bool with_figures) {
-  gnuplot_version();  // before minutes of work, not after
+  gnuplot_version();  // it throws without gnuplot, better before minutes of work than after
   make_report_folder(out);
   std::vector<NamedPlot> figures;
   if (with_figures) {

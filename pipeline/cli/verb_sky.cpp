@@ -27,7 +27,7 @@
 namespace domefall {
 namespace {
 
-// V that is fainter than every catalogue's last star.
+// This V is fainter than every catalogue's last star.
 constexpr double kEveryStar = 40;
 
 struct BuildOptions {
@@ -113,7 +113,7 @@ struct InfoOptions {
 void info(const InfoOptions& o) {
   require_file(o.file);
   const SkyFile file(o.file);
-  if (o.json && o.verify) file.verify();  // before anything is said
+  if (o.json && o.verify) file.verify();  // a damaged file is refused before anything is printed
   std::fputs((o.json ? sky_json(file, o.verify) : sky_page(file)).c_str(), stdout);
   if (!o.verify || o.json) return;
   file.verify();
@@ -129,7 +129,8 @@ void add_sky_info(CLI::App& sky) {
   verb->callback([o] { info(*o); });
 }
 
-// The stars to check with: those named or, where none are, those that come with Domefall.
+// Reads the stars to check with.  They are those of the named file, or those that come with
+// Domefall where none is named.
 StarCatalogue check_stars(const std::string& file) {
   if (!file.empty()) require_file(file);
   return read_star_catalogue(file.empty() ? shipped_asset(kStandardStars).string() : file,

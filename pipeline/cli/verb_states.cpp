@@ -54,7 +54,7 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
   }
 }
 
-// An array with a state in each line.
+// Prints an array with a state in each line.
 void print_states_json(const Show& show, const std::vector<int>& frames) {
   std::string before = "[\n";
   for (const int n : frames) {

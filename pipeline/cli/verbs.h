@@ -1,4 +1,4 @@
-// The verbs of the command line, one file each.
+// These functions add the verbs of the command line, which have a file each or share one.
 #pragma once
 
 #include <memory>
@@ -25,14 +25,14 @@ void add_stars(CLI::App& app);
 void add_sky(CLI::App& app);
 void add_farm(CLI::App& app);
 
-// Those of `domefall farm`.
+// These add the verbs below `domefall farm`.
 void add_farm_status(CLI::App& farm);
 void add_farm_verify(CLI::App& farm);
 void add_farm_submit(CLI::App& farm);
 void add_farm_work(CLI::App& farm);
 void add_farm_conclude(CLI::App& farm);
 
-// All of them, with their help and what it closes with.
+// Returns a program with all verbs, their help and the notes that close it.
 std::unique_ptr<CLI::App> describe_command_line();
 
 }  // namespace domefall

@@ -15,7 +15,7 @@ V3d multiply(const ColourMatrix& m, const V3d& v) {
 
 V3d xyz_of(const double (&xy)[2]) { return {xy[0] / xy[1], 1, (1 - xy[0] - xy[1]) / xy[1]}; }
 
-// This is Bradford's cone response.  Lam, "Metamerism and colour constancy", 1985.
+// This is Bradford's cone response (Lam, "Metamerism and colour constancy", 1985).
 const ColourMatrix kBradford(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685,
                              1.0296);
 

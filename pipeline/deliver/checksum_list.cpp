@@ -12,7 +12,7 @@ namespace domefall {
 namespace {
 
 constexpr std::size_t kSumDigits = 64;
-constexpr std::string_view kBetween = "  ";  // of a sum and a path
+constexpr std::string_view kBetween = "  ";  // between a sum and its path
 
 bool leads_out(const std::filesystem::path& path) {
   if (path.empty() || path.is_absolute()) return true;

@@ -18,7 +18,8 @@ struct ListedFile {
   bool operator==(const ListedFile&) const = default;
 };
 
-// Returns a line for each file, in their order.  No path may have a backslash or a line's end.
+// Returns a line for each file, in their order.  No path may have a backslash or a newline, since
+// sha256sum writes and reads these in another way.
 std::string checksum_list(const std::vector<ListedFile>& files);
 
 // Reads the list back.  Throws InputError, with the number of the line, for any other text, and for

@@ -66,7 +66,7 @@ GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPictu
   const int width = pictures.front().picture.width, height = pictures.front().picture.height;
   const int count = static_cast<int>(pictures.size()), across = std::min(count, kSheetColumns),
             down = (count + across - 1) / across;
-  // There is room for a title over a single picture, too.
+  // Without this least width the title over a single small picture would have no room.
   const int cell = std::max(width, 160) + kGap;
   const std::unique_ptr<Drawing> drawing =
       new_drawing(kGap + across * cell, kTitle + down * (height + kLabel + kGap));

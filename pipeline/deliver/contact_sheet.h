@@ -8,15 +8,15 @@
 
 namespace domefall {
 
-// Returns a copy of at most `columns` by `rows` pixels with the sides' ratio kept.  Each pixel is
+// Returns a copy of at most `columns` by `rows` pixels with the same aspect ratio.  Each pixel is
 // the mean of the codes of those that it covers.  The picture itself is returned where it is no
 // larger.
 GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows);
 
-// The largest pictures on a sheet are so wide and high.
+// A picture on a sheet has at most this many columns and rows.
 inline constexpr int kSheetPicture = 256;
 
-// Returns at most 36 frames, evenly spread over so many.
+// Returns at most 36 of `count` frames, evenly spread.
 std::vector<int> frames_of_sheet(int count);
 
 struct SheetPicture {
@@ -24,8 +24,8 @@ struct SheetPicture {
   std::string label;
 };
 
-// Makes a sheet with six in a row, with the title above and a label below each.  There is at least
-// one.  Throws as new_drawing() and Drawing::text.
+// Makes a sheet with at most six pictures in a row, the title above all and a label below each.
+// There must be at least one picture.  Throws as new_drawing() and Drawing::text.
 GradedFrame contact_sheet(const std::string& title, const std::vector<SheetPicture>& pictures);
 
 }  // namespace domefall

@@ -17,7 +17,7 @@
 
 namespace domefall {
 
-// These are the files of a delivery that do not depend on the show.
+// These names of files are the same in every delivery.
 inline constexpr const char *kReadme = "README.txt", *kMetadata = "metadata.json",
                             *kChecksums = "checksums.sha256", *kVerifyScript = "verify.sh",
                             *kContactSheet = "contact_sheet.png", *kPreview = "preview.png",
@@ -46,7 +46,7 @@ struct Delivery {
   std::vector<DeliveredSubtitles> subtitles;
   int leader_frames = 0;
   std::string alignment;  // the path of the alignment frame
-  std::size_t files = 0;  // with a checksum, these texts included
+  std::size_t files = 0;  // how many have a checksum, these texts included
 };
 
 int bits_of(const GradedFormat& format);

@@ -27,7 +27,7 @@ struct StatedFrames {
   DeliveredNames names;
   int width, height, bits;
   std::string title;
-  std::size_t files;  // with a checksum
+  std::size_t files;  // how many have a checksum
 };
 
 std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
@@ -48,7 +48,7 @@ std::optional<StatedFrames> stated_frames(const fs::path& metadata) {
                         json.at("files").get<std::size_t>()};
   } catch (const nlohmann::json::exception&) {  // something is missing, or of another type
     return std::nullopt;
-  } catch (const InputError&) {  // of the names
+  } catch (const InputError&) {  // the pattern or the extension is wrong
     return std::nullopt;
   }
 }
@@ -137,7 +137,7 @@ class DeliveryChecker {
       else if (!named.contains(path))
         faults_.whole.push_back(std::string(kChecksums) + " does not list " + path);
     }
-    // A list that was made anew leaves out what is missing.
+    // A list that was made anew after files were lost would not show that they are missing.
     if (stated_ && named.size() != stated_->files)
       faults_.whole.push_back(fmt::format("{} lists {} files, and {} says {}", kChecksums,
                                           named.size(), kMetadata, stated_->files));

@@ -1,4 +1,4 @@
-// This check says what a finished delivery lacks.  It looks at the folder alone.
+// This check says what is wrong in a finished delivery.  It looks at the folder alone.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // A Drawing is a picture of lines and texts.  Places are in pixels from the top left corner, where
 // the middle of the first pixel is (0.5, 0.5).  Greys and colours are display codes, 0 to 1.  Cairo
-// draws them and brings 15 other libraries, among them those of X11, so what calls it is a library
+// draws them and brings 15 other libraries, among them those of X11.  So what calls it is a library
 // of its own, libdomefall_cairo_drawing.so (pipeline/cairo_drawing), which is loaded for the first
 // picture.
 #pragma once
@@ -33,20 +33,21 @@ class Drawing : public Interface {
   virtual void circle(DrawingPoint centre, double radius, double thickness) = 0;
   virtual void box(DrawingPoint corner, double width, double height) = 0;  // filled
 
-  // Fills the outlines of a text about its middle, whose capitals have `capital` pixels, turned by
-  // `angle` (radians, clockwise).
+  // Fills the outlines of a text.  Its middle goes to `middle`, its capitals are `capital` pixels
+  // high, and it is turned clockwise by `angle` (radians).
   virtual void fill(const std::vector<TextOutline>& outlines, DrawingPoint middle, double capital,
                     double angle) = 0;
 
-  // Writes a line of text in letters whose em has `size` pixels, or smaller so that it is no longer
-  // than `longest`.  Throws as lettering() and Lettering::letter.
+  // Writes a line of text in letters whose em has `size` pixels, or in smaller ones if it would be
+  // longer than `longest` pixels.  Throws as lettering() and Lettering::letter.
   void text(const std::string& line, DrawingPoint middle, double size, double longest,
             double angle = 0);
 
-  // Puts a picture there.
+  // Copies a picture so that its top left pixel is in column x and row y, from 0.  What would lie
+  // beyond the right or the bottom edge is left out.
   virtual void picture(const GradedFrame& picture, int x, int y) = 0;
 
-  // Returns what was drawn.  Throws as new_drawing, for what Cairo could not draw.
+  // Returns what was drawn.  Throws as new_drawing() if Cairo could not draw something.
   virtual GradedFrame finished() = 0;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace domefall {
 
-// Calls step(0) to step(count - 1).  Throws what the first of them that fails throws.  Those that
-// were not begun by then are not called.
+// Calls step(0) to step(count - 1) on at most `threads` threads.  If steps fail, it throws what one
+// of them has thrown, and the steps that were not begun by then are not called.
 template <class Step>
 void in_parallel(int count, int threads, const Step& step) {
   std::atomic<int> next{0};

@@ -29,11 +29,12 @@ void copy_whole_file(const fs::path& from, const fs::path& to) {
 
 void link_or_copy_file(const fs::path& from, const fs::path& to) {
   if (unlink(to.c_str()) != 0 && errno != ENOENT) throw_file_error(to, errno);
-  // A link of the source is followed, or its copy would lead away from the delivery.
+  // A symbolic link at `from` is followed, since a hard link to it would lead away from the
+  // delivery.
   if (linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
   switch (errno) {
     case EXDEV:       // another file system
-    case EPERM:       // one without second names, or another user's file
+    case EPERM:       // one without hard links, or another user's file
     case EMLINK:      // as many as it may have
     case EOPNOTSUPP:  // as above, on some systems
     case ENOSYS:
@@ -59,7 +60,7 @@ void make_delivery_folder(const fs::path& folder) {
 void flush_folder(const fs::path& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.number() < 0) throw_file_error(folder, errno);
-  // Some file systems cannot flush and say so.
+  // Some file systems cannot flush a folder, and say so by these errors.
   if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
     throw_file_error(folder, errno);
 }

@@ -5,11 +5,11 @@
 
 namespace domefall {
 
-// Copies a file, which appears whole, or not at all.  Throws as RegularFile and NewFile.
+// Copies a file.  The copy appears whole or not at all.  Throws as RegularFile and NewFile.
 void copy_whole_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-// Gives a file a second name, which takes no room, or copies it where the file system has no such
-// names or the two lie on different ones.  What was at `to` is replaced.  Throws as
+// Makes a hard link, which takes no room, or copies the file where the file system has no hard
+// links or the two paths lie on different file systems.  What was at `to` is replaced.  Throws as
 // copy_whole_file().
 void link_or_copy_file(const std::filesystem::path& from, const std::filesystem::path& to);
 

@@ -13,7 +13,7 @@ constexpr const char* kDomeOrientation =
     "  Orientation    BOTTOM of the picture = FRONT of the dome. Left and right are those\n"
     "                 of the audience: nothing is mirrored.\n";
 
-// Returns what is on the pictures, in lines below the word Projection.
+// Returns the lines that say which projection the pictures have and how they are turned.
 std::string projection_text(const Projection& p) {
   struct Text {
     std::string operator()(const Domemaster&) const {
@@ -80,7 +80,8 @@ std::string colour_text(const Delivery& d) {
   return text;
 }
 
-// The file says which channel is which.  This is what programs write unless told otherwise.
+// A WAV file may say which channel is which.  This is the order that programs write unless told
+// otherwise.
 std::string channels_text(int channels) {
   constexpr int kStereo = 2, kFiveAndOne = 6, kSevenAndOne = 8;
   const char* order = channels == kStereo        ? " (L R)"

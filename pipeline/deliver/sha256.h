@@ -1,5 +1,5 @@
-// SHA-256 sums are made by libcrypto.  To load it would take a tenth of each start of the program,
-// so what calls it is a library of its own, libdomefall_libcrypto_sums.so
+// SHA-256 sums are made by libcrypto.  To load it would take a tenth of the time of each start of
+// the program.  So what calls it is a library of its own, libdomefall_libcrypto_sums.so
 // (pipeline/libcrypto_sums), which is loaded for the first sum.
 #pragma once
 

@@ -15,7 +15,7 @@ struct SoundFile {
   double seconds() const { return static_cast<double>(frames) / rate; }
 };
 
-// Reads RIFF/WAVE and RF64 (EBU Tech 3306), PCM of whole or floating-point numbers.  Throws
+// Reads RIFF/WAVE and RF64 (EBU Tech 3306) with PCM of integers or floating-point numbers.  Throws
 // InputError, naming the file, for anything else and for a file that ends before its sound does.
 // Throws as RegularFile, too.
 SoundFile read_sound_file(const std::filesystem::path& path);

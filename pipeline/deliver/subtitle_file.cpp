@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view kArrow = "-->";
 
-// Takes a number of exactly that many digits from the front of a text, or of at least that many for
-// the hours, which come first.
+// Takes a number from the front of a text.  It has exactly `digits` digits or, where there may be
+// `more`, as in the hours, from that many to four.
 std::optional<int> take_digits(std::string_view& text, std::size_t digits, bool more) {
   std::size_t count = 0;
   while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
@@ -34,7 +34,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-// Returns the seconds of 00:00:01,000.  Some programs write a point.
+// Returns the seconds of a time such as 00:00:01,000.  Some programs write a point for the comma.
 std::optional<double> srt_time(std::string_view text) {
   const auto take = [&text](std::string_view marks) {
     const bool there = !text.empty() && marks.find(text[0]) != std::string_view::npos;
@@ -64,7 +64,7 @@ SubtitleFile parse_subtitles(std::string_view text) {
     if (arrow == std::string_view::npos) continue;
     const std::string_view behind = without_blanks(line.substr(arrow + kArrow.size()));
     const auto from = srt_time(without_blanks(line.substr(0, arrow)));
-    // A place on the screen may follow.
+    // Coordinates on the screen may follow the time.
     const auto to = srt_time(behind.substr(0, behind.find_first_of(" \t")));
     if (!from || !to)
       throw InputError(fmt::format("line {}: expected times such as 00:00:01,000 --> 00:00:04,000",

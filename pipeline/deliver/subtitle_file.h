@@ -1,4 +1,4 @@
-// Reads subtitles in SubRip's format (.srt).
+// This file reads subtitles in SubRip's format (.srt).
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@ struct SubtitleFile {
   double end_s = 0;  // when the last one goes
 };
 
-// Reads the times of a text, which has lines of "00:00:01,000 --> 00:00:04,000".  Throws
-// InputError, with the number of the line, if there is none, if one of them is wrong, or ends
-// before it begins.
+// Reads the times of a text, which has lines of "00:00:01,000 --> 00:00:04,000".  Throws InputError
+// if there is none.  Throws it with the number of the line if a time is wrong or a subtitle does
+// not end after it begins.
 SubtitleFile parse_subtitles(std::string_view text);
 
 // Does the same for a file, whose name stands before the message.  Throws as RegularFile too.

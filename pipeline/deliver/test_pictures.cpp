@@ -105,7 +105,8 @@ void draw_flat_grid(Board& board) {
   drawing.circle(board.middle(), 0.45 * board.size, board.thin);
 }
 
-// Draws patches side by side about a place, each of one colour.
+// Draws square patches side by side, each of one colour.  The middle of their upper edge is at a
+// place.
 template <std::size_t Count>
 void draw_patches(Board& board, DrawingPoint middle, double side,
                   const std::array<std::array<double, 3>, Count>& colours) {
@@ -132,7 +133,7 @@ void draw_colours(Board& board, DrawingPoint middle) {
                kPrimaries);
 }
 
-// The first line, which is larger, stands about a place, and the others below it.
+// Writes the first line larger and with its middle at `first`, and the others below it.
 void write_lines(Board& board, const ShowLines& lines, DrawingPoint first, double letters,
                  double longest) {
   constexpr double kStep = 1.4, kTitle = 1.5;
@@ -198,7 +199,7 @@ int leader_frames(double frames_per_second) {
 GradedFrame leader_frame(const Projection& projection, const ShowLines& lines,
                          double frames_per_second, int k) {
   Board board(projection);
-  // This keeps a frame that begins with a second within that second.
+  // Rounding must not move a frame at the beginning of a second into the second before.
   constexpr double kTiny = 1e-6;
   const double left = (leader_frames(frames_per_second) - k) / frames_per_second;
   if (left > kCountdownSeconds + kTiny) {

@@ -1,4 +1,5 @@
-// Scales, which turn a quantity into a place on the page, and the axes that show them.
+// This file has scales, which turn a quantity into a place on the page, and the axes that show
+// them.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace domefall {
 
-// The place is affine in the value or, on a logarithmic scale, in its logarithm.  from and to must
-// differ, and must be positive on a logarithmic scale.
+// On a Scale the place is affine in the value or, if it is logarithmic, in the value's logarithm.
+// `from` and `to` must differ, and must be positive on a logarithmic scale.
 struct Scale {
   double from = 0, to = 1;        // values
   double at_from = 0, at_to = 1;  // pixels
@@ -18,9 +19,9 @@ struct Scale {
   double operator()(double value) const;
 };
 
-// About `count` round values within [from, to].  They are equal steps of 1, 2 or 5 times a power of
-// ten.  On a logarithmic axis they are 1, 2 and 5 of each decade, or the decades alone where there
-// are many.
+// Returns about `count` round values within [from, to].  Their equal steps are 1, 2 or 5 times a
+// power of ten.  On a logarithmic axis the values are 1, 2 and 5 of each decade or, where there are
+// many decades, powers of ten alone.
 std::vector<double> axis_marks(const Scale& scale, int count);
 
 // Writes 0.05 as "0.05" and 2e6 as "2×10⁶".  Powers of ten serve from 10^5 on and below 10^-3.

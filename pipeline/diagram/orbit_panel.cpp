@@ -14,7 +14,8 @@ PagePoint in_plane(const PathPoint& p) {
   return {p.r * std::cos(p.azimuth), p.r * std::sin(p.azimuth)};
 }
 
-// The square about the path and the light circle, widened by a tenth.
+// Returns the scales of the least square that holds the path and the light circle, widened by a
+// tenth.
 Plane frame_of(const PageBox& box, const Path& path) {
   PageBox around{-3, -3, 3, 3};
   for (const PathPoint& p : path.points) {

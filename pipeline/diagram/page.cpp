@@ -62,7 +62,8 @@ DrawnPage drawn_page(const Show& show, const Path& path) {
   return {page.document(), height, places};
 }
 
-// The number of the last point of a segment that is not later than a time, or of its first one.
+// Returns the index of the last point of a segment that is not later than a time, or that of the
+// segment's first point if all are later.
 std::size_t point_before(const Path& path, double time_s, int segment) {
   const auto later = std::upper_bound(
       path.points.begin(), path.points.end(), std::pair(segment, time_s),

@@ -1,4 +1,5 @@
-// Where the present stands in the panels of a show's page, for programs that draw a mark there.
+// This file says where the present stands in the panels of a show's page, for programs that draw a
+// mark there.
 #pragma once
 
 #include <string>
@@ -13,13 +14,14 @@ struct MarkedPage {
   std::string svg;               // as show_page() draws it
   double width = 0, height = 0;  // of the page, in its pixels
   double step_s = 0;             // seconds of show from one instant to the next
-  // For each instant from the start to the end, its place in each panel: in that of the radius, the
-  // orbit and the Carter-Penrose diagram; in flat space in that of the speed alone.
+  // Each instant from the start to the end has its place in each panel.  The panels are those of
+  // the radius, the orbit and the Carter-Penrose diagram or, in flat space, that of the speed
+  // alone.
   std::vector<std::vector<PagePoint>> places;
 };
 
-// Places are taken straight between the points that the page draws, at `instants` (>= 2) even
-// times.
+// Places are interpolated linearly between the points that the page draws, at `instants` (>= 2)
+// even times.
 MarkedPage marked_page(const Show& show, int instants);
 
 }  // namespace domefall

@@ -14,13 +14,14 @@
 namespace domefall {
 namespace {
 
-// The length of a segment in ticks.
+// A segment has this many ticks.
 constexpr int kTicks = 1 << 30;
 constexpr int kEvenly = 2000, kLeastOfSegment = 48;
 constexpr std::size_t kMostPoints = 100'000;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-// An instant of a segment.  Where segments dissolve, two ticks are the same instant of the show.
+// A Tick is an instant of a segment.  Where segments dissolve, two ticks are the same instant of
+// the show.
 struct Tick {
   int segment = 0, tick = 0;
 
@@ -30,14 +31,15 @@ struct Tick {
   }
 };
 
-// The state of the observer at a tick.
+// An Instant is the state of the observer at a tick.
 struct Instant {
   PathPoint point;
   Tetrad tetrad = Tetrad::kRain;
   double null_time = 0;
 };
 
-// States of the observer at any instant, between the frames too.  They do not depend on the camera.
+// Instants give the state of the observer at any tick, between the frames too.  It does not depend
+// on the camera.
 class Instants {
  public:
   explicit Instants(const Show& show)
@@ -70,14 +72,15 @@ class Instants {
     return show_.timeline[static_cast<std::size_t>(segment)].duration_s / seconds();
   }
 
-  // The tick of the segment that a frame at that time shows.  While two dissolve, it is the later
-  // one.
+  // Returns the tick of the segment that a frame at that time shows.  While two segments dissolve,
+  // it is that of the later one.
   Tick tick_at(double time_s) const {
     const int segment = segment_at(show_, time_s);
     return {segment, static_cast<int>(std::lround(part_at(show_, segment, time_s) * kTicks))};
   }
 
-  // The last tick of a segment, which is just before the start of the next one.
+  // Returns the last tick of a segment.  It is just before the end, unless the segment is the last,
+  // because the end belongs to the next one.
   int last_tick(int segment) const { return segment + 1 < segments() ? kTicks - 1 : kTicks; }
 
  private:
@@ -90,8 +93,8 @@ class Instants {
 
 double sense_of_t(Tetrad t) { return is_mirrored(t) ? -1 : 1; }
 
-// t of an instant away from the horizon, from v = t + r* or u = t - r*.  On the horizon, where r*
-// is infinite, it is v or u itself.
+// Returns t of an instant away from the horizon, from v = t + r* or u = t - r*.  On the horizon,
+// where r* is infinite, it returns v or u itself.
 double killing_time(const Instant& i) {
   const double star = i.point.r == 2 ? 0 : tortoise(i.point.r);
   return sense_of_t(i.tetrad) * (is_outgoing(i.tetrad) ? i.null_time + star : i.null_time - star);
@@ -99,8 +102,8 @@ double killing_time(const Instant& i) {
 
 bool is_within_horizon(Region region) { return region == Region::kII || region == Region::kIV; }
 
-// The v or u at which a horizon is crossed between two ticks of a segment, of which one is inside.
-// It is found by bisection.
+// Returns the v or u at which a horizon is crossed between two ticks of a segment, of which one is
+// inside.  It is found by bisection.
 double crossing_time(const Instants& show, Tick a, Tick b) {
   const Region before = show.at(a).point.region;
   while (b.tick - a.tick > 1) {
@@ -111,7 +114,7 @@ double crossing_time(const Instants& show, Tick a, Tick b) {
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
-// The times of all crossings between the ticks of one run, in order.
+// Returns the v or u of all crossings between the ticks of one run, in order.
 std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run) {
   std::vector<double> times;
   for (std::size_t k = 1; k < run.size(); ++k)
@@ -132,7 +135,7 @@ Origin kruskal_origin(const Instants& show, std::span<const Tick> run) {
   return {-crossings.back(), Origin::Centre::kCrossing};
 }
 
-// The origin for each segment, which is that of its run.
+// Returns the origin for each segment, which is that of its run.
 std::vector<Origin> origins_of_time(const Instants& show, const std::vector<Tick>& ticks) {
   std::vector<Origin> origins(static_cast<std::size_t>(show.segments()));
   std::size_t first = 0;
@@ -168,7 +171,7 @@ std::vector<Tick> even_ticks(const Instants& show) {
   return ticks;
 }
 
-// Adds to a path the points that smooth curves need.
+// A Sampler adds to a path the points that smooth curves need.
 class Sampler {
  public:
   Sampler(const Instants& show, Path& path) : show_(show), path_(path) {}

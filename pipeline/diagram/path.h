@@ -1,4 +1,4 @@
-// The path of a show's observer, sampled finely enough to be drawn as a smooth curve.
+// This file samples the path of a show's observer finely enough for a smooth curve.
 #pragma once
 
 #include <vector>
@@ -20,20 +20,20 @@ struct PathPoint {
   bool is_in_drawn_turn = true;
 };
 
-// Of a segment that circles or whirls more often, only so many turns at its beginning and as many
-// at its end are sampled finely.
+// Where a segment has more than twice this many turns about the hole, only this many at its
+// beginning and as many at its end are sampled finely.
 inline constexpr double kTurnsDrawn = 20;
 
-// Whether the curve from one point of a path to the next is drawn.  It is, unless the path jumps
-// between them.  In the orbital plane it is drawn only where the step is also small.
+// These say whether the curve from one point of a path to the next is drawn.  It is, unless the
+// path jumps between them.  In the orbital plane it is drawn only where the step is also small.
 bool is_joined(const PathPoint& a, const PathPoint& b);
 bool is_joined_in_plane(const PathPoint& a, const PathPoint& b);
 
-// Whether the observer is somewhere else at b, which belongs to the segment after that of a: its r
-// or its region is another.
+// Says whether the path jumps from a to the next point b.  It does where b belongs to another
+// segment and has another region or another r, by more than 1e-6 of it.
 bool is_jump(const PathPoint& a, const PathPoint& b);
 
-// Where t = 0 lies in the Penrose diagram, and why it lies there.
+// An Origin says where t = 0 lies in the Penrose diagram, and why it lies there.
 struct Origin {
   double time_shift = 0;  // is added to t, in units of M
   enum class Centre { kMiddle, kCrossing, kTwoCrossings };
@@ -50,20 +50,20 @@ struct Path {
   bool has_gaps_in_plane = false;  // a segment has more than 2 kTurnsDrawn turns
 };
 
-// Samples the path at about 2000 even instants, at least 48 to a segment.  More are added wherever
-// the curve turns by more than 2.5 degrees about the hole, r changes by more than 4 %, or the curve
-// in the Penrose diagram moves by more than 1/150 of its height.  There are at most some 1e5
-// points.  Where there are too many turns to draw, the instants are out of step with any period of
-// the orbit.
+// Samples the path at about 2000 instants, at least 48 to a segment.  More are added wherever the
+// curve turns by more than 2.5 degrees about the hole, r changes by more than 4 %, or the curve in
+// the Penrose diagram moves by more than 1/150 of its height.  There are at most some 1e5 points.
+// The instants are nearly even, but out of step with any period of the orbit.  Otherwise the points
+// could all lie at one phase where there are too many turns to draw.
 //
 // The Killing symmetry t -> t + constant moves every point of the Penrose diagram along its curve
-// of constant r.  The constant is chosen for each run of segments without a jump.  Its last
-// crossing of a horizon lies at the middle of the horizon's line.  Where the past and the future
-// horizon are crossed within 16 M, both crossings lie symmetrically.  Where no horizon is crossed,
-// the middle of the run is at t = 0.
+// of constant r.  The constant is chosen for each run of segments without a jump.  It puts the
+// run's last crossing of a horizon at the middle of the horizon's line.  Where the past and the
+// future horizon are crossed within 16 M, both crossings lie symmetrically.  Where no horizon is
+// crossed, the middle of the run is at t = 0.
 Path sample_path(const Show& show);
 
-// The smallest of 1, 2 and 5 times a power of ten that is `least` or more.  least > 0.
+// Returns the smallest of 1, 2 and 5 times a power of ten that is `least` or more, for least > 0.
 double round_step(double least);
 
 }  // namespace domefall

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidth = 2.2;
 
-// A part of the path that is one stroke.
+// A Stretch is a part of the path that is one stroke.
 struct Stretch {
   int segment = 0;
   Region region = Region::kI;
@@ -55,7 +55,7 @@ struct Arrow {
   PagePoint along;  // unit vector
 };
 
-// The arrow after so many pixels of a stretch, if it is as long.
+// Returns the arrow `wanted` pixels along a stretch, or nothing if the stretch is shorter.
 std::optional<Arrow> arrow_after(const Stretch& stretch, double wanted) {
   double gone = 0;
   for (std::size_t i = 1; i < stretch.points.size(); ++i) {

@@ -8,7 +8,8 @@
 namespace domefall {
 namespace {
 
-// arctan(exp(log)) in (0, pi/2), where exp(log) may overflow.  It is 0 for log = minus infinity.
+// Returns arctan(exp(log)), which is in (0, pi/2), even where exp(log) overflows.  It is 0 where
+// log is minus infinity.
 double arctan_exp(double log) {
   return log > 0 ? std::numbers::pi / 2 - std::atan(std::exp(-log)) : std::atan(std::exp(log));
 }
@@ -20,8 +21,8 @@ PenrosePoint compactified(Region region, double log_u, double log_v) {
 
 }  // namespace
 
-// Near the singularity r* tends to -r^2/4, a small difference of its two terms, so ln|r/2 - 1| is
-// taken as log1p there.  Beside the horizon r - 2 is exact.
+// Near the singularity r* tends to -r^2/4, which is a small difference of its two terms.  So
+// ln|r/2 - 1| is taken as log1p there.  Beside the horizon r - 2 is exact.
 double tortoise(double r) {
   return r + 2 * (r < 1 ? std::log1p(-r / 2) : std::log(std::abs(r - 2) / 2));
 }

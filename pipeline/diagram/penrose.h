@@ -1,5 +1,5 @@
-// The Carter-Penrose diagram of the maximally extended Schwarzschild geometry (M = 1).  Kruskal's
-// coordinates are each pressed into a finite range by their arctangent:
+// This file has the Carter-Penrose diagram of the maximally extended Schwarzschild geometry
+// (M = 1).  Kruskal's coordinates are each compactified by their arctangent:
 //
 //   U = eps exp((t + r*)/4)    V = eta exp(-(t - r*)/4)    U V = (1 - r/2) exp(r/2)
 //   x = (arctan U - arctan V)/pi    up = (arctan U + arctan V)/pi
@@ -11,8 +11,8 @@
 // Region I is the diamond about (1/2, 0), with i0 at (1, 0) and i+ at (1/2, 1/2), and region III is
 // its reflection.
 //
-// U and V are held as logarithms, so t may be 1e12 and r 1e9: such a point lies in a corner.  The
-// error is 1e-15 of the diagram and a rounding of (t + r*)/4 in the logarithm.
+// U and V are held as logarithms, so that t may be 1e12 and r 1e9.  Such a point lies in a corner.
+// The error is 1e-15 of the diagram and a rounding of (t + r*)/4 in the logarithm.
 #pragma once
 
 #include "trajectories/observer_state.h"
@@ -24,18 +24,18 @@ struct PenrosePoint {
   double up = 0;  // -1/2 to 1/2; the future is up
 };
 
-// r* = r + 2 ln|r/2 - 1|, which is 0 at the singularity and minus infinity at r = 2.  r >= 0 is
-// finite.
+// Returns r* = r + 2 ln|r/2 - 1|, which is 0 at the singularity and minus infinity at r = 2.  r
+// must be finite and not negative.
 double tortoise(double r);
 
-// The point at (t, r) of a region.  t belongs to the Killing vector that points to the future in
-// region I, and therefore to the past in region III.  r = 2 gives the sphere U = V = 0, where all t
-// meet.
+// Returns the point at (t, r) of a region.  t belongs to the Killing vector that points to the
+// future in region I, and therefore to the past in region III.  r = 2 gives the sphere U = V = 0,
+// where all t meet.
 PenrosePoint penrose_point(Region region, double t, double r);
 
-// The point of an observer whose null_time is v = t + r* in the rain frame or u = t - r* in the
-// outgoing frame.  In the mirrored frames -t takes the place of t.  has_tetrad(region, tetrad) must
-// hold, and r > 0 must be finite.  The result is regular on the horizon that the tetrad
+// Returns the point of an observer whose null_time is v = t + r* in the rain frame or u = t - r* in
+// the outgoing frame.  In the mirrored frames -t takes the place of t.  has_tetrad(region, tetrad)
+// must hold, and r > 0 must be finite.  The result is regular on the horizon that the tetrad
 // crosses, with r = 2 included.
 PenrosePoint penrose_point(Region region, Tetrad tetrad, double r, double null_time);
 

@@ -1,4 +1,4 @@
-// A drawing in SVG 1.1, written shape by shape.  Later shapes lie on earlier ones.
+// An Svg is a drawing in SVG 1.1, written shape by shape.  Later shapes lie on earlier ones.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace domefall {
 
-// A place in pixels of the page.  y grows downwards.
+// A PagePoint is a place in pixels of the page, where y grows downwards.
 struct PagePoint {
   double x = 0, y = 0;
 };
@@ -34,11 +34,12 @@ struct Stroke {
   const char* dashes = "";  // lengths of dash and gap, e.g. "6 4"; empty for an unbroken line
 };
 
-// Replaces the marks of XML by entities, and control characters other than the tab by U+FFFD.
-// Text is UTF-8.
+// Replaces the special characters of XML by entities, and control characters other than the tab by
+// U+FFFD.  The text is UTF-8.
 std::string xml_escaped(std::string_view text);
 
-// A rough width in pixels: 0.6 of the size for each character, which is the average of DejaVu Sans.
+// Returns a rough width in pixels.  It is 0.6 of the size for each character, which is the average
+// of DejaVu Sans.
 double text_width(std::string_view text, double size);
 
 // Returns `text` if it is at most `width` wide, else its beginning and an ellipsis.

@@ -16,7 +16,7 @@ Scale time_scale(const PageBox& box, const Show& show) {
   return {0, segment_times(show).back(), box.left, box.right};
 }
 
-// The label "2 infall", "2" or none, as there is room.
+// Returns the label "2 infall", "2" or none, as there is room.
 std::string band_label(const Show& show, std::size_t k, double room) {
   const std::string digits = fmt::format("{}", k + 1);
   const std::string full = fmt::format("{} {}", digits, show.timeline[k].type);
@@ -46,7 +46,7 @@ void shade_segments(Svg& page, const PageBox& box, const Scale& x, const Show& s
 }
 
 // Draws a line between segments, or one at either end of a dissolve.  Where the place jumps, the
-// line is heavier and has a label.
+// line is heavier.  A jump and a dissolve have a label, if there is room for it.
 void mark_cuts(Svg& page, const PageBox& box, const Scale& x, const Path& path, const Show& show) {
   const std::vector<double> times = segment_times(show);
   double free_from = box.left;

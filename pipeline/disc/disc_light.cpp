@@ -11,22 +11,23 @@
 namespace domefall {
 namespace {
 
-// The table has so many intervals from r = infinity to the last stable orbit, which is a node.  It
-// goes on to the horizon.
+// The table has even steps in v = sqrt(6/r).  It has so many intervals from r = infinity, where v =
+// 0, to the last stable orbit, which is the node v = 1, and goes on to the horizon.
 constexpr int kPerUnit = 4096;
 const double kInnermost = std::sqrt(kLastStableOrbit / kHorizonRadius);
 constexpr double kMostRadiance = 1e36;
 constexpr std::size_t kRadiiAtOnce = 128;
 
 double log2_above_singular(const PageThorneProfile& profile, bool plunging, double v) {
-  // Next to its ends the function is even enough to be taken a little off them.
+  // At its ends the formula is infinite less infinite.  The difference is smooth there, so it is
+  // taken a little inside them.
   constexpr double kOff = 1e-6;
   const double inside = plunging ? v : std::min(v, 1 - kOff), x = std::max(inside, kOff);
   const double t = std::log2(profile.temperature(kLastStableOrbit / (x * x))) - 1.5 * std::log2(x);
   return plunging ? t : t - 0.5 * std::log2(1 - x);
 }
 
-// These are what the places of a block have in common.
+// An ObservedBlock holds what the places of a block have in common.
 struct ObservedBlock {
   const float* table;
   float edge;  // the power of 1 - v in the temperature: 1/2, or 0 of gas that plunges
@@ -34,8 +35,8 @@ struct ObservedBlock {
 };
 
 // Finds log2 of the observed temperature, at most that of kRayleighJeans, and the bolometric
-// radiance that goes with it, times the scale.  Looking numbers up is left to a loop of its own,
-// since it keeps the others from being vectors.
+// radiance that goes with it, times the scale.  The table is read by a loop of its own, since reads
+// at computed places would keep the rest from becoming SIMD code.
 [[gnu::always_inline]] inline void observe_loop(const ObservedBlock& block, const float* r,
                                                 const float* g, int count, float* log2_t,
                                                 float* radiance) {
@@ -84,7 +85,7 @@ double DiscLight::temperature(double r) const { return disc_.t_max_k * profile_.
 WorkingRgb DiscLight::light(double r, double g) const {
   const double t = g * temperature(r), seen = std::min(t, kRayleighJeans);
   const WorkingRgb c = blackbody_colours().per_flux(seen);
-  // Beyond that temperature the light grows with its first power.
+  // Beyond kRayleighJeans the light grows with the first power of the temperature.
   const double beyond = t > seen ? t / seen : 1;
   const double radiance = std::min(blackbody_radiance(seen) * scale_ * beyond, kMostRadiance);
   const auto f = static_cast<float>(radiance);

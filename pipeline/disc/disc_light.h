@@ -28,7 +28,7 @@ class DiscLight {
 
   // Returns the same of many places with as many ratios, for pixels.  r > 0 and g >= 0 are finite.
   // Measured against light(), the relative error is below 6e-5.  Next to the last stable orbit,
-  // where gas plunges, it is below 2.5e-4, half of what a half float rounds.
+  // where gas plunges, it is below 2.5e-4, half the largest rounding error of a half float.
   void light(std::span<const float> r, std::span<const float> g, std::span<WorkingRgb> out) const;
 
  private:

@@ -15,7 +15,7 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 double wrapped_gaussian(double angle, double sigma) {
   const double x = (angle / kTwoPi - std::floor(angle / kTwoPi + 0.5)) * kTwoPi;
   double sum = 0;
-  // What a series leaves out is below 1e-5 of the mean.
+  // What either series leaves out is below 1e-5 of the mean.
   if (sigma < 1.3) {
     for (int k = -1; k <= 1; ++k) {
       const double off = (x + k * kTwoPi) / sigma;
@@ -28,8 +28,8 @@ double wrapped_gaussian(double angle, double sigma) {
   return 1 + 2 * sum;
 }
 
-// Returns the spot's light, spread over the footprint and then added to the gas, over what the two
-// have on the mean around the ring.
+// Returns the light of the gas and the spot, with the spot spread over the footprint, over the mean
+// of the two around the ring.
 double spot_factor(const SpotPattern& spot, const PatternPlace& at) {
   const double across = at.r_width / 2, along = at.azimuth_width / 2, own = spot.size / at.r;
   const double high = std::hypot(spot.size, across), wide = std::hypot(own, along);
@@ -43,7 +43,8 @@ double spot_factor(const SpotPattern& spot, const PatternPlace& at) {
 
 double ring_factor(const RingPattern& rings, const PatternPlace& at) {
   const double turns = (at.r + rings.inward_speed * at.time) / rings.spacing;
-  // A pixel's mean of a cosine is found to second order of its width.
+  // The mean of a cosine over a pixel is that in its middle times sin(width)/width.  This Gaussian
+  // agrees with that factor to second order and does not change sign.
   const double width = std::numbers::pi * at.r_width / rings.spacing;
   const double fading = exponential(-width * width / 6);
   return 1 + rings.contrast * fading * sin_cos((turns - std::floor(turns)) * kTwoPi).cosine;

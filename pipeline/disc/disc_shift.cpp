@@ -13,8 +13,9 @@ double circular_shift(const DiscRay& ray, double r) {
   return (ray.energy - omega * ray.about_axis) / std::sqrt(1 - 3 / r);
 }
 
-// Returns (E' E - u^r k^r)/(1 - 2/r).  Where light and gas both move inwards, the two terms cancel
-// next to the horizon, and the difference of their squares is divided by their sum instead.
+// Returns (E' E - u^r k^r)/(1 - 2/r) - L' L_n/r^2.  Where light and gas both move inwards, the two
+// terms of the first numerator cancel next to the horizon, and the difference of their squares is
+// divided by their sum instead.
 double plunging_shift(const DiscRay& ray, double r, bool outward) {
   const double fall = kLastStableOrbit / r - 1, above = 1 - kHorizonRadius / r;
   const double energy = std::sqrt(8.0 / 9), momentum = 2 * std::sqrt(3.0);

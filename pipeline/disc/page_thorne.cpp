@@ -11,8 +11,8 @@ namespace {
 constexpr double kPullOnPlunge = 0.02, kStartOfPlunge = 0.01;
 const double kRoot3 = std::sqrt(3.0), kRoot6 = std::sqrt(6.0);
 
-// Returns artanh t - t for 0 <= t < 0.71.  Where its terms cancel, the series is cut off below
-// 1e-18 of it.
+// Returns artanh t - t for 0 <= t < 0.71.  Where the two terms would cancel, it is the sum of a
+// series, whose rest is below 2e-17 of it.
 double beyond_linear_artanh(double t) {
   if (t > 0.1) return std::atanh(t) - t;
   const double t2 = t * t;
@@ -33,7 +33,8 @@ double page_thorne_b(double r) {
 
 PageThorneProfile::PageThorneProfile(bool plunging)
     : plunging_(plunging), pull_(plunging ? kRoot6 * kPullOnPlunge : 0) {
-  // Near a maximum half of a double's bits decide.
+  // A function is flat next to its maximum, so its values tell the place to half of a double's bits
+  // only.
   constexpr double kBeyond = 30;
   constexpr int kBits = 26;
   const auto found = boost::math::tools::brent_find_minima(

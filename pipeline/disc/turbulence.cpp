@@ -19,19 +19,19 @@ constexpr int kSizes = Turbulence::kSizes;
 constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
 // Rows of different sizes do not end at the same places.
 constexpr float kRowsApart = 0.37f;
-// These are the numbers of rows that a spline reaches, and of generations whose lives overlap.
+// A spline reaches so many rows, and so many generations live at the same time.
 constexpr int kReach = 3;
 // Each size has its part of all light, the number of grains in a row, and the standard deviation of
 // one along the row, in turns.
 constexpr std::array<float, kSizes> kParts{0.45f, 0.33f, 0.22f};
 constexpr std::array<int, kSizes> kGrains{3, 4, 6};
 constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
-// Gas that plunges is drawn out until it is even.
+// The shear draws out gas that plunges, so that from this radius inwards it is even.
 constexpr double kEvenBelow = 4;
 constexpr std::size_t kPlacesAtOnce = 128;
 
-// This is the finaliser of MurmurHash3 (A. Appleby, public domain), in which each bit depends on
-// each of x.
+// This is the finaliser of MurmurHash3 (A. Appleby, public domain), in which each bit of the result
+// depends on each bit of x.
 [[gnu::always_inline]] inline std::uint32_t mixed(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x85ebca6bu;
   x = (x ^ (x >> 13)) * 0xc2b2ae35u;
@@ -114,9 +114,9 @@ template <int kSize>
   }
 }
 
-// Adds the light of the generation that is `older` times older than the youngest.  A grain is
-// (1 - x^2)^3 for |x| < 1 along its row, which at three standard deviations looks like a Gaussian
-// and costs less.
+// Adds the light of the generation that came `older` generations before the youngest.  A grain is
+// (1 - x^2)^3 for |x| < 1 along its row, with a standard deviation of 1/3.  It looks like a
+// Gaussian that is cut off at three standard deviations, and costs less.
 template <int kSize>
 [[gnu::always_inline]] inline void add_generation(const RowBlock& rows, int older, int count,
                                                   PlaceBlock& b) {
@@ -125,12 +125,12 @@ template <int kSize>
   constexpr float kVariance = kSpread[kSize] * kSpread[kSize], kOfBox = 1.0f / 12;
   for (int k = 0; k < count; ++k) {
     const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
-    // Across a row, what is drawn out passes by sideways, so a footprint that is high is wide as
-    // well.
+    // Omega falls as r^(-3/2), so across a footprint of the height h in ln r the gas has turned by
+    // angles that differ by 3/2 Omega h age.  A footprint that is high is therefore wide as well.
     const float drawn = 1.5f * b.turning[k] * age * b.log_width[k];
     const float variance = kVariance + kOfBox * (b.width[k] * b.width[k] + drawn * drawn);
     const float reach = 3.0f * __builtin_sqrtf(variance), most = reach < 0.5f ? reach : 0.5f;
-    // What would reach all around the ring is even.
+    // A grain that would reach all around the ring fades into the mean.
     const float even = most / reach, inverse = 1.0f / most;
     const float turns = b.turns[k] - b.turning[k] * age;
     std::uint32_t key =

@@ -1,5 +1,5 @@
 // Turbulence makes the filaments in a disc's gas.  It is a noise whose grains turn with the gas.
-// They are drawn out into spirals by the orbits inside them, which are the faster ones, and are
+// The orbits further in are the faster ones and so draw the grains out into spirals.  Grains are
 // replaced as they age.
 //
 // Grains of three sizes lie in rows of equal width in ln r, in places that a hash of row and

@@ -46,11 +46,11 @@ std::string conclusion_of(const fs::path& out, const std::string& plan_id) {
     const fs::path log = end < text.size() ? text.substr(end + 1) : std::string();
     std::string note = text.substr(0, end);
     if (log.empty()) return note;
-    // A job that failed has said last what it has noted.
+    // A job that failed says last what it has noted, which is not told twice.
     const std::string said = last_line_of(log);
     return note + "; " + log.string() + (note.ends_with(said) ? "" : ": " + said);
   } catch (const TemporaryError&) {
-    // It has ended meanwhile.
+    // The work has ended meanwhile, and its note is gone.
     if (!fs::exists(file, error)) return {};
     throw;
   }

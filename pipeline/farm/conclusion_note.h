@@ -1,5 +1,5 @@
-// A note beside a plan tells of the work after its frames.  It is there while that goes on, and
-// stays where it failed or was killed.
+// A note beside a plan tells of the work after its frames.  It is there while that work goes on,
+// and stays where the work failed or was killed.
 #pragma once
 
 #include <exception>

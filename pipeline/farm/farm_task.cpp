@@ -37,7 +37,7 @@ class TaskRun {
   }
 
  private:
-  // Looks whether this machine can make frames of the plan at all.
+  // Returns why this machine cannot make frames of the plan, or nothing if it can.
   std::optional<TaskEnd> unfit_node() const {
     if (const std::string missing = missing_path(plan_); !missing.empty())
       return TaskEnd{TaskEnd::Kind::kAgainElsewhere, "this node does not see " + missing};
@@ -94,7 +94,7 @@ class TaskRun {
     if (time_is_up_) return {Kind::kAgain, "the time limit is near"};
     const std::string why = said_.empty() ? end.text() : end.text() + ": " + said_;
     if (end.signal != 0) return {Kind::kAgain, end.text()};
-    // Somebody else has asked it to end.
+    // Somebody else has asked the worker to end.
     if (end.code > 128 && end.code <= 128 + 64)
       return {Kind::kAgain, "stopped by " + signal_name(end.code - 128)};
     if (end.code == kAgainCode) return {Kind::kAgainElsewhere, why};

@@ -27,8 +27,8 @@ struct TaskEnd {
 
 struct TaskPlace {
   int threads = 1;
-  // This is for a manager that signals the worker itself.  TERM is then not passed on, lest it come
-  // twice, and ends the worker in the middle of its frame.
+  // This says whether a manager signals the worker itself.  Then no signal but USR1 is passed on,
+  // since a second TERM would end the worker in the middle of its frame.
   bool signals_reach_worker = false;
 };
 

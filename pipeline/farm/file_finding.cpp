@@ -41,8 +41,8 @@ bool is_black(const std::filesystem::path& path, double brightest) {
   return brightest <= (path.extension() == ".exr" ? kBrightestOfBlack : kBrightestOfBlackCodes);
 }
 
-// Says whether manifests have lines for the file with the wanted key, but none of them for such a
-// one.
+// Says whether manifests have lines for the file with the wanted key, but `same` holds for none of
+// them.
 template <class Same>
 bool is_unlike_all(const Manifest& manifest, const ExpectedFile& file, const Same& same) {
   const auto lines = manifest.files.find(file.name);
@@ -82,7 +82,7 @@ FileFinding glance_at(const ExpectedFile& file, const Manifest& manifest) {
     }
     FileFinding finding = found_as(claimed_condition(file.path, file.wanted));
     if (finding.condition != FrameCondition::kGood) return finding;
-    // The same key gives the same bytes.
+    // The same key gives the same bytes, so a file of another size is damaged.
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (is_unlike_all(manifest, file, [&](const MadeFile& made) { return made.size == size; }))
       finding.condition = FrameCondition::kDamaged;

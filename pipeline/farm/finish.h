@@ -19,16 +19,18 @@ struct FramesVerdict {
 // does.
 FramesVerdict verify_frames(const FarmPlan& plan);
 
-// Returns the plan with a further round, of those frames.  Their chunks are as long as those of
-// round 0 are on average, and at most `most`.
+// Returns the plan with a further round, of the frames that are to be made.  A chunk has as many
+// frames as the plan's frames over the number of chunks of round 0, or more where there would be
+// more than `most` chunks.
 FarmPlan with_round(FarmPlan plan, const FramesVerdict& verdict, int most);
 
 // Returns the command lines that make what the plan asks for of its frames.
 std::vector<std::string> movie_command(const FarmPlan& plan);
 std::vector<std::string> deliver_command(const FarmPlan& plan);
 
-// Runs those that the plan asks for, one after another.  Throws InputError or TemporaryError where
-// one fails with 2 or 75, and std::runtime_error for another code.
+// Runs those that the plan asks for, one after another.  Throws InputError where one exits with 2,
+// TemporaryError where one exits with 75, is killed or cannot be started, and std::runtime_error
+// for another code.
 void make_movie_and_delivery(const FarmPlan& plan);
 
 }  // namespace domefall

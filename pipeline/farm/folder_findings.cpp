@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// These are one frame's files, and what they were found to be.
+// A FoundFrame is one frame's files, and what they were found to be.
 struct FoundFrame {
   std::span<const ExpectedFile> files;
   std::span<const FileFinding> findings;

@@ -20,7 +20,7 @@ struct FolderFindings {
   std::vector<int> stale;   // of another version of the show or of its grade
   std::vector<int> good;
 
-  std::vector<int> black_linear, black_graded;  // which they may have to be
+  std::vector<int> black_linear, black_graded;  // which the show may intend
   std::vector<int> not_finite;                  // with values that are no finite numbers
   std::vector<int> unlike;  // whole, but not with the bytes that their writers noted
 
@@ -35,8 +35,8 @@ struct FolderFindings {
 
 using LookAtFile = FileFinding (*)(const ExpectedFile&, const Manifest&);
 
-// Looks at files by glance_at or examine_file, on so many threads.  `step` is called before each by
-// any of them, and may throw to end it.
+// Looks at files by glance_at or examine_file, on so many threads.  Each thread calls step() before
+// each file.  What step() throws ends the work.
 std::vector<FileFinding> look_at_files(
     const std::vector<ExpectedFile>& files, const Manifest& manifest, LookAtFile look, int threads,
     const std::function<void()>& step = [] {});

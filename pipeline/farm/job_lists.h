@@ -12,8 +12,9 @@ namespace domefall {
 std::string list_of_commands(const FarmPlan& plan);
 
 // Returns an Open Job Description template, version 2023-09, without extensions.  It has a step
-// with one task a chunk, and one that verifies and repairs after it.  Throws InputError for a path
-// with {{. There are at most kMostOpenJdTasks chunks.
+// with one task a chunk.  After it follow a step that verifies and repairs, and those for the movie
+// and the delivery that the plan asks for.  Throws InputError for a path that holds {{.  There are
+// at most kMostOpenJdTasks chunks.
 // https://github.com/OpenJobDescription/openjd-specifications/wiki/2023-09-Template-Schemas
 std::string openjd_template(const FarmPlan& plan);
 inline constexpr int kMostOpenJdTasks = 1024;

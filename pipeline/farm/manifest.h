@@ -1,7 +1,7 @@
-// The processes of a farm say of their work in the folder of the frames.
-// DIR/farm/manifest/WRITER.jsonl is a file for each process, since no two machines may append to
-// one.  A line of JSON says that a frame is begun, or that one of its files is made.  Nothing
-// depends on it.  A line that is lost or torn costs a look into the frame's own file.
+// The processes of a farm note their work in the folder of the frames.
+// DIR/farm/manifest/WRITER.jsonl is the file of one process, since no two machines may append to
+// the same file.  A line of JSON says that a frame is begun, or that one of its files is made.
+// Nothing depends on it.  A line that is lost or torn costs a look into the frame's own file.
 #pragma once
 
 #include <sys/types.h>
@@ -100,7 +100,8 @@ struct FrameWriter {
 };
 
 struct Manifest {
-  // They are found by MadeFile::file, and are more than one where several processes made it.
+  // The lines of a file are found by MadeFile::file.  There are several where several processes
+  // made it.
   std::unordered_map<std::string, std::vector<MadeFile>> files;
   std::vector<FrameWriter> writers;  // sorted by their files' names
 

@@ -94,7 +94,7 @@ void make_farm_folder(const fs::path& folder) {
   if (error) throw_file_error(folder, error.value());
 }
 
-// This plan is of a part of the show, which was there and good already.
+// Says whether the plan is of a part of the show whose frames were all there and good already.
 bool had_nothing_to_do(const FarmPlan& plan) {
   return plan.chunks.empty() && !plan.frames.empty() && plan.movie.empty() && plan.deliver.empty();
 }

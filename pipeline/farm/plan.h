@@ -46,7 +46,7 @@ struct FarmPlan {
 };
 
 // Returns an id that no other submission has.  It is the time in UTC to the microsecond, so that a
-// later one sorts behind, and four digits by chance.
+// later one sorts behind, and four random digits.
 std::string new_plan_id();
 
 // These return DIR/farm, DIR/farm/plan_ID.json and DIR/farm/log.
@@ -63,17 +63,17 @@ FarmPlan read_plan(const std::filesystem::path& out, const std::string& id);
 // Throws as read_plan().
 std::optional<FarmPlan> newest_plan(const std::filesystem::path& out);
 
-// Throws InputError for a path or an option that a plan cannot hold, as it is not UTF-8.
+// Throws InputError for a path or an option that a plan cannot hold, because it is not UTF-8.
 void check_plan_text(const FarmPlan& plan);
 
-// Makes DIR/farm and DIR/farm/log and writes the plan at once.  Throws as check_plan_text() before
-// anything is made, InputError where the path leads through a file, and else as throw_file_error().
+// Makes DIR/farm and DIR/farm/log and writes the plan whole or not at all.  Throws as
+// check_plan_text() before anything is made, InputError where the path leads through a file, and
+// else as throw_file_error().
 void write_plan(const FarmPlan& plan);
 
 // Removes the file of a plan that no engine has accepted, and leaves any other alone.
 void drop_unaccepted_plan(const FarmPlan& plan);
 
-// Returns the chunks of a round.
 std::vector<PlannedChunk> chunks_of_round(const FarmPlan& plan, int round);
 
 // Returns the time now as FarmRound::submitted.

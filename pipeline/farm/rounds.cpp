@@ -106,7 +106,8 @@ void conclude_or_submit(const FarmPlan& plan, int round) {
   if (!plan.rounds.empty() && plan.rounds.back().round > round) {
     if (!plan.rounds.back().job.empty())
       return announce(fmt::format("round {} has been submitted already", round + 1));
-    // This job was ended between its plan and its submission.
+    // An earlier run of this job was ended after it wrote the plan and before it submitted the
+    // round.
     return announce("job " + submit_round(plan, round + 1));
   }
   stop_if_cancelled(plan, round);

@@ -17,8 +17,8 @@ struct FramesLacking : TemporaryError {
 
 // Goes through all rounds on this machine, or on Slurm while this process waits, and then makes
 // what else the plan asks for.  Returns the signal that ended it early, or 0.  Throws InputError
-// where the show is refused here, FramesLacking where frames are still missing or bad,
-// std::runtime_error where they are because of a defect.
+// where the show is refused here, FramesLacking where frames are still missing or bad, and
+// std::runtime_error where a defect is the reason.
 int run_rounds(FarmPlan plan);
 
 // Submits a round to Slurm with the job that concludes it, and notes it in the plan.  Returns the

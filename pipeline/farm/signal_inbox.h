@@ -1,5 +1,5 @@
-// A SignalInbox keeps the signals to a program that looks after others until the program asks for
-// them.
+// A SignalInbox keeps the signals that a program gets while it looks after other processes, until
+// it asks for them.
 #pragma once
 
 #include <csignal>
@@ -9,7 +9,7 @@
 namespace domefall {
 
 // There is one at a time.  While it lives, INT, TERM, HUP, USR1 and CHLD wake wait() and do nothing
-// else.  One that the program was started to ignore stays ignored.
+// else.  A signal other than CHLD that the program was started to ignore stays ignored.
 class SignalInbox {
  public:
   // Throws TemporaryError where no pipe can be opened.

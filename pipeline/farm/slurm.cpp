@@ -145,7 +145,7 @@ std::string submit_to_slurm(const std::vector<std::string>& command) {
     if (away) throw TemporaryError(without_line_end(said));
     throw InputError(without_line_end(said));
   }
-  // A plugin may say something first; --parsable prints ID, or ID;CLUSTER, last.
+  // A plugin may say something first.  The last line is that of --parsable, ID or ID;CLUSTER.
   const std::string text = without_line_end(said);
   const std::string line = text.substr(text.find_last_of('\n') + 1);
   return line.substr(0, line.find(';'));
@@ -167,7 +167,8 @@ bool is_in_slurm() { return !environment("SLURM_JOB_ID").empty(); }
 
 SlurmTask this_slurm_task() {
   SlurmTask task;
-  // The id of the last task is that of the whole array, so its requeue would be that of all tasks.
+  // The last task of an array has the array's id as its SLURM_JOB_ID, by which all tasks would be
+  // requeued.
   const std::string array = environment("SLURM_ARRAY_JOB_ID");
   task.id = array.empty() ? environment("SLURM_JOB_ID")
                           : array + "_" + environment("SLURM_ARRAY_TASK_ID");

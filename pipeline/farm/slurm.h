@@ -11,8 +11,8 @@
 namespace domefall {
 
 // Returns how many tasks Slurm lets an array have (MaxArraySize).  Throws InputError where Slurm is
-// not installed.  Throws TemporaryError where its controller does not answer, for which Slurm may
-// take a minute, or within `patience_s` seconds, unless these are 0.
+// not installed.  Throws TemporaryError where its controller does not answer within `patience_s`
+// seconds or, if these are 0, within Slurm's own patience, which may be a minute.
 int most_array_tasks(int patience_s = 0);
 inline constexpr int kDefaultArrayTasks = 1001;
 
@@ -31,8 +31,8 @@ std::string submit_to_slurm(const std::vector<std::string>& command);
 // Cancels all tasks of a job, as far as the controller answers.
 void cancel_slurm_job(const std::string& job);
 
-// Says whether none of a job's tasks waits or runs.  A controller that does not answer says
-// nothing.
+// Says whether none of a job's tasks waits or runs.  Returns false where the controller does not
+// answer.
 bool slurm_job_is_over(const std::string& job);
 
 // A SlurmTask is the task of a job array in which this process runs, as SLURM_ARRAY_JOB_ID and
@@ -50,7 +50,7 @@ SlurmTask this_slurm_task();
 // Puts this task back into the queue, from where another node may take it.  With `elsewhere`, this
 // node is left out of its next tries if the partition has another one.  A bad node is often idle,
 // since its tasks end at once, and would be given them again and again.  Returns false where Slurm
-// refuses, and else waits to be ended by Slurm.
+// refuses.  Otherwise this waits up to two minutes for Slurm to end the task, and returns true.
 bool requeue_slurm_task(const SlurmTask& task, bool elsewhere, SignalInbox& inbox);
 
 }  // namespace domefall

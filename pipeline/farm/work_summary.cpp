@@ -37,7 +37,7 @@ std::vector<FoundLog> logs_in(const fs::path& folder) {
   return logs;
 }
 
-// Returns the one that was written last, or an empty path if there is none.
+// Returns the task's log that was written last, or an empty path if there is none.
 fs::path log_of(const TaskFrames& task, const std::vector<FoundLog>& newest_first) {
   for (const FoundLog& log : newest_first)
     if (std::ranges::any_of(task.logs,

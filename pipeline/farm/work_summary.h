@@ -11,9 +11,9 @@
 
 namespace domefall {
 
-// Returns the frames a second that all processes together have finished in the last ten minutes, or
-// since the first of them began if that is later.  `now_s` is since 1970.  Returns nothing if none
-// of them lives, or none has finished a frame.
+// Returns the frames a second that all processes which still live have finished together in the
+// last ten minutes, or since the first of them began if that is later.  `now_s` is since 1970.
+// Returns nothing if no process lives, or none of them has finished a frame in that time.
 std::optional<double> frames_per_second(const Manifest& manifest, double now_s);
 
 struct SlowFrame {
@@ -27,8 +27,8 @@ struct SlowFrame {
 std::vector<SlowFrame> slowest_frames(const Manifest& manifest, const std::vector<int>& among,
                                       std::size_t most);
 
-// Returns the last line of a log that is not empty, without what a terminal would do with it.
-// Where the log cannot be read, it says why.
+// Returns the last line of a log that is not blank, without control characters.  Where the log
+// cannot be read, this returns why.
 std::string last_line_of(const std::filesystem::path& log);
 
 // TaskFrames are the frames that one task of a farm is to make.

@@ -51,10 +51,11 @@ class WorkerProcess {
   std::optional<WorkerEnd> look();
 
   // Looks whether the program has been stopped, as by SIGSTOP, since the last look.  The first time
-  // it is continued, and later killed.  Says so.
+  // it is continued, and later it is killed.  Both are said on standard error.
   void mind_stops(const std::string& name);
 
-  // These return its last line, and all that it said (64 kB at most, the end of it).
+  // These return its last line, and all that it said.  Of more than 128 KiB only the end is kept,
+  // at least 64 KiB of it.
   std::string last_line() const;
   const std::string& said() const { return said_; }
 

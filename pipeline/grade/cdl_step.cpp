@@ -6,11 +6,11 @@
 namespace domefall {
 namespace {
 
-// ACEScct is straight up to this light, and a logarithm above.
+// ACEScct is linear up to this light, and logarithmic above.
 constexpr float kStraight = 0.0078125f, kStraightCode = 0.155251141552511f;
 constexpr float kCodeSlope = 10.5402377416545f, kCodeOffset = 0.0729055341958355f;
 constexpr float kStops = 17.52f, kStopOffset = 9.72f;
-// This stands for a code to whose light a half float never comes.
+// Powers of two are cut here to stay within floats.  The light of half floats stays far below.
 constexpr float kMostStops = 100;
 
 [[gnu::always_inline]] inline float code_of_light(float light) {

@@ -13,8 +13,8 @@ class CdlStep {
 
   // Takes ACEScg through the CDL in ACEScct (S-2016-001) and back.  As in OpenColorIO nothing is
   // clamped, and a power leaves negative codes as they are.  Black stays black, whatever the CDL
-  // makes of it.  Pixels of -1 stay so, and pixels that become infinite become -1, too.  Measured:
-  // the error is within 4e-6 of the value itself and of the largest channel.
+  // makes of it.  Pixels of -1 stay so, and pixels that become infinite become -1, too.  The
+  // measured error is within 4e-6 of the value itself and of the largest channel.
   void apply(PixelPlanes& planes, int count) const;
 
  private:

@@ -31,7 +31,7 @@ void check_file(const ocio::Config& config, const char* named, const std::string
   throw InputError(name + ": names " + found + ": the file is empty");
 }
 
-// Groups hold transforms, and all others are single.
+// A group holds further transforms, which may be groups.  Any other transform stands alone.
 void check_transform(const ocio::Config& config, const ocio::ConstTransformRcPtr& transform,
                      const std::string& name) {
   if (!transform) return;
@@ -55,7 +55,8 @@ std::vector<float> probes() {
   return rgb;
 }
 
-// Says whether the values of the pixel at `at` are as they may be.
+// Says whether no value of the pixel at `at` is NaN and, unless the pixel was above kBright, none
+// is infinite.
 bool is_sound(const std::vector<float>& before, const std::vector<float>& after, std::size_t at) {
   bool bright = false, infinite = false;
   for (std::size_t c = at; c < at + 3; ++c) {
@@ -75,7 +76,8 @@ bool refers_to(std::string_view text, const std::string& variable) {
 
 }  // namespace
 
-// What a variable's value refers to is visited from each variable at most once.
+// From each variable the search follows what its value refers to, and visits each other variable at
+// most once.
 void check_variables(const ocio::Config& config, const std::string& name) {
   const auto context = config.getCurrentContext();
   const int count = context->getNumStringVars();

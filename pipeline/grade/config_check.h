@@ -17,8 +17,8 @@ void check_variables(const OCIO_NAMESPACE::Config& config, const std::string& na
 void check_files(const OCIO_NAMESPACE::Config& config, const std::string& name);
 
 // Sends pixels through each step of the processor by itself, in floats, since a later step may hide
-// what is no number by clamping it.  Throws InputError, which begins with `name`, if a pixel of up
-// to 1024 becomes infinite or one of up to the largest half no number.
+// a NaN by clamping it.  Throws InputError, which begins with `name`, if a pixel of up to 1024
+// becomes infinite, or one of up to the largest half becomes NaN.
 void check_values(const OCIO_NAMESPACE::Config& config, const OCIO_NAMESPACE::Processor& processor,
                   const std::string& name);
 

@@ -26,7 +26,7 @@ ocio::ConstColorSpaceRcPtr space_of(const ocio::Config& config, const std::strin
   return config.getColorSpace(display_is_space ? display.c_str() : name);
 }
 
-// Goes from codes to CIE XYZ, which displays refer to.
+// Returns the processor from codes to CIE XYZ, to which the colour spaces of displays refer.
 ocio::ConstCPUProcessorRcPtr to_light(const ocio::Config& config, const ocio::ColorSpace& space) {
   auto transform = space.getTransform(ocio::COLORSPACE_DIR_TO_REFERENCE);
   auto direction = ocio::TRANSFORM_DIR_FORWARD;
@@ -98,7 +98,8 @@ std::array<double, 2> chromaticity(const Pixel& xyz, const Pixel& black) {
   return {x / (x + y + z), y / (x + y + z)};
 }
 
-// Returns the standard's primaries and white, or else those that were measured, of four decimals.
+// Returns the primaries and the white of the standard that these are near, or else these, rounded
+// to four decimals.
 std::array<double, 8> settled(std::array<double, 8> xy) {
   constexpr double kNear = 3e-4, kSteps = 1e4;
   for (const auto& standard : {kRec709Places, kRec2020Places, kDciP3Places, kP3D65Places})
@@ -109,8 +110,8 @@ std::array<double, 8> settled(std::array<double, 8> xy) {
   return xy;
 }
 
-// Sets the curve by the light of grey codes, white being 1.  Returns false if it is of neither
-// kind.
+// Sets the curve by the light of grey codes, white being 1.  Returns false if the curve is neither
+// that of sRGB nor a power.
 bool take_curve(const std::vector<double>& greys, DisplayColour& colour) {
   const auto last = static_cast<double>(greys.size() - 1);
   const auto fits = [&](const auto& curve) {

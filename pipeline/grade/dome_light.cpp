@@ -11,7 +11,7 @@ namespace domefall {
 namespace {
 
 // Returns sin(theta)/theta in s = theta^2, which a pixel's area on the dome is proportional to.
-// What is left out is below 4e-8 up to theta = pi/2.
+// The terms that are left out are below 5e-10 up to theta = pi/2, less than a float rounds.
 float sine_over_angle(float s) {
   constexpr float k1 = 1 / 6.0f, k2 = 1 / 20.0f, k3 = 1 / 42.0f, k4 = 1 / 72.0f, k5 = 1 / 110.0f,
                   k6 = 1 / 156.0f;
@@ -28,7 +28,8 @@ void pixel_areas(int size, int row, ColumnRange range, std::uint32_t* areas) {
   const int count = range.last - range.first + 1;
   for (int k = 0; k < (count + 1) / 2; ++k) {
     const float x = (first + static_cast<float>(k)) * step;
-    // The loop becomes SIMD code, which lround would not.  The number is positive.
+    // To add 1/2 and cut rounds a positive number.  Unlike lround, it lets the loop become SIMD
+    // code.
     const float rounded = kAreaUnits * sine_over_angle(x * x + y2) + 0.5f;
     const auto area = static_cast<std::int32_t>(rounded);
     areas[k] = areas[count - 1 - k] = static_cast<std::uint32_t>(area);
@@ -54,7 +55,8 @@ Above above(const DomeCodes& dome, int channel, const std::vector<double>& curve
 }
 
 // Returns the root of c = k mean(c) by Newton's method from c = 0.  The mean is convex and falls,
-// so each step stays below the root.  It is reached when no further code falls below c.
+// so each step stays below the root.  The mean is a straight line between two codes' light, so the
+// root is reached when no further code falls below c.
 double compensation(const DomeCodes& dome, int channel, const std::vector<double>& curve,
                     double k) {
   double c = 0;

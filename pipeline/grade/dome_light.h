@@ -12,8 +12,8 @@
 //     <B> = <B0> + (rho/2) <B>,   so   B = B0 + k <B0>  with  k = rho/(2 - rho).
 //
 // All bounces together add k times the mean, taken over the dome's area.  To show B a projector
-// therefore sends B0 = max(B - c, 0) with c = k <max(B - c, 0)>. This has one solution, because the
-// left side rises with c from 0 and the right side falls.
+// therefore sends B0 = max(B - c, 0) with c = k <max(B - c, 0)>.  This has one solution, because
+// the left side rises with c from 0 and the right side falls.
 //
 // All this is about light that the dome sends out, so it follows the grade.  Codes become the
 // display's light, and that becomes codes again.  Before the view the sums would be of light that a
@@ -73,7 +73,7 @@ class DomeLight {
   // unit.
   using Curves = std::array<std::vector<double>, 3>;
 
-  // `settings` says what to do, and is not kNone.
+  // `settings` says what to do, which is not kNone.
   DomeLight(const DomeSettings& settings, Curves curves);
 
   // Returns what becomes of a picture that the dome's audience sees while its codes are those.

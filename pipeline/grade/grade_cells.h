@@ -19,9 +19,9 @@ inline constexpr float kLeastGrey = 0.25f, kLeastRoot = 0.5f;  // and its square
 inline constexpr float kRootScale = (kGreys - 1) / (1 - kLeastRoot), kHueScale = kHues - 1;
 inline constexpr float kBrightest = 65504;  // the largest half
 
-// A node has the three codes, 65535 being white, and whether the cell in whose middle it stands, up
-// to the next node of the largest channel, is held.  Nodes that differ in the largest channel alone
-// follow each other.
+// A node has the three codes, of which 65535 is white.  A fourth number says whether the table
+// holds the cell in whose middle the node stands, and which reaches up to the next node of the
+// largest channel.  Nodes that differ in the largest channel alone follow each other.
 inline constexpr int kNode = 4, kHeld = 3;
 inline constexpr int kColumn = kNode * kLargest, kRow = kColumn * kHues, kOrder = kRow * kGreys;
 inline constexpr std::size_t kTable = static_cast<std::size_t>(kOrder) * kOrders;
@@ -30,8 +30,8 @@ inline constexpr std::size_t node_at(int order, int n, int grey, int hue) {
   return static_cast<std::size_t>(order * kOrder + grey * kRow + hue * kColumn + n * kNode);
 }
 
-// These are the channels from the largest to the least, for each order.  An order's number is (r >=
-// g) + 2 (g >= b) + 4 (b >= r), less 1.
+// These are the channels from the largest to the least, for each order.  An order's number, counted
+// from 0, is (r >= g) + 2 (g >= b) + 4 (b >= r) - 1.
 inline constexpr int kChannels[kOrders][3] = {{0, 2, 1}, {1, 0, 2}, {0, 1, 2},
                                               {2, 1, 0}, {2, 0, 1}, {1, 2, 0}};
 

@@ -15,7 +15,8 @@ namespace cells = grade_cells;
 
 namespace {
 
-// The work is shared by blocks of planes, which are all nodes of one largest channel in one order.
+// The work is shared out in blocks of planes.  A plane is all nodes of one order that have the same
+// largest channel.
 constexpr int kPlanesInBlock = 16;
 constexpr int kBlocksInOrder = (cells::kLargest + kPlanesInBlock - 1) / kPlanesInBlock;
 constexpr int kBlocks = cells::kOrders * kBlocksInOrder;
@@ -31,8 +32,8 @@ std::size_t first_cell(int order, int n) {
   return static_cast<std::size_t>((order * cells::kCells + n) * kPlaneCells);
 }
 
-// A Probe says where a cell is compared, in steps from its middle node, and of the largest channel
-// in half floats' steps.
+// A Probe says where a cell is compared, in steps from its middle node.  Along the largest channel
+// it counts the steps of half floats.
 struct Probe {
   float grey, hue;
   int largest;
@@ -42,14 +43,15 @@ constexpr std::array kProbes{
     Probe{-0.5f, 0.5f, cells::kNodeStep / 4}, Probe{0.5f, -0.5f, 3 * cells::kNodeStep / 4},
     Probe{0, 0, cells::kNodeStep / 2}};
 // Most cells are so exact at the first two probes, or err so much there, that the others are left
-// out.  These two are opposite corners.  What errs by the largest channel has one sign at both, and
-// what errs by grey and hue has two.
+// out.  These two are opposite corners.  The error of the line along the largest channel has the
+// same sign at both, and that of the parabolas in grey and hue has opposite signs, so the two do
+// not cancel at both.
 constexpr int kFirstProbes = 2;
 constexpr double kSmallPart = 0.1;
 // Between the probes an error may be larger than at them.
 constexpr double kProbedPart = 0.8;
 
-// Returns the code of 0 to 1 that is shown.  What is no number is shown as black.
+// Returns the code of 0 to 1 that is shown.  A NaN is shown as black.
 float clipped(float code) { return code > 0 ? std::min(code, 1.0f) : 0; }
 
 // Says whether a channel leaves black within a cell.  It is then 0 at some of the cell's nodes, and

@@ -35,7 +35,7 @@ class GradeTable {
 
   explicit GradeTable(Formulas formulas);
 
-  // Makes the table, which takes up to 0.7 s of processor time and 19 MB, unless it is made.
+  // Makes the table, which takes up to 0.7 s of processor time and keeps 18 MB, unless it is made.
   // Threads that call this at the same time share the work, so that no more of them are busy than
   // grade.
   void make();

@@ -29,7 +29,7 @@ namespace ocio = OCIO_NAMESPACE;
 
 namespace {
 
-// It grows whenever any pixel's code changes, so that frames of before are graded again.
+// This number grows whenever any pixel's code changes, so that earlier frames are graded again.
 constexpr int kCodesVersion = 3;
 
 using Code = std::array<unsigned short, 3>;
@@ -61,7 +61,7 @@ bool is_black(const Imath::half* rgb) {
   return (rgb[0].bits() | rgb[1].bits() | rgb[2].bits()) == 0;
 }
 
-// Says whether four pixels are.
+// Says whether four pixels are black.
 bool are_black(const Imath::half* rgb) {
   std::array<std::uint64_t, 3> words;
   std::memcpy(words.data(), rgb, sizeof words);
@@ -81,7 +81,7 @@ void fill_black(unsigned short* row, int begin, int end, const Code& black) {
   for (int x = begin; x < end; ++x) std::copy(black.begin(), black.end(), row + 3 * x);
 }
 
-// Returns pixels of all the colours that a table holds, and of all brightness that shows.
+// Returns samples of the colours that a table holds, at every brightness that a display shows.
 std::vector<Imath::half> sampled_colours() {
   std::vector<Imath::half> rgb;
   for (int stop = -24; stop < 12; ++stop)
@@ -139,7 +139,7 @@ struct Grader::Processor {
     return most / 65535.0;
   }
 
-  // Returns how exact the table is with this CDL, which the table knows nothing of.
+  // Returns the largest known error of the table with this CDL, which the table knows nothing of.
   double error(const GradeTable& table) const {
     if (!cdl) return table.error();
     std::call_once(measured_, [&] { error_ = measured_error(table); });
@@ -269,8 +269,8 @@ std::optional<TableError> Grader::table_error(const HalfFrame& in) const {
   return TableError{processor_->error(*table), table->held()};
 }
 
-// The corners of a domemaster, a fifth of it, are black, and black is graded once: only the columns
-// from a row's first light to its last are graded one by one.
+// The corners of a domemaster, a fifth of it, are black, and black is graded once.  So only the
+// columns from a row's first light to its last are graded one by one.
 void Grader::grade_rows(const HalfFrame& in, int y0, int y1, unsigned short* out) const {
   const GradeTable* table = table_for(in);
   for (int y = y0; y < y1; ++y, out += static_cast<std::ptrdiff_t>(3) * in.width) {

@@ -1,4 +1,4 @@
-// Grades scene-linear frames for a display, by OpenColorIO.
+// A Grader grades scene-linear frames for a display, by OpenColorIO.
 #pragma once
 
 #include <memory>
@@ -32,11 +32,12 @@ struct TableError {
 class Grader {
  public:
   // A configuration that is not the shipped one is first read in a process of its own (trial.h),
-  // which takes 4 ms: OpenColorIO follows a space that refers to itself until its stack is full.
+  // which takes 4 ms, because OpenColorIO follows a space that refers to itself until its stack is
+  // full.
   //
-  // Throws InputError if the configuration is not named or cannot be used, if it makes of light
-  // what is no number, and if it does not have the display or the view, with a list of those that
-  // it has.  Throws TemporaryError if it is missing.
+  // Throws InputError if the configuration is not named or cannot be used, if it turns light into
+  // NaN or infinity, and if it does not have the display or the view, with a list of those that it
+  // has.  Throws TemporaryError if it is missing.
   explicit Grader(const GradeSettings& settings);
 
   // Returns the same grade with another CDL, which shares the table.

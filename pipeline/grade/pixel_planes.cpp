@@ -26,7 +26,7 @@ constexpr int kGroup = kLanes;  // pixels
   std::memcpy(out, &kept, sizeof kept);
 }
 
-// Splits so many groups of 8 pixels.
+// Splits so many groups of 8 pixels, and returns how many of the pixels are black.
 [[gnu::always_inline]] inline int split_loop(const std::uint16_t* rgb, int groups, float* red,
                                              float* green, float* blue) {
   constexpr int kInfinityBits = 0x7c00;

@@ -15,7 +15,8 @@ struct PixelPlanes {
 };
 
 // Splits `count` pixels, at most kSize.  A pixel with a channel that is negative (-0 is, too),
-// infinite or no number becomes -1 in all channels.  Returns how many pixels are black: 0 in all.
+// infinite or NaN becomes -1 in all channels.  Returns how many pixels are black, which are 0 in
+// all channels.
 int split_pixels(const Imath::half* rgb, int count, PixelPlanes& planes);
 
 }  // namespace domefall

@@ -20,7 +20,8 @@ template <class Vector, class Value>
   std::memcpy(to, &from, sizeof from);
 }
 
-// Finds the node next to a place that is not negative, but none at either end.
+// Finds the node nearest to a place that is not negative.  The first and the last node are left
+// out, since a parabola needs a neighbour on either side.
 [[gnu::always_inline]] inline void middle_node(const Lanes& place, int last, Ints& node) {
   node = __builtin_convertvector(place + 0.5f, Ints);
   node = node < last ? node : Ints{} + last;
@@ -33,7 +34,7 @@ template <class Vector, class Value>
   store(0.5f * t * (t + 1), &out.after[k]);
 }
 
-// The compiler makes one instruction of it.
+// The compiler makes one instruction of this loop.
 [[gnu::always_inline]] inline void square_root(Lanes& values) {
   for (int k = 0; k < kLanes; ++k) values[k] = __builtin_sqrtf(values[k]);
 }

@@ -32,7 +32,7 @@ void limit(int resource, rlim_t bound) {
   setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-// Returns what this process has of its address space, which sanitizers fill by terabytes.
+// Returns how much address space this process has taken, of which sanitizers reserve terabytes.
 rlim_t address_space() {
   unsigned long pages = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {

@@ -98,7 +98,7 @@ std::string append_change_to(ocio::GroupTransform& group, const ocio::Config& co
   return linear->getName();
 }
 
-// What a view shows of data, such as Raw, are the frame's own values.
+// A view of data, such as Raw, shows the frame's own values.
 bool is_data(const ocio::Config& config, const std::string& display, const std::string& view) {
   const auto space =
       config.getColorSpace(config.getDisplayViewColorSpaceName(display.c_str(), view.c_str()));
@@ -121,7 +121,7 @@ ViewTransform chosen_view(const ocio::ConstConfigRcPtr& config, const GradeSetti
   auto group = ocio::GroupTransform::Create();
   if (settings.cdl != Cdl{}) append_cdl(*group, settings.cdl);
   auto view = ocio::DisplayViewTransform::Create();
-  // From one space of data to another nothing is changed.
+  // OpenColorIO changes nothing from one space of data to another.
   const std::string source =
       is_data(*config, chosen.display, chosen.name)
           ? config->getDisplayViewColorSpaceName(chosen.display.c_str(), chosen.name.c_str())

@@ -27,7 +27,8 @@ OCIO_NAMESPACE::ConstConfigRcPtr read_config(const std::string& file);
 ViewTransform chosen_view(const OCIO_NAMESPACE::ConstConfigRcPtr& config,
                           const GradeSettings& settings);
 
-// Calls what OpenColorIO may refuse, and says of which view of the file it speaks.
+// Calls step().  What OpenColorIO throws becomes InputError, or TemporaryError for a missing file,
+// and names the configuration's file and the view.
 template <class Step>
 void explained(const ViewTransform& view, const std::string& file, Step step) {
   const auto message = [&](const OCIO_NAMESPACE::Exception& error) {

@@ -11,7 +11,8 @@
 namespace domefall {
 namespace {
 
-// As many connections are served at once.  Most of them only wait, for news or for their turn.
+// At most this many connections are served at once.  Most of them only wait, for news or for their
+// turn.
 constexpr std::size_t kConnections = 48;
 constexpr int kPatienceSeconds = 2;         // with a slow or silent client
 constexpr std::size_t kLongestBody = 1024;  // no request has one
@@ -68,7 +69,8 @@ class HttplibServer : public HttpServer {
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     http_.set_default_headers(httplib::Headers(always.begin(), always.end()));
-    // Before httplib looks for a route, so that a request's path meets no regular expression.
+    // A request is answered before httplib looks for a route, so that its path meets no regular
+    // expression.
     http_.set_pre_routing_handler([this](const auto& request, auto& response) {
       send_answer(handler_(HttplibRequest(request)), response);
       return httplib::Server::HandlerResponse::Handled;

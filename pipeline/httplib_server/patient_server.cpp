@@ -25,7 +25,7 @@ bool is_ready(socket_t connection, short events, int milliseconds) {
   return found > 0;
 }
 
-// Returns host and port of one end of a connection, by getpeername or getsockname.
+// Finds the address and port of one end of a connection, by getpeername or getsockname.
 template <class End>
 void find_address(const End& end, socket_t connection, std::string& ip, int& port) {
   sockaddr_in address{};
@@ -37,8 +37,8 @@ void find_address(const End& end, socket_t connection, std::string& ip, int& por
   port = ntohs(address.sin_port);
 }
 
-// This is what comes and goes through one connection.  httplib reads byte by byte, hence the
-// buffer.  begin_request() stands before each request.
+// This is what comes and goes through one connection.  It has a buffer because httplib reads byte
+// by byte.  begin_request() must be called before each request.
 class Connection final : public httplib::Stream {
   using Clock = std::chrono::steady_clock;
 

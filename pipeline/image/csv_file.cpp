@@ -72,8 +72,8 @@ bool CsvFile::next_line(std::string_view& line) {
   return false;
 }
 
-// Returns the length of the line's first cell.  Two quotes that stand for one open what they have
-// closed.
+// Returns the length of the line's first cell.  Two quotes that stand for one close the quoted part
+// and open it again, so they need no case of their own.
 std::size_t CsvFile::end_of_cell(std::string_view line) const {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -1,5 +1,5 @@
-// A Digest is one of everything that decides a result, to tell frames of one version of a show from
-// those of another.  It is XXH3 of 128 bits, and protects against accident, not malice.
+// A Digest is taken of everything that decides a result.  It tells frames of one version of a show
+// from those of another.  It is XXH3 of 128 bits, and protects against accident, not malice.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Digest {
   Digest& operator=(const Digest&) = delete;
   Digest& operator=(Digest&&) = delete;
 
-  // Each value is preceded by its length, so that neighbours cannot run into each other.
+  // Each text is preceded by its length, so that neighbours cannot run into each other.
   Digest& add(std::string_view text);
   Digest& add_piece(std::string_view piece);            // of one long text: no length
   Digest& add(double value);                            // by its bits

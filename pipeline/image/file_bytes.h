@@ -50,7 +50,7 @@ class FileBytes {
   std::string start_;                          // the first bytes, of which most are asked for
 };
 
-// Returns a whole number of sizeof(Number) bytes at the front of `bytes`.
+// These return the whole number that the first sizeof(Number) bytes hold in either byte order.
 template <class Number>
 Number little_endian(std::string_view bytes) {
   Number value = 0;

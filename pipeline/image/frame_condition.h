@@ -30,8 +30,8 @@ struct WantedFrame {
 // FileBytes::at.
 FrameCondition claimed_condition(const std::filesystem::path& path, const WantedFrame& wanted);
 
-// Says whether the file has a digest and the bytes that it was taken of, all of which are read.  A
-// missing file has none.  Throws as above.
+// Says whether the file has a digest and the bytes that the digest was taken of, all of which are
+// read.  A missing file is not whole.  Throws as above.
 bool is_whole(const std::filesystem::path& path);
 
 // Returns the claimed condition, held against the whole file where that is kGood or kOther.  An

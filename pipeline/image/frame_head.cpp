@@ -104,7 +104,8 @@ void check_exr_table(const FileBytes& file, std::uint64_t table, std::int64_t he
   }
 }
 
-// Returns the rows in one part, by the number of the compression, or nothing for a later one.
+// Returns the rows in one part, by the number of the compression, or nothing for a number that is
+// not known here.
 std::optional<std::int64_t> rows_per_part(unsigned char compression) {
   constexpr std::int64_t kRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   if (compression >= std::size(kRows)) return std::nullopt;
@@ -233,8 +234,8 @@ class TiffDirectory {
         found->second.count > kMostInEntry ? number<std::uint32_t>(file_.at(at, 4)) : at, 2));
   }
 
-  // Returns where the text stands, or nothing if there is none.  Shorter ones than ours stand
-  // elsewhere.
+  // Returns where the text stands and its length, or nothing if there is none.  A text of up to
+  // four bytes stands in the entry itself, and ours are longer.
   std::optional<std::pair<std::uint64_t, std::uint64_t>> text(std::uint16_t tag) const {
     constexpr std::uint16_t kAscii = 2;
     const auto found = entries_.find(tag);

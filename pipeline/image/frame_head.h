@@ -25,7 +25,7 @@ struct FrameHead {
   std::string digest;  // of the whole file (frame_seal.h); earlier versions wrote none
 
   // Here stand the digest's digits and, in a PNG, the chunk that holds them, from its name to its
-  // checksum.  They are bytes from the file's beginning.
+  // checksum.  All three are counted in bytes from the file's beginning.
   std::uint64_t digest_at = 0, chunk_at = 0, checksum_at = 0;
 };
 

@@ -1,4 +1,4 @@
-// Lists of frames as text, such as 7, 0-299 or 0-9,12.
+// These functions read and write lists of frames as text, such as 7, 0-299 or 0-9,12.
 #pragma once
 
 #include <string>

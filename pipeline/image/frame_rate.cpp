@@ -8,7 +8,8 @@
 namespace domefall {
 namespace {
 
-// The convergents of a continued fraction are the best fractions of their size.
+// No fraction whose denominator is as small or smaller is nearer than a convergent of the continued
+// fraction.
 FrameRate nearest_fraction(double value) {
   constexpr double kTolerance = 1e-9;
   FrameRate before{1, 0};

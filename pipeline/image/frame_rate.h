@@ -14,7 +14,8 @@ struct FrameRate {
 
 // Takes 1 <= frames_per_second <= 1000.  Decimals such as 23.976, 29.97 and 59.94 stand for the
 // rates of NTSC.  So what is within 2e-6 of n 1000/1001, n being a multiple of 24 or 30, becomes
-// that rate.  Otherwise it becomes the fraction of least terms within 1e-9 of the number.
+// that rate.  Otherwise it becomes the first convergent of the number's continued fraction that is
+// within 1e-9 of the number.
 FrameRate frame_rate_of(double frames_per_second);
 
 // Returns "30" or "24000/1001", as ffmpeg reads it.

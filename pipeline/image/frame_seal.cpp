@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint64_t kBlock = std::uint64_t{1} << 20, kChecksum = 4;
 
-// Puts zeros where the `count` bytes at `place` of the file overlap a block that begins at `begin`.
+// Puts the digit 0 where the `count` bytes at `place` of the file overlap a block that begins at
+// `begin`.
 void blank(std::string& block, std::uint64_t begin, std::uint64_t place, std::uint64_t count) {
   const std::uint64_t from = std::max(place, begin),
                       to = std::min(place + count, begin + block.size());

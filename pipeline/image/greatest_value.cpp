@@ -4,7 +4,7 @@
 
 namespace domefall {
 
-// Both compare signed numbers, of which SSE2 has a maximum.
+// Both functions compare signed numbers, since SSE2 has no maximum of unsigned words.
 
 unsigned short greatest_value(const unsigned short* values, std::size_t count) {
   constexpr int kHighest = 0x8000;

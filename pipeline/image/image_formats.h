@@ -16,7 +16,8 @@ namespace domefall {
 
 struct HealpixFile;
 
-// What a picture may be, for messages and help.  picture_format() knows each by its first bytes.
+// A picture may be of these formats, which messages and help name.  picture_format() knows each by
+// its first bytes.
 inline constexpr std::string_view kPictureFormats =
     "OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP";
 

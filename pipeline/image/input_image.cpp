@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// Calls what may fail with a reason of the library's, which does not name the file.
+// Calls step(), and puts the file's name before the reasons of the library, which lack it.
 template <class Step>
 auto named(const std::filesystem::path& file, const char* what, Step step) {
   try {

@@ -10,7 +10,8 @@
 
 namespace domefall {
 
-// It has no name in any folder and is gone with its users, so that no end of the program leaves it.
+// It has no name in any folder and is gone with its users, so that nothing is left behind, however
+// the program ends.
 class MemoryFile {
  public:
   // `purpose` is what errors call it.  Throws TemporaryError if there is no memory for it.

@@ -9,7 +9,7 @@
 namespace domefall {
 namespace {
 
-// Encoders write some bytes at a time.  The system is asked for this many.
+// Encoders write some bytes at a time.  The system is handed this many.
 constexpr std::size_t kPending = std::size_t{256} << 10;
 
 void write_at(int file, const std::filesystem::path& path, std::string_view rest,

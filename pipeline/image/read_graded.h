@@ -1,4 +1,4 @@
-// Reads finished graded frames back.
+// This file reads finished graded frames back.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace domefall {
 
-// Reads a graded frame into `frame`, 8 bits being spread to 16, if it is good (examine_frame);
-// otherwise it only says what is wrong.  The file is read once, into memory, and what is decoded
-// are the bytes whose digest was right.  Throws as FileBytes, TemporaryError where there is no
+// Reads a graded frame into `frame`, 8 bits being spread to 16, if it is good (examine_frame).
+// Otherwise it only says what is wrong.  The file is read once, into memory, and the bytes that are
+// decoded are those whose digest was right.  Throws as FileBytes, TemporaryError where there is no
 // memory for them, and std::runtime_error, naming the file, if they cannot be decoded.
 FrameCondition read_graded(const std::filesystem::path& path, const WantedFrame& wanted,
                            GradedFrame& frame);

@@ -1,5 +1,5 @@
-// Reads all-sky maps in the HEALPix pixelisation (Gorski et al. 2005, ApJ 622, 759) from FITS
-// files.
+// This file reads all-sky maps in the HEALPix pixelisation (Gorski et al. 2005, ApJ 622, 759) from
+// FITS files.
 #pragma once
 
 #include <filesystem>

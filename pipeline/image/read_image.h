@@ -1,4 +1,4 @@
-// Reads sky maps from pictures.
+// This file reads sky maps from pictures.
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,7 @@ namespace domefall {
 // /proc, which calls itself empty and may wait for news (/proc/kmsg), is empty.
 class RegularFile {
  public:
-  // Throws InputError for what is no regular file and for a name that no machine can open,
+  // Throws InputError for what is no regular file and for a name that no machine can open, and
   // TemporaryError for a file that is missing or may not be read and for a link that leads nowhere,
   // which another machine may have.  Both name the file.
   explicit RegularFile(const std::filesystem::path& path);

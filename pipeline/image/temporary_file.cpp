@@ -85,7 +85,8 @@ void flush_folder(const fs::path& folder) {
   const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.number() < 0 && errno == EACCES) return;  // it may be written to and not read
   if (opened.number() < 0) throw_file_error(folder, errno);
-  // Some file systems cannot flush a folder and say so.  Their renames are durable or nobody's.
+  // Some file systems cannot flush a folder and say so.  Nothing more can be done for a rename
+  // there.
   if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
     throw_file_error(folder, errno);
 }

@@ -1,5 +1,4 @@
-// This file has files in the making, under temporary names, and says what becomes of those whose
-// writer died.
+// This file makes files under temporary names, and says what becomes of those whose writer died.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +40,7 @@ class TemporaryFile {
 
 // Removes from a folder (not from those below it) the files that TemporaryFile made and whose
 // writers have surely ended (has_ended() in writer_id.h), and nothing else.  Returns how many were
-// removed.  A folder that cannot be read has none; nothing is thrown.
+// removed.  A folder that cannot be read has none.  Nothing is thrown.
 int sweep_temporaries(const std::filesystem::path& folder);
 
 }  // namespace domefall

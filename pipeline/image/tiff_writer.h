@@ -1,4 +1,4 @@
-// Writes TIFF files of 8 or 16 bits, RGB without alpha, packed by deflate.
+// This file writes TIFF files of 8 or 16 bits, in RGB without alpha, packed by deflate.
 #pragma once
 
 #include <string>

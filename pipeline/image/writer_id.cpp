@@ -67,7 +67,7 @@ bool proc_has_our_numbers() {
   return std::filesystem::read_symlink("/proc/self", error) == fmt::to_string(getpid());
 }
 
-// Says whether a process of this PID namespace runs still.  A zombie has a number and runs no more.
+// Says whether a process of this PID namespace still runs.  A zombie has a number and runs no more.
 // Where nothing reaps it, as in some containers, it stays one.
 bool is_running(pid_t process, std::uint64_t start) {
   if (proc_has_our_numbers())

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLargestNside = 8192, kMostExtensions = 100;
 constexpr std::string_view kStart = "SIMPLE  =";
-// What a HEALPix file marks missing pixels with, to within its rounding.
+// A HEALPix file marks missing pixels with this value, to within its rounding.
 constexpr float kBad = -1.6375e30f, kBadWithin = 1e25f;
 
 class Fits {
@@ -61,7 +61,8 @@ class Fits {
         kMostExtensions));
   }
 
-  // Without quotes and spaces at the end; empty if there is no such keyword.
+  // Returns the value without quotes and without spaces at its end.  It is empty if there is no
+  // such keyword.
   std::string text(const std::string& keyword) {
     std::array<char, FLEN_VALUE> value{};
     int status = 0;

@@ -1,4 +1,5 @@
-// The library that image_formats.cpp loads: image files by OpenImageIO, HEALPix maps by CFITSIO.
+// This is the library that pipeline/image/image_formats.cpp loads.  It reads image files by
+// OpenImageIO, and HEALPix maps by CFITSIO.
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
@@ -25,8 +26,8 @@ SampleType sample_type(const OIIO::TypeDesc& type) {
   return type == OIIO::TypeDesc::HALF ? SampleType::kHalf : SampleType::kFloat;
 }
 
-// When OpenImageIO 2.4 first meets an ICC profile it fills a table, which another thread that opens
-// a file meanwhile reads half-filled, and the program ends by SIGSEGV.
+// When OpenImageIO 2.4 first meets an ICC profile, it fills a table.  Another thread that opens a
+// file meanwhile reads the table half-filled, and the program ends by SIGSEGV.
 std::mutex one_opens;
 
 class Reader : public ImageReader {

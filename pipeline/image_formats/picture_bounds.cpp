@@ -8,13 +8,14 @@
 namespace domefall {
 namespace {
 
-// What OpenImageIO holds at once of a file in tiles, or in the rows of a chunk.
+// A tile may have this many bytes, because OpenImageIO holds a whole tile at once.
 constexpr std::uint64_t kLargestTile = std::uint64_t{1} << 28;
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
 
-// The most pixels that a byte of the file can stand for.  A pixel has a bit at least before it is
-// packed, and deflate makes at most 1032 bytes of one (its longest match is 258 bytes in 2 bits).
+// Returns the most pixels that a byte of the file can stand for.  A pixel has a bit at least before
+// it is packed, and deflate makes at most 1032 bytes of one (its longest match is 258 bytes in 2
+// bits).
 double most_pixels_per_byte(std::string_view format, std::string_view packing) {
   constexpr double kBits = 8, kRuns = 64, kDeflate = 1032, kLzw = 2731, kOther = 65536;
   if (format == "hdr") return kRuns;  // two bytes say that 127 are the same

@@ -1,7 +1,7 @@
-// Text as outlines, in any script that the machine has fonts for.  Pango, which orders, joins and
-// places the letters, brings 20 other libraries, so what calls it is a library of its own,
-// libdomefall_pango_lettering.so (pipeline/pango_lettering), which is loaded when the first text is
-// written.
+// Lettering gives text as outlines, in any script that the machine has fonts for.  Pango, which
+// orders, joins and places the letters, brings 20 other libraries.  So what calls it is a library
+// of its own, libdomefall_pango_lettering.so (pipeline/pango_lettering), which is loaded when the
+// first text is written.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace domefall {
 
-// A place in a text, to the right and up from the middle of its block, in heights of the font's
-// capital H.
+// A TextPoint is a place in a text, to the right and up from the middle of its block, in heights of
+// the font's capital H.
 struct TextPoint {
   double x, y;
 };
 
-// A closed outline of cubic Bézier curves.  Each goes from where the one before it ends; a
-// straight line has its controls at a third and two thirds of the way.  Outlines and the holes in
-// them run in opposite directions.
+// A TextOutline is a closed outline of cubic Bézier curves.  Each TextCurve begins where the one
+// before it ends.  A straight line has its control points at a third and two thirds of the way.
+// Outlines and the holes in them run in opposite directions.
 struct TextCurve {
   TextPoint control1, control2, end;
   bool straight;
@@ -32,7 +32,8 @@ struct TextOutline {
 enum class TextAlign { kLeft, kCentre, kRight };
 
 struct LetterStyle {
-  // Family and perhaps style, "DejaVu Serif Bold Italic", as Pango reads them.
+  // This is the family and perhaps the style, such as "DejaVu Serif Bold Italic", as Pango reads
+  // them.
   std::string font = "Sans";
   TextAlign align = TextAlign::kCentre;  // of lines of different lengths
 
@@ -41,8 +42,8 @@ struct LetterStyle {
 
 struct LetteredText {
   std::vector<TextOutline> outlines;
-  // The block reaches `half_width` to either side of its middle, and from the top of the capitals
-  // of the first line, at `half_height`, down to the foot of the last one.
+  // The block reaches `half_width` to either side of its middle.  It reaches from the top of the
+  // first line's capitals, at `half_height`, down to the baseline of the last line.
   double half_width = 0, half_height = 0;
   double em = 0;           // of the font, in capitals
   bool font_found = true;  // or else another one stands in for it
@@ -51,10 +52,10 @@ struct LetteredText {
 
 class Lettering : public Interface {
  public:
-  // Lays out UTF-8 text, whose lines end in '\n'; bytes that are not UTF-8 become marks.  No
+  // Lays out UTF-8 text, whose lines end in '\n'.  Bytes that are not UTF-8 become U+FFFD.  No
   // hinting is applied, so outlines are the same at any size.  They depend on the machine's fonts
-  // and on nothing else.  May be called from any thread.  Throws TemporaryError if the machine has
-  // no font.
+  // and on nothing else.  It may be called from any thread.  Throws TemporaryError if the machine
+  // has no font.
   virtual LetteredText letter(const std::string& text, const LetterStyle& style) const = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace domefall {
 namespace {
 
-// This is libtiff's view of a sink.
+// TiffBytes let libtiff use a sink as a file.
 struct TiffBytes {
   ByteSink& sink;
   std::uint64_t size = 0;
@@ -63,7 +63,8 @@ class LibtiffFile : public TiffFile {
           layout.profile.data());
   }
 
-  // libtiff takes the bytes as writable, for machines of the other order.
+  // libtiff's type for the bytes is a writable one, since it swaps them in place on machines of the
+  // other order.  Those of a raw strip are only read.
   void write_strip(int strip, std::string_view packed) override {
     const auto size = static_cast<tmsize_t>(packed.size());
     require_tiff(TIFFWriteRawStrip(tiff_.get(), static_cast<std::uint32_t>(strip),

@@ -10,13 +10,13 @@
 namespace domefall {
 namespace {
 
-// Returns a time, counted in tenths of a second, as the format has it: H:MM:SS.hundredths.
+// Returns a time, counted in tenths of a second, as the ASS format writes it, H:MM:SS.hundredths.
 std::string ass_time(std::size_t tenths) {
   return fmt::format("{}:{:02}:{:02}.{}0", tenths / 36000, tenths / 600 % 60, tenths / 10 % 60,
                      tenths % 10);
 }
 
-// Returns lines as the format parts them.
+// Returns the text with each newline as the ASS format writes it.
 std::string ass_lines(std::string text) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at))
     text.replace(at, 1, "\\N");
@@ -34,7 +34,7 @@ std::string burn_in(const Show& show, const std::vector<int>& frames, const Movi
       "Format: Name, Fontname, Fontsize, PrimaryColour, OutlineColour, BackColour, BorderStyle, "
       "Outline, Shadow, Alignment, MarginL, MarginR, MarginV\n",
       size.width, size.height);
-  // Alignments are as on the keys of a calculator.
+  // The ASS format numbers the alignments like the keys of a numeric keypad.
   for (const auto& [name, alignment] : {std::pair{"a", 7}, {"b", 9}, {"c", 1}, {"d", 3}})
     text +=
         fmt::format("Style: {},monospace,{},&H00C0C0C0,&H00000000,&H00000000,1,1,0,{},{},{},{}\n",

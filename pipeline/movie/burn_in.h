@@ -1,4 +1,4 @@
-// A review movie has written in its corners the number of each frame, and what the show is doing.
+// A review movie says in its corners which number each frame has, and what the show is doing.
 #pragma once
 
 #include <string>

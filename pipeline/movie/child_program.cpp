@@ -29,7 +29,8 @@ struct Ends {
   }
 };
 
-// This reads the rest of what comes out of a pipe, and keeps its first bytes, or its last.
+// Reads a pipe to its end.  Keeps about `most` of its first bytes, or from `most` to 2 `most` of
+// its last.
 std::string drain(int from, std::size_t most, bool last) {
   const Descriptor closed(from);
   std::string text;
@@ -61,7 +62,7 @@ struct Streams {
 [[noreturn]] void become(char* const* arguments, const Streams& streams,
                          const std::vector<int>& kept, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kNotStarted);  // it has died before it was asked for
+  if (getppid() != parent) _exit(kNotStarted);  // the parent died before prctl() was called
   setpgid(0, 0);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE}) std::signal(number, SIG_DFL);
   sigset_t none;

@@ -30,8 +30,8 @@ struct ChildOutcome {
 class ChildProgram {
  public:
   // `arguments` begin with the name.  `kept` are descriptors of this process that the program
-  // shares under the same numbers.  Throws TemporaryError if it cannot be started, which says that
-  // `package` has it.
+  // shares under the same numbers.  Throws TemporaryError if it cannot be started.  If it is not on
+  // the PATH, the message says that Debian's `package` has it.
   ChildProgram(std::vector<std::string> arguments, const std::vector<int>& kept,
                const std::string& package);
   // Kills the program if it has not been waited for.
@@ -44,9 +44,10 @@ class ChildProgram {
   // Writes to its standard input.  Returns false if it does not read any more.
   bool write(const void* bytes, std::size_t count) const;
 
-  // Ends its standard input, and waits until it has ended.  This may be called once.
+  // Closes its standard input, and waits until the program has ended.  This may be called once.
   ChildOutcome wait();
-  // Returns its standard output, which is complete after wait() and has kMostOutput bytes at most.
+  // Returns its standard output, which is complete after wait(), unless it has more than
+  // kMostOutput bytes.  Then little more than the first kMostOutput are kept.
   const std::string& output() const { return output_; }
   static constexpr std::size_t kMostOutput = 1 << 20;
 

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// These are those of DCI-P3 as Bradford's method gives them where its white is shown as D65.
+// These are the primaries of DCI-P3 after Bradford's adaptation of its white to D65.
 constexpr std::array<double, 8> kAdaptedDci{0.6807, 0.3189, 0.2812, 0.6742,
                                             0.1488, 0.0577, 0.3127, 0.3290};
 
@@ -78,7 +78,7 @@ ColourTags tags_of(const std::optional<DisplayColour>& display) {
   ColourTags tags{primaries_code(display->xy), transfer_code(*display), 1};
   if (tags.primaries != 9) return tags;
   tags.matrix = 9;
-  if (tags.transfer == 1) tags.transfer = 14;  // the same curve under the standard's own number
+  if (tags.transfer == 1) tags.transfer = 14;  // the same curve under BT.2020's own number
   return tags;
 }
 

@@ -17,11 +17,12 @@ struct ColourTags {
 };
 
 // Returns the tags of codes for such a display, or for one that is not known.  A curve or primaries
-// that H.273 has no code point for, as a power of 2.6, are unspecified.  Primaries count to 0.001
-// in x and y, and powers to 0.01.  Those of DCI-P3 also count with a white that was adapted to D65.
+// that H.273 has no code point for, such as the power 2.6, are unspecified.  Primaries match within
+// 0.001 in x and y, and powers within 0.01.  Those of DCI-P3 also match with a white that was
+// adapted to D65.
 ColourTags tags_of(const std::optional<DisplayColour>& display);
 
-// Says "primaries smpte432, transfer gamma 2.2, matrix bt709", for people.
+// Says for people "primaries bt709, transfer iec61966-2-1 (sRGB), matrix bt709", for example.
 std::string describe(const ColourTags& tags);
 
 }  // namespace domefall

@@ -23,11 +23,11 @@ void append_to(Arguments& all, const Arguments& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// Returns the path of a file of this process and of what it starts, which may have any name or
-// none.
+// Returns a path by which this process, and a child that keeps the descriptor, can open its file,
+// whatever name the file has, if any.
 std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
 
-// ffmpeg reads subtitles from a file alone.
+// ffmpeg reads subtitles only from a file.
 Subtitles subtitle_file(const std::string& text) {
   if (text.empty()) return nullptr;
   auto file = std::make_unique<MemoryFile>("the subtitles");
@@ -57,7 +57,8 @@ Arguments movie_arguments(const MoviePlan& plan, const Subtitles& subtitles, int
 
 constexpr const char *kPackage = "ffmpeg", *kMatroskaPackage = "mkvtoolnix";
 
-// ffmpeg says so in the words of the C library, and does not translate them.
+// Says whether a program names an error of the disk or of memory.  ffmpeg names it in the words of
+// the C library, and does not translate them.
 bool names_lack(const ChildOutcome& outcome) {
   const auto says = [&](int error) {
     return outcome.said.find(std::strerror(error)) != std::string::npos;
@@ -146,9 +147,9 @@ void MovieFile::count_frames(const ChildOutcome& made) const {
         made.said.empty() ? "" : ":\n" + made.said));
 }
 
-// Projection type 1 of Matroska is equirectangular.  Its times are whole milliseconds, so that the
-// exact rate is given beside them.  mkvmerge ends with 1 for warnings and writes what is wrong to
-// its standard output.
+// Projection type 1 of Matroska is equirectangular.  Matroska's times are whole milliseconds, so
+// the exact rate is given beside them.  mkvmerge ends with 1 for warnings and writes what is wrong
+// to its standard output.
 void MovieFile::wrap_around() const {
   ChildProgram mkvmerge(
       {"mkvmerge", "--quiet", "--title", title_, "--output", path_of_descriptor(file_.descriptor()),
@@ -167,7 +168,7 @@ void MovieFile::wrap_around() const {
 void MovieFile::fail(const ChildOutcome& outcome) const {
   const std::string what = fmt::format("{}: after {} of {} frames ffmpeg {}", path_.string(),
                                        added_, count_, outcome.text());
-  // ffmpeg catches signals, says so and ends with a code.
+  // ffmpeg catches a signal, says that it has received it, and ends with a code.
   const bool ended = outcome.killed() || outcome.said.find("received signal") != std::string::npos;
   if (ended || names_lack(outcome)) throw TemporaryError(what);
   throw std::runtime_error(what);

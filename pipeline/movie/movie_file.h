@@ -27,9 +27,9 @@ struct MoviePlan {
   std::string subtitles;  // the text of burn_in.h, or empty
 };
 
-// Makes a movie of one small black frame, which goes nowhere, so that an ffmpeg that lacks
-// something says so before any frame is made.  Asks for mkvmerge if the preset needs it.  This
-// takes 0.1 s.  Throws TemporaryError without either and where ffmpeg cannot make such a movie.
+// Makes a movie of one small black frame and throws it away.  So an ffmpeg that lacks something
+// says so before any frame is made.  Asks for mkvmerge if the preset needs it.  This takes 0.1 s.
+// Throws TemporaryError if either program is missing or ffmpeg cannot make such a movie.
 void try_ffmpeg(const MoviePlan& plan);
 
 // Frames go through a pipe, and the file appears under its name when it is whole

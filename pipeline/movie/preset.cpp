@@ -32,7 +32,8 @@ std::vector<std::string> uncompressed() { return {"-c:a", "pcm_s24le", "-ar", "4
 constexpr int kAnySize = 16384;  // the largest frame of a show
 
 std::vector<MoviePreset> make_presets() {
-  // Level 6.2, the highest, ends at 35.7 million pixels, half of an 8k dome.  8.5 names no level.
+  // Level 6.2, the highest of x265 with limits, ends at 35.7 million pixels, about half of an 8k
+  // dome.  Level 8.5 has no limits.
   constexpr const char* kBeyondLevels = ":level-idc=8.5";
   return {
       {"review",
@@ -87,7 +88,7 @@ VideoTags video_tags(const MoviePreset& preset, const ColourTags& tags) {
 }
 
 std::string conversion(const MoviePreset& preset, const ColourTags& tags, const MovieSize& size) {
-  // zimg rounds 16 bits to 8 or 10 with ordered noise, so that dark gradients show no contours.
+  // zimg rounds 16 bits to 8 or 10 with an ordered dither, so that dark gradients show no contours.
   const std::string scale =
       fmt::format("zscale=w={}:h={}:f=spline36:dither=ordered", size.width, size.height);
   if (preset.rgb) return scale + ",format=gbrp,format=" + std::string(preset.pixels);
@@ -156,7 +157,7 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
                          video.range, tags.primaries, tags.transfer, video.matrix);
   std::vector<std::string> options{"-vf", filters};
   append(options, preset.video);
-  // Without it ffmpeg takes 119.88 for 120.
+  // Without -r ffmpeg takes 119.88 for 120.
   append(options, {"-r", text_of(rate), "-color_range", video.range, "-color_primaries",
                    fmt::to_string(tags.primaries), "-color_trc", fmt::to_string(tags.transfer),
                    "-colorspace", fmt::to_string(video.matrix)});

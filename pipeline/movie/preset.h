@@ -37,8 +37,9 @@ struct MovieSize {
   bool operator==(const MovieSize&) const = default;
 };
 
-// Returns the size of a movie of frames of a size.  It is theirs, or the largest one of their shape
-// that the preset takes.  Throws InputError for an odd size that the codec does not take.
+// Returns the size of a movie whose frames come in a given size.  It is the same or, where that is
+// too large for the preset, the largest one of the same shape that the preset takes.  Throws
+// InputError if a size that need not change is not a multiple of what the preset asks for.
 MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames);
 
 // Returns ffmpeg's options from the frames, which it reads from its standard input as 16-bit RGB,

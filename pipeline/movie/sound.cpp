@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// These are the channels as file names have them, and as ffmpeg calls them.  It has the surrounds
-// of 5.1 at the back.
+// These are the channels as file names have them, and as ffmpeg calls them.  In its layout 5.1 the
+// surround channels are called those at the back.
 struct Channel51 {
   std::string_view word, name, of_ffmpeg;
 };
@@ -30,7 +30,7 @@ constexpr std::array<Channel51, 6> kSurround{{{"l", "L", "FL"},
                                               {"rs", "Rs", "BR"}}};
 constexpr const char* kChannelNames = "L, R, C, LFE, Ls, Rs";
 
-// Returns the last word of a file's name, in small letters.
+// Returns the last word of a file's name without the extension, in lower case.
 std::string channel_word(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::string word = stem.substr(stem.find_last_of("_-. ") + 1);
@@ -127,7 +127,7 @@ std::vector<std::string> sound_inputs(const Sound& sound) {
 std::vector<std::string> sound_options(const Sound& sound, int first, int count,
                                        const FrameRate& rate) {
   if (sound.files.empty()) return {"-map", "0:v"};
-  // All are made endless, and then cut to the length of the frames.
+  // All are padded with endless silence, and then cut to the length of the frames.
   std::string filter, labels, map;
   for (std::size_t k = 0; k < sound.files.size(); ++k) {
     filter += fmt::format("[{}:a:0]apad[c{}];", k + 1, k);

@@ -12,7 +12,8 @@
 namespace domefall {
 namespace {
 
-// The em in which text is laid out, in Cairo's units.  Cairo rounds to 1/256 of one.
+// This is the em in which text is laid out, in Cairo's units.  It is large because Cairo rounds to
+// 1/256 of a unit.
 constexpr double kEm = 1000;
 
 template <class T>
@@ -26,7 +27,7 @@ using FontPointer = std::unique_ptr<PangoFontDescription, decltype(&pango_font_d
 using CairoPointer = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 using PathPointer = std::unique_ptr<cairo_path_t, decltype(&cairo_path_destroy)>;
 
-// A context on a surface of no size, which only gathers paths.
+// Returns a context on a surface without bounds, which only gathers paths.
 CairoPointer path_gatherer() {
   cairo_surface_t* surface = cairo_recording_surface_create(CAIRO_CONTENT_ALPHA, nullptr);
   CairoPointer gatherer(cairo_create(surface), cairo_destroy);
@@ -40,8 +41,8 @@ void check_cairo(cairo_status_t status) {
     throw std::runtime_error(std::string("Cairo: ") + cairo_status_to_string(status));
 }
 
-// Whether the machine has the family that was asked for.  The words sans, serif and monospace are
-// families to Pango.
+// Says whether the machine has the family that was asked for.  The words sans, serif and monospace
+// are families to Pango.
 bool has_family(PangoFontMap* fonts, const PangoFontDescription* font) {
   const char* wanted = pango_font_description_get_family(font);
   if (!wanted) return false;
@@ -55,7 +56,8 @@ bool has_family(PangoFontMap* fonts, const PangoFontDescription* font) {
   return found;
 }
 
-// From Cairo's path, whose y grows downwards, to outlines about `middle` in capitals.
+// An OutlineMaker turns Cairo's path, whose y grows downwards, into outlines about `middle`, in
+// heights of a capital.
 class OutlineMaker {
  public:
   OutlineMaker(TextPoint middle, double capital) : middle_(middle), capital_(capital) {}
@@ -102,8 +104,8 @@ class OutlineMaker {
 
 class PangoLettering : public Lettering {
  public:
-  // Fonts are scaled so that a point is a unit, and neither hinted nor moved to whole units.  The
-  // language is fixed, since the environment's would choose among fonts.
+  // Glyphs are neither hinted nor moved to whole units.  The language is fixed, since that of the
+  // environment would have a say in which font is chosen.
   PangoLettering()
       : fonts_(pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT)),
         context_(pango_font_map_create_context(fonts_.get())) {

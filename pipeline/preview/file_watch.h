@@ -8,8 +8,8 @@
 
 namespace domefall {
 
-// It watches the folder that holds the file, since most editors write another file and rename it,
-// and that of the file which a link leads to.
+// The folder that holds the file is watched, since most editors write another file and rename it.
+// So is the folder of the file that a link leads to.
 class FileWatch {
  public:
   // Throws TemporaryError if the system grants no watch.

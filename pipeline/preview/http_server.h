@@ -27,7 +27,7 @@ using HttpHeaders = std::vector<std::pair<std::string, std::string>>;
 
 struct HttpAnswer {
   int status = 200;
-  std::string type, body;  // no type, no body
+  std::string type, body;  // an empty type means no body
   HttpHeaders headers = {};
 };
 

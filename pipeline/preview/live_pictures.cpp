@@ -17,7 +17,7 @@ namespace {
 constexpr double kFaintestMoving = 7;
 constexpr int kMovingQuality = 85, kStillQuality = 95;  // of JPEGs
 
-// The frames that pictures stand for are graded by a table.
+// A picture stands for a frame of a dome of this size, which is graded by a table.
 constexpr int kLargeDome = 4096;
 
 bool same_grade(const GradeSettings& a, const GradeSettings& b) {
@@ -42,7 +42,7 @@ bool same_stars(const Show& a, const Show& b) {
                      [&](SkyRegion sky) { return a.sky[sky].stars == b.sky[sky].stars; });
 }
 
-// Returns a state as a request changes it.
+// Changes a state as a request asks.
 void change(const PictureRequest& request, FrameState& state) {
   state.settings.ev += request.ev;
   for (const SkyRegion region : kEverySky) {
@@ -60,7 +60,7 @@ void change(const PictureRequest& request, FrameState& state) {
   state.vanishing = vanishing;
 }
 
-// This is a string as the end of an encoder.
+// A ByteString is a string into which an encoder writes.
 class ByteString final : public ByteSink {
  public:
   void write(std::string_view piece) noexcept override {
@@ -96,7 +96,7 @@ void LivePictures::wait_for_tables() {
 }
 
 // The first picture does not wait for the table, although without it a grade takes ten times as
-// long, 0.1 us a pixel.  Nor does another grade wait for the table of the one before.
+// long, 0.1 us a pixel.  Nor does a grade that follows wait for the table of the one before.
 void LivePictures::make_table() {
   if (table_made_) return;
   constexpr std::size_t kMost = 4;
@@ -153,7 +153,7 @@ const Grader& LivePictures::grader_for(const PictureRequest& request) {
   GradeSettings settings = for_a_screen(show_.grade);
   if (!request.display.empty()) settings.display = request.display;
   if (!request.view.empty() || !request.display.empty()) settings.view = request.view;
-  // Each keeps a table of 19 MB.
+  // Each grade keeps a table of 18 MB.
   constexpr std::size_t kMost = 8;
   if (others_.size() == kMost) others_.clear();
   return others_.emplace(names, Grader(settings)).first->second;

@@ -22,7 +22,7 @@ struct LivePicture {
   FrameState state;  // with the camera and the projection of the picture
 };
 
-// They are not for two threads at once.
+// A LivePictures is not for two threads at once.
 class LivePictures {
  public:
   // `threads` is as Renderer has it.  Throws as Grader and Renderer.
@@ -60,7 +60,7 @@ class LivePictures {
   // Sets the show as a request wants it, for the renderer, which reads it anew for each frame.
   void prepare(const PictureRequest& request);
   const Grader& grader_for(const PictureRequest& request);
-  // Begins to make the table of the usual grade, beside what is done otherwise.
+  // Begins to make the table of the usual grade, on a thread of its own.
   void make_table();
   void wait_for_tables();
   std::string encoded(const PictureRequest& request, const FrameState& state,
@@ -73,7 +73,7 @@ class LivePictures {
   std::unique_ptr<Renderer> renderer_;
   std::unique_ptr<StarLabels> labels_;
   std::map<std::pair<std::string, std::string>, Grader> others_;  // by display and view
-  // This is set once the table of the usual grade is made, and null before that has begun.
+  // This becomes true once the table of the usual grade is made, and is null until that has begun.
   std::shared_ptr<std::atomic<bool>> table_made_;
   std::vector<std::thread> making_tables_;
   HalfFrame frame_;

@@ -10,7 +10,7 @@
 namespace domefall {
 namespace {
 
-// The watch looks so often whether it is to end.
+// This is how long the watch waits before it looks whether it is to end.
 constexpr int kPatience = 200;  // milliseconds
 
 // Leaves the turn at the end of a scope.
@@ -30,7 +30,7 @@ class HeldTurn {
 }  // namespace
 
 LiveShow::LiveShow(const std::filesystem::path& file, int threads) : file_(file) {
-  // One that cannot be watched because it is not there is told of by read_show.
+  // A file that is not there cannot be watched, and read_show tells of it.
   if (std::filesystem::exists(file)) watch_.emplace(file);
   auto show = std::make_shared<const Show>(read_show(file));
   pictures_ = std::make_unique<LivePictures>(*show, threads);

@@ -37,7 +37,7 @@ class LiveShow {
   };
   Version version() const;
 
-  // Waits until the file has been read more or less often than the caller knows, or some seconds
+  // Waits until Version::readings is another number than the caller knows, or until so many seconds
   // have passed.
   Version changed_since(int readings, int seconds) const;
 
@@ -49,7 +49,7 @@ class LiveShow {
   };
   std::optional<Made> picture(const Parameters& parameters, const NewestFirst::Ticket& ticket);
 
-  // Calls use(pictures) when no picture is made.
+  // Calls use(pictures) while no picture is being made.
   void with_pictures(const std::function<void(LivePictures&)>& use);
 
   int threads() const { return threads_; }

@@ -24,7 +24,7 @@ class NewestFirst {
 
   enum class Turn { kNow, kOutdated, kTooMany };
 
-  // This is a ticket of the program itself, which waits as long as it must.
+  // Returns a ticket of the program itself, which waits as long as it must.
   static Ticket own_ticket() { return {}; }
 
   // Waits until no other picture is made.  After kNow the caller makes its own and then calls

@@ -35,7 +35,7 @@ struct PictureRequest {
 // given.
 using Parameters = std::function<std::optional<std::string>(std::string_view name)>;
 
-// Pictures are between so many pixels wide, and so many high.
+// The width and the height of a picture are between these numbers of pixels.
 inline constexpr int kLeastSide = 16, kMostSide = 4096;
 
 // Reads what the address says.  A frame beyond the show's end becomes its last one, since a show

@@ -185,7 +185,7 @@ struct PreviewServer::Inside {
 
   HttpAnswer picture(const HttpRequest& request) {
     const bool can_stop = request.parameter("detail") != "moving";
-    // Who does not say who it is has no newer requests.
+    // A request that does not name its client gets a name of its own, so that no other outdates it.
     std::string name = request.parameter("client").value_or("").substr(0, 40);
     name = name.empty()
                ? fmt::format("nobody {}", ++nobodies)

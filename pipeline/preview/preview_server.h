@@ -1,8 +1,8 @@
 // A PreviewServer is the live preview of a show for a browser on this machine.  It serves its page,
 // and what the page asks for.
 //
-// It listens on 127.0.0.1 alone.  It answers only requests whose address begins with the token that
-// is in the page's own, whose Host is this machine, and which no other page has sent (Origin,
+// It listens on 127.0.0.1 alone.  It answers only requests whose address begins with the token of
+// the page's own address, whose Host is this machine, and which no other page has sent (Origin,
 // Sec-Fetch-Site).  It serves its page, pictures and facts of one show, and no file.
 #pragma once
 

@@ -72,7 +72,7 @@ std::string LivePictures::probe(const PictureRequest& request, PixelPosition at)
   add_ray(prepared_, seen, direction_at(seen.projection, at), pixel_angle(seen.projection, at),
           json);
   json["star"] = star_near(labels_->images(seen), seen.projection, at);
-  // A catalogue's name need be no UTF-8.
+  // A catalogue's names need not be UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

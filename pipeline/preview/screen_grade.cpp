@@ -11,7 +11,8 @@ GradeSettings for_a_screen(GradeSettings settings) {
   return settings;
 }
 
-// A small dome has the light of a large one but for what is white in it.
+// A small dome takes little time, and has the mean light of a large one but for what is clipped to
+// white.
 void change_as_in_dome(const Grader& grader, Renderer& renderer, const FrameState& dome,
                        GradedFrame& picture) {
   constexpr int kDomeWidth = 512;

@@ -10,8 +10,8 @@ namespace domefall {
 // The displays of a show's own configuration are not known, and stay.
 GradeSettings for_a_screen(GradeSettings settings);
 
-// Does to a flat picture of a dome what its own light does, which that of the whole dome decides.
-// `dome` is the frame as the show has it, and the grader has a dome_light().
+// Changes a flat picture of a dome as the dome's own light does, which depends on the light of the
+// whole dome.  `dome` is the frame as the show has it, and the grader has a dome_light().
 void change_as_in_dome(const Grader& grader, Renderer& renderer, const FrameState& dome,
                        GradedFrame& picture);
 

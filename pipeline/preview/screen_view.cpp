@@ -66,7 +66,7 @@ M33d untilted(const M33d& axes, double tilt) {
   return from_columns(column(axes, 0), front * c + zenith * s, zenith * c - front * s);
 }
 
-// Keeps what belongs to the audience where it was.
+// Sets the camera's axes, and keeps what belongs to the audience where it was.
 void set_axes(const M33d& axes, FrameState& state) {
   state.camera_from_audience =
       axes.transposed() * state.observer.tetrad_from_camera * state.camera_from_audience;
@@ -108,8 +108,8 @@ void turn_to(const ScreenLook& look, FrameState& state) {
 }
 
 // This is the inverse of [Riazuelo] sec. sec_cam's rotations.  Z = (cos theta, cos phi sin theta,
-// sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two make of
-// Theta.
+// sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two
+// rotations make of Theta.
 std::string camera_as_yaml(const Show& show, const FrameState& state) {
   M33d axes = state.observer.tetrad_from_camera;
   double tilt = 0;

@@ -9,7 +9,7 @@ namespace domefall {
 // Gives a frame another projection.  A flat view of a dome is that of someone in the seats,
 // straight at the camera's target or, where the camera is given by angles, 45 degrees up the front
 // of the dome.  A picture of the whole sphere has the audience's front in its middle and their
-// zenith up. Titles stay where they are for the audience.
+// zenith up.  Titles stay where they are for the audience.
 void see_in(const Show& show, const Projection& projection, FrameState& state);
 
 // Turns a frame's camera to look somewhere.  A flat picture has that place in its middle, and one

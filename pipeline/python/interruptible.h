@@ -1,4 +1,5 @@
-// Long work for Python: without its lock, so that other threads of Python go on, and with Ctrl-C.
+// This file does long work for Python without Python's lock, so that other threads of Python go on
+// and Ctrl-C ends the work.
 #pragma once
 
 #include <pybind11/pybind11.h>

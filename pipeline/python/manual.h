@@ -1,4 +1,5 @@
-// What help(domefall) prints, in the words of Python.  A function's text begins with its signature.
+// This is what help(domefall) prints, in the terms of Python.  A function's text begins with its
+// signature.
 #pragma once
 
 namespace domefall::manual {

@@ -1,7 +1,7 @@
-// The Python module domefall.
+// This file makes the Python module domefall.
 //
-// It shows to Python what the program shows at the command line, by the same functions.  What each
-// of its names means is said in manual.h, where help(domefall) finds it.
+// It shows to Python what the program shows at the command line, by the same functions.  manual.h
+// says what each of its names means, which help(domefall) prints.
 
 #include <dlfcn.h>
 #include <pybind11/pybind11.h>
@@ -30,7 +30,7 @@ void raise(PyObject* type, const char* message) {
   if (text) PyErr_SetObject(type, text.ptr());
 }
 
-// The two kinds of error, as classes of the module.
+// Makes the two kinds of error as classes of the module.
 void define_errors(py::module_& module) {
   static PyObject* const input_error = PyErr_NewExceptionWithDoc(
       "domefall.InputError", manual::kInputError, PyExc_ValueError, nullptr);
@@ -52,7 +52,7 @@ void define_errors(py::module_& module) {
   });
 }
 
-// The program is looked for where an installation has it, and with it the assets.
+// Looks for the program where an installation has it, because the assets are found beside it.
 void find_assets() {
   Dl_info here{};
   if (dladdr(reinterpret_cast<const void*>(&find_assets), &here) == 0 || !here.dli_fname) return;
@@ -62,8 +62,8 @@ void find_assets() {
   if (!error) take_program_folder(program.lexically_normal());
 }
 
-// The show of an object.  For one that __new__ has made and __init__ has not been called for,
-// pybind11 would hand on memory in which there is none.
+// Returns the show of an object.  Throws for one that __new__ has made and whose __init__ was not
+// called, because pybind11 would hand on memory in which there is no show.
 ShowObject& show_of(const py::object& self) {
   if (!py::isinstance<ShowObject>(self))
     throw py::type_error("expected a domefall.Show, got " + std::string(py::repr(self)));

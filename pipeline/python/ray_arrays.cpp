@@ -29,7 +29,7 @@ std::vector<std::string> texts(const py::handle& array) {
   return all;
 }
 
-// The elements of an array, numbers or decimals in text.
+// Decimals are the elements of an array of numbers, or of decimals in text.
 class Decimals {
  public:
   Decimals(const py::array& array, const char* name) : name_(name) {
@@ -51,7 +51,7 @@ class Decimals {
     return texts_.empty() ? !std::isnan(numbers_.data()[k]) : !texts_[k].empty();
   }
 
-  // A double is taken at its word, and its distances from 2 and 3 are exact.
+  // A double stands for its exact value, so its distances from 2 and 3 are exact.
   Radius radius(std::size_t k) const {
     return texts_.empty() ? Radius(numbers_.data()[k]) : decimal_radius(texts_[k]);
   }
@@ -62,7 +62,7 @@ class Decimals {
   py::array_t<long double> numbers_;
 };
 
-// "ray [2, 5]: " for the element of that number in an array of that shape.
+// Returns "ray [2, 5]: " for the element of that number in an array of that shape.
 std::string place_of(std::size_t k, const std::vector<py::ssize_t>& shape) {
   std::vector<std::size_t> indices(shape.size());
   for (std::size_t axis = shape.size(); axis-- > 0;) {
@@ -73,7 +73,7 @@ std::string place_of(std::size_t k, const std::vector<py::ssize_t>& shape) {
   return indices.empty() ? std::string() : fmt::format("ray [{}]: ", fmt::join(indices, ", "));
 }
 
-// All that was given, in one shape.
+// GivenRays are all that was given, broadcast to one shape.
 class GivenRays {
  public:
   explicit GivenRays(const RayArrays& given) {

@@ -1,4 +1,4 @@
-// Rays by numbers for Python, over numpy's arrays.
+// This file traces rays for Python by arrays of numpy.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -7,7 +7,8 @@
 
 namespace domefall {
 
-// What a caller of `trace` gives: numbers, text or arrays of them, which are broadcast, or None.
+// RayArrays are what a caller of `trace` gives.  Each is a number, a text, an array of these or
+// None, and all are broadcast against each other.
 struct RayArrays {
   pybind11::object r;         // M; as text its decimals are taken as they are
   pybind11::object delta;     // radians from -R; None where edge and offset are given
@@ -16,11 +17,11 @@ struct RayArrays {
   pybind11::object observer;  // the words of trace_observer
 };
 
-// Traces each as `domefall trace` does.  Returns records in the shape of the broadcast arrays, with
-// the columns of `domefall trace`; delta is that of the ray also where an edge was given, offset is
-// NaN where none was, and the last four are NaN where `domefall trace` has nothing.  `tolerance`
-// (1e-13 to 1e-3) is that of integrators.  Throws InputError, which names the element, for what is
-// no ray, and pybind11::type_error for arrays of other kinds.
+// Traces each ray as `domefall trace` does.  Returns records in the shape of the broadcast arrays,
+// with the columns of `domefall trace`.  Of these, delta is the ray's own where an edge was given,
+// too, offset is NaN where no edge was given, and the last four are NaN where `domefall trace` has
+// nothing.  `tolerance` (1e-13 to 1e-3) is that of the integrators.  Throws InputError, which names
+// the element, for what is no ray, and pybind11::type_error for arrays of other kinds.
 pybind11::array trace_arrays(const RayArrays& rays, const std::string& method, double tolerance);
 
 }  // namespace domefall

@@ -44,7 +44,7 @@ void RecordArray::add(double number) {
   next_ += sizeof number;
 }
 
-// numpy keeps four bytes for each letter, and zeros after the last.
+// numpy keeps four bytes for each letter, and fills the cell with zeros.
 void RecordArray::add(std::string_view text) {
   assert(text.size() <= kMostLetters);
   std::array<char32_t, kMostLetters> letters{};

@@ -1,4 +1,4 @@
-// numpy's structured arrays, filled cell by cell.
+// A RecordArray is a structured array of numpy that is filled cell by cell.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -21,15 +21,16 @@ class RecordArray {
  public:
   static constexpr std::size_t kMostLetters = 16;
 
-  // The memory is not yet initialised.  Throws pybind11::error_already_set.
+  // Makes an array whose memory is not yet initialised.  Throws pybind11::error_already_set.
   RecordArray(const std::vector<RecordColumn>& columns,
               const std::vector<pybind11::ssize_t>& shape);
 
-  // The number of records.
+  // Returns the number of records.
   std::size_t size() const { return size_; }
 
-  // These fill the cells of a record in the order of the columns, each of its column's kind.  They
-  // need no lock of Python.  A text is ASCII and at most kMostLetters long.
+  // After start(), the add() functions fill the cells of that record in the order of the columns,
+  // each with a value of its column's kind.  None of them needs Python's lock.  A text is ASCII and
+  // at most kMostLetters long.
   void start(std::size_t record);
   void add(int count);
   void add(double number);

@@ -25,8 +25,8 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-// An integer of Python or numpy; one beyond the range becomes its end.  Raises TypeError for
-// anything else.
+// Returns an integer of Python or numpy.  One beyond the range of Py_ssize_t becomes its end.
+// Raises TypeError for anything else.
 long long whole_number(const py::handle& value) {
   const py::ssize_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);
   if (number == -1 && PyErr_Occurred()) throw py::error_already_set();
@@ -41,7 +41,7 @@ int frame_number(const Show& show, long long number) {
   return static_cast<int>(number);
 }
 
-// A size in the words of --size.
+// Returns a size in the form that --size takes.
 std::string size_text(const py::object& size) {
   if (size.is_none()) return {};
   if (py::isinstance<py::str>(size)) return size.cast<std::string>();
@@ -68,7 +68,7 @@ WantedStates wanted_states(const Show& show, const py::object& frames) {
   }
   const py::array given = py::array::ensure(frames);
   if (!given) throw py::error_already_set();
-  // A list without elements is an array of floats to numpy.
+  // A list without elements becomes an array of floats in numpy.
   const char kind = given.dtype().kind();
   if (kind != 'i' && kind != 'u' && given.size() > 0)
     throw py::type_error(fmt::format("frames must be integers, got an array of {}",
@@ -79,7 +79,7 @@ WantedStates wanted_states(const Show& show, const py::object& frames) {
   return wanted;
 }
 
-// What kind of cells a column has is seen from any state.
+// Any state of the show tells what kind of cells each column has.
 std::vector<RecordColumn> state_record(const Show& show) {
   const auto cells = state_cells(frame_state(show, 0));
   std::vector<RecordColumn> columns;
@@ -100,7 +100,7 @@ void add_cell(RecordArray& records, const StateCell& cell) {
     records.add(std::string_view(std::get<const char*>(cell)));
 }
 
-// An array of Python that keeps the picture's memory.
+// Returns an array of numpy that owns the picture's memory.
 template <class T>
 py::array picture_array(ImageRgb<T>&& picture) {
   auto kept = std::make_unique<ImageRgb<T>>(std::move(picture));

@@ -1,4 +1,4 @@
-// A show as an object of Python.
+// A ShowObject is a show as an object of Python.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -17,8 +17,8 @@
 
 namespace domefall {
 
-// Any number of Python's threads may use one; their frames are rendered one after the other, each
-// by all `threads` (0: one for each processor).
+// Any number of Python's threads may use one object.  Their frames are rendered one after the
+// other, each by all `threads` (0: one for each processor).
 class ShowObject {
  public:
   // Throws as read_show, and InputError unless 0 <= threads <= 1024.
@@ -26,15 +26,16 @@ class ShowObject {
 
   const Show& show() const { return show_; }
 
-  // The states of frames as records with the columns of state_columns.h: of all frames for None,
-  // else in the shape of `frames`, an integer or an array of them.
+  // Returns the states of frames as records with the columns of state_columns.h.  `frames` is None
+  // for all frames, or else an integer or an array of integers, whose shape the result has.
   pybind11::array states(const pybind11::object& frames) const;
 
-  // A frame in linear light as float32 [row][column][RGB], in ACEScg; its bytes are those of the
-  // files of `linear: float`.  `size` is None, an integer, a pair or a text as --size takes it.
+  // Returns a frame in linear light as float32 [row][column][RGB], in ACEScg.  Its numbers are
+  // those of the files of `linear: float`.  `size` is None, an integer, a pair or a text as --size
+  // takes it.
   pybind11::array frame(const pybind11::object& number, const pybind11::object& size);
 
-  // A graded frame as uint16 [row][column][RGB], as in the files of 16 bits.
+  // Returns a graded frame as uint16 [row][column][RGB], with the codes of the files of 16 bits.
   pybind11::array graded(const pybind11::object& number, const pybind11::object& size);
 
  private:

@@ -31,6 +31,7 @@ bool store(const float* values, int count, Imath::half* out) {
   static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
   return to_half(values, count, reinterpret_cast<std::uint16_t*>(out));
 }
+// Floats are stored as they are, except for negative ones.
 bool store(const float* values, int count, float* out) {
   bool finite = true;
   for (int k = 0; k < count; ++k) {
@@ -44,6 +45,7 @@ bool store(const float* values, int count, float* out) {
 template <class T>
 void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame) {
   T* out = frame.row(row);
+  // A pixel has three values.  A row outside the image has no columns inside it.
   const int first = 3 * inside.first, end = 3 * (inside.last + 1);
   if (first >= end) {
     std::fill_n(out, 3 * frame.width, T(0));
@@ -123,6 +125,7 @@ class StarsEnd {
            3 * static_cast<std::size_t>(block.last - block.first + 1));
   }
 
+  // Leaves in each pixel on a border that part of the stars' light which falls on skies.
   void end_on_border(const Block& block, int row, const float* before, float* now) const {
     for (int column = block.first; column <= block.last; ++column, before += 3, now += 3) {
       if (now[0] == before[0] && now[1] == before[1] && now[2] == before[2]) continue;
@@ -146,9 +149,12 @@ template <class T>
 void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
                 const DiscPass* disc, const std::optional<SkyBorders>& borders,
                 const BlobLayer* bodies, BandMemory& memory, ImageRgb<T>& frame) {
+  // A row has this many floats.
   const auto stride = static_cast<std::size_t>(frame.width) * 3;
   const bool lit = scene.plan.has_background();
+  // Outside this box every pixel sees a sky.
   const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
+  // Draws one band, in which everything happens while its rows are in the cache.
   const auto draw_band = [&](int band, SplatBuffer& splats) {
     const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
     // SkyPass may overwrite one float behind the last row.
@@ -176,6 +182,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
   tbb::parallel_for(
       tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_run(bands) : 1),
       [&](const tbb::blocked_range<int>& run) {
+        // A frame that was told to stop ends after the runs that have begun.
         memory.throw_if_stopped();
         SplatBuffer& splats = memory.splats.local();
         stars.start_buffer(splats);

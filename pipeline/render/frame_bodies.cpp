@@ -33,6 +33,7 @@ std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* dis
   const BodySight sight(scene.state, scene.effects, scene.least_star_radius);
   std::vector<StarImage> images;
   if (sight.sees()) {
+    // Bodies are in region I or have come from there.
     const StarImageFinder finder(scene, SkyRegion::kI);
     for (const Body& body : scene.bodies) {
       // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
@@ -46,6 +47,7 @@ std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* dis
       }
     }
   }
+  // An observer who sees no bodies gets an empty layer, which draws nothing.
   std::optional<BlobLayer> layer(std::in_place, scene.projection());
   layer->add(images, scene.point_spread);
   layer->sort_into_bands();

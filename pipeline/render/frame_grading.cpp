@@ -14,8 +14,10 @@ void in_parts(int rows, int parts, const Step& step) {
   std::vector<std::future<void>> others(static_cast<std::size_t>(parts));
   for (int part = 0; part < parts; ++part)
     others[static_cast<std::size_t>(part)] = std::async(std::launch::async, [=, &step] {
+      // Parts differ by one row at most, and together they have all rows.
       step(part, rows * part / parts, rows * (part + 1) / parts);
     });
+  // get() also throws what its part has thrown.
   for (auto& other : others) other.get();
 }
 
@@ -29,6 +31,7 @@ void FrameGrading::grade(const HalfFrame& frame, const FrameState& state,
     return use({frame.width, frame.height, [&](int first, int end, unsigned short* rgb) {
                   of_frame_->grade_rows(frame, first, end, rgb);
                 }});
+  // The rows are ready before the first is asked for, and are only copied then.
   const GradedFrame whole = with_dome_light(frame);
   use({whole.width, whole.height, [&](int first, int end, unsigned short* rgb) {
          std::copy(whole.row(first), whole.row(end), rgb);
@@ -52,6 +55,7 @@ GradedFrame FrameGrading::with_dome_light(const HalfFrame& frame) const {
 }
 
 int all_threads(int given) {
+  // The system may not know the number of its processors, which then counts as 0.
   return given > 0 ? given : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 

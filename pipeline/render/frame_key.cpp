@@ -30,6 +30,7 @@ void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
   digest.add("core").add(law.white_core);
 }
 
+// Adds the numbers of a sky, which keyframes may change from frame to frame.
 void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
   digest.add(steady(sky.background_gain))
       .add(steady(sky.star_gain))
@@ -45,6 +46,7 @@ void FrameKeys::stamp(const std::filesystem::path& file) {
 }
 
 void FrameKeys::add_background(Digest& digest, const SkyBackground& background) {
+  // The index tells kinds of background apart that have no numbers of their own.
   digest.add(static_cast<double>(background.index()));
   if (const auto* panorama = std::get_if<PanoramaSky>(&background)) {
     stamp(panorama->image);
@@ -80,6 +82,7 @@ void FrameKeys::add_segments() {
   for (std::size_t k = 0; k < show_.timeline.size(); ++k)
     for (const SkyRegion region : kEverySky)
       if (const auto& own = show_.timeline[k].backgrounds[region])
+        // The region is part of the text, so that equal backgrounds of two regions differ.
         own_skies_[static_cast<int>(k)] += fmt::format("{} {};", kSkyKeys[region], key_of(*own));
 }
 
@@ -89,6 +92,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_sky(common, show.sky[SkyRegion::kI]);
   add_point_spread(common, show.point_spread);
   common.add(show.panorama_shift.blueshift_power);
+  // A setting that has its default adds nothing, as in add_point_spread().
   if (show.least_star_radius != Show().least_star_radius)
     common.add("star radius").add(show.least_star_radius);
   common.add("saturation").add(show.star_saturation);
@@ -108,12 +112,14 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
           body.temperature, body.magnitude, body.radius})
       common.add(x);
   }
+  // A show that changes from halves to floats, or back, makes all of its frames again.
   if (keeps_floats(show)) common.add("float");
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);
   sky_three_ = three.hex();
   add_segments();
+  // A black singularity leaves its key empty, as in shows that do not name it.
   if (std::holds_alternative<BlackSky>(show.sky[SkyRegion::kIV].background)) return;
   Digest four;
   add_sky(four, show.sky[SkyRegion::kIV]);
@@ -131,6 +137,7 @@ bool FrameKeys::same_assets(const FrameKeys& other) const {
          sky_four_ == other.sky_four_ && own_skies_ == other.own_skies_;
 }
 
+// Titles and overlays are drawn over the mean of all instants, so that they enter the key once.
 std::string FrameKeys::scene(const FrameState& state) const {
   std::string key = exposed(state);
   const auto add = [&key](const char* what, const std::string& drawn) {
@@ -155,6 +162,7 @@ std::string FrameKeys::exposed(const FrameState& state) const {
 std::string FrameKeys::instant(const FrameState& state) const {
   const ObserverState& o = state.observer;
   Digest digest;
+  // The number of the frame is a part of its key, so that two frames of equal pixels have two keys.
   digest.add(common_).add(state.frame);
   add_observer(digest, o);
   add_projection(digest, state.projection);
@@ -183,6 +191,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
   if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())
     digest.add("own skies").add(own->second);
   if (state.fade != 1) digest.add("fade").add(steady(state.fade));
+  // The segment that vanishes in a dissolve is a frame of its own to the key.
   if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
   return digest.hex();
 }

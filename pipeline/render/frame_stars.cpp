@@ -24,6 +24,7 @@ std::size_t stars_per_task(std::size_t count) {
 void add_stars(const StarImageFinder& maker, const SceneStars& stars,
                const PointSpread& point_spread, ImageLists& lists, BlobLayer& layer) {
   const std::size_t count = maker.count(stars);
+  // The last task may have fewer stars than the others.
   const std::size_t each = stars_per_task(count), tasks = (count + each - 1) / each;
   const std::size_t before = layer.new_tasks(tasks);
   tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
@@ -45,6 +46,7 @@ double images_expected(std::size_t stars, const FrameScene& scene) {
       std::holds_alternative<Domemaster>(p)
           ? 0.5
           : std::min(1.0, pixel * pixel * columns(p) * rows(p) / (4 * std::numbers::pi));
+  // In flat space each star has one image.
   return static_cast<double>(stars) * part * (scene.plan.gravity ? 4 : 1);
 }
 
@@ -58,6 +60,7 @@ void lay_stars(const FrameScene& scene, ImageLists& lists, BlobLayer& layer) {
     makers[sky].emplace(scene, sky);
     expected += images_expected(makers[sky]->count(*scene.stars[sky]), scene);
   }
+  // Splats are quicker than ellipses only where images are many, and all skies share the layer.
   if (BlobLayer::are_many(expected, scene.projection())) layer.use_splats(scene.point_spread);
   for (const SkyRegion sky : kEverySky)
     if (makers[sky]) add_stars(*makers[sky], *scene.stars[sky], scene.point_spread, lists, layer);

@@ -16,6 +16,7 @@ void add_observer(Digest& digest, const ObserverState& o) {
 
 void add_projection(Digest& digest, const Projection& p) {
   digest.add(projection_name(p)).add(columns(p)).add(rows(p));
+  // Other projections have a fixed field of view, which their names imply.
   if (const auto fov = field_of_view(p)) digest.add(steady(*fov));
   if (const auto* fisheye = std::get_if<Fisheye>(&p)) digest.add(steady(fisheye->cut_back));
 }
@@ -39,6 +40,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(steady(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
   digest.add(disc->plunging ? "plunging" : "stable");
+  // Without a pattern the disc looks the same at all times, and slow light changes nothing.
   if (!disc->pattern) return;
   digest.add(disc->slow_light ? "slow" : "fast").add(static_cast<double>(disc->pattern->index()));
   if (const auto* p = std::get_if<TurbulencePattern>(&*disc->pattern))

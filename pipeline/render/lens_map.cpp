@@ -34,12 +34,14 @@ float number_of(SkyRegion sky) {
   return 4;
 }
 
+// A LensMapper follows the rays of one instant, for any number of threads at a time.
 class LensMapper {
  public:
   // `show` and `state` must outlive this object.
   LensMapper(const Show& show, const FrameState& state)
       : projection_(state.projection),
         straight_(is_flat(state.observer) || !show.effects.lensing),
+        // All three skies get their tables, since a map describes each pixel, lit or not.
         optics_(make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}})),
         tracer_(state, optics_, show.effects) {}
 
@@ -57,8 +59,13 @@ class LensMapper {
     set(kStS, place.s);
     set(kStT, place.t);
     out[kSkyRegion] = number_of(ray.sky);
+    // The distance is infinite where there is no edge, and no two directions are farther apart than
+    // half a turn.
     set(kEdgeDistance, std::min(ray.to_edge * kHalfTurn / std::numbers::pi, kHalfTurn));
+    // Redshift, amplification and order are not stated for the past singularity's light
+    // (lens_map.h).
     if (ray.sky == SkyRegion::kIV) return;
+    // 1 + z is the frequency as it was emitted over that observed.
     set(kOnePlusZ, 1 / ray.frequency_ratio);
     set(kAmplification, amplification(ray.bundle, pixel_angle(projection_, at)));
     // Images of one order have swept azimuths between two neighbouring multiples of pi.
@@ -74,6 +81,8 @@ class LensMapper {
 
 }  // namespace
 
+// The names stand in the order of LensChannel.  To programs that read OpenEXR, what stands before a
+// point names a layer.
 const std::vector<std::string>& lens_channel_names() {
   static const std::vector<std::string> names{"sky.x",
                                               "sky.y",
@@ -92,6 +101,8 @@ SkyMapPlace sky_map_place(const V3d& d) {
   const double turns = std::atan2(d.y, d.x) / (2 * std::numbers::pi);  // of right ascension
   // The left and the right edge of the map are one meridian, which counts as the left edge.
   const double s = turns < 0.5 ? 0.5 - turns : 0.0;
+  // An arctangent keeps the digits of declination at the poles, where an arcsine of z would lose
+  // half of them.
   return {s < 1 ? s : 0.0, 0.5 + std::atan2(d.z, std::hypot(d.x, d.y)) / std::numbers::pi};
 }
 
@@ -100,6 +111,7 @@ std::string lens_map_key(const Show& show, const FrameState& state) {
   Digest digest;
   digest.add("lens map").add(DOMEFALL_VERSION).add(kLensMapVersion).add(show.title);
   digest.add(show.frames_per_second).add(state.frame);
+  // No sky, star or exposure acts on a lens map, so that a change to these leaves its key as it is.
   add_observer(digest, seen.observer);
   add_projection(digest, seen.projection);
   add_effects(digest, show.effects);
@@ -107,10 +119,12 @@ std::string lens_map_key(const Show& show, const FrameState& state) {
 }
 
 ChannelImage make_lens_map(const Show& show, const FrameState& state, int threads) {
+  // Directions of two views have no mean, so that a dissolve has the map of one of them.
   const FrameState& seen = seen_better(state);
   const LensMapper mapper(show, seen);
   ChannelImage map(columns(seen.projection), rows(seen.projection), lens_channel_names());
   tbb::task_arena(threads).execute([&] {
+    // Each row is written by one task, so that the map is the same for any number of threads.
     tbb::parallel_for(0, map.height, [&](int y) {
       for (int x = 0; x < map.width; ++x) mapper.fill({x + 1.0, y + 1.0}, map.pixel(x, y));
     });

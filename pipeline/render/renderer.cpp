@@ -24,6 +24,7 @@
 namespace domefall {
 namespace {
 
+// A StopWatch measures the stages of a frame, one lap after another.
 class StopWatch {
  public:
   // Returns the seconds since the last lap.
@@ -47,6 +48,7 @@ int threads_of(int wanted) {
 template <class T>
 void fade(ImageRgb<T>& frame, double part) {
   const auto left = static_cast<float>(part);
+  // Halves are multiplied as floats and rounded once.
   for (T& value : frame.pixels) value = left * static_cast<float>(value);
 }
 
@@ -58,6 +60,7 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
     T* own = frame.row(row);
     const T* other = vanishing.row(row);
     for (int k = 0; k < 3 * frame.width; ++k)
+      // Light is mixed and not brightness, as two projectors on one screen would mix it.
       own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
   }
 }
@@ -122,7 +125,8 @@ template <class T>
 void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times) {
   StageTimes sum;
   sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;
-  // With a closed shutter the next instant that is seen is the next frame.
+  // With a closed shutter the next instant that is seen is the next frame.  With an open one the
+  // instants divide its time evenly.
   const double gap = show_.exposure.shutter > 0 ? show_.exposure.shutter / sum.instants : 1;
   if (sum.instants == 1) {
     render_instant(state, gap, frame, sum);
@@ -176,10 +180,12 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
     if (skies[sky]) times.black[sky] = skies[sky]->black.luminance;
   times.load_s = watch.lap();
   SkyMotion motion;
+  // Only images behind the hole race, so that in flat space no motion is needed.
   if (plan.gravity) motion = {sky_turn(show_, state), gap};
   const HoleOptics& optics = optics_.optics_for(state.observer, plan);
   times.tables_made = optics_.tables_made();
   times.table_nodes = node_count(optics);
+  // A show has one disc, whose light is tabulated once.
   if (plan.disc && !disc_light_) disc_light_.emplace(*show_.disc);
   const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
   const FrameScene scene(show_, state, plan, optics, skies, motion,
@@ -187,6 +193,7 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
   times.tables_s = watch.lap();
   if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
     frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
+  // Only a cubemap has faces.
   if (faces.empty()) return render_image(scene, frame, times);
   ImageRgb<T> image(columns(faces[0].projection), rows(faces[0].projection));
   for (const CubemapFace& face : faces) {
@@ -204,6 +211,7 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
 template <class T>
 void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTimes& times) {
   StopWatch watch;
+  // All stages run in this arena, which has as many threads as the caller asked for.
   memory_->arena.execute([&] {
     BlobLayer& stars = memory_->stars;
     stars.start(scene.projection());
@@ -216,6 +224,7 @@ void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTi
     std::optional<SkyBorders> borders;
     if (scene.plan.gravity && scene.effects.lensing && unresolved.blobs.empty() &&
         stars.size() > 0) {
+      // Straight light has no silhouette, and without stars there is nothing to end.
       borders.emplace(scene.state, scene.optics, scene.tracer.vantage());
       if (!borders->usable()) borders.reset();
     }

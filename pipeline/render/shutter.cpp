@@ -35,6 +35,7 @@ double motion_of_bodies(const Show& show, const FrameState& from, const FrameSta
     const BodySight::Seen at = before.seen(first->at);
     const auto begin = pixel_of(from.projection, at.direction),
                end = pixel_of(to.projection, after.seen(last->at).direction);
+    // A factor in flux is 2.5 log10 of it in magnitudes.
     const double magnitude = body.magnitude - 2.5 * std::log10(at.brightening);
     if (begin && end && magnitude < kFaintest + magnitudes_per_stop * from.settings.ev)
       most = std::max(most, std::hypot(end->i - begin->i, end->j - begin->j));
@@ -42,6 +43,7 @@ double motion_of_bodies(const Show& show, const FrameState& from, const FrameSta
   return most;
 }
 
+// Returns the motion in pixels between two instants, of the sky or of a body, whichever is larger.
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
                       OpticsStore& optics) {
   // The store keeps the optics of one radius only, so those of the first state are copied.
@@ -57,6 +59,7 @@ double motion_between(const Show& show, const FrameState& from, const FrameState
 double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, const FrameState& to,
                         const ViewTracer& tracer_to) {
   std::vector<double> motions;
+  // Pixels are counted from 1, so that an image reaches from 0.5 to its width + 0.5.
   const double width = columns(from.projection), height = rows(from.projection);
   for (int j = 0; j < kPlaces; ++j)
     for (int i = 0; i < kPlaces; ++i) {
@@ -68,6 +71,7 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       if (!a.known || !b.known || a.sky != b.sky) continue;
       const double longer = std::max(a.radial_scale, a.tangential_scale);
       const double shorter = std::min(a.radial_scale, a.tangential_scale);
+      // A pixel that is stretched has two sides, whose product is its solid angle.
       const double side = pixel_angle(from.projection, pixel);
       const double other = pixel_solid_angle(from.projection, pixel) / side;
       // The motion on the sky is divided by the least width of a pixel's footprint there.
@@ -75,6 +79,7 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
                         (std::min(side, other) * std::max(shorter, kNarrowest * longer)));
     }
   if (motions.empty()) return 0;
+  // nth_element() puts at this place the motion that the part kExceeding of all others exceed.
   const auto exceeded =
       motions.end() - 1 -
       static_cast<std::ptrdiff_t>(kExceeding * static_cast<double>(motions.size()));
@@ -82,6 +87,8 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
   return *exceeded;
 }
 
+// A fraction of the distance takes an instant more, so that no step exceeds kPixelsPerInstant
+// unless kMostInstants bounds their number.
 int instants_for_motion(double motion_in_pixels) {
   return static_cast<int>(
       std::clamp(std::ceil(motion_in_pixels / kPixelsPerInstant), 1.0, double{kMostInstants}));
@@ -105,6 +112,7 @@ int instants_for(const Show& show, const FrameState& state, OpticsStore& optics)
 
 template <class T>
 void MeanFrame::add(const ImageRgb<T>& instant) {
+  // The first instant says how large the sum is.
   if (count_++ == 0) sum_ = FloatImage(instant.width, instant.height);
   tbb::parallel_for(0, instant.height, [&](int row) {
     const T* from = instant.row(row);

@@ -9,6 +9,8 @@
 namespace domefall {
 
 void StageTimes::add(const StageTimes& other) {
+  // Instants are rendered one after another, so that their times add up.  Of a part, a size or a
+  // level the largest one stands for all.
   load_s += other.load_s;
   tables_s += other.tables_s;
   stars_s += other.stars_s;
@@ -32,6 +34,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
     if (sky.lit()) tables += fmt::format("{}sky {}", tables.empty() ? "" : " and ", name_of(which));
   }
   if (tables.empty()) tables = "all skies black: none";
+  // Straight light needs no table, whichever skies are lit.
   if (!plan.gravity) tables = "straight light: none";
   std::string text = fmt::format("load    {:8.3f} s  {}\n", t.load_s, skies);
   for (const SkyRegion sky : kEverySky)
@@ -41,6 +44,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   text += fmt::format("tables  {:8.5f} s  {}, {} nodes, {} made\n", t.tables_s, tables,
                       t.table_nodes, t.tables_made);
   text += fmt::format("stars   {:8.4f} s  {} images\n", t.stars_s, t.images);
+  // A frame of one instant says nothing of its shutter.
   if (t.instants > 1) text += fmt::format("shutter open: the mean of {} instants\n", t.instants);
   text += fmt::format("grid    {:8.4f} s\n", t.grid_s);
   if (plan.disc) text += fmt::format("disc    {:8.4f} s  drawn with the pixels\n", t.disc_s);

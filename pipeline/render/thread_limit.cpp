@@ -29,6 +29,7 @@ int threads_to_be_had(int count) {
   } catch (const std::system_error&) {
     // The system grants no more.
   }
+  // All threads wait for this, so that all of them have lived at the same time.
   end.set_value();
   for (std::thread& thread : threads) thread.join();
   return static_cast<int>(threads.size());
@@ -50,12 +51,14 @@ int most_threads(int threads) {
                stderr);
     _exit(kTryAgain);
   }
+  // Any other end is that of the default handler.
   std::abort();
 }
 
 }  // namespace
 
 void require_threads(int threads) {
+  // Both are found by the first call alone.
   static const int count = most_threads(threads);
   static const int there = threads_to_be_had(count);
   if (there < count)

@@ -14,13 +14,19 @@
 namespace domefall {
 namespace {
 
+// Returns an error with two significant digits, which show its power of ten and a little more.
 std::string error(double value) { return fmt::format("{:.1e}", value); }
 
+// Returns the setting of a row in the words of the page.  That of a table is the number of bits, so
+// 2^bits intervals divide an octave (octave_curve.h), and that of an integrator is the tolerance of
+// a step.  The exact integral has none, which its setting 0 says.
 std::string setting_of(const RayErrorRow& row) {
   if (row.method == "table") return fmt::format("2^{:g} to the octave", row.setting);
   return row.setting > 0 ? fmt::format("{:.0e}", row.setting) : "";
 }
 
+// Returns the beginning of the page.  Some numbers in the sentences below are not results, such as
+// the ranges of rays, so the page says first which of them a further run would measure anew.
 std::string head(const Report& report) {
   return fmt::format(
       "# Accuracy, and what it costs\n\n"
@@ -37,6 +43,12 @@ std::string head(const Report& report) {
 
 // ---- Rays ----
 
+// The ranges are those of ray_samples.h, which says what the classes are.  A picture shows the
+// error on the sky and not that of phi.  Towards an edge phi = -ln x + c at the distance x
+// (sky_table.h), so its slope is 1/x, and an error of phi displaces a ray by x times that.
+//
+// An integrator must tell b < b_c from b > b_c by the steps that it takes.  So it finds the wrong
+// origin, or none, where its errors are larger than the distance to the edge.
 constexpr const char* kRaysMeasured =
     "## Rays\n\n"
     "Random rays of all observers, with a fixed seed, are each compared with the same ray in "
@@ -76,6 +88,9 @@ double mean_of(const std::vector<RayErrorRow>& rows, const std::string& method,
   return count > 0 ? sum / count : 0;
 }
 
+// Returns what the page says of the default.  The worst error counts, and so does the slowest
+// building of tables.  The times of a ray are means over the classes, so that each class weighs as
+// much as any other.
 std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
   constexpr double kPixel8k = std::numbers::pi / 8192;  // a dome shows pi radians across
   const double sky = worst_of(rows, "table", &RayErrorRow::sky_worst);
@@ -92,6 +107,8 @@ std::string default_of_rays(const std::vector<RayErrorRow>& rows) {
       amount(exact_ns), amount(worst_of(rows, "table", &RayErrorRow::build_us)));
 }
 
+// Returns the table of one class of rays, by every method at its default setting.  The other
+// settings are points in the plots and rows of rays.csv.
 std::string class_table(const std::vector<RayErrorRow>& rows, const RayClass& of) {
   std::string table =
       "| method | setting | φ, 99 of 100 | φ, worst | sky, 99 of 100 | sky, worst | undecided | "
@@ -126,6 +143,9 @@ std::string quickest(const std::vector<RayErrorRow>& rows, const RayClass& of, d
                      amount(best->ns_per_ray));
 }
 
+// Returns the quickest methods for three errors (radians).  The largest, 1e-6, is 1/380 of a pixel
+// of an 8k dome, which is pi/8192.  The others say what a method takes for more than any picture
+// shows.
 std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   constexpr std::array kWanted{1e-6, 1e-9, 1e-12};
   std::string table =
@@ -139,6 +159,8 @@ std::string quickest_table(const std::vector<RayErrorRow>& rows) {
   return table + "\n";
 }
 
+// Returns the times of measure_view_ray_speed().  They are shorter than those of a table in the
+// other lists, because SIMD code takes many rays together (view_tracer.h).
 std::string view_rays(const std::vector<ViewRaySpeedRow>& rows) {
   std::string page =
       "In a frame, where 128 view rays are traced together, this is the time of one of them on one "
@@ -165,6 +187,8 @@ std::string rays(const Report& report) {
 
 // ---- Places along rays ----
 
+// Returns the part on places.  The error of a time cannot be relative to the time alone, because a
+// null time is counted from the observer and begins at 0.  So it is in units of max(1 M, the time).
 std::string places(const Report& report) {
   const PositionSpeed& speed = report.position_speed;
   std::string page = fmt::format(
@@ -195,6 +219,7 @@ std::string places(const Report& report) {
 
 // ---- Frames and orbits ----
 
+// Returns the first row of a scene whose setting contains these words, or null.
 const FrameErrorRow* row_of(const std::vector<FrameErrorRow>& rows, const std::string& scene,
                             const std::string& part_of_setting) {
   for (const FrameErrorRow& row : rows)
@@ -219,6 +244,7 @@ std::string compared(const std::vector<FrameErrorRow>& rows, const std::string& 
                      std::exp(log_rms / scenes), std::exp(log_time / scenes));
 }
 
+// Returns one line for each setting that is not the default, in the order of the rows.
 std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
   std::string text =
       "\n**The default is 4 x 4 view rays in difficult pixels**, through which an edge between "
@@ -231,6 +257,8 @@ std::string default_of_frames(const std::vector<FrameErrorRow>& rows) {
   return text + "\n";
 }
 
+// Returns the part on frames.  frame_errors.h says why graded frames are compared, and not the
+// light itself.
 std::string frames(const std::vector<FrameErrorRow>& rows) {
   std::string page =
       "## Frames\n\nWhole frames with each setting of anti-aliasing are compared with frames of "
@@ -248,6 +276,13 @@ std::string frames(const std::vector<FrameErrorRow>& rows) {
          "![worst error against time](plots/frames_worst.svg)\n\n";
 }
 
+// Returns the part on orbits.  Its last paragraph takes two times from formulas.  The rain falls by
+// dr/dtau = -sqrt(2/r), so (sqrt 2/3) r^(3/2) is left at r.  With an angular momentum L the term
+// 2 L^2/r^3 of the radial speed's square (reference_orbit.h) outweighs all others near the centre.
+// Then dr/dtau = -sqrt(2) L r^(-3/2), and r^(5/2)/(2.5 sqrt(2) L) is left.
+//
+// A double between 64 and 128 is rounded by up to 7e-15.  Divided by the times left, 1.5e-5 and
+// 2.3e-9, this moves r by 2/3 and 2/5 of the quotient, a relative 3e-10 and 1e-6.
 std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
   std::string page =
       "## Orbits\n\nStates along an orbit follow from its closed form, or from the quadratures "
@@ -274,6 +309,7 @@ std::string orbits(const Report& report, const std::vector<NamedPlot>& plots) {
   return page + "\n";
 }
 
+// Returns the part on the figures, or nothing if none is drawn.
 std::string curves(const std::vector<NamedPlot>& figures) {
   if (figures.empty()) return "";
   std::string page =

@@ -3,11 +3,14 @@
 namespace domefall {
 namespace {
 
+// Returns what trace_ray() finds, without what the report does not compare.
 FollowedRay follow(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
   const TracedRay ray = trace_ray(q, method, options);
   return {ray.decided ? std::optional(ray.origin) : std::nullopt, ray.phi};
 }
 
+// Follows a ray by tables of 2^bits intervals to the octave.  The setting is a double here, like
+// that of any method.
 FollowedRay by_table(const RayRequest& q, double bits) {
   TraceOptions options;
   options.table_bits = static_cast<int>(bits);
@@ -23,6 +26,9 @@ FollowedRay by_steps(const RayRequest& q, TraceMethod method, double tolerance) 
   return follow(q, method, options);
 }
 
+// Returns the bits of the tables to compare.  The error falls with the eighth power of the
+// intervals' width (octave_curve.h), so each bit divides it by up to 256.  Two bits beyond the
+// default are enough to show where rounding takes over.
 std::vector<double> table_bits(bool quick) {
   constexpr int kDefault = OctaveCurve::kPerOctaveBits;
   if (quick) return {1, kDefault};
@@ -31,6 +37,8 @@ std::vector<double> table_bits(bool quick) {
 
 const double kDefaultTolerance = TraceOptions{}.tolerance;
 
+// Returns the tolerances of a step, from coarse to fine, the order that the accuracy page relies
+// on.  The last is the finest that integrate_ray() takes.
 std::vector<double> tolerances(bool quick) {
   if (quick) return {1e-5, kDefaultTolerance};
   return {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};

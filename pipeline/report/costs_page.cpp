@@ -16,6 +16,7 @@ using Counted = double FrameCostRow::*;
 
 std::string count(double value) { return fmt::format("{:.0f}", value); }
 
+// Returns the names of the scenes, whose rows stand together, in the order of the rows.
 std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
   std::vector<std::string> scenes;
   for (const FrameCostRow& row : rows)
@@ -31,6 +32,7 @@ std::string cost_table(const std::vector<FrameCostRow>& rows, Counted counted, c
       unit);
   const std::vector<CostSlope> found = slopes(rows, counted);
   for (const FrameCostRow& row : rows) {
+    // A slope stands in the row at its upper end, whose number it has copied.
     const auto slope = std::find_if(found.begin(), found.end(), [&](const CostSlope& s) {
       return s.scene == row.scene && s.to == row.*counted;
     });
@@ -61,6 +63,8 @@ std::string slopes_in_words(const std::vector<FrameCostRow>& rows, Counted count
       text, rise->ratio, rise->scene, count(rise->at), unit);
 }
 
+// Returns the part on stars.  Their background is black, so that the time of a sky does not hide
+// theirs.
 std::string stars(const std::vector<FrameCostRow>& rows) {
   return "## By the number of stars\n\nThe brightest stars of a made-up sky with as many of each "
          "magnitude as Tycho-2 has, in front of nothing.\nFalling at 7 M, every image that matters "
@@ -86,9 +90,12 @@ constexpr double kPixel4k = std::numbers::pi / 4096;  // radians
 // Returns the quickest row of rk4, over ordinary rays of region I, in which 99 of 100 rays are
 // right to a hundredth of a pixel of a 4k dome.  It is null if there is none.
 const RayErrorRow* quickest_rk4(const std::vector<RayErrorRow>& rows) {
+  // This is the bound that the renderer keeps where it interpolates view rays
+  // (docs/architecture.md).
   constexpr double kPart = 0.01;
   const RayErrorRow* best = nullptr;
   for (const RayErrorRow& row : rows) {
+    // The error on the sky counts, since that is what pixels show.
     const bool will_do = row.region == "I" && row.difficulty == "ordinary" && row.method == "rk4" &&
                          row.undecided == 0 && row.sky_99 <= kPart * kPixel4k;
     if (will_do && (best == nullptr || row.ns_per_ray < best->ns_per_ray)) best = &row;
@@ -96,6 +103,9 @@ const RayErrorRow* quickest_rk4(const std::vector<RayErrorRow>& rows) {
   return best;
 }
 
+// Compares the paper's first way, a geodesic for every pixel ([Riazuelo] sec. sec_cel1), with a
+// finished pixel.  Of a geodesic only its own time counts, while the pixel has its light and its
+// anti-aliasing besides, so the ratio says too little rather than too much.
 std::string against_rk4(const Report& report) {
   const RayErrorRow* rk4 = quickest_rk4(report.rays);
   const FrameCostRow* sky = nullptr;  // the row of the largest dome without stars
@@ -113,7 +123,11 @@ std::string against_rk4(const Report& report) {
       amount(rk4->ns_per_ray / pixel_ns));
 }
 
+// Compares a view ray of a frame, with all that its pixel needs, with the walk through a table.
 std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
+  // A renderer of this kind, Bruneton's black_hole_shader (arXiv:2010.08735), has 512 by 512 places
+  // in its table.  What a walk through such a table takes depends on the processor, so the page
+  // calls the number a measure.
   constexpr double kWalkNs = 100;  // taken as the measure, not measured
   std::string text = fmt::format(
       "* **A table in two dimensions** that a pixel walks through in {} ns, taken as the measure. "
@@ -126,8 +140,10 @@ std::string against_table_walk(const std::vector<ViewRaySpeedRow>& rows) {
   return text + ".\n";
 }
 
-// Compares the default with 2 x 2 view rays everywhere, over all scenes that have both.  As ratios,
-// error and time are averaged by their logarithms.
+// Compares the default with 2 x 2 view rays everywhere, over all scenes that have both.  That is
+// the paper's way to smooth a picture ([Riazuelo] sec. sec_data).  As ratios, error and time are
+// averaged by their logarithms, and the page also counts the scenes, since a mean could hide one
+// that is worse.
 std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
   int scenes = 0, good = 0;
   double log_error = 0, log_time = 0;
@@ -154,6 +170,8 @@ std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
       worse.empty() ? "" : "; the others, as times its error: " + worse);
 }
 
+// Returns the table of the paper's own task.  The paper's minute is of a processor of its time, so
+// the page quotes it and draws no ratio.
 std::string benchmark(const std::vector<FrameErrorRow>& rows) {
   std::string text =
       "\n### The paper's picture\n\n\"Typical images of one million pixel initially computed at a "

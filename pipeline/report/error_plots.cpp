@@ -7,7 +7,7 @@
 namespace domefall {
 namespace {
 
-// An error of 0 is drawn at this value, since a logarithmic axis has no 0.
+// An error below this value is drawn at it, since a logarithmic axis has no 0.
 constexpr double kFloor = 1e-18;
 double drawn(double error) { return std::max(error, kFloor); }
 
@@ -24,6 +24,9 @@ void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
   curve->points.push_back(point);
 }
 
+// Returns an empty plot of an error against a time.  Both span many powers of ten, so both axes are
+// logarithmic.  An integration of order n is a straight line of slope -n there, as long as its
+// error is not of rounding.
 Plot log_plot(const std::string& title, const std::string& x, const std::string& y) {
   Plot plot;
   plot.title = title;
@@ -74,6 +77,9 @@ Plot frame_plot(const std::vector<FrameErrorRow>& rows, const char* what,
 
 // Orbits that are not integrated have a single method and so no plot.
 void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<NamedPlot>& plots) {
+  // A row gives the seconds of a thousand states.  Its errors are of r, relative, and of the
+  // azimuth, in radians.  Both are displacements over r, to first order, so the larger one stands
+  // for the place.
   constexpr double kStates = 1000, kMicroseconds = 1e6;
   std::vector<std::string> orbits;
   for (const OrbitErrorRow& row : rows)
@@ -91,6 +97,8 @@ void add_orbit_plots(const std::vector<OrbitErrorRow>& rows, std::vector<NamedPl
   }
 }
 
+// Returns a plot of milliseconds against stars or pixels, with one curve for each scene.  A cost in
+// proportion to the number is a straight line of slope 1 on these axes.
 Plot cost_plot(const std::vector<FrameCostRow>& rows, const char* title, const char* x,
                double FrameCostRow::*counted) {
   constexpr double kMilli = 1e3;

@@ -10,11 +10,14 @@ namespace {
 
 using std::numbers::pi;
 
+// Adds three domes of an observer.  Each shows half of the view, so the first and the last show all
+// of it together.
 void add_domes(FrameTally& frames, const Trajectory& trajectory) {
   for (const double vartheta : {0.0, pi / 2, pi})  // away from the hole, across it, towards it
     frames.add(extreme_show(trajectory, Domemaster{kExtremeSize}, EulerAngles{0, vartheta, 0}));
 }
 
+// A celerity of 1e6 is gamma v, so gamma = sqrt(1 + 1e12) is 1e6 to 5e-13.
 ExtremeResult lorentz_factor_of_a_million() {
   FrameTally frames;
   for (const GivenVelocity& place :
@@ -35,6 +38,8 @@ ExtremeResult lorentz_factor_of_a_million() {
       "The sky gathers in a point ahead; of the grid's blackbodies the visible light fades there");
 }
 
+// The sky has a radius of 1.84 sqrt(r - 2) radians (extreme_frame_errors.cpp), 1.8e-6 and 1.8e-3
+// here, against pi/96 = 0.033 of a pixel.
 ExtremeResult static_frame() {
   FrameTally frames;
   for (const double altitude : {1e-12, 1e-6}) add_domes(frames, StaticObserver{2 + altitude});
@@ -49,7 +54,9 @@ ExtremeResult frames_at(std::initializer_list<double> radii, const char* outcome
 
 ExtremeResult white_hole_frames() {
   FrameTally frames;
-  // The first observers move freely outwards.  The others rest in t, by T_IV and T_II.
+  // The first observers move freely outwards.  The others rest in t, by T_IV and T_II
+  // ([Riazuelo] eq. TR_IV).  At r = 2 itself nothing rests in t, because its celerity
+  // sqrt(r/(2 - r)) is infinite there.
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-15, 2.0})
     add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, V3d(0, 0, 0)});
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-12})
@@ -75,6 +82,8 @@ ExtremeResult pixel_on_the_axis() {
       const V3d axis =
           apply_transposed(state.observer.tetrad_from_camera, V3d(towards ? -1 : 1, 0, 0));
       const ViewRay ray = ViewTracer(state, optics).trace({axis});
+      // An azimuth that is not found would leave the direction not finite, and a slope that is 0/0
+      // the scale.
       unknown += !std::isfinite(ray.sky_direction.length()) || !std::isfinite(ray.radial_scale);
     }
   ExtremeResult result =
@@ -108,13 +117,18 @@ std::vector<ExtremeCase> extreme_frames() {
       {"FramesOfAStaticObserver", "static at r = 2 + 1e-12 and 2 + 1e-6", bad, 0, static_frame},
       {"FramesAcrossTheHorizon", "r = 2(1 ± 1e-15), 2, 2 - 1e-9", bad, 0,
        [] {
+         // Between 2 and 4 doubles are 4.4e-16 apart, and below 2 half of that, so these are radii
+         // of their own.
          return frames_at({2 + 2e-15, 2.0, 2 - 2e-15, 2 - 1e-9}, "Region III lights up as a point");
        }},
       {"FramesDeepInside", "r = 1e-3 and 1e-6", bad, 0,
        [] {
+         // Towards r = 0 the edges of both skies tend to pi/2, so that each sky fills a half of the
+         // view.
          return frames_at({1e-3, 1e-6}, "Two half skies and a bright band between them");
        }},
       {"FramesFarAway", "r = 1e8", bad, 0,
+       // The silhouette is 2 (3 sqrt 3)/r = 1.0e-7 radians wide, and a pixel pi/96.
        [] { return frames_at({1e8}, "The hole is 3e-6 of a pixel wide"); }},
       {"FramesOfTheWhiteHole", "IV from r = 1e-6 to 2; T_IV and T_II next to r = 2", bad, 0,
        white_hole_frames},

@@ -15,6 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
+// SkyTable states 1e-9 for rays that are 1e-12 or more off an edge.  Rays here come nearer and have
+// ten times that.
 constexpr double kPhiBound = 1e-8;  // for the tables, which frames are made with
 
 // A Worst collects the largest errors of the table and of the exact integral over many rays.  Its
@@ -38,6 +40,7 @@ class Worst {
     ++rays_;
   }
   ExtremeResult result(const std::string& more) const {
+    // exact_azimuth.h states this bound.
     constexpr double kExactBound = 1e-13;
     const bool exact = exact_ <= kExactBound;
     return {exact ? table_ : std::numeric_limits<double>::infinity(),
@@ -87,8 +90,9 @@ ExtremeResult critical_impact_parameter() {
   Worst worst;
   for (const long double r : {0.5L, 2.5L, 10.0L})
     add_beside(worst, TraceObserver::kRain, r, Edge::kSilhouette, 1e-2);
-  // These offsets are too small for any angle to hold.  A ray nearer to the edge must turn farther,
-  // which is all that is checked.
+  // These offsets are too small for any angle to hold.  By phi = -ln(offset) + c a ray nearer to
+  // the edge must turn farther, by ln 10 for each decade, but only the growth is checked.  The loop
+  // ends before doubles lose digits, at 2e-308.
   double before = 0;
   bool growing = true;
   for (double offset = 1e-16; offset > 1e-307; offset *= 1e-3) {
@@ -106,6 +110,9 @@ ExtremeResult critical_impact_parameter() {
   return result;
 }
 
+// The critical rays are the two roots of [Riazuelo] eq. tan_delta, whose difference has the factor
+// r - 3.  They are one at r = 3, and a billionth beside it their plain difference would have lost
+// nine digits.
 ExtremeResult light_circle() {
   Worst worst;
   for (const long double r : {3.0L, 3 - 1e-9L, 3 + 1e-9L}) {
@@ -116,6 +123,8 @@ ExtremeResult light_circle() {
   return worst.result("Both critical rays are one at r = 3; next to it their distance is carried");
 }
 
+// Each of the two frames crosses one horizon at r = 2, rain the future one and the outgoing frame
+// the past one, and is regular there.
 ExtremeResult beside_the_horizon() {
   Worst worst;
   for (const long double r : {2 - 2e-15L, 2 + 2e-15L})
@@ -138,6 +147,9 @@ ExtremeResult static_at_the_horizon() {
       pi - edge_delta(TraceObserver::kStatic, Radius(r), Edge::kSilhouette), 1 / one_plus_z));
 }
 
+// For small r both edges tend to tan(delta/2) = 1, and the silhouette's numerator r - (r - 3)
+// sqrt(1 + 6/r) exceeds that of region III by 2 r.  The skies are therefore (sqrt 2/(3 sqrt 3))
+// r^(3/2) = 2.7e-10 radians apart at 1e-6.
 ExtremeResult deep_inside() {
   Worst worst;
   const long double r = 1e-6L;
@@ -151,6 +163,8 @@ ExtremeResult deep_inside() {
                                   edge(Edge::kSilhouette) - edge(Edge::kRegionThree)));
 }
 
+// Far away the silhouette has the radius 3 sqrt(3)/r, 5.2e-8 radians, so the offsets from its edge
+// are smaller than that.
 ExtremeResult far_away() {
   Worst worst;
   const long double r = 1e8L;
@@ -163,6 +177,9 @@ ExtremeResult far_away() {
                                   edge_delta(TraceObserver::kRain, Radius(r), Edge::kSilhouette)));
 }
 
+// With r = 2 - d, region III is a disc of radius (3 sqrt 3/8) d about delta = 0, all of whose light
+// has 1 + z = d/4 to first order (extreme_frame_errors.cpp).  The parts of that radius lie inside
+// and outside the disc, on both sides of its edge.
 ExtremeResult first_light_of_region_three() {
   Worst worst;
   const long double r = 2 - 1e-9L;
@@ -181,6 +198,8 @@ ExtremeResult first_light_of_region_three() {
                   edge, 1 / middle, 1 / rim));
 }
 
+// In T_II the skies have the radius arctan(sqrt(27 (2/r - 1))/r) about delta = 0 and pi, by L/|E| =
+// r tan(delta)/sqrt(2/r - 1) = sqrt 27.  It vanishes with sqrt(2 - r).
 ExtremeResult resting_in_t_beside_the_horizon() {
   Worst worst;
   for (const long double r : {2 - 1e-9L, 2 - 1e-12L, 2 - 1e-15L})

@@ -33,7 +33,9 @@ void FrameTally::add(const Show& show) {
   ++frames_;
   try {
     const HalfFrame frame = Renderer(show, 0).render(frame_state(show, 0));
-    // A half float beyond 65504 is infinite, so this also catches light without bound.
+    // The renderer refuses light that is not finite, which is counted below, and stores any other
+    // light beyond the largest half, 65504, as that.  So a value here is bad only if the renderer
+    // breaks one of these promises.
     for (const Imath::half value : frame.pixels) {
       if (!std::isfinite(static_cast<float>(value)) || value < 0) ++bad_;
       brightest_ = std::max(brightest_, static_cast<double>(value));

@@ -34,6 +34,9 @@ struct Sizes {
 
 Sizes sizes(bool quick) {
   if (quick) return {{1e3, 3e3, 1e4}, 256, {128, 256, 512}, 1e3, 128, 1e3, {3, 1}};
+  // A catalogue has about three times the stars of the one before, the last one nearly all of
+  // kMostMadeUpStars, and a dome has twice the width.  The benchmark has the paper's million pixels
+  // and 250,000 stars ([Riazuelo] sec. sec_data).
   return {{1e4, 3e4, 1e5, 3e5, 1e6, 2.5e6},
           4096,
           {1024, 2048, 4096, 8192},
@@ -69,8 +72,8 @@ class Shows {
     return read;
   }
 
-  // Returns the number of stars that such a show has.  It may differ from `stars`, because of two
-  // stars whose magnitudes are the same float a show has both or neither.
+  // Returns the number of stars that such a show has.  It may differ from `stars`: where two stars
+  // have the same magnitude as floats, a show has both of them or neither.
   double count(double stars) const {
     if (stars <= 0) return 0;
     return static_cast<double>(
@@ -92,6 +95,7 @@ class Shows {
   ScratchFolder folder_;
 };
 
+// Returns how many pixels of an image show anything: for a dome those inside its circle.
 double pixels_inside(const Projection& projection) {
   double count = 0;
   for (int row = 0; row < rows(projection); ++row) {
@@ -108,6 +112,8 @@ FrameState starless(FrameState state) {
   return state;
 }
 
+// Returns the cost of a frame.  A copy of its memory is the unit of `copies`, since no renderer can
+// do less than write each pixel once.
 FrameCostRow measured_cost(const std::string& scene, Renderer& renderer, const FrameState& state,
                            double stars, Repeats repeats) {
   const TimedFrame timed = time_frame(renderer, state, repeats);
@@ -119,6 +125,8 @@ FrameCostRow measured_cost(const std::string& scene, Renderer& renderer, const F
           timed.seconds / copy_seconds(timed.frame)};
 }
 
+// Returns the rows against stars.  The limit of magnitude belongs to a show, so each number of
+// stars has a show and a renderer of its own.
 std::vector<FrameCostRow> against_stars(const Shows& shows, const Sizes& sizes) {
   std::vector<FrameCostRow> rows;
   for (const Place place : {Place::kBesideTheHole, Place::kFlat})
@@ -132,6 +140,8 @@ std::vector<FrameCostRow> against_stars(const Shows& shows, const Sizes& sizes) 
   return rows;
 }
 
+// Returns the rows against pixels.  One renderer makes them all from states that differ in the
+// projection and the stars alone, so it reads the files once.
 std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes) {
   const double stars = shows.count(sizes.stars_of_domes);
   const Show show = shows.show(Place::kBesideTheHole, Background::kMilkyWay, sizes.stars_of_domes,
@@ -152,6 +162,8 @@ std::vector<FrameCostRow> against_pixels(const Shows& shows, const Sizes& sizes)
   return rows;
 }
 
+// Returns the rows of the benchmark.  "2 x 2 everywhere" is what the paper does, to compute a
+// picture of twice the resolution and smooth it.
 std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& sizes) {
   constexpr double kFov = 100 * std::numbers::pi / 180;
   constexpr std::array<std::pair<const char*, AntiAliasing>, 3> kSettings{
@@ -183,6 +195,7 @@ std::vector<FrameErrorRow> paper_benchmark(const Shows& shows, const Sizes& size
 
 FrameCosts measure_frame_costs(bool quick) {
   const Sizes all = sizes(quick);
+  // One catalogue serves all frames, each of which takes the brightest of its stars.
   const double most = std::max({all.stars.back(), all.stars_of_domes, all.benchmark_stars});
   const Shows shows(static_cast<std::size_t>(most));
   return {against_stars(shows, all), against_pixels(shows, all), paper_benchmark(shows, all)};
@@ -213,6 +226,7 @@ std::optional<SteepestRise> steepest_rise(const std::vector<CostSlope>& of) {
   return steepest;
 }
 
+// The first and the last row are taken as a series of their own, whose only slope is the mean.
 double mean_slope(const std::vector<FrameCostRow>& rows, double FrameCostRow::*counted,
                   const std::string& scene) {
   std::vector<FrameCostRow> ends;

@@ -40,6 +40,8 @@ struct Setting {
   AntiAliasing anti_aliasing;
 };
 
+// Returns the settings to compare.  Where a setting names difficult pixels, every other pixel has
+// one view ray (anti_aliasing_settings.h).
 std::vector<Setting> settings(bool quick) {
   std::vector<Setting> all{{"1 view ray", {1, false}},
                            {"2 x 2 in difficult pixels", {2, false}},
@@ -82,10 +84,13 @@ Show show_of_view(const View& view, int size) {
   return show;
 }
 
+// Appends the rows of a view, whose settings all have the same reference and the same copy.  The
+// times are those of all threads together (frame_errors.h).
 void append_rows(const View& view, bool quick, std::vector<FrameErrorRow>& rows) {
   const int size = quick ? kQuickSize : kFullSize;
   const Show show = show_of_view(view, size);
   const Grader grader(show.grade);
+  // The reference is rendered once, since its time is not used.
   const HalfFrame reference = time_frame(show, kReferenceAntiAliasing, 0, {1}).frame;
   const GradedFrame graded_reference = grader.grade(reference);
   const double copy = copy_seconds(reference);

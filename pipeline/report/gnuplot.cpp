@@ -38,6 +38,8 @@ Outcome gnuplot(std::string option, const std::string& script) {
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
+  // Where the system forks to start a program, it notices a missing one only in the child, which
+  // then ends with 127.  Elsewhere posix_spawnp itself says ENOENT.
   constexpr const char* kMissing =
       "gnuplot is needed to draw the plots of a report; Debian's package is gnuplot-nox";
   if (error == ENOENT) throw InputError(kMissing);

@@ -37,14 +37,18 @@ FallState polar(const Numbers& y, double azimuth) {
 void geodesic(const Numbers& y, Numbers& rate, double /*tau*/) {
   const double r = std::max(std::hypot(y[0], y[1]), kSingular), gamma = y[4];
   const double nx = y[0] / r, ny = y[1] / r, s = std::sqrt(2 / r);
+  // Here w is c.n, and `pull` is the factor s gamma/r of c'.
   const double w = y[2] * nx + y[3] * ny, pull = s * gamma / r;
   rate[0] = y[2] - s * gamma * nx, rate[1] = y[3] - s * gamma * ny;
   rate[2] = pull * (y[2] - 1.5 * w * nx), rate[3] = pull * (y[3] - 1.5 * w * ny);
   rate[4] = s / r * (y[2] * y[2] + y[3] * y[3] - 1.5 * w * w);
 }
 
-// A longer step could pass the centre, or lose count of a turn.  By x' = c - s gamma n the radius
-// changes at the rate c.n - s gamma.
+// Returns the longest step (M).  A longer one could pass the centre, or lose count of a turn.  By
+// x' = c - s gamma n the radius changes at the rate c.n - s gamma, and the azimuth at the rate of
+// the tangential celerity over r.  If the radius alone changed, this step would be half of the way
+// to the centre.  If the azimuth alone did, it would be 2 radians, which is below the pi up to
+// which advance() sees an angle rightly.
 double longest_step(const FallState& p) {
   const double speed = p.radial - std::sqrt(2 / p.r) * p.gamma;
   return 0.5 * p.r / (std::abs(speed) + std::abs(p.tangential) / 4);
@@ -62,6 +66,7 @@ class Fall {
     y_[4] = start.gamma;
   }
 
+  // Returns the state at tau, which may not be less than at the call before.
   FallState at(double tau) {
     while (tau_ + step_ <= tau && alive()) advance(step_);
     if (!alive()) return lost();
@@ -77,6 +82,7 @@ class Fall {
 
   typename Controlled::error_checker_type checker() const { return {tolerance_, tolerance_}; }
   bool alive() const { return std::hypot(y_[0], y_[1]) > kSingular; }
+  // Returns the last state before the singularity, with r = 0 to mark it.
   FallState lost() const {
     FallState last = polar(y_, azimuth_);
     last.r = 0;

@@ -8,9 +8,12 @@
 //     x' = c - s gamma n    c' = (s gamma/r)(c - 3/2 (c.n) n)    gamma' = (s/r)(c^2 - 3/2 (c.n)^2)
 //
 // These are the Euler-Lagrange equations of (t'^2 - |x' + s t' n|^2)/2, where t is the rain's own
-// time and t' = gamma.  The constants of the motion are the energy gamma - s c.n, the angular
-// momentum x cross c and the norm gamma^2 - c^2.  They are not used, so each of them shows the
-// error of the steps.
+// time and t' = gamma.  The momentum of x is -c, and at a fixed c the gradient of s c.n is
+// (s/r)(c - 3/2 (c.n) n), because ds/dr = -s/(2r).  The third equation is gamma gamma' = c.c',
+// which follows from gamma^2 = 1 + c^2.
+//
+// The constants of the motion are the energy gamma - s c.n, the angular momentum x cross c and the
+// norm gamma^2 - c^2.  They are not used, so each of them shows the error of the steps.
 #pragma once
 
 #include <vector>

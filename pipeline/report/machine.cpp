@@ -23,6 +23,7 @@ std::string processor_model() {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
+// clang defines __VERSION__ as well, so it is asked for first.
 constexpr const char* kCompiler =
 #if defined(__clang__)
     "clang " __clang_version__;

@@ -23,6 +23,8 @@ constexpr std::array<StarCount, 8> kCounts{{{-1.5, 1},
 
 }  // namespace
 
+// The counts are ascending, so the first one that reaches the rank ends its interval.  There ln
+// rank is linear in V, as the counts of stars nearly are.
 double magnitude_of_rank(double rank) {
   std::size_t k = 1;
   while (k + 1 < kCounts.size() && kCounts[k].stars < rank) ++k;
@@ -36,6 +38,8 @@ RawCatalogue made_up_stars(std::size_t count) {
   std::mt19937 random(1);
   // The distributions of the standard library differ from library to library, so none is used.
   const auto from = [&random](double least, double most) {
+    // The generator gives integers below 2^32.  A number lies in the middle of its step, so it is
+    // never `least` or `most` itself, and no star stands at a pole.
     constexpr double kRange = 4294967296.0;
     return least + (most - least) * (static_cast<double>(random()) + 0.5) / kRange;
   };

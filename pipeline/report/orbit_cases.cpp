@@ -33,7 +33,8 @@ ExactPlace place(const CircularOrbit& orbit, double tau) {
   return {r, tau / (r * sqrt(r - 3))};
 }
 
-// The rain falls by dr/dtau = -sqrt(2/r), so r^(3/2) = r_0^(3/2) - 3 tau/sqrt(2).
+// The rain falls by dr/dtau = -sqrt(2/r), so the rate of r^(3/2) is (3/2) sqrt(r) dr/dtau =
+// -3/sqrt(2), and r^(3/2) = r_0^(3/2) - 3 tau/sqrt(2).
 Constants constants(const RadialInfall& /*fall*/) { return {1, 0}; }
 ExactPlace place(const RadialInfall& fall, double tau) {
   const Real from = fall.from_r;
@@ -45,6 +46,8 @@ ExactPlace place(const RadialInfall& fall, double tau) {
 Constants constants(const StaticObserver& observer) { return {sqrt(1 - 2 / Real(observer.r)), 0}; }
 ExactPlace place(const StaticObserver& observer, double /*tau*/) { return {observer.r, 0}; }
 
+// Returns a case of a closed form.  Its truth is evaluated at the same doubles as the trajectory,
+// so the rounding of a proper time is no error here.
 template <class Kind>
 OrbitCase closed_form_case(std::string name, const Kind& kind, const std::vector<double>& taus,
                            bool integrated) {
@@ -55,12 +58,15 @@ OrbitCase closed_form_case(std::string name, const Kind& kind, const std::vector
   return orbit;
 }
 
+// Returns proper times (M) from end/states to end.
 std::vector<double> evenly(double end, int states) {
   std::vector<double> taus;
   for (int k = 1; k <= states; ++k) taus.push_back(end * k / states);
   return taus;
 }
 
+// Returns the proper times at which r has fallen by equal factors.  The time to each r is rounded
+// to a double, which place() then takes as it is.
 std::vector<double> evenly_in_log_r(const RadialInfall& fall, int states) {
   std::vector<double> taus;
   for (int k = 1; k <= states; ++k)
@@ -117,9 +123,12 @@ std::vector<Real> radii_to(double from, double to, int states) {
   return radii;
 }
 
+// The nearest state is so close to the turning point that r - turn has lost most digits of a
+// double.  There tau grows like sqrt(r - turn), since the radial speed does.
 constexpr double kBesideTheTurn = 1e-9;  // M
 constexpr double kFarAway = 1000;        // M
 
+// It has E = 1, so that it comes to rest at infinity, where orbit_between() takes it to turn.
 OrbitCase parabola(int states) {
   const Real infinity = std::numeric_limits<Real>::infinity();
   const ReferenceOrbit reference = orbit_between(10, infinity);
@@ -129,7 +138,9 @@ OrbitCase parabola(int states) {
 }
 
 // The speed v at infinity gives E^2 - 1 = v^2/(1 - v^2).  At the turning point r the radial speed
-// is 0, so E^2 = (1 - 2/r)(1 + L^2/r^2), which is solved for L.
+// is 0, so E^2 = (1 - 2/r)(1 + L^2/r^2), which is solved for L.  An orbit that turns at 3.6 M needs
+// a speed above sqrt(4 - 3.6)/(3.6 - 2) = 0.395 ([Riazuelo] app. app_img), so 0.5 is well above the
+// whirl.
 OrbitCase hyperbola(int states) {
   const double speed = 0.5, turn = 3.6;
   const Real v = speed, r = turn, excess = v * v / (1 - v * v);
@@ -163,8 +174,9 @@ OrbitCase ellipse(int states) {
                        reference, path, 1, true);
 }
 
-// The orbit turns at p/(1 + e) and p/(1 - e).  With p = 6 + 2e it would whirl for ever at its
-// periastron.
+// The orbit turns at p/(1 + e) = 4.67 M and p/(1 - e) = 14 M.  With p = 6 + 2e it would whirl for
+// ever at its periastron.  A double near 7 holds an excess of 1e-8 to seven digits only, so the
+// trajectory and the reference are both made from the excess itself.
 OrbitCase whirl(int states) {
   const double e = 0.5, excess = 1e-8;
   const Real p = 6 + 2 * Real(e) + Real(excess), near = p / (1 + Real(e));
@@ -174,7 +186,8 @@ OrbitCase whirl(int states) {
                        reference, path, 1, true);
 }
 
-// With E = 1 and L < 4 M there is no turning point, so the body falls to the singularity.
+// With E = 1 the radial speed is 0 where 2 r^2 - L^2 r + 2 L^2 = 0.  For L < 4 M this has no real
+// root ([Riazuelo] eq. r_par), so the body falls to the singularity.
 OrbitCase plunge(int states) {
   const ReferenceOrbit reference{0, 3.9};
   return geodesic_case("fall with L = 3.9 M from 30 M to 0.001 M", fall_from_infinity(3.9, 30),
@@ -189,6 +202,7 @@ OrbitCase crossing(int states) {
   const double energy = 1.25, momentum = 1;
   const ReferenceOrbit reference{Real(energy) * energy - 1, momentum};
   std::vector<ReferencePlace> path = reference_leg(reference, 2, radii_to(2, 0.01, states / 2));
+  // The reference counts from r = 2 inwards, that is back in time.
   for (ReferencePlace& at : path) at.tau = -at.tau, at.azimuth = -at.azimuth;
   for (const ReferencePlace& at : reference_leg(reference, 2, radii_to(2, 100, states / 2)))
     path.push_back(at);
@@ -200,6 +214,7 @@ OrbitCase crossing(int states) {
 
 std::vector<OrbitCase> orbit_cases(int states) {
   const RadialInfall fall{30};
+  // A static observer stays where it is, so any proper times would do.
   const std::vector<double> minute = evenly(60, states);
   return {circle("circular at 6 M, 100 turns", 6, 100, states, true),
           circle("circular at 10 M, 100 turns", 10, 100, states, true),

@@ -19,6 +19,7 @@ FallState fall_state(const OrbitPoint& p) {
           is_outgoing(p.tetrad) ? -p.celerity.x : p.celerity.x, p.celerity.z};
 }
 
+// Returns what the trajectory emits at the case's proper times.
 std::vector<FallState> emitted(const OrbitCase& orbit) {
   std::vector<FallState> states;
   states.reserve(orbit.taus.size());
@@ -32,6 +33,11 @@ void raise(double& largest, const Real& value) {
 
 // Raises the errors of the row to those of these states.  own_gamma says whether the method emits
 // gamma itself.
+//
+// The four-velocity is u = gamma T + w R + v Phi, and d/dt = T + s R with s = sqrt(2/r), as the
+// components of [Riazuelo] eq. tetrad_start show.  So the energy u.(d/dt) is gamma - s w, the
+// angular momentum is r v, and u.u = gamma^2 - w^2 - v^2.  Where gamma is not emitted, one of the
+// two equations of energy and norm must give it, and the other one is the test.
 void raise_errors(const OrbitCase& orbit, const std::vector<FallState>& states, bool own_gamma,
                   OrbitErrorRow& row) {
   for (std::size_t k = 0; k < states.size(); ++k) {
@@ -71,6 +77,7 @@ double seconds_of(const Function& function) {
   return best;
 }
 
+// Returns the row of a method, a function that returns all states of the orbit at each call.
 template <class Method>
 OrbitErrorRow orbit_row(const OrbitCase& orbit, const char* name, double tolerance,
                         const Method& method) {
@@ -80,6 +87,8 @@ OrbitErrorRow orbit_row(const OrbitCase& orbit, const char* name, double toleran
   return row;
 }
 
+// Appends the rows of both integrators.  They start from the state that the trajectory emits at tau
+// = 0, so that its rounding is a part of their error.
 void append_integrations(const OrbitCase& orbit, double tolerance,
                          std::vector<OrbitErrorRow>& rows) {
   const FallState start = fall_state(point_at(orbit.trajectory, 0));

@@ -24,6 +24,8 @@ struct End {
 // or like a cube root (on the axis, for light from the past singularity).
 std::vector<double> distances(double reach) {
   constexpr int kLog = 160, kEven = 120;
+  // By phi = -ln x + c (sky_table.h) a curve has risen beyond kShown there, which the tests check
+  // of fig_dev.
   constexpr double kLeast = 1e-9;
   std::vector<double> d;
   d.reserve(kLog + kEven);
@@ -83,6 +85,7 @@ Plot deviation_plot(const std::string& title, double turns) {
 }
 
 constexpr int kColourOne = 0, kColourThree = 1, kColourFour = 2, kColourFlat = 6;
+// The range is that of the paper, "slightly larger than 5 pi", by [Riazuelo] fig. fig_dev.
 constexpr double kShown = 5.25;  // the largest |phi| that is drawn, in units of pi
 
 End edge_of(double r, Edge edge) { return {edge_delta(TraceObserver::kRain, r, edge), edge}; }
@@ -92,6 +95,8 @@ struct Regions {
   bool one = true, three = false, four = false;
 };
 
+// Returns the deviation functions of the regions that rain sees at r, from the front to the back:
+// region III up to its edge, region IV between the edges, and region I beyond the silhouette.
 Plot rain_plot(const std::string& title, double r, const Regions& seen) {
   Plot plot = deviation_plot(title, kShown);
   const auto add = [&](const char* name, int colour, const End& low, const End& high) {
@@ -116,6 +121,9 @@ Plot deviation_far_away() {
   return plot;
 }
 
+// The four radii are those of [Riazuelo] fig. fig_IV_dev and fig_IV_img.  The azimuth of an
+// observer at rest in t is largest at E = 0, arcsin(r - 1) + pi/2, which stays below pi, so 1.1 pi
+// is enough of an axis.
 Plot white_hole_from_within() {
   Plot plot = deviation_plot("Region IV seen from region IV, at rest in t", 1.1);
   plot.x.label = "angle of the view ray from −∂_t, δ";
@@ -130,8 +138,10 @@ Plot white_hole_from_within() {
   return plot;
 }
 
-// Returns the angle of an edge, in degrees, against r.  The angle changes like sqrt(r) towards the
-// singularity, so the radii grow like the squares of evenly spaced numbers.
+// Returns the angle of an edge, in degrees, against r.  For small r the numerators of both edges
+// are near 3 sqrt(6/r) and the denominator is near 3 sqrt(3) sqrt(2/r), so tan(delta/2) tends to 1.
+// The angle changes from there like sqrt(r), so the radii grow like the squares of evenly spaced
+// numbers.
 std::vector<PlotPoint> edge_curve(Edge edge, double r_end) {
   constexpr int kPoints = 400;
   constexpr double kDegrees = 180 / kPi, kRight = 90;

@@ -15,6 +15,7 @@ namespace {
 constexpr std::array kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000"};
 
+// Returns a colour of the palette, which begins anew after its last.
 const char* colour(int index) {
   return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
 }
@@ -29,8 +30,10 @@ set grid linewidth 0.5 linecolor rgb "#dddddd"
 set clip one
 )";
 
+// Returns a number for a script.  Ten digits are far finer than a line is wide.
 std::string plot_number(double value) { return fmt::format("{:.10g}", value); }
 
+// Returns a string in double quotes, in which gnuplot reads a backslash as an escape.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -65,6 +68,8 @@ std::string marks_of_pi(const Axis& axis) {
   return marks;
 }
 
+// Returns the lines of the script for one axis, which is named x or y.  "10^{%L}" writes a mark of
+// a logarithmic axis as a power of ten.
 std::string axis_script(const char* name, const Axis& axis) {
   std::string script = fmt::format("set {}label {}\n", name, quoted(axis.label));
   if (axis.most > axis.least)
@@ -92,6 +97,8 @@ std::string data_block(const Plot& plot, const PlotCurve& curve, const std::stri
   return block + "EOD\n";
 }
 
+// Returns how a curve is drawn, in gnuplot's words.  The types of its points follow its colours, so
+// that curves can also be told apart without colour.
 std::string drawn_with(const PlotCurve& curve) {
   const std::string in = " linecolor rgb " + quoted(colour(curve.colour));
   switch (curve.style) {
@@ -110,6 +117,7 @@ std::string drawn_with(const PlotCurve& curve) {
   return "with lines linewidth 2" + in;
 }
 
+// Returns the lines of the script for the legend.
 std::string key_script(const std::string& place) {
   if (place.empty()) return "unset key\n";
   // gnuplot's own "below" would run into the label of the axis, so a wider margin is made for it.

@@ -12,6 +12,8 @@
 namespace domefall {
 namespace {
 
+// These are the observers of trace_ray() by the region that they stand in.  One of them may stand
+// in two regions, as rain does.
 struct SampleObserver {
   const char* region;
   TraceObserver observer;
@@ -23,6 +25,8 @@ constexpr std::array kSampleObservers{
     SampleObserver{"IV", TraceObserver::kFour},
 };
 
+// The ranges keep 0.05 M off the horizon, which extreme_rays.cpp tries on its own.  Region IV sees
+// no sky, so it has no edge between skies.
 constexpr std::array kClasses{
     RayClass{"I", Difficulty::kOrdinary, "ordinary", 2.05, 100},
     RayClass{"I", Difficulty::kEdge, "edge", 2.05, 100},
@@ -34,6 +38,7 @@ constexpr std::array kClasses{
     RayClass{"IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
 };
 
+// Returns the observers of a region, who take turns from one radius to the next.
 std::vector<TraceObserver> observers_in(std::string_view region) {
   std::vector<TraceObserver> found;
   for (const SampleObserver& o : kSampleObservers)
@@ -65,6 +70,9 @@ class Dice {
 constexpr double kLeastOffset = 1e-12, kMostOffset = 1e-3;
 constexpr double kFarReach = 1000;  // in radii of the silhouette
 
+// Returns a random ray of an observer at r.  Far away the silhouette has a radius of 3 sqrt(3)/r,
+// 5e-3 to 5e-8 radians, which an angle that is even over the view would hardly ever come near.  So
+// half of the far rays are thrown at multiples of that radius.
 RayRequest throw_ray(TraceObserver observer, Difficulty difficulty, double r, Dice& dice) {
   RayRequest q;
   q.observer = observer;
@@ -83,6 +91,8 @@ RayRequest throw_ray(TraceObserver observer, Difficulty difficulty, double r, Di
   return q;
 }
 
+// Returns a ray with its truth.  It is computed for the very doubles of the request, so that their
+// rounding is no error of a method.
 SampleRay with_truth(const RayRequest& q) {
   const ReferenceRay ray = reference_ray(reference_request(q));
   return {q, origin_from(ray.origin), static_cast<double>(ray.phi), static_cast<double>(ray.slope)};
@@ -95,6 +105,7 @@ std::span<const RayClass> ray_classes() { return kClasses; }
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
   const std::vector<TraceObserver> observers = observers_in(of.region);
   constexpr std::uint64_t kSeed = 1511'06025;  // arXiv:1511.06025 is the paper
+  // Each kind of difficulty has numbers of its own.
   Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
   std::vector<RayGroup> groups(static_cast<std::size_t>(radii));
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -14,6 +14,7 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
+// Returns a number with six significant digits, so that a table shows more than the pages do.
 std::string n(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace
@@ -70,6 +71,8 @@ std::string csv_of(const std::vector<FrameErrorRow>& rows) {
   return csv;
 }
 
+// Pixels and stars are whole numbers of up to eight digits, which six significant digits would
+// round.
 std::string csv_of(const FrameCosts& costs) {
   std::string csv = "against,scene,size,pixels,stars,seconds,copies\n";
   const auto add = [&](const char* against, const std::vector<FrameCostRow>& rows) {

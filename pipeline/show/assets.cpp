@@ -35,16 +35,20 @@ fs::path assets_folder() {
   if (fs::path named = named_folder(); !named.empty()) return named;
   std::error_code error;
   if (const fs::path program = program_folder(); !program.empty()) {
+    // An installed program lies in PREFIX/bin, and its assets lie in PREFIX/share.
     fs::path installed = program.parent_path() / "share" / "domefall" / "assets";
     if (fs::is_directory(installed, error)) return installed;
   }
+  // A program that was built but not installed takes the assets of the source tree.
   return DOMEFALL_SOURCE_ASSETS;
 }
 
 fs::path shipped_asset(std::string_view name) {
   std::error_code error;
   fs::path file = assets_folder() / name;
+  // A folder that the user names stands alone, so that what it lacks is reported as missing there.
   if (!named_folder().empty() || fs::exists(file, error)) return file;
+  // The build makes some assets, which lie beside the program or in the tree of the build.
   for (const fs::path& folder : {program_folder() / "assets", fs::path(DOMEFALL_BUILT_ASSETS)})
     if (fs::path built = folder / name; fs::exists(built, error)) return built;
   return file;

@@ -155,6 +155,8 @@ M33d audience_axes(const Projection& projection, double dome_tilt) {
 }
 
 V3d turn_between(const M33d& from, const M33d& to, const V3d& before) {
+  // The inverse of a rotation is its transpose, so that this product leads from the one to the
+  // other.
   const Imath::Quatd q = quaternion_of(to * from.transposed());
   // The quaternion of a rotation holds the cosine and the sine of half its angle.
   const double sine = q.v.length();

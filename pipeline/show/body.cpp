@@ -25,7 +25,8 @@ OrbitPoint in_rain(OrbitPoint point) {
   return point;
 }
 
-// Returns the proper time since Body::start at which a body begins to shine.
+// Returns the proper time since Body::start at which a body begins to shine.  A geodesic may begin
+// in the past singularity, and all other motions go back for ever.
 double first_proper_time(const Body& body) {
   if (!body.shines_before) return 0;
   const auto* geodesic = std::get_if<Geodesic>(&body.trajectory);

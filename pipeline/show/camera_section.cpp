@@ -31,7 +31,8 @@ std::optional<Attitude> read_body_target(const Item& item, const NamedCameras& n
   return body ? std::optional<Attitude>(LookAtBody{*body}) : std::nullopt;
 }
 
-// Reads a target, which is a word, another keyframe's, a body or a place on the sky.
+// Reads a target, which is a word, another keyframe's, a body or a place on the sky.  The words
+// come before names of places, so that no star of such a name is meant.
 std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named, Lookup& lookup) {
   static const Words<Attitude, 3> kWords{
       {{"hole", LookAtHole{}}, {"motion", LookAlongMotion{}}, {"outward", LookOutward{}}}};
@@ -45,6 +46,7 @@ std::optional<Attitude> read_look_at(const Item& item, const NamedCameras& named
 // Reads the attitude.  Euler angles exclude the keys that say where a target stands.
 std::optional<Attitude> read_attitude(const Section& camera, const NamedCameras& named,
                                       Lookup& lookup) {
+  // The three angles say all of an attitude, so none of these keys has anything left to say.
   for (const std::string_view key : {"look_at", "roll_deg", "elevation_deg"})
     camera.one_of({"euler_deg", key});
   if (const Item* euler = camera.find("euler_deg")) {
@@ -67,13 +69,17 @@ CameraKeys read_camera_keys(const Section& camera, const Projection& projection,
                             const NamedCameras& named, Lookup& lookup) {
   CameraKeys keys;
   keys.attitude = read_attitude(camera, named, lookup);
+  // A roll may be ten turns either way, since keyframes change it as a number and may spin the
+  // image.
   keys.values[Channel::kRoll] = read_angle(camera, "roll_deg", kDegrees.within(-3600, 3600));
   keys.values[Channel::kElevation] = read_angle(camera, "elevation_deg", kDegrees.within(-90, 90));
   keys.values[Channel::kDomeTilt] = read_angle(camera, "dome_tilt_deg", kDegrees.within(-90, 90));
   const bool zenith = has_zenith(projection);
+  // A flat image has its target in the middle, where neither a rim nor a tilt moves it.
   for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
     if (const Item* item = camera.find(key); item && !zenith)
       item->fail("is for domes; this projection is flat");
+  // A projection that shows a fixed part of the sphere has no range.
   if (const auto range = fov_range(projection))
     keys.values[Channel::kFov] = read_angle(camera, "fov_deg", *range);
   else if (const Item* fov = camera.find("fov_deg"))
@@ -94,6 +100,7 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
   for (const std::string_view key : {"projection", "cut"})
     if (const Item* fixed = camera.find(key))
       fixed->fail("holds for the whole show; it belongs in the show's own camera section");
+  // The show's projection decides which keys make sense here too.
   CameraKeys own = read_camera_keys(camera, show.projection, show.named, lookup);
   // A camera without an attitude of its own has the show's, and Euler angles use neither of these.
   if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
@@ -118,6 +125,7 @@ void read_named_cameras(const Item& item, ShowCamera& show, Lookup& lookup) {
 ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies, Lookup& lookup) {
   const Section camera = subsection(show, "camera", kKeys);
   ShowCamera result;
+  // Attitudes are copied into segments and keyframes, and all copies share one body.
   for (const Body& body : bodies)
     result.named.bodies.emplace(body.name, std::make_shared<const Body>(body));
   result.projection = read_projection(show, camera);
@@ -133,6 +141,7 @@ CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup)
   if (!item.node.IsScalar()) return read_further_camera(item, show, lookup);
   const auto name = read_text(item);
   if (!name) return {};
+  // A name that is not known leaves empty keys, with which the show's own camera stays.
   const auto found = show.named.cameras.find(*name);
   if (found != show.named.cameras.end()) return found->second;
   std::vector<std::string_view> known;

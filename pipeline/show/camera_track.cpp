@@ -32,6 +32,8 @@ class Turn {
       : show_(show), segment_(segment), projection_(projection), from_(from), to_(to) {}
 
   M33d axes_at(double t, const ObserverState& observer) const {
+    // x is the part of the way that has passed, and `steps` the number of steps that begin before
+    // t.
     const double x = (t - from_.at_s) / (to_.at_s - from_.at_s);
     const int steps = std::clamp(static_cast<int>(std::ceil(x * kTurnSteps)), 1, kTurnSteps);
     // The rotation at the last step before t tells which one to continue.
@@ -42,7 +44,8 @@ class Turn {
     return turned_by(axes(from_, t, observer), turn * done);
   }
 
-  // Returns the rotations at the first `steps` steps of the way.
+  // Returns the rotations at the first `steps` steps of the way.  Each continues the one before it,
+  // and the first is the shortest.
   std::vector<V3d> followed(int steps) const {
     std::vector<V3d> turns;
     turns.reserve(static_cast<std::size_t>(steps));
@@ -88,6 +91,8 @@ M33d camera_axes_at(const Show& show, int segment, double t, const Projection& p
   Camera camera = camera_at(s, t);
   const auto& keys = s.attitudes;
   if (keys.empty()) return camera_axes(camera, projection, observer, show.effects);
+  // `next` is the first keyframe behind t.  Before the first one its attitude holds, and behind the
+  // last one that of the last.
   const auto next = std::upper_bound(
       keys.begin(), keys.end(), t, [](double at, const AttitudeKey& key) { return at < key.at_s; });
   if (next != keys.begin() && next != keys.end() && next->ease != Ease::kHold)

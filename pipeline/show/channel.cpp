@@ -35,6 +35,7 @@ std::string key_of(Channel channel) {
       return "grade.cdl.power";
     case Channel::kSaturation:
       return "grade.cdl.saturation";
+    // The channels of skies have returned above, so that only kEv is left.
     default:
       return "exposure.ev";
   }

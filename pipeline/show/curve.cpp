@@ -50,7 +50,7 @@ double value_at(const Curve& curve, double t) {
   const double h = to.at_s - from.at_s, x = (t - from.at_s) / h;
   if (to.ease == Ease::kLinear) return from.value + x * (to.value - from.value);
   // This is the cubic Hermite polynomial in x, in Horner's form, with the slopes m0 and m1 per unit
-  // of x at the ends.
+  // of x at the ends.  Its coefficients follow from the values and the slopes at x = 0 and x = 1.
   const double chord = secant(keys, k);
   const double m0 = tamed(slope_at(keys, k - 1), chord) * h,
                m1 = tamed(slope_at(keys, k), chord) * h;

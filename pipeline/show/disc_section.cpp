@@ -14,10 +14,13 @@ namespace {
 
 // The observer's first place lies 10 degrees above the plane, as in Luminet's picture of 1979.
 constexpr double kInclinationDeg = 10, kNodeDeg = 90;
+// docs/show-format.md specifies these bounds.
 constexpr double kWidestDisc = 1e6;
 constexpr double kCoolestDiscK = 1000, kHottestDiscK = 1e9, kBrightestDisc = 1e12;
 constexpr int kLargestSeed = 1'000'000'000;
 
+// Returns the word true or false under a key, or the fallback.  Other words that YAML has for
+// these, such as yes and on, are refused.
 bool read_switch_of(const Section& s, std::string_view key, bool fallback) {
   return s.word<bool>(key, {{"true", true}, {"false", false}}).value_or(fallback);
 }
@@ -30,6 +33,7 @@ void read_radii(const Section& s, Disc& disc) {
   disc.inner = s.number("inner_r", disc.plunging ? radius.at_least(kHorizonRadius) : stable,
                         disc.plunging ? kHorizonRadius : kLastStableOrbit);
   disc.outer = s.number("outer_r", radius.above(kHorizonRadius), disc.outer);
+  // The defaults are in order, so that of a pair out of order one key at least is given.
   if (disc.outer > disc.inner) return;
   if (const Item* outer = s.find("outer_r"))
     outer->fail(fmt::format("must exceed inner_r = {} (units of M), got {}",
@@ -47,7 +51,8 @@ void read_disc_plane(const Section& s, const Show& to, Disc& disc) {
   const double node = radians(s.number("node_deg", kDegrees.within(-360, 360), kNodeDeg));
   const M33d at_node = place_tetrad(to.hole_at, to.heading, node);
   const V3d north = -column(at_node, 1), onward = column(at_node, 2);
-  // The motion at the node, normal x node = onward cos i + north sin i, rises to the north.
+  // The motion at the node, normal x node = onward cos i + north sin i, rises to the north.  The
+  // axes have north x node = onward and onward x node = -north.
   disc.normal = {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()};
   disc.node = {column(at_node, 0)};
 }
@@ -61,6 +66,7 @@ Section keys_of(const Item& pattern, std::initializer_list<std::string_view> kno
   return pattern.node.IsMap() ? Section(pattern, known) : Section();
 }
 
+// Reads filaments, whose life is counted in orbits of their own place.
 PatternKind read_turbulence(const Item& item) {
   const Section s = keys_of(item, {"type", "contrast", "orbits", "seed"});
   TurbulencePattern pattern;
@@ -72,6 +78,7 @@ PatternKind read_turbulence(const Item& item) {
   return pattern;
 }
 
+// Reads rings that drift inwards, as fast as half the speed of light at most.
 PatternKind read_rings(const Item& item) {
   const Section s = keys_of(item, {"type", "spacing_r", "contrast", "inward_speed"});
   RingPattern pattern;
@@ -82,6 +89,7 @@ PatternKind read_rings(const Item& item) {
   return pattern;
 }
 
+// Reads a spot, which keeps to a circular orbit and so to the last stable one and those outside.
 PatternKind read_spot(const Item& item) {
   const Section s = keys_of(item, {"type", "r", "azimuth_deg", "size_r", "brightness"});
   SpotPattern pattern;
@@ -120,6 +128,7 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
                           "luminance_cd_m2", "opacity", "plunging", "pattern", "slow_light"});
   if (!to.mass_solar) item->fail("needs a black hole: give the show black_hole.mass_solar");
   Disc disc;
+  // Whether gas plunges in is read first, since it decides where a disc may end inside.
   disc.plunging = read_switch_of(s, "plunging", disc.plunging);
   read_radii(s, disc);
   read_disc_plane(s, to, disc);

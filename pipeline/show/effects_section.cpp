@@ -49,6 +49,8 @@ Effects read_effects(const Section& show) {
       show, "effects", {"aberration", "doppler_colour", "intensity", "lensing", "amplification"});
   Effects effects;
   for (const auto& [name, effect] : kEffectSwitches) effects.*effect = read_switch(s, name);
+  // Nature amplifies stars alone, since a lens keeps the brightness per solid angle of what has an
+  // extent.
   effects.amplification =
       s.word<Amplification>("amplification", kAmplifications).value_or(Amplification::kStars);
   return effects;

@@ -5,6 +5,7 @@
 namespace domefall {
 
 double light_left(const Fades& fades, double begin, double end, double t) {
+  // The rate of a smooth step is 0 at both ends, so that neither end of a fade is seen as a kink.
   const auto part = [](double passed, double fade) {
     return fade > 0 ? smooth_step(passed / fade) : 1;
   };

@@ -12,6 +12,7 @@
 namespace domefall {
 namespace {
 
+// These are the bounds of the key `size` (projection_section.cpp).
 constexpr int kSmallest = 16, kLargest = 16384;  // pixels
 
 // Returns the number that a text is, or -1 if it is no whole number.
@@ -50,6 +51,7 @@ Projection resized(const Projection& projection, const std::string& size, const 
   const bool sphere = std::holds_alternative<Equirectangular>(projection);
   const bool cube = std::holds_alternative<Cubemap>(projection);
   int pixels = whole_number(size);
+  // The sizes of domes are named by their thousands, which are powers of two.
   if (size.ends_with('k')) {
     const int thousands = whole_number(std::string_view(size).substr(0, size.size() - 1));
     if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
@@ -64,6 +66,7 @@ Projection resized(const Projection& projection, const std::string& size, const 
                       asked, size, kSmallest, kLargest / 3));
     return Cubemap{pixels};
   }
+  // A whole sphere is half as high as wide, so its width is even.
   if (!is_frame_size(pixels) || (sphere && pixels % 2 != 0))
     throw InputError(fmt::format("{}{}: {} takes 1k, 2k, 4k, 8k or {} from {} to {}", asked, size,
                                  sphere ? "the width of a whole sphere" : "a dome",

@@ -88,6 +88,7 @@ FrameState state_at(const Show& show, int segment, int frame, double t) {
   const double dissolve = segment_of(show, segment).dissolve_s;
   const double faded = t - begin_of(show, segment);
   if (segment == 0 || !(faded < dissolve)) return state;
+  // The segment before still runs, since the dissolve lies within its last seconds.
   state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
   state.vanishing_part = 1 - smooth_step(faded / dissolve);
   state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
@@ -106,11 +107,13 @@ std::vector<FrameState> exposure_states(const Show& show, int frame, int count) 
   const double half = show.exposure.shutter / show.frames_per_second / 2;
   const int segment = segment_at(show, t);
   const double begin = begin_of(show, segment);
+  // The shutter opens as long before the frame's instant as it closes after it, within the segment.
   const double opened = std::max(t - half, begin),
                closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
   std::vector<FrameState> states;
   states.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
+    // The middles of equal parts make the mean over the states the midpoint rule of integration.
     states.push_back(
         state_at(show, segment, frame, opened + (closed - opened) * (k + 0.5) / count));
   return states;

@@ -13,6 +13,8 @@ GradeSettings read_grade(const Section& show, const Lookup& lookup) {
     if (const auto name = read_text(*config))
       if (const auto file = lookup.file(*config, *name))
         grade.config = *file, grade.shipped = false;
+  // Only the configuration knows its displays and views, so these names are checked when it is
+  // loaded.
   if (const Item* display = s.find("display")) grade.display = read_text(*display).value_or("");
   if (const Item* view = s.find("view")) grade.view = read_text(*view).value_or("");
   ChannelValues values;
@@ -32,6 +34,7 @@ DomeSettings read_dome(const Section& show, const Projection& projection) {
            "light", {{"none", kNone}, {"simulate", kSimulate}, {"compensate", kCompensate}})
           .value_or(kNone);
   dome.reflectance = s.number("reflectance", kPureNumber.within(0, 1), dome.reflectance);
+  // Every part of the dome lights every other one, so that the sum needs the whole half sphere.
   if (dome.light != kNone && !std::holds_alternative<Domemaster>(projection))
     s.find("light")->fail(has_zenith(projection)
                               ? "is for a whole half sphere, which the projection domemaster shows"

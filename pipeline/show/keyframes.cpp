@@ -21,10 +21,12 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
       s.word<Ease>("ease",
                    {{"smooth", Ease::kSmooth}, {"linear", Ease::kLinear}, {"hold", Ease::kHold}})
           .value_or(Ease::kSmooth);
+  // A keyframe has numbers alone, since a background cannot turn into another one by degrees.
   keyframe.values = read_values(s, false);
   if (const Item* own = s.find("camera")) {
     const CameraKeys keys = read_camera(*own, camera, lookup);
     keyframe.attitude = keys.attitude;
+    // read_values() leaves the camera's channels empty, so that nothing is replaced.
     lay_over(keyframe.values, keys.values);
   }
   // A name stands for what the camera looks at, so that a keyframe without an attitude enters none.
@@ -45,6 +47,8 @@ std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
   for (const Item& entry : *items) {
     keyframes.push_back(read_keyframe(entry, span, markers, camera, lookup));
     const std::size_t n = keyframes.size();
+    // Two keyframes at one time are refused as well, since a curve through both would jump.  A time
+    // that is missing has been reported already.
     if (n > 1 && !(keyframes[n - 1].at_s > keyframes[n - 2].at_s) && peek(entry, "at_s"))
       peek(entry, "at_s")
           ->fail("must be later than that of the keyframe before it, " +
@@ -67,6 +71,7 @@ std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Chann
   return curve;
 }
 
+// An attitude at the start stands in as a value does in curve_through().
 std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,
                                            const Attitude& attitude_there) {
   std::vector<AttitudeKey> keys;

@@ -17,10 +17,12 @@ std::string folded(std::string_view word) {
   return out;
 }
 
-// Returns a key without its last part, which is the unit in keys such as from_r.
+// Returns a key without its last part, which is the unit in keys such as from_r.  A key without '_'
+// stays as it is.
 std::string_view without_unit(std::string_view key) { return key.substr(0, key.rfind('_')); }
 
-// Returns the word that is the fewest edits away, of those that are near enough.
+// Returns the word that is the fewest edits away, of those that are near enough.  Of several at one
+// distance it is the first, since only a smaller distance replaces it.
 std::string_view fewest_edits(std::string_view wanted, std::span<const std::string_view> known) {
   std::string_view nearest;
   std::size_t least = 4;
@@ -42,8 +44,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
+      // The distance of two beginnings is the least of three: one letter less of a or of b, each
+      // with an edit more, or one less of both, with an edit more unless these two agree (Wagner
+      // and Fischer 1974).
       const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      // Two neighbours that are swapped cost one edit more than the beginnings without them.
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
@@ -56,6 +62,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
   if (word.empty() || word.size() > 60) return {};  // no key is that long
   const std::string wanted = folded(word);
+  // The rules of the header follow in its order, and each is asked only if none before it fits.
   const auto first = [&](auto&& fits) {
     const auto at = std::ranges::find_if(known, fits);
     return at == known.end() ? std::string_view() : *at;

@@ -18,6 +18,8 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   DoubleDouble reached = joint.null_time;
   if (start.tetrad != joint.tetrad) {
     const bool same_sky = is_mirrored(start.tetrad) == is_mirrored(joint.tetrad);
+    // The rain and the outgoing tetrad of one sky are both regular only outside its horizon, and r*
+    // is infinite at r = 2 and in flat space.
     if (!same_sky || !(joint.r > 2) || std::isinf(joint.r)) return -start.null_time;
     reached = reached + (is_outgoing(start.tetrad) ? -2 : 2) * tortoise_of(joint.r);
   }
@@ -32,6 +34,7 @@ OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
 // Returns the joint as the segment hands it over where its observer is at `point`.
 Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
   const OrbitPoint start = point_of(s, s.timing.tau_begin);
+  // The plane turns first, and the azimuth is then swept in the new one.
   joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
   joint.azimuth += point.azimuth - start.azimuth;
   joint.null_time = point.null_time + null_offset(joint, start);
@@ -49,7 +52,8 @@ Joint joint_of(const Show& show, int segment) {
   return joint;
 }
 
-// Returns the value that lies a part of the way from one to another in equal factors.
+// Returns the value that lies a part of the way from one to another in equal factors.  At the end
+// it is `to` itself, without the rounding of the power.
 double ratio_between(double from, double to, double part) {
   return part < 1 ? from * std::pow(to / from, part) : to;
 }
@@ -81,7 +85,9 @@ ProperTime proper_time_at(const Segment& s, double part) {
   const ProperTime &from = s.timing.tau_begin, &to = s.timing.tau_end;
   switch (s.timing.pace) {
     case Pace::kSlowing: {
-      // The time that is left to the trajectory shrinks by equal factors.
+      // The time that is left to the trajectory shrinks by equal factors.  Next to the singularity
+      // r goes with a power of that time (2/3 for a radial fall, 2/5 with angular momentum), so
+      // that log r falls evenly.
       const ProperTime end = lifetime(s.trajectory);
       return end - ratio_between(double(end - from), double(end - to), part);
     }

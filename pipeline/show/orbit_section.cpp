@@ -13,6 +13,8 @@
 namespace domefall {
 namespace {
 
+// docs/show-format.md specifies these bounds.  The factories refuse an excess below 1e-20, and they
+// have narrower bounds of their own.
 constexpr Range kMomentum = Range{"units of M"}.within(0, 1e9);
 constexpr Range kExcess = kPureNumber.within(1e-20, 1e9);
 constexpr Range kSpeed = Range{"speed of light = 1"}.above(0).below(1);
@@ -33,6 +35,7 @@ Section orbit_section(const Item& item, std::initializer_list<std::string_view> 
 void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
   const std::size_t space = message.find(' ');
   const std::string_view quantity = std::string_view(message).substr(0, space);
+  // The factory of bound orbits calls the semilatus rectum p (bound_orbit.h).
   const Item* key = s.find(quantity == "p" ? "semilatus_rectum" : quantity);
   if (key)
     key->fail(message.substr(space + 1));
@@ -99,6 +102,7 @@ std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
 // Reads a bound orbit by its two turning points, or by its eccentricity with a semilatus rectum or
 // an excess.
 std::optional<Geodesic> read_ellipse(const Section& s) {
+  // One turning point alone asks for the other, whatever else is given.
   if (s.find("periastron") || s.find("apoastron")) {
     const auto low = s.required_number("periastron", kRadius);
     const auto high = s.required_number("apoastron", kRadius);
@@ -140,6 +144,7 @@ std::optional<Geodesic> read_dropped(const Section& s) {
   const auto rest_r =
       s.number("rest_r", kUnitsOfM.above(kStaticInnermost, "nothing rests at or inside the horizon")
                              .at_most(kFarthest));
+  // Without angular momentum the fall is radial.
   const double momentum = s.number("angular_momentum", kMomentum, 0);
   if (!rest_r) return std::nullopt;
   const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("rest_r");
@@ -151,6 +156,7 @@ std::optional<Geodesic> read_dropped(const Section& s) {
 // it.
 Placement placement_of(const V3d& celerity, bool mirrored) {
   Placement placement{mirrored};
+  // The components of a celerity are those along R, Theta and Phi, and -Theta is north.
   const double north = -celerity.y, forward = celerity.z;
   if (!(std::hypot(north, forward) > 0)) return placement;
   placement.backward = forward < 0;
@@ -183,13 +189,16 @@ std::optional<TimedTrajectory> read_hyperbolic(const Item& item, const Stage& st
 std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage) {
   const Section s = orbit_section(
       item, {"periastron", "apoastron", "semilatus_rectum", "eccentricity", "excess"});
+  // An orbit is given by its turning points or by its shape, and a key of one form excludes each of
+  // the other.
   for (const std::string_view shape : {"semilatus_rectum", "eccentricity", "excess"})
     for (const std::string_view turn : {"periastron", "apoastron"}) s.one_of({turn, shape});
   s.one_of({"semilatus_rectum", "excess"});
   const bool mirrored = is_in_region_three(s);
   const auto orbit = read_ellipse(s);
   if (!orbit) return std::nullopt;
-  // By default the orbit begins at the apoastron before the periastron of tau = 0.
+  // By default the orbit begins at the apoastron before the periastron of tau = 0.  Its proper time
+  // is half a radial period before that, by the symmetry of the orbit.
   const double apoastron = -orbit->radial_period() / 2;
   return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
 }
@@ -204,6 +213,7 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
   const auto orbit = dropped ? read_dropped(s) : read_captured(s);
   if (!orbit) return std::nullopt;
   Defaults start;
+  // A fall from rest begins where it rests, at tau = 0, and from_r is sought from there on.
   if (dropped) start.tau = start.after = 0;
   start.to_r = kFallEnd;
   return timed(s, stage, *orbit, start, {mirrored});
@@ -227,6 +237,8 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   // celerity against the rain is known, is brought to the rain.
   const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
   const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
+  // The plane of the orbit is that of R and the celerity, so only the length of the part across R
+  // shapes the orbit.  Its direction turns the plane (placement_of).
   const double across = std::hypot(celerity.y, celerity.z);
   const auto orbit = made(s, *s.find("from_r"), [&] {
     return against_static ? thrown_outside(frame->r, celerity.x, across)
@@ -238,12 +250,15 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   return TimedTrajectory{*orbit, *timing, placement_of(celerity, is_mirrored(frame->tetrad))};
 }
 
+// An energy that is left out is 1, with which it comes to rest at infinity.
 std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage) {
   const Section s = orbit_section(item, {"energy", "angular_momentum"});
+  // By t -> -t what comes out into region I comes out into III.
   const bool mirrored = is_in_region_three(s);
   const auto energy = s.number("energy", kPureNumber.within(0, 1e6));
   const double momentum = s.number("angular_momentum", kMomentum, 0);
   if (s.find("energy") && !energy) return std::nullopt;
+  // The factory refuses energies between 0 and 1e-6 (kruskal_crossing.h).
   const Item* blamed = s.find("energy") ? s.find("energy") : &item;
   const auto orbit =
       made(s, *blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });

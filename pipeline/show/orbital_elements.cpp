@@ -9,7 +9,8 @@
 namespace domefall {
 namespace {
 
-// Returns p = a (1 - e^2), where a follows from Kepler's third law.
+// Returns p = a (1 - e^2), where a follows from Kepler's third law.  With M = 1 that law is a^3 =
+// (period/2 pi)^2, and 1 - e^2 is a product that keeps its digits next to e = 1.
 double semi_latus_rectum(const OrbitalElements& elements) {
   const double e = elements.eccentricity;
   return std::pow(elements.period / (2 * std::numbers::pi), 2.0 / 3) * (1 - e) * (1 + e);

@@ -5,6 +5,7 @@
 namespace domefall {
 namespace {
 
+// Returns the format of the graded files, or nothing if there are to be none.
 std::optional<GradedFormat> read_graded_format(const Section& s) {
   enum class Word { kNone, kPng16, kPng8, kJpeg, kTiff16, kTiff8 };
   using enum Word;
@@ -41,6 +42,7 @@ void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
   const Item* item = s.find("quality");
   if (!item) return;
   const auto quality = read_whole_number(*item, kPureNumber.within(1, 100));
+  // The kinds without loss have no quality to choose.
   if (!graded || graded->kind != GradedKind::kJpeg)
     item->fail("is that of a JPEG; say graded: jpeg, or leave it out");
   else if (quality)
@@ -57,6 +59,7 @@ std::optional<ExrFormat> read_linear(const Section& s) {
       s.word<Word>("linear",
                    {{"half", Word::kHalf}, {"float", Word::kFloat}, {"none", Word::kNone}})
           .value_or(Word::kHalf);
+  // A compression that is not given is zip, which keeps all bits as the others do.
   if (word != Word::kNone)
     return ExrFormat{word == Word::kFloat ? ExrPixels::kFloat : ExrPixels::kHalf,
                      compression.value_or(kZip)};
@@ -71,6 +74,7 @@ void read_name(const Section& s, FrameNames& names) {
   const auto name = item ? read_text(*item) : std::nullopt;
   if (!name) return;
   constexpr std::size_t kLongest = 200;  // bytes; file systems take 255 with number and kind
+  // A folder in the name would be another place than the one that --out names.
   if (name->find('/') != std::string::npos)
     item->fail("is that of a file and may have no '/'; --out names the folder");
   else if (name->starts_with('.'))
@@ -89,6 +93,8 @@ FrameNames read_names(const Section& s) {
     if (const Item* item = s.find(key))
       into = read_whole_number(*item, kPureNumber.within(low, high)).value_or(into);
   };
+  // The number of the last frame, at most kLargestStart + kMostFrames, fits an int, whose largest
+  // value has ten digits.
   constexpr double kLargestStart = 1'000'000'000, kMostDigits = 10, kMostInFolder = 10'000;
   number("start", 0, kLargestStart, names.start);
   number("digits", 1, kMostDigits, names.digits);
@@ -108,6 +114,7 @@ Output read_output(const Section& show) {
   read_quality(s, output.graded);
   output.names = read_names(s);
   if (const Item* item = s.find("owner")) output.owner = read_text(*item).value_or("");
+  // Both are missing only where both keys say none, so that `graded` is there to be blamed.
   if (!output.linear && !output.graded)
     s.find("graded")->fail("and linear are both none, so that nothing would be made");
   return output;

@@ -24,6 +24,7 @@ OverlayKind overlay_named(std::string_view word) {
 
 std::vector<OverlayKind> parse_overlays(std::string_view list) {
   std::vector<OverlayKind> overlays;
+  // An empty list, and a comma at either end, leave an empty word, which names no overlay.
   for (std::size_t comma = 0; comma != std::string_view::npos;) {
     comma = list.find(',');
     overlays.push_back(overlay_named(list.substr(0, comma)));
@@ -37,6 +38,8 @@ std::vector<OverlayKind> parse_overlays(std::string_view list) {
 
 std::string overlay_names(const std::vector<OverlayKind>& overlays) {
   std::string names;
+  // The names come in the order of drawing, whatever the order of the list is, so that equal lists
+  // have equal names.
   for (const auto& [kind, name] : kOverlays)
     if (std::ranges::find(overlays, kind) != overlays.end())
       names.append(names.empty() ? "" : ",").append(name);

@@ -17,7 +17,8 @@ constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetra
 
 // Sets dr/dtau and dphi/dtau from a celerity c against a tetrad, with u = gamma T + c.  Along the T
 // of rain dr/dtau is -sqrt(2/r), and along that of the outgoing tetrad +sqrt(2/r), so that dr/dtau
-// is c_R - sqrt(2/r) gamma against rain and c_R + sqrt(2/r) gamma against outgoing.
+// is c_R - sqrt(2/r) gamma against rain and c_R + sqrt(2/r) gamma against outgoing.  Phi is (1/r)
+// d/dphi in the plane of the path, so that dphi/dtau is c_Phi/r.
 void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
   const double gamma = std::sqrt(1 + celerity.length2()), s = std::sqrt(2 / key.r);
   key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
@@ -37,6 +38,7 @@ void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup
   frame.celerity = resting_celerity(key.r, frame.tetrad);
   const auto own = read_own_celerity(s, stage, frame, lookup);
   if (!own) return;
+  // Rounding may leave a little of Theta in a direction that lies in the plane.
   if (std::abs(own->y) > 1e-12 * own->length()) {
     s.find("direction")->fail("leaves the plane of the path; give radial and phi only");
     return;
@@ -76,7 +78,8 @@ constexpr std::string_view kTimeColumn = state_column("proper_time"),
                            kNormalColumn = state_column("celerity_theta"),
                            kAzimuthalColumn = state_column("celerity_phi");
 
-// Returns the tetrad that a row of a table names.
+// Returns the tetrad that a row of a table names.  Throws InputError, with the line, for any other
+// word.
 Tetrad tetrad_named(const CsvFile& table) {
   const std::string_view name = table.text(kTetradColumn);
   for (const Tetrad tetrad : kTetrads)
@@ -99,9 +102,11 @@ Table read_table(const std::filesystem::path& file) {
   const bool moving = csv.has(kRadialColumn) && csv.has(kAzimuthalColumn);
   while (csv.next()) {
     PathKey key{csv.number(kTimeColumn), csv.number(kRadiusColumn), 0, {}, {}};
+    // A file is held to the radii of shows as a keyframe is, and the test is negated against NaN.
     if (!(key.r >= kNearest && key.r <= kFarthest))
       csv.fail("r must lie between 1e-6 and 1e9 (units of M), got " + short_number(key.r));
     if (csv.has(kAzimuthColumn)) key.azimuth = radians(csv.number(kAzimuthColumn));
+    // Without this column the path is one of the rain tetrad, which is regular in regions I and II.
     if (csv.has(kTetradColumn)) {
       const Tetrad tetrad = tetrad_named(csv);
       if (!table.keys.empty() && tetrad != table.tetrad)
@@ -123,6 +128,7 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
   const Section s(item, {"type", "region", "keyframes", "file", "from_r", "from_leg", "from_tau_m",
                          "to_r", "to_leg", "to_tau_m", "rate_m_per_s", "time_lapse", "pace"});
   const Item* by = s.one_of({"keyframes", "file"});
+  // The region is read before an error gives up the path, so that its own error is reported too.
   const bool mirrored = is_in_region_three(s);
   if (!by) {
     s.require("keyframes", ": a list of {at_m, r, azimuth_deg}; or give file, a table of states");
@@ -140,6 +146,8 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
       if (!file) return std::nullopt;
       table = read_table(*file);
     }
+    // The path checks that it can be flown, and throws std::domain_error with the key and the
+    // instant.
     const AcceleratedPath path(table.keys, table.tetrad);
     // By default the segment shows the whole path.
     const Defaults whole{path.begin(), Leg::kInward, path.begin(), {}, path.end()};

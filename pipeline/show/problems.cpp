@@ -17,6 +17,7 @@ constexpr std::size_t kMostListed = 100;
 }  // namespace
 
 Problems::Problems(std::string file, std::string text) : file_(std::move(file)) {
+  // The text is split into lines once, since each message needs the one that it is about.
   std::istringstream in(std::move(text));
   for (std::string line; std::getline(in, line);) lines_.push_back(std::move(line));
   // Even an empty text has the place of its beginning.
@@ -52,10 +53,13 @@ void Problems::raise() const {
     return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
   });
   std::string message;
+  // Each problem is a line of one exception, which the program writes as it is.
   for (std::size_t k = 0; k < std::min(sorted.size(), kMostListed); ++k)
     message.append(k > 0 ? "\n" : "").append(place(sorted[k].at)).append(sorted[k].what);
   if (sorted.size() > kMostListed)
     message += fmt::format("\n{}: and {} more", file_, sorted.size() - kMostListed);
+  // Files that are missing here may be there on another machine, where the same show can succeed.
+  // One mistake among them fails everywhere.
   if (!mistaken_) throw TemporaryError(message);
   throw InputError(message);
 }
@@ -64,6 +68,7 @@ std::string shown(std::string_view text) {
   std::string out;
   int characters = 0;
   for (const char c : text) {
+    // A character is counted at its first byte, so that none is cut in two.
     if (!continues_character(c) && ++characters > 40) return out + "...";
     out.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c);
   }

@@ -10,9 +10,11 @@
 namespace domefall {
 namespace {
 
+// These are the defaults of fov_deg, which a camera section may replace (read_show_camera).
 constexpr double kFlatFovDeg = 90, kDomeFovDeg = 180;
 // A flat image without distortion stretches its edges beyond use long before 180 degrees.
 constexpr double kWidestRectilinearDeg = 170;
+// frame_size.cpp has the same bounds for --size.
 constexpr int kFewestPixels = 16, kMostPixels = 16384;
 constexpr Range kPixels = Range{"pixels"}.within(kFewestPixels, kMostPixels);
 constexpr std::array<std::string_view, 4> kSizeNames{"1k", "2k", "4k", "8k"};
@@ -37,13 +39,15 @@ int read_one_size(const Item* size, int fallback, int most, std::string_view why
   const Range range = kPixels.at_most(most);
   for (std::size_t k = 0; k < kSizeNames.size(); ++k)
     if (size->node.Scalar() == kSizeNames[k]) {
+      // The names double from 1024 pixels on.
       const int pixels = 1024 << k;
       if (pixels > most)
         size->fail(
             fmt::format("must be at most {} (pixels; {}), got {}", most, why, kSizeNames[k]));
       return pixels;
     }
-  // For a word, and for '3k', the message names the sizes.  For a number it names the bounds.
+  // For a word, and for '3k', the message names the sizes.  For a number it names the bounds.  A
+  // sign and a point are let through, so that -5 and 0.5 are told the bounds.
   if (size->node.Scalar().find_first_not_of("+-.0123456789") == std::string::npos)
     return read_whole_number(*size, range).value_or(fallback);
   size->fail(fmt::format("must be 1k, 2k, 4k, 8k or a number of pixels from {} to {}, got '{}'{}",
@@ -56,6 +60,7 @@ struct ImageSides {
   int width, height;
 };
 
+// Reads [width, height].  A side in error leaves the one that is given as its fallback.
 ImageSides read_sides(const Item& size, ImageSides sides) {
   const std::vector<Item> items = *read_list(size);
   sides.width = read_whole_number(items[0], kPixels).value_or(sides.width);
@@ -65,6 +70,7 @@ ImageSides read_sides(const Item& size, ImageSides sides) {
 
 // Reads the size of a flat image, which is a list of width and height.
 ImageSides read_flat_size(const Item* size) {
+  // The default is the picture of an HD screen.
   const ImageSides sides{1920, 1080};
   if (!size) return sides;
   if (size->node.IsSequence() && size->node.size() == 2) return read_sides(*size, sides);
@@ -111,6 +117,7 @@ Projection read_equirectangular(const Item* size) {
 Projection read_projection(const Section& show, const Section& camera) {
   using enum ProjectionKind;
   const Item* size = show.find("size");
+  // The projection comes before the size, since it decides which form that has.
   const ProjectionKind kind =
       camera
           .word<ProjectionKind>("projection", {{Domemaster::kName, kDomemaster},
@@ -145,10 +152,13 @@ Projection read_projection(const Section& show, const Section& camera) {
 }
 
 std::optional<Range> fov_range(const Projection& projection) {
+  // The radius of a stereographic image goes as tan(fov/4), which is infinite at 360 degrees.  That
+  // of a fisheye goes as the angle, so that a fisheye can show the whole sphere.
   const Range range = kDegrees.above(0);
   if (std::holds_alternative<Stereographic>(projection)) return range.below(360);
   if (std::holds_alternative<Rectilinear>(projection)) return range.at_most(kWidestRectilinearDeg);
   if (std::holds_alternative<Fisheye>(projection)) return range.at_most(360);
+  // All other projections show the same part of the sphere at any size.
   return std::nullopt;
 }
 

@@ -37,6 +37,8 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   // With a mass that is misspelt or in error, the rest of the show is still checked as one with a
   // hole.
   if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return;
+  // A mass of 0 is flat space, so the range begins there, and the gap up to the lightest hole is
+  // reported by itself.
   const auto mass =
       s.number("mass_solar", Range{"solar masses; 0 is flat space"}.within(0, kMostSolarMasses));
   if (mass && *mass > 0 && *mass < kFewestSolarMasses)
@@ -89,6 +91,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
 }  // namespace
 
 Show read_show(const std::filesystem::path& file) {
+  // Errors of syntax end the reading at once, and those of content are gathered and raised
+  // together.
   const std::string text = read_show_text(file);
   Problems problems(file.string(), text);
   const YAML::Node node = parse_yaml(text, problems);

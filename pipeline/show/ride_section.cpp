@@ -26,8 +26,10 @@ std::optional<TimedTrajectory> read_ride(const Item& item, const Stage& stage) {
   if (!body) return std::nullopt;
   Defaults defaults;
   // Light that falls straight in keeps its v, and in that light the observer goes on where the
-  // segment before ended.
+  // segment before ended.  Whoever follows `behind` later is at each v where the body was at v -
+  // behind.
   if (const auto tau = time_of_null(*body, stage.null_time - behind)) {
+    // time_of_null() counts from Body::start, and the timing from the trajectory's own zero.
     defaults.tau = body->start + *tau;
   } else if (!s.find("from_r") && !s.find("from_tau_m")) {
     s.find("body")->fail(
@@ -37,6 +39,7 @@ std::optional<TimedTrajectory> read_ride(const Item& item, const Stage& stage) {
   }
   const auto timing = read_timing(s, stage, body->trajectory, defaults);
   if (!timing) return std::nullopt;
+  // `beginning` gives the plane, which is the body's own, so that nothing is mirrored or turned.
   Placement placement{false, body->backward, 0, {}};
   placement.beginning = beginning_beside(*body, double(timing->tau_begin - body->start), behind);
   return TimedTrajectory{body->trajectory, *timing, placement};

@@ -9,6 +9,7 @@
 namespace domefall {
 namespace {
 
+// Returns the place of a node, whose line and column yaml-cpp counts from 0 as TextPlace does.
 TextPlace place_of(const YAML::Node& node) { return {node.Mark().line, node.Mark().column}; }
 
 // Returns the path of a key below another path, which is empty for the whole show.
@@ -19,6 +20,7 @@ std::string join(const std::string& path, std::string_view key) {
 }  // namespace
 
 Section::Section(const Item& item, std::span<const std::string_view> known) {
+  // The item is emplaced, since its node is const and it cannot be assigned.
   item_.emplace(item);
   if (!item.node.IsMap()) {
     item.fail(std::string("must be a map of keys (") + listed(known) + "), got " + kind_of(item));
@@ -29,10 +31,12 @@ Section::Section(const Item& item, std::span<const std::string_view> known) {
   for (const auto& entry : item.node) add(entry.first, entry.second, known);
 }
 
+// Enters one key with its value, or reports why it has no place in this section.
 void Section::add(const YAML::Node& key, const YAML::Node& value,
                   std::span<const std::string_view> known) {
   Problems& problems = *item_->problems;
   if (!key.IsScalar()) {
+    // YAML allows a map or a list as a key, which has no name that a path could show.
     problems.add(place_of(key), join(item_->path, "?") + " is no key; keys are plain words");
     return;
   }
@@ -48,6 +52,8 @@ void Section::add(const YAML::Node& key, const YAML::Node& value,
                                       : "did you mean " + std::string(nearest) + "?"));
     return;
   }
+  // YAML forbids equal keys in one map (YAML 1.2, sec. 3.2.1.1), but yaml-cpp leaves that to its
+  // callers.
   if (const auto first = entries_.find(name); first != entries_.end()) {
     problems.add(place_of(key), fmt::format("{} is repeated; it is given at line {} already", path,
                                             first->second.line + 1));
@@ -73,10 +79,14 @@ const Item* Section::require(std::string_view key, const std::string& what) cons
 }
 
 const Item* Section::one_of(std::initializer_list<std::string_view> keys) const {
+  // The first key in the order of `keys`, which need not be that of the file, is kept, and the
+  // others are blamed.
   const Item* first = nullptr;
   for (const std::string_view key : keys) {
     const Item* found = find(key);
     if (first && found)
+      // Both keys are in this section, so the last part of the path is enough to name the other
+      // one.
       found->fail("excludes " + first->path.substr(first->path.rfind('.') + 1) +
                   "; give one of them");
     else if (found)
@@ -115,6 +125,7 @@ std::vector<std::pair<std::string, Item>> entries_of(const Item& map) {
   for (const auto& entry : map.node) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const std::string path = join(map.path, name.empty() ? "?" : shown(name));
+    // A map or a list in the place of a name has no text, and is reported like an empty name.
     if (name.empty())
       map.problems->add(place_of(entry.first), path + " is no name; names are plain words");
     else if (!names.insert(name).second)
@@ -128,6 +139,7 @@ std::vector<std::pair<std::string, Item>> entries_of(const Item& map) {
 Section subsection(const Section& parent, std::string_view key,
                    std::span<const std::string_view> known) {
   const Item* item = parent.find(key);
+  // An item that is no map is reported by the constructor, and its section then finds no keys.
   return item ? Section(*item, known) : Section();
 }
 

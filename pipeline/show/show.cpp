@@ -11,6 +11,8 @@ double value_at(const Segment& segment, Channel channel, double t, double consta
 }
 
 const SkyBackground& background_of(const Show& show, int segment, SkyRegion region) {
+  // An index that is no segment's, which the cast makes huge if it is negative, has the show's
+  // background.
   const auto k = static_cast<std::size_t>(segment);
   const bool own = k < show.timeline.size() && show.timeline[k].backgrounds[region];
   return own ? *show.timeline[k].backgrounds[region] : show.sky[region].background;
@@ -30,11 +32,13 @@ std::vector<double> segment_times(const Show& show) {
 }
 
 double end_of(const Show& show) {
+  // The joints hold the running sum of the durations, which is not formed again for each call.
   return show.joints.empty() ? segment_times(show).back()
                              : show.joints.back().begin_s + show.timeline.back().duration_s;
 }
 
 int frame_count(const Show& show) {
+  // The product fits an int, since the reader of the timeline bounds it by kMostFrames.
   return std::max(1, static_cast<int>(std::lround(end_of(show) * show.frames_per_second)));
 }
 

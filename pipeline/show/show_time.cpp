@@ -11,7 +11,8 @@
 namespace domefall {
 namespace {
 
-// A show is at most 10,000,000 seconds long.
+// A show is at most 10,000,000 seconds long.  This is the length of kMostFrames at the lowest frame
+// rate, 1 a second.
 constexpr Range kShowTime = Range{"seconds"}.within(0, 1e7);
 
 bool is_digits(std::string_view text) {
@@ -37,7 +38,10 @@ const Marker* find_marker(std::string_view name, const std::vector<Marker>& mark
 // Returns a marker's time in seconds since `start`, or reports one out of range.
 std::optional<double> read_marked(const Item& item, const Marker& marker, const Range& range,
                                   double start) {
+  // The range counts from `start`, and the message counts from the beginning of the show, as the
+  // marker itself does.
   const double seconds = marker.at_s - start;
+  // The bounds are those of broken_bound() in item.cpp, in words that suit times.
   const bool early = range.low_excluded ? !(seconds > range.low) : !(seconds >= range.low);
   const bool late = range.high_excluded ? !(seconds < range.high) : !(seconds <= range.high);
   if (!early && !late) return seconds;
@@ -61,9 +65,11 @@ std::optional<double> parse_clock_time(std::string_view text) {
     const bool last = colon == std::string_view::npos;
     const auto value = parse_decimal(part);
     if (!value || (!last && !is_digits(part))) return std::nullopt;
-    // Minutes and seconds behind a colon have two digits and stay below 60.
+    // Minutes and seconds behind a colon have two digits and stay below 60.  A part without a point
+    // is found at npos, which is no less than 2.
     if (parts > 0 && (part.find('.') < 2 || part.size() < 2 || *value >= kSixty))
       return std::nullopt;
+    // Each further part makes those before it sixty times as long.
     seconds = seconds * kSixty + *value;
     if (!last) text.remove_prefix(colon + 1);
     // Without a colon the text is a plain number and no clock time.
@@ -74,6 +80,7 @@ std::optional<double> parse_clock_time(std::string_view text) {
 
 std::string clock_text(double seconds) {
   constexpr long kThousand = 1000, kMinute = 60 * kThousand;
+  // Rounding comes first, so that 59.9996 s are 1:00 and not 0:60.
   const long thousandths = std::lround(seconds * kThousand);
   const long minutes = thousandths / kMinute, rest = thousandths % kMinute;
   std::string text = fmt::format("{}:{:02}.{:03}", minutes, rest / kThousand, rest % kThousand);
@@ -85,6 +92,7 @@ std::string clock_text(double seconds) {
 
 std::optional<double> parse_time(std::string_view text, const std::vector<Marker>& markers) {
   if (const auto clock = parse_clock_time(text)) return clock;
+  // Plain numbers have no sign and no exponent here.
   if (const auto number = parse_decimal(text)) return number;
   if (const Marker* marker = find_marker(text, markers)) return marker->at_s;
   return std::nullopt;
@@ -99,6 +107,7 @@ std::vector<Marker> read_markers(const Section& show) {
     return markers;
   }
   for (const auto& [name, item] : entries_of(*list)) {
+    // No markers are passed on, so that a marker cannot be given by another one.
     if (parse_time(name, {}))
       item.fail("has a name that is a time itself; begin it with a letter");
     else if (const auto at = read_time(item, kShowTime))
@@ -110,6 +119,7 @@ std::vector<Marker> read_markers(const Section& show) {
 std::optional<double> read_time(const Item& item, const Range& range,
                                 const std::vector<Marker>& markers, double start) {
   if (is_text_or_number(item)) {
+    // The name of no marker has the form of a time (read_markers), so a clock time may come first.
     const std::string& text = item.node.Scalar();
     if (const auto clock = parse_clock_time(text)) return in_range(item, *clock, range);
     if (const Marker* marker = find_marker(text, markers))

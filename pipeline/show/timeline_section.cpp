@@ -26,6 +26,7 @@ bool is_at_rest(const Trajectory& trajectory) {
   if (!given || given->r <= kStaticInnermost) return false;
   const V3d rest =
       given->r == kFlatSpace ? V3d(0, 0, 0) : resting_celerity(given->r, given->tetrad);
+  // A speed of 0 against the static observer comes back rounded from the composition of celerities.
   return (given->celerity - rest).length() <= 1e-12 * (1 + rest.length());
 }
 
@@ -60,6 +61,8 @@ class TimelineReader {
         item, {"duration_s", "dissolve_s", "fade_in_s", "fade_out_s", "trajectory", "camera",
                "exposure", "grade", "sky", "keyframes", "titles"});
     Segment segment;
+    // The dissolve comes first, since a duration that is a marker counts from where the segment
+    // begins.
     const double dissolve = read_dissolve(section);
     segment.duration_s = read_duration(section, end_ - dissolve);
     if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
@@ -81,6 +84,7 @@ class TimelineReader {
   std::vector<Segment> take() { return std::move(segments_); }
 
  private:
+  // Returns the seconds of the dissolve into this segment, or 0 where there is none.
   double read_dissolve(const Section& section) const {
     const Item* item = section.find("dissolve_s");
     if (!item) return 0;
@@ -104,6 +108,8 @@ class TimelineReader {
   bool fits_dissolve(const Section& section, double dissolve, const Segment& segment) const {
     if (dissolve == 0) return true;
     const Segment& before = segments_.back();
+    // A dissolve overlaps the segment before, which must last longer than its own dissolve by as
+    // much.
     const double most = std::min(segment.duration_s, before.duration_s - before.dissolve_s);
     if (dissolve <= most) return true;
     const Item& item = *section.find("dissolve_s");
@@ -115,7 +121,7 @@ class TimelineReader {
   }
 
   // Returns the values of the show, which hold wherever neither a segment nor a keyframe says
-  // otherwise.
+  // otherwise.  A projection whose field of view is fixed has 0 for it.
   PerChannel<double> constants(const Camera& camera) const {
     PerChannel<double> values;
     values[Channel::kRoll] = camera.roll;
@@ -147,6 +153,7 @@ class TimelineReader {
     ChannelValues values = read_values(section, true);
     lay_over(values, own.values);
     std::vector<Keyframe> keyframes;
+    // Keyframes that bear names enter camera_, so that later segments can refer to them too.
     if (const Item* list = section.find("keyframes"))
       keyframes =
           read_keyframes(*list, {begin, segment.duration_s}, show_.markers, camera_, lookup_);
@@ -184,9 +191,11 @@ class TimelineReader {
     const Item* trajectory = section.find("trajectory");
     std::optional<TimedTrajectory> motion;
     const std::size_t reported = item.problems->count();
+    // The v of a show counts from its beginning.
     Stage stage{show_.mass_solar, axes_before(), segment.duration_s,
                 nullptr,          &show_.bodies, segments_.empty() ? 0 : rain_time(joint_)};
     if (!segments_.empty()) stage.before = &segments_.back();
+    // In flat space nothing needs to be said of an observer at rest.
     if (!trajectory && !show_.mass_solar) {
       motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};
     } else {
@@ -202,6 +211,7 @@ class TimelineReader {
     }
     const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
     if (type) segment.type = type->node.Scalar();
+    // What goes on is named after what it continues.
     if (segment.type == "continue") segment.type = segments_.back().type;
     segment.trajectory = motion->trajectory;
     segment.timing = motion->timing;
@@ -209,6 +219,7 @@ class TimelineReader {
     check_targets(item, segment, begin);
   }
 
+  // Returns the axes of the tetrad on the sky where the next segment begins.
   M33d axes_before() const {
     return segments_.empty() ? place_tetrad(show_.hole_at, show_.heading, 0) : joint_.axes;
   }
@@ -269,6 +280,7 @@ Fades read_fades(const Section& section) {
   return fades;
 }
 
+// The fades may fill the whole duration, and their sum may then exceed it by rounding.
 void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
   if (!(fades.in_s + fades.out_s > duration * (1 + kTimeRounding))) return;
   const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
@@ -281,9 +293,11 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
   const Item* list = section.require("timeline", ": a list of segments");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return {};
+  // The copy takes the names of the show's keyframes, to which segments may refer.
   ShowCamera named = camera;
   const Item* keyframe_list = section.find("keyframes");
   std::vector<Keyframe> keyframes;
+  // The end of the show is not known yet, and keyframes behind it are found below.
   if (keyframe_list)
     keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show.markers, named, lookup);
   const std::size_t reported = list->problems->count();
@@ -298,6 +312,7 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
     // Only the segment with which the show becomes too long is blamed.
     fitted = frames <= kMostFrames;
   }
+  // frame_count() would round such a show to no frame at all.
   if (reader.end() * show.frames_per_second < 0.5)
     list->fail(
         fmt::format("ends after {} s, before half a frame is over; at {} frames per second a "

@@ -12,8 +12,10 @@ namespace {
 constexpr double kMostRate = 1e12;
 constexpr double kDefaultRate = 1;  // M per second
 constexpr Range kRateRange = Range{"units of M per second of show"}.within(0, kMostRate);
+// Proper times are read as doubles, which are 0.125 M apart at 1e15 M.
 constexpr Range kClock = kUnitsOfM.within(-1e15, 1e15);
 
+// Returns the word of a leg, as show files have it.
 std::string leg_name(Leg leg) { return leg == Leg::kInward ? "inward" : "outward"; }
 
 // Reads the leg on which a radius lies, which must be given too.
@@ -42,6 +44,7 @@ void fail_unreached(const Item& item, const Trajectory& trajectory, std::optiona
 // Says what is wrong with an instant at which the trajectory is nearer or farther than shows may
 // be.
 std::optional<std::string> leaves_shows(const Trajectory& trajectory, const ProperTime& tau) {
+  // The r of an instant that was sought for one of the bounds themselves comes back rounded.
   constexpr double kRounding = 1e-9;
   const double r = point_at(trajectory, tau).r;
   if (r >= kNearest * (1 - kRounding) && r <= kFarthest * (1 + kRounding)) return std::nullopt;
@@ -54,6 +57,7 @@ std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& tr
   const auto tau = s.number("from_tau_m", kClock);
   if (!tau) return std::nullopt;
   const Item& item = *s.find("from_tau_m");
+  // Both ends are excluded, since a trajectory has no point at the singularity.
   if (!(*tau > birth(trajectory) && *tau < lifetime(trajectory))) {
     item.fail(fmt::format(
         "must lie within the trajectory, that is between {} and {} (units of M), got {}",
@@ -79,6 +83,8 @@ std::optional<ProperTime> read_begin(const Section& s, const Trajectory& traject
   }
   const auto r = s.number("from_r", kRadius);
   if (!r) return std::nullopt;
+  // Where r is passed many times, as on a bound orbit, Defaults::after says which passage begins
+  // the segment.
   const auto tau = time_at(trajectory, *r, leg.value_or(start.leg), start.after);
   if (!tau) fail_unreached(*given, trajectory, leg.value_or(start.leg), "by this trajectory");
   return tau;
@@ -105,6 +111,7 @@ std::optional<ProperTime> passage(const Trajectory& trajectory, double r, std::o
   for (const Leg each : {Leg::kInward, Leg::kOutward}) {
     if (leg && *leg != each) continue;
     auto tau = time_at(trajectory, r, each, begin);
+    // The search goes on just behind the passage that is the beginning itself.
     if (tau && is_same_passage(trajectory, r, begin, *tau))
       tau = time_at(trajectory, r, each, *tau + kRounding * (1 + std::abs(double(begin))));
     if (tau && (!first || *tau < *first)) first = tau;
@@ -128,6 +135,7 @@ std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& traj
                                         const ProperTime& begin) {
   const auto tau = s.number("to_tau_m", kClock);
   if (!tau) return std::nullopt;
+  // An end at the beginning itself is allowed: time then stands still.
   if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
   const Item& item = *s.find("to_tau_m");
   const double end = lifetime(trajectory);
@@ -143,6 +151,7 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
                                  const ProperTime& begin) {
   const auto rate = read_rate(s, stage);
   if (!rate) return std::nullopt;
+  // The sum has two doubles, so that a short segment late in a long trajectory keeps its length.
   const ProperTime end = begin + rate->span;
   if (end < lifetime(trajectory)) return Timing{begin, end, Pace::kSteady, rate->begin, rate->end};
   const Item* given = s.one_of({"rate_m_per_s", "time_lapse"});
@@ -213,6 +222,7 @@ enum class Word {
   kFrozen
 };
 
+// Returns the word of `pace`, or nothing where the key is missing or its word is not known.
 std::optional<Word> read_word(const Section& s) {
   return s.word<Word>("pace", {{"steady", Word::kSteady},
                                {"eased", Word::kEased},
@@ -226,6 +236,8 @@ std::optional<Word> read_word(const Section& s) {
 
 }  // namespace
 
+// One M of a hole lasts kSecondsPerSolarMass for each solar mass.  Flat space has no M, and its
+// proper times stay in seconds.
 double proper_time_in(const Stage& stage, double seconds) {
   return stage.mass_solar ? seconds / (*stage.mass_solar * kSecondsPerSolarMass) : seconds;
 }
@@ -237,6 +249,7 @@ std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optiona
     if (!lapse) return std::nullopt;
     return Rate{proper_time_in(stage, *lapse * stage.duration_s)};
   }
+  // Without a period the radius is in error, which has been reported.
   if (s.find("orbits")) {
     const auto orbits = s.number("orbits", Range{"revolutions"}.within(0, kMostOrbits));
     if (!orbits || !period) return std::nullopt;
@@ -249,6 +262,7 @@ std::optional<Rate> read_rate(const Section& s, const Stage& stage, std::optiona
     if (!ends) return std::nullopt;
     // Over their mean the two rates add up to 2, so that part_passed() ramps smoothly between them.
     const double mean = ((*ends)[0] + (*ends)[1]) / 2;
+    // With two rates of 0 time stands still, and no rate is a part of a mean of 0.
     if (!(mean > 0)) return Rate{0};
     return Rate{mean * stage.duration_s, (*ends)[0] / mean, (*ends)[1] / mean};
   }
@@ -262,6 +276,8 @@ const Item* find_end(const Section& s, std::initializer_list<std::string_view> e
   if (!end) return s.one_of({"rate_m_per_s", "time_lapse"});
   const std::string key = end->path.substr(end->path.rfind('.') + 1);
   for (const char* rate : {"rate_m_per_s", "time_lapse"}) {
+    // A single rate would say a second time where the segment ends, while two rates only say how it
+    // gets there.
     const Item* item = s.find(rate);
     if (!item || item->node.IsSequence()) continue;
     item->fail("excludes " + key + "; give one of them");
@@ -301,12 +317,15 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
       timing.rate_begin = 0, timing.rate_end = 2;
       break;
     case Word::kEasedOut:
+      // This is the same run backwards.
       timing.rate_begin = 2, timing.rate_end = 0;
       break;
     case Word::kSlowing:
     case Word::kQuickening: {
       const bool slowing = *pace == Word::kSlowing;
       timing.pace = slowing ? Pace::kSlowing : Pace::kQuickening;
+      // A path has a finite life too, but it ends at its last key.  Only what reaches r = 0 ends,
+      // or begins, in a singularity.
       const bool singular = reach(trajectory).first == 0;
       if (singular && std::isfinite(slowing ? lifetime(trajectory) : birth(trajectory))) break;
       item->fail(slowing
@@ -330,6 +349,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
         }
       return true;
   }
+  // A steady pace goes with two rates, and a frozen one has returned.  All others shape the rate.
   if (!ramped) return true;
   item->fail("excludes two rates, which shape the pace themselves; give one of them");
   return false;
@@ -337,6 +357,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
 
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                const ProperTime& begin, const Defaults& defaults) {
+  // A key that excludes another is reported here, before any of them is read.
   const Item* given = find_end(s, {"to_r", "to_tau_m"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");

@@ -10,6 +10,7 @@ namespace domefall {
 namespace {
 
 constexpr Range kTitleSeconds{"seconds"};
+// These defaults and bounds are those of docs/show-format.md.
 constexpr double kHeightDeg = 2, kMostHeightDeg = 60;
 // The audience of a dome looks there without leaning back.
 constexpr double kTitleElevationDeg = 30;
@@ -22,6 +23,7 @@ void read_words(const Section& s, Title& title) {
   const auto text = item ? read_lines(*item) : std::nullopt;
   if (text && text->size() > kLongestText)
     item->fail(fmt::format("may have {} bytes, got {}", kLongestText, text->size()));
+  // A title in error stays in the show without a text, so that the rest of it is checked.
   title.text = text.value_or("");
   if (const Item* font = s.find("font")) title.style.font = read_text(*font).value_or("");
   using enum TextAlign;
@@ -48,6 +50,7 @@ void read_title_light(const Section& s, Title& title) {
   if (const Item* item = s.find("colour"))
     if (const auto rgb = read_numbers(*item, 3, kPureNumber.within(0, 1)))
       colour = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  // Titles are drawn in the working space of frames, before any grading.
   const V3d light = apply(working_from_rec709(), colour * brightness);
   title.light = {static_cast<float>(light.x), static_cast<float>(light.y),
                  static_cast<float>(light.z)};
@@ -55,6 +58,7 @@ void read_title_light(const Section& s, Title& title) {
 
 // Reads when a title is seen.  A marker in the place of its duration says when it ends.
 void read_title_times(const Section& s, const TitleSpan& span, const Show& show, Title& title) {
+  // `at_s` counts from the beginning of the span and must leave some of it for the title.
   const double length = span.end_s - span.begin_s;
   const Item* at = s.find("at_s");
   const double begin =
@@ -73,6 +77,7 @@ void read_title_times(const Section& s, const TitleSpan& span, const Show& show,
   check_fades(s, title.fades, duration, "the title");
 }
 
+// Reads one title of the show or of a segment, which is seen within the span.
 Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
   const Section s(item, {"text", "at_s", "duration_s", "fade_in_s", "fade_out_s", "azimuth_deg",
                          "elevation_deg", "height_deg", "font", "align", "colour", "brightness"});

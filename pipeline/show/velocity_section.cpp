@@ -20,7 +20,8 @@ constexpr Range kSpeeds = Range{"speed of light = 1"}.at_least(0).below(1);
 double gamma_v_of_factor(double factor) { return std::sqrt((factor - 1) * (factor + 1)); }
 double gamma_v_of_speed(double v) { return v / std::sqrt((1 - v) * (1 + v)); }
 
-// Reads gamma v from either `speed` or `lorentz_factor`.
+// Reads gamma v from either `speed` or `lorentz_factor`.  With lorentz_factor the speed is not
+// read, and if both are given that is reported.
 std::optional<double> read_gamma_v(const Section& s) {
   s.one_of({"speed", "lorentz_factor"});
   if (s.find("lorentz_factor")) {
@@ -41,7 +42,8 @@ const Item* two_speeds(const Section& s) {
 // What starts from rest has this rapidity, which is not 0, so that there is a direction.
 constexpr double kLeastRapidity = 1e-8;
 
-// Returns the rapidities asinh(gamma v) at both ends.
+// Returns the rapidities asinh(gamma v) at both ends.  Rapidities add up along a line, so that an
+// even change of one is constant acceleration.
 std::optional<std::array<double, 2>> read_rapidities(const Section& s, const Item& item) {
   const bool by_factor = &item == s.find("lorentz_factor");
   const auto ends = read_numbers(item, 2, by_factor ? kFactors : kSpeeds);
@@ -71,7 +73,9 @@ bool names_sky_place(const Item& item) {
   return peek(item, "ra_deg") || peek(item, "dec_deg") || peek(item, "star");
 }
 
-// Returns the direction in which an observer sees a place on the own sky of its tetrad.
+// Returns the direction in which an observer sees a place on the own sky of its tetrad.  The
+// stage's axes bring the place into the tetrad, the lens gives its primary image there, and
+// aberration turns that into the direction for the observer.
 V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVelocity& frame) {
   const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, primary_image(frame.r, frame.tetrad, source).v).direction;
@@ -108,6 +112,9 @@ enum class Against { kStatic, kFreeFall, kOutgoing, kConstantT };
 
 // Says whether a region has observers of that kind.
 bool is_found_in(Against against, Region region) {
+  // What is static is outside a horizon, and what rests in t is inside one.  A free fall has come
+  // in through the future horizon and so is never in region IV.  What flies outwards has come
+  // through the past one and is never in II.
   switch (against) {
     case Against::kStatic:
       return region == Region::kI || region == Region::kIII;
@@ -121,7 +128,8 @@ bool is_found_in(Against against, Region region) {
   return region == Region::kII || region == Region::kIV;
 }
 
-// Returns the radii at which an observer of that kind can be, in that region if one is named.
+// Returns the radii at which an observer of that kind can be, in that region if one is named.  A
+// lower bound that surprises has its reason in the message.
 Range radii(Against against, std::optional<Region> region) {
   if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(2);
   if (against == Against::kStatic && !region)
@@ -132,6 +140,8 @@ Range radii(Against against, std::optional<Region> region) {
   if (!region) return kUnitsOfM.at_least(kNearest).at_most(kFarthest);
   if (*region == Region::kI || *region == Region::kIII)
     return kUnitsOfM.above(2, "that is where the region ends").at_most(kFarthest);
+  // r = 2 belongs to II and IV here, since their tetrads are regular on the horizon that they
+  // cross.
   return kUnitsOfM.at_least(kNearest).at_most(2);
 }
 

@@ -15,6 +15,8 @@
 namespace domefall {
 namespace {
 
+// This limit of docs/show-format.md keeps a file of another kind, such as a picture that was named
+// by mistake, from being read and parsed as a whole.
 constexpr std::size_t kLargestFile = 1 << 20;
 
 // Reports the first character that has no place in a show.
@@ -31,6 +33,8 @@ void check_characters(std::string_view text, Problems& problems) {
       problems.add(at, fmt::format("the control character 0x{:02X} has no place in a show", c));
       return;
     }
+    // Lines are counted by LF, here and in Problems, so that a text with bare CR would be one line
+    // to every message.
     if (c == '\r' && !text.substr(k).starts_with("\r\n")) {
       problems.add(at, "the line ends with a bare carriage return; save the show with LF or CRLF");
       return;
@@ -50,6 +54,7 @@ std::optional<int> tab_in_indentation(const std::string& text, int line) {
     if (start != std::string::npos) ++start;
   }
   if (start == std::string::npos) return std::nullopt;
+  // Only blanks may precede the tab, or it stands within the line and may be in order.
   const std::size_t at = text.find_first_not_of(' ', start);
   if (at == std::string::npos || text[at] != '\t') return std::nullopt;
   return static_cast<int>(at - start);
@@ -59,6 +64,7 @@ std::optional<int> tab_in_indentation(const std::string& text, int line) {
 void add_syntax_error(const YAML::ParserException& error, const std::string& text,
                       Problems& problems) {
   const TextPlace at{error.mark.line, error.mark.column};
+  // yaml-cpp gives up at a fixed depth, since it parses by recursion and would overflow the stack.
   if (dynamic_cast<const YAML::DeepRecursion*>(&error))
     problems.add(at, "the show is nested too deeply");
   else if (const auto tab = tab_in_indentation(text, at.line))
@@ -108,6 +114,7 @@ bool check_documents(const std::string& text, Problems& problems) {
   std::istringstream in(text);
   YAML::Parser parser(in);
   Root first, second;
+  // A text of blanks and comments has no document.
   if (!parser.HandleNextDocument(first)) return false;
   if (!parser.HandleNextDocument(second)) return true;
   const bool stuck = first.at().line == second.at().line && first.at().column == second.at().column;
@@ -123,6 +130,7 @@ std::string read_show_text(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError(file.string() + ": this is a folder; a show is a YAML file");
+  // One byte more than the limit tells a file that exceeds it from one that just reaches it.
   const std::string text = start_of_file(require_file(file), kLargestFile + 1);
   if (text.size() > kLargestFile)
     throw InputError(file.string() + ": a show file is at most 1 MiB; this one is larger");
@@ -132,6 +140,7 @@ std::string read_show_text(const std::filesystem::path& file) {
 YAML::Node parse_yaml(const std::string& text, Problems& problems) {
   check_characters(text, problems);
   problems.raise();
+  // The line end before the comment ends a last line that has none of its own.
   const std::string ended = text + "\n# " + std::string(kEndOfShow) + "\n";
   try {
     const bool any = check_documents(ended, problems);
@@ -140,6 +149,8 @@ YAML::Node parse_yaml(const std::string& text, Problems& problems) {
   } catch (const YAML::ParserException& error) {
     add_syntax_error(error, text, problems);
   } catch (const YAML::Exception& error) {
+    // For an exception that the parser did not throw, the beginning of the file stands in for the
+    // place.
     problems.add({}, std::string("this is not valid YAML: ") + error.what());
   }
   problems.raise();

@@ -21,8 +21,9 @@ void require(Simd level) {
 }
 
 #if DOMEFALL_X86
-// Every processor with AVX2 converts half floats, but a virtual machine may hide it, and Clang's
-// __builtin_cpu_supports does not know its name.
+// Every processor with AVX2 also has F16C, which converts half floats, but a virtual machine may
+// hide F16C.  It is asked for by cpuid, because Clang's __builtin_cpu_supports does not know its
+// name.
 bool converts_halves() {
   unsigned int a = 0, b = 0, c = 0, d = 0;
   return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;

@@ -46,12 +46,12 @@ constexpr std::int32_t kLargestHalf = 0x477fe000;  // 65504
 
 #if DOMEFALL_X86
 
-// The processor's own conversion rounds in the same way.  Its results are written past the caches,
-// 32 bytes at a time, because a frame is larger than the caches and is not read before it is
-// complete.
+// The processor's own conversion rounds in the same way.  Each step writes twice 16 bytes past the
+// caches, because a frame is larger than the caches and is not read before it is complete.
 constexpr int kAtOnce = 16;
 
-// Returns the number of halves before the first address to which such a write may go.
+// Returns the number of halves before the first address at which such a step may begin, a multiple
+// of 32 bytes.
 int until_aligned(const std::uint16_t* out, int count) {
   const auto beyond = static_cast<int>(reinterpret_cast<std::uintptr_t>(out) / 2 % kAtOnce);
   return std::min(count, (kAtOnce - beyond) % kAtOnce);

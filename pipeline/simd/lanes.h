@@ -70,7 +70,8 @@ template <int kCount>
 [[gnu::always_inline]] inline float binary_logarithm(float x) {
   constexpr std::int32_t kRootHalf = 0x3f3504f3, kMantissa = 0x007fffff;
   constexpr float kTwoOverLn2 = 2.885390082f;
-  // Less the bits of sqrt(1/2), the upper bits are n, and the lower ones say where m lies above it.
+  // Once the bits of sqrt(1/2) are subtracted, the upper bits are n, and the lower ones say how far
+  // m lies above sqrt(1/2).
   const std::int32_t bits = std::bit_cast<std::int32_t>(x) - kRootHalf;
   const auto m = std::bit_cast<float>((bits & kMantissa) + kRootHalf);
   const float s = (m - 1.0f) / (m + 1.0f), t = s * s;

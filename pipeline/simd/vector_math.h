@@ -9,8 +9,8 @@
 
 namespace domefall {
 
-// Adding this to a number below 2^51 rounds the number to an integer, which then stands in the
-// lowest bits of the sum.
+// Adding this to a number of absolute value below 2^51 rounds the number to an integer, which then
+// stands in the lowest bits of the sum.
 inline constexpr double kRounding = 6755399441055744.0;  // 1.5 * 2^52
 
 struct SineCosine {

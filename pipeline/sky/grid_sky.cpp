@@ -17,6 +17,7 @@ constexpr double kSquareTemperature = 8000, kPolarTemperature = 2000;
 // Milky Way.
 constexpr double kLightSquare = 4e-4, kDarkSquare = kLightSquare / 4, kPolarDisc = 8e-4;
 
+// The sum rounds to a whole number, and the difference is exact (vector_math.h).
 double nearest_whole(double x) { return (x + kRounding) - kRounding; }
 
 // Returns the mean, over a box of this width about x, of the square wave that is 1 on [0, 1) and -1
@@ -34,6 +35,8 @@ double to_square_border(double angle) {
   return std::abs(angle - kCell * nearest_whole(angle / kCell));
 }
 
+// This loop is compiled once for each instruction set (dispatch.h), and so it selects and does not
+// branch.
 [[gnu::always_inline]] inline void grid_lights_loop(const GridPlaces& places, int count,
                                                     const GridLights& lights) {
   const GridPlaces at = places;

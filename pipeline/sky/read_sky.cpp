@@ -17,6 +17,8 @@
 namespace domefall {
 namespace {
 
+// Returns the image of a panorama, and throws InputError unless it is a whole sphere with some
+// light.  Interpolation needs two rows at least (panorama.cpp).
 FloatImage read_panorama(const std::filesystem::path& file) {
   FloatImage image = read_image(file);
   if (image.width < 4 || image.height < 2 || image.width != 2 * image.height)
@@ -42,6 +44,7 @@ bool is_microwave_background(const SkyOrigin& origin) {
 BackgroundMap read_sky(const std::filesystem::path& file, int largest_face) {
   if (is_sky_file(file)) {
     const SkyFile opened(file);
+    // Only the levels that are kept are verified.
     if (opened.bytes() <= kReadWhole) opened.verify(largest_face);
     return {std::make_shared<const SkyMap>(opened.map().without_levels_above(largest_face)),
             is_microwave_background(opened.origin())};
@@ -56,6 +59,7 @@ void try_sky(const std::filesystem::path& file) {
     read_panorama(file);
 }
 
+// The header of a .sky file holds the checksums of all faces, and an image is read as a whole.
 std::string sky_digest(const std::filesystem::path& file) {
   if (is_sky_file(file)) return "sky " + SkyFile(file).digest();
   return Digest().add_file(file).hex();

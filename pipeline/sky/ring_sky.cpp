@@ -11,6 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
+// ring_sky.h gives the temperature.  The luminances are those of the grid's squares (grid_sky.cpp).
 constexpr double kTemperature = 3000;
 constexpr double kLight = 4e-4, kDark = kLight / 4;  // cd/m^2
 
@@ -22,6 +23,7 @@ inline double ring_luminance(double phase, double width) {
   return (kLight + kDark) / 2 + (kLight - kDark) / 2 * sin_cos(2 * pi * turn).cosine * blur;
 }
 
+// This loop is compiled once for each instruction set (dispatch.h).
 [[gnu::always_inline]] inline void ring_lights_loop(const float* phase, const float* width,
                                                     int count, float* luminance) {
   for (int k = 0; k < count; ++k)
@@ -34,6 +36,7 @@ Dispatched<ring_lights_loop> ring_lights_by_set;
 WorkingRgb ring_colour() {
   static const WorkingRgb colour = [] {
     const WorkingRgb c = blackbody_colours().surface(kTemperature);
+    // Y is the luminance of a full surface, so that the colour's own becomes 1.
     const auto unit = static_cast<float>(1 / blackbody_xyz(kTemperature).y);
     return WorkingRgb{c.r * unit, c.g * unit, c.b * unit};
   }();

@@ -1,4 +1,5 @@
-// Star catalogues in .stars files, whose checksums are made right, so that what they guard is reached.
+// The fuzzer reads star catalogues in .stars files.  Their checksums are made right, so that it
+// reaches what they guard.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

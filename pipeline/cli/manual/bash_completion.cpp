@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-// A verb with all its words, as it is typed.
+// A TypedVerb is a verb with all its words, as it is typed.
 struct TypedVerb {
   std::string words;
   const CLI::App* verb;
@@ -24,7 +24,8 @@ void collect(const CLI::App& app, const std::string& words, std::vector<TypedVer
     collect(*verb, words.empty() ? verb->get_name() : words + " " + verb->get_name(), all);
 }
 
-// What may stand for a value, in the words of _domefall_complete; "other" for what it cannot know.
+// Returns what may stand for a value, in the words of _domefall_complete.  That is "other" where
+// the completion cannot know it.
 std::string completion_kind(const DescribedOption& option) {
   const std::string many = option.takes_many ? "many " : "";
   if (!option.words.empty())

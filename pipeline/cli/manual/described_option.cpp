@@ -7,7 +7,8 @@
 namespace domefall {
 namespace {
 
-// CLI11 keeps them in the order of their addresses, which differs from run to run.
+// Returns the names in alphabetical order, because CLI11 keeps options in the order of their
+// addresses, which differs from run to run.
 std::vector<std::string> sorted_names(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   names.reserve(options.size());
@@ -16,7 +17,7 @@ std::vector<std::string> sorted_names(const std::set<CLI::Option*>& options) {
   return names;
 }
 
-// Takes the words of "{one,other}" or "{one,other},..."; false for anything else.
+// Takes the words of "{one,other}" or "{one,other},...".  Returns false for anything else.
 bool take_words(const std::string& text, DescribedOption& option) {
   const auto end = text.find('}');
   if (!text.starts_with('{') || end == std::string::npos) return false;
@@ -39,7 +40,7 @@ DescribedOption described(const CLI::Option& from) {
   option.excludes = sorted_names(from.get_excludes());
   if (!option.takes_value) return option;
   option.standard = from.get_default_str();
-  // CLI11 joins the type and what its checks say of themselves by colons.
+  // CLI11 writes the type and what its checks say of themselves with colons between them.
   const std::string type = from.get_type_name();
   const auto colon = type.find(':');
   if (take_words(type, option)) return option;

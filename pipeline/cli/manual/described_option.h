@@ -1,4 +1,5 @@
-// An option of the command line as the manual and bash completion need it, taken from CLI11.
+// A DescribedOption is an option of the command line as the manual and bash completion need it,
+// taken from CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,10 +24,10 @@ struct DescribedOption {
 
 DescribedOption described(const CLI::Option& from);
 
-// Those of a verb, in the order of --help, which comes first.
+// Returns the options of a verb in the order of --help, which itself comes first.
 std::vector<DescribedOption> described_options(const CLI::App& verb);
 
-// The verbs below a verb, in the order of --help.
+// Returns the verbs below a verb, in the order of --help.
 std::vector<const CLI::App*> verbs_of(const CLI::App& app);
 
 }  // namespace domefall

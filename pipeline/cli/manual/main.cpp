@@ -1,5 +1,5 @@
-// Writes the manual pages and the bash completion of domefall into a folder, when the build asks:
-// domefall_make_manual DATE FOLDER.
+// This program writes the manual pages and the bash completion of domefall into a folder, when the
+// build calls it as domefall_make_manual DATE FOLDER.
 
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-// The manual pages and the bash completion of domefall, as files.
+// This file writes the manual pages and the bash completion of domefall.
 
 #pragma once
 

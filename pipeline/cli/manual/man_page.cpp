@@ -31,7 +31,7 @@ std::string page_name(const std::string& verb) {
 std::string page_head(const std::string& verb, const std::string& date, std::string what) {
   std::string upper = page_name(verb);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  // What begins with an abbreviation stays as it is.
+  // A description that begins with an abbreviation keeps its capital.
   if (what.size() > 1 && !std::isupper(static_cast<unsigned char>(what[1])))
     what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
   return fmt::format(".TH {} 1 {} \"Domefall {}\" \"Domefall Manual\"\n", roff_text(upper), date,
@@ -40,7 +40,7 @@ std::string page_head(const std::string& verb, const std::string& date, std::str
          fmt::format("{} \\- {}\n", roff_text(page_name(verb)), roff_text(what));
 }
 
-// How a value is written: FILE, one|other, or NAME,... for several words.
+// Returns how a value is written, as FILE, one|other, or NAME,... for several words.
 std::string value_text(const DescribedOption& option) {
   if (option.joins_words) return roff_italic("NAME") + ",...";
   if (option.words.empty()) return roff_italic(option.value);
@@ -62,7 +62,7 @@ std::string synopsis_of(const CLI::App& verb, const std::string& command) {
   return line + " [" + roff_italic("OPTION") + "]...\n";
 }
 
-// What follows an option's meaning: bounds, default, other options.
+// Returns what follows an option's meaning, which is its bounds, its default and other options.
 std::string small_print(const DescribedOption& option) {
   std::vector<std::string> facts;
   if (option.joins_words || (option.is_argument && !option.words.empty()))

@@ -1,4 +1,4 @@
-// Text in the language of troff, of which manual pages are made.
+// These functions write text in the language of troff, of which manual pages are made.
 #pragma once
 
 #include <string>
@@ -6,16 +6,17 @@
 
 namespace domefall {
 
-// The text as it stands: no letter of it is taken for a command.  A dash stays one that can be
-// copied to a shell.
+// Returns the text as it stands, without any letter that troff would take for a command.  A dash
+// stays one that can be copied to a shell.
 std::string roff_text(std::string_view text);
 std::string roff_bold(std::string_view text);
 std::string roff_italic(std::string_view text);
 
-// .SH with the title.
+// Returns .SH with the title.
 std::string roff_section(std::string_view title);
 
-// Paragraphs with an empty line between them.  Each sentence begins a line, as troff asks.
+// Returns the paragraphs of a text, which has empty lines between them.  Each sentence begins a
+// line, as troff asks.
 std::string roff_paragraphs(std::string_view text);
 
 }  // namespace domefall

@@ -12,22 +12,23 @@ namespace domefall {
 namespace {
 
 // What cannot be packed is stored in blocks of up to 65535 bytes, each with 5 bytes before it.  The
-// rest are wrappers and the block that ends a part.
+// bound reckons with blocks of half that size.  The rest are wrappers and the block that ends a
+// part.
 std::size_t most_packed(std::size_t bytes) {
   constexpr std::size_t kBlock = 32768, kBlockHead = 5, kWrappers = 1024;
   return bytes + (bytes / kBlock + 1) * kBlockHead + kWrappers;
 }
 
-// isa-l.h does not say const.
+// isa-l.h lacks const even where the bytes are only read.
 unsigned char* bytes_of(std::string_view bytes) {
   return const_cast<unsigned char*>(reinterpret_cast<const unsigned char*>(bytes.data()));
 }
 
 __attribute__((target("avx"))) void clear_upper_halves() { _mm256_zeroupper(); }
 
-// This is to be had before each call of ISA-L, which leaves the upper halves of the vector
+// One of these is declared before each call of ISA-L, which leaves the upper halves of the vector
 // registers in use (2.30).  Until they are cleared, each instruction of SSE that follows on this
-// thread waits for the ones before it.  OpenColorIO took ten times as long for a pixel.
+// thread waits for the ones before it.  Otherwise OpenColorIO takes ten times as long for a pixel.
 class UpperHalvesCleared {
  public:
   UpperHalvesCleared() = default;
@@ -53,7 +54,8 @@ void Deflater::pack(std::string_view bytes, bool whole, ByteBlock& out) {
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2)
     throw std::length_error("more bytes than ISA-L packs at once");
   out.reserve(most_packed(bytes.size()));
-  // ISA-L 2.30 leaves hist_bits, a bound on distances, as it was.
+  // ISA-L 2.30 does not set hist_bits, a bound on distances, so the stream is filled with zeros
+  // first.
   isal_zstream& stream = *new (stream_.data()) isal_zstream{};
   isal_deflate_stateless_init(&stream);
   stream.level = 1;

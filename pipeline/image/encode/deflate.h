@@ -40,8 +40,9 @@ class Deflater {
   // Makes a whole zlib stream (RFC 1950).
   void pack_stream(std::string_view bytes, ByteBlock& out);
 
-  // Makes a part of a stream, which ends with a byte and does not refer to the parts before it.  A
-  // stream is kStreamStart, any number of parts, kStreamEnd, and the Adler-32 sum of all bytes.
+  // Makes a part of a stream, which ends at the end of a byte and does not refer to the parts
+  // before it.  A stream is kStreamStart, any number of parts, kStreamEnd, and the Adler-32 sum of
+  // all bytes.
   void pack_part(std::string_view bytes, ByteBlock& out);
 
  private:
@@ -59,7 +60,8 @@ unsigned crc32_of(std::string_view bytes, unsigned before = 0);
 // Returns RFC 1950's Adler-32, which begins with 1, of bytes that follow those of `before`.
 unsigned adler32_of(std::string_view bytes, unsigned before = 1);
 
-// Returns it for `count` bytes that follow others and whose own sum, counted from 1, is `second`.
+// Returns the Adler-32 of bytes whose sum is `first`, followed by `count` bytes whose own sum,
+// counted from 1, is `second`.
 unsigned adler32_joined(unsigned first, unsigned second, std::size_t count);
 
 }  // namespace domefall

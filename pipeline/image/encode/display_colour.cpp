@@ -21,8 +21,8 @@ std::string png_number(double value) {
   return bytes;
 }
 
-// This is of the decoding curve.  PNG states its inverse, and for sRGB the specification's
-// 11.3.3.5.
+// DisplayColour::gamma is the exponent that decodes, and PNG states its inverse.  For sRGB the
+// number is the specification's (second edition, 11.3.3.5).
 std::string png_gamma(const DisplayColour& colour) {
   constexpr double kOfSrgb = 0.45455;
   return png_number(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);
@@ -40,7 +40,7 @@ cmsCIExyY place_of(const DisplayColour& colour, std::size_t k) {
 
 std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour) {
   std::vector<PngChunk> chunks;
-  if (is_srgb(colour)) chunks.push_back({"sRGB", std::string(1, '\0')});  // as seen, perceptual
+  if (is_srgb(colour)) chunks.push_back({"sRGB", std::string(1, '\0')});  // intent: perceptual
   chunks.push_back({"gAMA", png_gamma(colour)});
   std::string places;
   for (const std::size_t k : {6U, 7U, 0U, 1U, 2U, 3U, 4U, 5U}) places += png_number(colour.xy[k]);

@@ -17,8 +17,8 @@ struct DisplayColour {
   bool operator==(const DisplayColour&) const = default;
 };
 
-// These are the primaries of ITU-R BT.709 (and sRGB), BT.2020, SMPTE RP 431-2 (DCI) and the last
-// with the white D65.
+// These are the primaries and whites of ITU-R BT.709, which sRGB shares, of BT.2020, of SMPTE RP
+// 431-2 (DCI-P3), and of the last with the white D65.
 inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
                                                      0.15, 0.06, 0.3127, 0.329},
     kRec2020Places{0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329},

@@ -5,22 +5,24 @@ namespace {
 
 constexpr std::uint32_t kCodeStep = 257;  // 16-bit codes in a step of 8 bits
 
-// Returns a number without visible order.  [Wellons] "Prospecting for hash functions", lowbias32.
+// Returns a hash of x, in which no order is visible.  It is lowbias32 of [Wellons] "Prospecting for
+// hash functions".
 constexpr std::uint32_t scrambled(std::uint32_t x) {
   x = (x ^ x >> 16) * 0x7feb352dU;
   x = (x ^ x >> 15) * 0x846ca68bU;
   return x ^ x >> 16;
 }
 
-// Returns a 16-bit number as one below kStep.
+// Returns a 16-bit number as one below kCodeStep.
 constexpr std::uint32_t even(std::uint32_t bits) { return bits * kCodeStep >> 16; }
 
-// Returns x/kStep rounded down, for x below 2^16 + kStep, because 65281 kStep is 2^24 + 1.
+// Returns x/kCodeStep rounded down, for x < 2^16 + kCodeStep.  It does so because 65281 kCodeStep =
+// 2^24 + 1.
 constexpr std::uint32_t steps_in(std::uint32_t x) { return x * 65281U >> 24; }
 static_assert(steps_in(257) == 1 && steps_in(256) == 0 && steps_in(65791) == 255);
 
-// floor((value + n)/kStep), where n has each whole number below kStep as often, has the mean
-// value/kStep exactly (Hermite's identity).
+// floor((value + n)/kCodeStep), where n is each whole number below kCodeStep equally often, has the
+// mean value/kCodeStep exactly (Hermite's identity).
 constexpr std::uint8_t rounded(std::uint32_t value, std::uint32_t noise) {
   constexpr std::uint32_t kHalf = kCodeStep / 2, kWhite = 65535;
   const std::uint32_t first = even(noise & 0xffff), second = even(noise >> 16);

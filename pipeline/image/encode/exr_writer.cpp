@@ -75,7 +75,7 @@ bool is_rgb(const ExrPicture& picture) {
   return std::ranges::equal(picture.channels, std::array{"R", "G", "B"});
 }
 
-// This is a file in the making, with its header written.
+// An ExrInTheMaking is a file whose header is written and whose pixels are to follow.
 class ExrInTheMaking {
  public:
   ExrInTheMaking(ByteSink& sink, const ExrPicture& picture) {

@@ -6,7 +6,7 @@
 namespace domefall {
 namespace {
 
-// These are the words of 16 bits in a number, the lower one first.
+// Returns how many words of 16 bits a number has.  The lower word comes first.
 constexpr std::size_t words_in(const Imath::half*) { return 1; }
 constexpr std::size_t words_in(const float*) { return 2; }
 

@@ -1,4 +1,4 @@
-// Writes JPEG files of 8 bits, whose colours are as fine as their light (4:4:4).
+// This file writes JPEG files of 8 bits, whose colours are as fine as their light (4:4:4).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// The longest comment holds so many bytes.
+// A comment holds at most this many bytes.
 inline constexpr std::size_t kLongestJpegComment = 65533;
 
 struct JpegHead {

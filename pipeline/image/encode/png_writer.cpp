@@ -15,7 +15,7 @@ std::string big_endian_bytes(std::uint32_t number) {
   return bytes;
 }
 
-// This has the data of a chunk in pieces, whose name is of four letters.
+// Writes a chunk, whose name has four letters and whose data come in pieces.
 void write_chunk(ByteSink& sink, std::string_view name,
                  std::initializer_list<std::string_view> data) {
   std::size_t length = 0;
@@ -27,8 +27,8 @@ void write_chunk(ByteSink& sink, std::string_view name,
   sink.write(big_endian_bytes(crc));
 }
 
-// This is the specification's 9.2.  The first row of a strip does not refer to the one above it,
-// which another thread makes.
+// These are types of filter (the specification's 9.2).  The first row of a strip does not refer to
+// the one above it, which another thread makes.
 constexpr unsigned char kSub = 1, kUp = 2;
 
 class PngStrip {

@@ -1,4 +1,4 @@
-// Writes PNG files of 8 or 16 bits, RGB without alpha.
+// This file writes PNG files of 8 or 16 bits, in RGB without alpha.
 #pragma once
 
 #include <string>

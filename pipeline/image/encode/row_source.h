@@ -1,4 +1,4 @@
-// These are pictures of which no whole one need be in memory.
+// A RowPicture is made some rows at a time, so that it need not be in memory as a whole.
 #pragma once
 
 #include <functional>

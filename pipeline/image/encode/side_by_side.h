@@ -15,8 +15,8 @@ void set_encoder_threads(int threads);
 int encoder_threads();
 
 // Calls make(part, slot) for the parts 0 to count - 1 on several threads, and put(part, slot) for
-// one after the other.  A slot is the memory of a part from its making until it is put.  One that
-// was put serves another part.  Throws what make and put throw.
+// one part after the other, in their order.  A slot is the memory of a part from its making until
+// it is put.  One that was put serves another part.  Throws what make and put throw.
 template <class Slot, class Make, class Put>
 void make_in_order(int count, const Make& make, const Put& put) {
   const int threads = encoder_threads();
@@ -25,7 +25,7 @@ void make_in_order(int count, const Make& make, const Put& put) {
     for (int part = 0; part < count; ++part) make(part, slot), put(part, slot);
     return;
   }
-  // There are so many slots that none waits for the one that writes.
+  // There are so many slots that no thread waits for the one that writes.
   const std::size_t tokens = 2 * static_cast<std::size_t>(threads);
   std::vector<Slot> slots(tokens);
   const auto slot_of = [&](int part) -> Slot& {

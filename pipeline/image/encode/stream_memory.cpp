@@ -45,8 +45,8 @@ void* map_at(std::uintptr_t address, std::size_t bytes) {
 void StreamMemory::Unmap::operator()(void* place) const { munmap(place, bytes); }
 
 StreamMemory::StreamMemory(std::size_t bytes) : place_(nullptr, Unmap{bytes}) {
-  // The place is below what the kernel gives, where it puts all else.  One granule of 2^13 has slot
-  // 0, and those that are in use are passed over.
+  // The search begins where the kernel would put new memory and goes down from there, where little
+  // is in use.  One granule in 2^13 has slot 0.  Granules that are in use are passed over.
   void* somewhere = map_at(0, bytes);
   if (!somewhere) throw std::bad_alloc();
   auto granule = reinterpret_cast<std::uintptr_t>(somewhere) >> kGranuleBits;

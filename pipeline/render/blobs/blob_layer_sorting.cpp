@@ -1,4 +1,4 @@
-// The functions of BlobLayer that sort the placed blobs into bands of rows.
+// These functions of BlobLayer sort the placed blobs into bands of rows.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>

@@ -17,8 +17,8 @@ class BlackbodyTable {
     float r, g, b, luminance;
   };
 
-  // Interpolates blackbody_colours() at any temperature >= 0.  Measured: within a relative 1e-4 of
-  // it above 3000 K, and within 4e-4 above 1000 K.
+  // Interpolates blackbody_colours() at any temperature >= 0.  The measured relative error is below
+  // 1e-4 above 3000 K, and below 4e-4 above 1000 K.
   Light operator()(double temperature) const {
     // The key holds the exponent and the first kBits of the mantissa.  Between two keys the
     // temperature grows linearly with the rest of the bits, which become the weight w.  A key below

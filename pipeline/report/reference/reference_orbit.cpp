@@ -23,6 +23,7 @@ Gained gained(const ReferenceOrbit& orbit, const Real50& from, int sign, const R
     sums.tau += rate;
     sums.azimuth += rate * orbit.angular_momentum / (r * r);
   };
+  // Boost keeps the positive half of the nodes, since the rule is even.
   for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
     add(Rule::abscissa()[k], Rule::weights()[k]);
     add(-Rule::abscissa()[k], Rule::weights()[k]);
@@ -35,6 +36,8 @@ Gained gained(const ReferenceOrbit& orbit, const Real50& from, int sign, const R
 Real50 ReferenceOrbit::energy() const { return sqrt(Real50(1 + excess_energy)); }
 
 Real50 ReferenceOrbit::radial_speed(const Real50& r) const {
+  // This is u^2 of reference_orbit.h, with 2/r - L^2/r^2 + 2 L^2/r^3 written as
+  // w (2 - L^2 w^2 (r - 2)).
   const Real50 w = 1 / r, lw = angular_momentum * w;
   return sqrt(Real50(excess_energy + w * (2 - lw * lw * (r - 2))));
 }
@@ -47,6 +50,7 @@ ReferenceOrbit orbit_between(const Real50& near, const Real50& far) {
   return {(1 - 2 * a) * (1 + l2 * a * a) - 1, sqrt(l2)};
 }
 
+// Each interval between neighbouring radii is integrated by itself, and the gains are added up.
 std::vector<ReferencePlace> reference_leg(const ReferenceOrbit& orbit, const Real50& from,
                                           const std::vector<Real50>& radii) {
   std::vector<ReferencePlace> places;

@@ -24,7 +24,8 @@ TaylorSeries orbit_series(const Digits50& w, const Digits50& slope) {
   return a;
 }
 
-// Returns the step over which the last two terms are at most 1e-40 of the first.
+// Returns the step over which the last two terms are at most 1e-40 of the first, by solving
+// |a_n| h^n = 1e-40 |a_0| for h.  Two terms are asked, because one of them may be small by chance.
 double step_of(const TaylorSeries& a) {
   const double size = std::log(static_cast<double>(abs(a[0])));
   const auto allowed = [&](int n) {
@@ -34,6 +35,7 @@ double step_of(const TaylorSeries& a) {
   return std::min(allowed(kTaylorOrder), allowed(kTaylorOrder - 1));
 }
 
+// Returns the sum of the series at h, by Horner's scheme.
 Digits50 sum_at(const TaylorSeries& a, const Digits50& h) {
   Digits50 sum = a[kTaylorOrder];
   for (int n = kTaylorOrder - 1; n >= 0; --n) sum = sum * h + a[n];
@@ -67,6 +69,8 @@ struct Clock {
   TaylorSeries rate;  // of -v or -u
 };
 
+// Returns the clock for the place where the orbit has these slopes.  For e w' <= 0 the terms of
+// e - w' have one sign, and otherwise those of e + w'.
 Clock clock_at(const Digits50& e, const TaylorSeries& slope) {
   const bool counts_v = e * slope[0] <= 0;
   TaylorSeries off{};
@@ -90,6 +94,7 @@ ReferenceRayPlace reference_position(const ReferenceRequest& q, double psi) {
     const Digits50 star_before = clock.counts_v == wants_v ? Digits50(0) : star(1 / w);
     w = sum_at(orbit, h);
     slope = sum_at(slopes, h);
+    // The integral of a series has the terms rate_n h^(n+1)/(n + 1).
     TaylorSeries passed{};
     for (int n = 0; n < kTaylorOrder; ++n) passed[n + 1] = clock.rate[n] / (n + 1);
     time -= sum_at(passed, h);

@@ -14,6 +14,7 @@ Wide square(const Wide& x) { return x * x; }
 
 using Invariants = ReferenceInvariants;
 
+// Returns E, L and k^r by the table in the header.
 Invariants plain_invariants(ReferenceObserver observer, const Wide& r, const Wide& delta) {
   const Wide c = cos(delta), l = r * sin(delta), s = sqrt(2 / r);
   const Wide at_rest = sqrt(abs(1 - 2 / r));
@@ -46,6 +47,7 @@ struct Course {
 // the side of the circle and on the sign of k^r.
 Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k) {
   using enum ReferenceOrigin;
+  // From region IV a ray can only lead back to the singularity that it left.
   const bool white_hole =
       observer == ReferenceObserver::kFour || (observer == ReferenceObserver::kOutgoing && r <= 2);
   if (white_hole) return {kPastSingularity, OrbitPath::kFromSingularity};
@@ -54,6 +56,7 @@ Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k)
     if (!captured) return {kPastSingularity, OrbitPath::kFromSingularityTurning};
     return {k.energy > 0 ? kSkyOne : kSkyThree, OrbitPath::kFromSky};
   }
+  // k^r < 0 is light that falls, so back in time it leads outwards.
   if (k.radial < 0) {
     if (captured || r > 3) return {kSkyOne, OrbitPath::kFromSky};
     return {kPastSingularity, OrbitPath::kFromSingularityTurning};
@@ -64,7 +67,8 @@ Course course_of(ReferenceObserver observer, const Wide& r, const Invariants& k)
 
 // ---- The azimuth ----
 
-// Returns Legendre's F(psi, k) for 0 <= psi <= pi/2, by DLMF 19.25.5.
+// Returns Legendre's F(psi, k) for 0 <= psi <= pi/2, by DLMF 19.25.5.  With c = 1/sin^2(psi) that
+// is R_F(c - 1, c - k^2, c), and R_F is homogeneous of degree -1/2.
 Wide legendre_f(const Wide& sin2_psi, const Wide& k2) {
   return sqrt(sin2_psi) * ellint_rf(Wide(1 - sin2_psi), Wide(1 - k2 * sin2_psi), Wide(1));
 }
@@ -149,6 +153,7 @@ Wide half_angle_edge(const Wide& numerator, const Wide& r) {
   return 2 * atan(numerator / (sqrt(Wide(27)) * (1 + sqrt(2 / r))));
 }
 
+// Throws unless there is such an observer at r.
 void check_radius(ReferenceObserver observer, const Wide& r) {
   const bool inside = observer == ReferenceObserver::kTwo || observer == ReferenceObserver::kFour;
   if (r <= 0 || (inside && r >= 2) || (observer == ReferenceObserver::kStatic && r <= 2))
@@ -164,6 +169,7 @@ Wide delta_of(const ReferenceRequest& q) {
 Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edge) {
   check_radius(observer, r);
   const bool third = edge == ReferenceEdge::kRegionThree;
+  // Its square is r^2 - 27 (1 - 2/r), the discriminant of [Riazuelo] eq. tan_delta.
   const Wide reach = (r - 3) * sqrt(1 + 6 / r);
   switch (observer) {
     case ReferenceObserver::kRain:
@@ -176,6 +182,7 @@ Wide reference_edge(ReferenceObserver observer, const Wide& r, ReferenceEdge edg
       if (third) break;
       // L = sqrt(27) E gives sin(delta) = sqrt(27 (1 - 2/r))/r, and 1 - sin^2 is (reach/r)^2.
       return atan2(sqrt(27 * (1 - 2 / r)), reach);
+    // L/|E| = r |tan(delta)|/sqrt(2/r - 1), which is sqrt(27) on both sides of pi/2.
     case ReferenceObserver::kTwo: {
       const Wide angle = atan(sqrt(27 * (2 / r - 1)) / r);
       return third ? angle : wide_pi() - angle;
@@ -200,6 +207,7 @@ ReferenceRay reference_ray(const ReferenceRequest& q) {
   const Wide h("1e-40");
   const Wide slope = (phi(delta + h) - phi(delta - h)) / (2 * h);
   const Wide swept = phi(delta);
+  // On the axis sin(delta)/sin(phi) is 0/0, and tends to 1/slope in absolute value.
   const bool far_end = swept == 0;
   const Wide amplification = far_end ? 1 / square(slope) : abs(sin(delta) / (sin(swept) * slope));
   return {delta, course.origin, swept, abs(k.energy), slope, amplification};

@@ -6,6 +6,7 @@ namespace domefall {
 
 std::string with_commas(std::size_t count) {
   std::string digits = fmt::to_string(count);
+  // The commas go in from the right, so that the places of those to come do not move.
   for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
   return digits;
 }

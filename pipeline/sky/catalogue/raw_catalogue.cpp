@@ -6,6 +6,7 @@
 namespace domefall {
 namespace {
 
+// This stands for the index of a star that was removed.
 constexpr std::uint32_t kGone = static_cast<std::uint32_t>(-1);
 
 // Gives the names the new indices of their stars, and removes those whose star is gone.
@@ -23,6 +24,7 @@ void sort_by_brightness(RawCatalogue& catalogue) {
   // Sorting pairs of magnitude and index is three times as fast as sorting the stars.
   std::vector<std::pair<float, std::uint32_t>> order(count);
   for (std::uint32_t i = 0; i < count; ++i) order[i] = {catalogue.stars[i].v, i};
+  // Stars of one magnitude are ordered by their index, which keeps their order.
   std::sort(order.begin(), order.end());
   std::vector<CatalogueStar> sorted;
   sorted.reserve(count);
@@ -36,6 +38,7 @@ void sort_by_brightness(RawCatalogue& catalogue) {
 }
 
 void keep_brighter(RawCatalogue& catalogue, double faintest) {
+  // V is a float, and the limit is rounded to one, so that a star exactly at the limit stays.
   const auto limit = static_cast<float>(faintest);
   std::vector<std::uint32_t> index_of(catalogue.stars.size(), kGone);
   std::uint32_t kept = 0;
@@ -53,8 +56,10 @@ void identify_by_hipparcos(std::vector<CatalogueStar>& stars) {
   for (CatalogueStar& star : stars) {
     if (star.hip == 0) continue;
     CatalogueStar*& best = brightest[star.hip];
+    // Of stars that are equally bright the first one wins.
     if (!best || star.v < best->v) best = &star;
   }
+  // Each entry changes a star of its own, so that the order of the map does not matter.
   for (const auto& [hip, star] : brightest) star->id = hipparcos_id(hip);
 }
 

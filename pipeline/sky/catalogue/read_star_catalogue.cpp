@@ -20,6 +20,7 @@ bool is_colour(float colour) {
          (colour >= kColdest && colour <= kHottest);
 }
 
+// Returns the direction of a record, which has a length of 1 to rounding.
 V3d vector_of(const StarRecord& r) {
   return {r.x / kUnitLength, r.y / kUnitLength, r.z / kUnitLength};
 }
@@ -53,6 +54,8 @@ SkyDirection direction_in_row(const CsvFile& row, double epoch) {
   return moved(direction, pm_ra, pm_dec, epoch - kCatalogueEpoch);
 }
 
+// Returns the stars of a table.  Every row is read as a whole, so that a damaged one is reported
+// whatever the limit is.
 StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude, double epoch,
                          std::size_t whole) {
   CsvFile row(file, {"ra_deg", "dec_deg", "v_mag", "b_v"});
@@ -73,10 +76,13 @@ StarCatalogue read_table(const std::filesystem::path& file, double max_magnitude
   thin_out(stars.size(), whole, [&](std::size_t k, std::size_t count) {
     catalogue.stars.push_back(standing_for(stars[k], count));
   });
+  // A star that stands for several is brighter than it was, and may now belong before others.
   sort_by_magnitude(catalogue.stars);
   return catalogue;
 }
 
+// Says whether a file is to be read as a .stars file, also one that is shorter than its header
+// (is_of_format).
 bool begins_as_star_file(const std::filesystem::path& file) {
   return is_of_format(file, {kStarMagic.data(), kStarMagic.size()}, kStarExtension,
                       sizeof(StarFileHeader));
@@ -90,6 +96,7 @@ StarCatalogue stars_of(const StarFile& file, double max_magnitude, double epoch,
   // A record is refused wherever it is read, even if another star stands for it.
   for (const StarRecord& r : records)
     if (!is_star(r)) file.fail_at(r, "this record is no star");
+  // Places are moved from the epoch that the file states.
   const double years = epoch - file.epoch();
   StarCatalogue catalogue;
   if (whole >= records.size()) catalogue.stars.reserve(records.size());

@@ -6,6 +6,7 @@
 namespace domefall {
 
 Star standing_for(Star star, std::size_t count) {
+  // A factor in flux is -2.5 log10 of it in magnitudes, by Pogson's scale.
   star.v_magnitude -= static_cast<float>(2.5 * std::log10(static_cast<double>(count)));
   return star;
 }

@@ -60,6 +60,7 @@ std::string packed_text(const CatalogueText& text) {
   return lines;
 }
 
+// Returns the table of names, in which a name is cut at kLongestName bytes.
 std::string packed_names(const std::vector<StarName>& names) {
   std::string out;
   for (const StarName& name : names) {
@@ -85,6 +86,7 @@ std::string index_of(const std::vector<CatalogueStar>& stars, std::string_view r
   return index;
 }
 
+// Returns the header of a file whose parts follow each other in the order of star_file.h.
 StarFileHeader star_header(const RawCatalogue& catalogue, const std::string& index,
                            const std::string& text, const std::string& names) {
   StarFileHeader head{};
@@ -188,6 +190,8 @@ StarFile::StarFile(const std::filesystem::path& file) : file_(file) {
 // The header's checksum covers the checksums of everything else.
 std::string StarFile::fingerprint() const { return fmt::format("{:016x}", head_sum_); }
 
+// Throws InputError, with the byte where the block begins, unless its records have the checksum of
+// the index.
 void StarFile::check_block(std::size_t block) const {
   const std::size_t first = block * kBlockStars,
                     count = std::min<std::size_t>(kBlockStars, stars_ - first);
@@ -198,6 +202,8 @@ void StarFile::check_block(std::size_t block) const {
 }
 
 std::span<const StarRecord> StarFile::up_to(double limit) const {
+  // V is stored as a float, and the limit is rounded to one, so that a star exactly at the limit
+  // counts.
   const auto faintest = static_cast<float>(limit);
   const auto* records = reinterpret_cast<const StarRecord*>(file_.bytes().data() + records_at_);
   const std::size_t blocks = block_count(stars_);
@@ -236,6 +242,7 @@ std::vector<StarName> StarFile::names(std::size_t stars) const {
     constexpr std::size_t kNumbers = 2 * sizeof(std::uint32_t);
     if (names_.size() - i < kNumbers) fail(place, "a name is cut short");
     const auto star = at<std::uint32_t>(names_, i);
+    // The length is compared with what is left of the table, so that no name reaches beyond it.
     const auto length = at<std::uint32_t>(names_, i + sizeof star);
     if (length > names_.size() - i - kNumbers) fail(place, "a name is cut short");
     // Names are in the order of their stars.
@@ -259,6 +266,7 @@ void write_star_file(const std::filesystem::path& file, const RawCatalogue& cata
   std::string bytes;
   bytes.reserve(head.file_size);
   bytes.append(bytes_of(head)).append(index).append(text).append(names);
+  // The filling is of zeros, which the reader checks.
   bytes.resize(head.records_at, '\0');
   bytes += record_bytes;
   write_atomically(file, bytes);

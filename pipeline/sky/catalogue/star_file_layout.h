@@ -11,7 +11,10 @@ namespace domefall {
 inline constexpr const char* kStarExtension = ".stars";
 inline constexpr std::array<char, 8> kStarMagic{'\x89', 'S', 'T', 'A', 'R', 'S', '\r', '\n'};
 inline constexpr std::uint32_t kByteOrder = 0x01020304, kStarFileVersion = 1;
+// A block has 128 KiB and a checksum of its own, so that a limit of magnitude reads and checks no
+// more than it needs.
 inline constexpr std::uint32_t kBlockStars = 4096;
+// Records begin on a line of the cache, and two of them fill one.
 inline constexpr std::size_t kRecordAlignment = 64;
 inline constexpr std::uint64_t kMostStars = 1u << 31;
 inline constexpr std::uint32_t kLongestName = 256;

@@ -11,11 +11,13 @@ namespace {
 enum class Kind : std::uint32_t { kHip = 1, kHd = 2, kTycho = 3 };  // 0: none
 
 // The kind, and the region and number of a Tycho star, begin at these of the 32 bits.  The two
-// lowest bits of a Tycho star hold its component less 1.
+// lowest bits of a Tycho star hold its component less 1.  Regions and numbers are below 2^14, so
+// that a Tycho star just fills the 30 bits below the kind.
 constexpr int kKindBit = 30, kRegionBit = 16, kNumberBit = 2;
 constexpr StarId kLargestNumber = (1u << kKindBit) - 1;
 constexpr std::uint32_t kRegions = 9537, kNumbersInRegion = 12121, kComponents = 4;
 
+// Returns the identifier of a number, which must be below 2^30.
 constexpr StarId of_kind(Kind kind, std::uint32_t number) {
   return (static_cast<std::uint32_t>(kind) << kKindBit) | number;
 }
@@ -26,6 +28,7 @@ std::vector<std::uint32_t> numbers_of(std::string_view text) {
   for (;;) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // No catalogue numbers a star or a component 0.
     if (error != std::errc() || value == 0 || value > kLargestNumber) return {};
     numbers.push_back(value);
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));

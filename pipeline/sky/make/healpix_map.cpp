@@ -78,6 +78,8 @@ HealpixMap::Ring HealpixMap::ring(long number) const {
 }
 
 double HealpixMap::on_ring(const Ring& r, double phi) const {
+  // `at` counts pixels from the centre of the ring's first one, which is `shift` pixels east of
+  // longitude 0.  It may be negative, so that `count` is added before the remainder is taken.
   const double at = phi / (2 * pi) * static_cast<double>(r.count) - r.shift;
   const double low = std::floor(at);
   const long k = (static_cast<long>(low) + r.count) % r.count;
@@ -87,6 +89,7 @@ double HealpixMap::on_ring(const Ring& r, double phi) const {
 }
 
 double HealpixMap::pole(std::size_t first) const {
+  // The first and the last ring have four pixels each.
   const float* v = &file_.values[first];
   return (static_cast<double>(v[0]) + v[1] + v[2] + v[3]) / 4;
 }
@@ -94,7 +97,8 @@ double HealpixMap::pole(std::size_t first) const {
 // Returns the last ring at or north of a place, or 0 if the place is north of the first ring.
 long HealpixMap::ring_above(double z, double across) const {
   // The formulas for z of a ring are solved for its number.  from_pole is 1 - |z| without
-  // cancellation.
+  // cancellation.  Between the caps z = 2 (2 - ring/n)/3, and in a cap 1 - |z| = ring^2/(3 n^2),
+  // with rings counted from its pole.
   const double n = file_.nside, from_pole = across * across / (1 + std::abs(z));
   if (std::abs(z) <= 2.0 / 3) return static_cast<long>(n * (2 - 1.5 * z));
   const auto north = static_cast<long>(n * std::sqrt(3 * from_pole));
@@ -126,6 +130,8 @@ double HealpixMap::at(const V3d& direction) const {
   return a + std::clamp((theta - from) / (to - from), 0.0, 1.0) * (b - a);
 }
 
+// A pixel is as wide as a square of sqrt(pi/3)/nside radians, or 58.6 degrees/nside.  That is 2.6
+// texels of 90 degrees/(4 nside).
 int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestFaceOfHealpix); }
 
 M33d frame_from_equatorial(SkyFrame frame) {
@@ -149,6 +155,7 @@ void paint_healpix(const HealpixMap& map, SkyFrame frame, double luminance,
   const double scale = luminance / pyramid.unit;
   const ColourMatrix& m = working_from_rec709();
   const auto painter = [&](const V3d& d, float* channel) {
+    // Equal red, green and blue of Rec. 709 are the grey of D65, which becomes a row's sum here.
     const double grey = std::max(map.at(apply(turn, d)), 0.0) * scale;
     for (int k = 0; k < 3; ++k)
       channel[k] = static_cast<float>(grey * (m[k][0] + m[k][1] + m[k][2]));

@@ -20,6 +20,8 @@ namespace {
   throw InputError(import.image.string() + ": " + what);
 }
 
+// Says whether a file is of FITS.  Its first card is SIMPLE, whose name takes 8 bytes and is
+// followed by '=' (FITS standard 4.0, sec. 4.1.2 and 4.4.1).
 bool is_fits(const std::filesystem::path& path) {
   constexpr std::string_view kStart = "SIMPLE  =";
   return start_of_file(path, kStart.size()) == kStart;
@@ -31,6 +33,7 @@ SkyOrigin written_origin(const SkyImport& import, const Orientation& orientation
           import.fainter_than};
 }
 
+// Makes a colour map of an equirectangular image, and returns the orientation that its file states.
 Orientation import_panorama(const SkyImport& import) {
   if (import.cmb) refuse_import(import, "the microwave background comes as a HEALPix map");
   const LightImage image = read_light_image(import.image, import.encoding);
@@ -50,11 +53,14 @@ Orientation import_panorama(const SkyImport& import) {
   return import.orientation;
 }
 
+// Returns the frame that the command gives, or else the one that the file states.
 SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
   if (import.frame_given) return import.orientation.frame;
   // The FITS keyword COORDSYS names the frame by its first letters.
   const std::string& c = file.coordinates;
   if (c.starts_with('G') || c.starts_with('g')) return SkyFrame::kGalactic;
+  // C and Q mean equatorial (celestial) coordinates.  E alone means ecliptic ones, which are
+  // refused.
   if (c.starts_with('C') || c.starts_with('Q') || c.starts_with("EQ")) return SkyFrame::kEquatorial;
   if (c.empty()) refuse_import(import, "it does not say in which coordinates it is; give --frame");
   refuse_import(
@@ -76,6 +82,7 @@ double kelvin_of(const SkyImport& import, const std::string& units) {
                           units));
 }
 
+// Returns the line by which read_sky() recognises a microwave background.
 std::string cmb_text(const CmbSettings& cmb) {
   return fmt::format("{}at redshift {:f}, contrast {:f}\n", kMicrowaveBackground, cmb.redshift,
                      cmb.contrast);
@@ -85,6 +92,7 @@ std::string cmb_text(const CmbSettings& cmb) {
 // microwave background may be negative.
 void check_texels(const SkyImport& import, const HealpixFile& healpix) {
   bool good = false;
+  // Both begin at 0, as check_light() takes them.
   float least = 0, most = 0;
   for (const float v : healpix.values) {
     if (std::isnan(v)) continue;
@@ -100,6 +108,8 @@ void check_texels(const SkyImport& import, const HealpixFile& healpix) {
   if (!import.cmb) check_light(import.image, least, most);
 }
 
+// Makes a map of a HEALPix file, thermal for a microwave background and else grey, and returns the
+// orientation that its file states.
 Orientation import_healpix(const SkyImport& import) {
   HealpixFile healpix = read_healpix(import.image, import.column);
   check_texels(import, healpix);

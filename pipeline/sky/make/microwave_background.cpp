@@ -34,6 +34,7 @@ void paint_cmb(const HealpixMap& map, SkyFrame frame, const CmbSettings& cmb,
   // The map's value times this is contrast dT/2.725 K.
   const double amplified = cmb.contrast * cmb.kelvin / kCmbTemperature;
   const auto painter = [&](const V3d& d, float* channel) {
+    // The cut keeps T above 0 and below the hottest place, for which cmb_unit() leaves room.
     const double part = std::clamp(amplified * map.at(apply(turn, d)), -kCmbLargest, kCmbLargest);
     const double t = mean * (1 + part), radiance = scale * blackbody_radiance(t);
     channel[0] = static_cast<float>(radiance);

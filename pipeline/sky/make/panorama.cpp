@@ -27,12 +27,14 @@ std::array<double, 4> catmull_rom(double t) {
 template <class T>
 std::array<double, 3> equirectangular_at(const ImageRgb<T>& image, const V3d& d) {
   const int w = image.width, h = image.height;
+  // x and y count pixels from the centre of the first one, at the left and the top.
   const double x = (0.5 - std::atan2(d.y, d.x) / (2 * pi)) * w - 0.5;
   const double y = (0.5 - std::atan2(d.z, std::hypot(d.x, d.y)) / pi) * h - 0.5;
   const double x0 = std::floor(x), y0 = std::floor(y);
   const auto wx = catmull_rom(x - x0), wy = catmull_rom(y - y0);
   std::array<double, 3> sum{};
   for (int j = 0; j < 4; ++j) {
+    // The cubic reaches two rows beyond a pole, which an image of two rows still has.
     int row = static_cast<int>(y0) - 1 + j, turn = 0;
     if (row < 0 || row >= h) {
       row = row < 0 ? -1 - row : 2 * h - 1 - row;
@@ -65,6 +67,7 @@ double greatest_working(const ImageRgb<T>& image) {
   return greatest;
 }
 
+// Paints a level from an image.  `scale` is the light of the value 1 in units of the map.
 template <class T>
 void paint_image(const ImageRgb<T>& image, const M33d& to_panorama, double scale,
                  const SkyPyramid::Level& level) {
@@ -113,6 +116,7 @@ void paint_panorama(const LightImage& image, const Orientation& orientation, dou
 
 SkyMap map_of_panorama(const FloatImage& image, int largest_face) {
   int by = 1;
+  // The image is halved only as long as its sides stay whole, which shrunk() needs.
   while (panorama_face(image.width / by) > largest_face && image.height % (2 * by) == 0) by *= 2;
   if (by > 1) return map_of_panorama(shrunk(image, by));
   const double unit = sky_unit(kPanoramaUnit * greatest_working(image));

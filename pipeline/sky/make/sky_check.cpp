@@ -13,22 +13,27 @@
 namespace domefall {
 namespace {
 
+// check_orientation() in the header says what these numbers decide.
 constexpr std::size_t kBrightest = 150, kDensest = 40'000;
 // A point stands out of its surroundings from the first contrast on, a cloud from the second.
 constexpr double kStandsOut = 1.3;
 constexpr double kCloudStandsOut = 1.15;
 constexpr double kStarsEnough = 0.5, kStarsMargin = 0.15, kBandEnough = 0.3, kBandMargin = 0.1;
+// These are 1536 places all over the sky, about 5.6 degrees apart, which is near the blur.
 constexpr int kBandFace = 16;
 constexpr double kBandBlur = 5 * kDegree;
 constexpr double kKernelEnd = 8;  // the Gaussian is cut at exp(-8)
 constexpr int kNamedStars = 10;
 
+// Returns the luminance (cd/m^2) of a map, averaged over a footprint in radians.
 double light(const SkyMap& map, const V3d& direction, double footprint) {
   return luminance(map.sample(direction, footprint));
 }
 
 // Returns the direction at `angle` from d, turned about d by `turn`.
 V3d beside(const V3d& d, double angle, double turn) {
+  // Within 26 degrees of the z axis the x axis stands in for it, so that the product never gets
+  // short.
   const V3d aside = d.cross(std::abs(d.z) < 0.9 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
   const V3d across = d.cross(aside);
   return std::cos(angle) * d + std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * across);
@@ -52,6 +57,8 @@ double ratio(double inside, double around) {
   return around > 0 ? inside / around : HUGE_VAL;
 }
 
+// A place that is dark must be darker than its surroundings by the factor by which a cloud must be
+// brighter.
 struct NamedPlace {
   const char* name;
   double ra_deg, dec_deg, radius_deg;
@@ -135,6 +142,7 @@ double density_at(const V3d& d, const StarCatalogue& catalogue) {
   for (std::size_t k = 0; k < count; ++k) {
     // The exponent is angle^2/(2 kBandBlur^2).
     const double x = (1 - d.dot(catalogue.stars[k].direction.v)) / (kBandBlur * kBandBlur);
+    // Beyond the cut a star counts less than 3.4e-4 of what it counts at its place.
     if (x < kKernelEnd) sum += std::exp(-x);
   }
   return sum;
@@ -153,6 +161,7 @@ Band band_of(const StarCatalogue& catalogue) {
   return band;
 }
 
+// A Judge compares one map with the catalogue under any number of orientations.
 class Judge {
  public:
   Judge(const SkyMap& map, const Orientation& stated, const StarCatalogue& catalogue)
@@ -161,6 +170,7 @@ class Judge {
         band_(band_of(catalogue)),
         panorama_from_map_(panorama_from_equatorial(stated)) {}
 
+  // Returns how well the map agrees with the sky if the panorama lay in this orientation.
   OrientationFit fit(const Orientation& orientation) const {
     // The map was made with the stated orientation, so a direction goes into the panorama by the
     // assumed orientation and back out of it by the stated one.
@@ -178,6 +188,7 @@ class Judge {
     int clouds = 0;
     for (const NamedPlace& cloud : kClouds)
       clouds += cloud.stands_out(contrast(map_, in_map(cloud.direction().v), cloud.radius()));
+    // The correlation of the ranks is Spearman's.
     return {orientation, count ? found / static_cast<double>(count) : 0,
             correlation(ranks(seen), band_.density), clouds / static_cast<double>(kClouds.size())};
   }

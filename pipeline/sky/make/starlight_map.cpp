@@ -77,6 +77,7 @@ struct FaceBox {
   std::array<float, 3> centre;  // of the cap: ahead, along u, along v
 };
 
+// Returns the texels of a face that a cap of radius `angle` about d may touch.
 FaceBox box_of(const V3d& d, int face, double angle, int n) {
   const int axis = face / 2;
   const double ahead = face % 2 ? -d[axis] : d[axis];
@@ -107,6 +108,7 @@ std::vector<FaintStar> fainter_stars(const StarCatalogue& catalogue, double v_ma
   std::vector<FaintStar> stars;
   for (const Star& s : catalogue.stars) {
     if (!(s.v_magnitude > v_magnitude)) continue;
+    // The flux of V = 0 depends on the temperature, and each magnitude divides it by 10^0.4.
     const double flux =
         std::pow(10, -0.4 * s.v_magnitude) * bolometric_flux_at_v_zero(s.temperature);
     stars.push_back({s.direction.v, flux, s.temperature, s.v_magnitude});
@@ -132,6 +134,7 @@ std::vector<BlurClass> blur_classes(const std::vector<FaintStar>& stars, double 
 
 int starlight_face(double blur) {
   int size = 64;
+  // A face spans a quarter of a turn, and three texels must fit into the blur.
   while (size < kLargestStarlightFace && std::numbers::pi / 2 / size > blur / 3) size *= 2;
   return size;
 }
@@ -160,7 +163,8 @@ void StarlightMap::add(const std::vector<FaintStar>& stars, double blur) {
 }
 
 // Goes over the texels of the cap twice.  The first pass finds their weights, and the sum of
-// weights times solid angles.  The second adds the light, divided by that sum.
+// weights times solid angles.  The second adds the light, divided by that sum.  The division makes
+// the light of a star its flux, wherever the texels lie on the cube.
 void StarlightMap::spread(const V3d& direction, double flux, double weighted, double blur) {
   const double reach = kCut * kCut * blur * blur / 2;  // 1 - cos(angle) at the cut
   const double angle = std::acos(1 - reach);

@@ -11,6 +11,7 @@
 namespace domefall {
 namespace {
 
+// dark_level.h gives these numbers and their reasons.
 constexpr int kTexels = 64;
 constexpr double kDarkest = 0.01;  // of the sphere
 constexpr double kEven = 0.75;     // of the median; from there on the darkest part is not dark
@@ -43,6 +44,7 @@ Patch patch_of(const SkyMap& map, const SkyTexel& texel, double solid_angle) {
   return {radiance, radiance * luminance(blackbody_colours().per_flux(temperature)), solid_angle};
 }
 
+// Returns the inner texels of the level at which darkness is measured.
 std::vector<Patch> patches_of(const SkyMap& map) {
   const auto& levels = map.levels();
   // If no level is so small, the last and smallest one is taken.
@@ -78,6 +80,7 @@ DarkLevel dark_level(const SkyMap& map) {
   std::stable_sort(patches.begin(), patches.end(),
                    [](const Patch& a, const Patch& b) { return a.light < b.light; });
   const Patch& darkest = at_part(patches, kDarkest);
+  // An even sky has no dark parts, and without a level nothing is taken away from it.
   if (darkest.light > kEven * at_part(patches, 0.5).light) return {};
   return {darkest.light, darkest.luminance};
 }

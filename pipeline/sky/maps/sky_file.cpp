@@ -23,6 +23,8 @@ static_assert(std::endian::native == std::endian::little, "maps are used as they
 
 constexpr std::array<char, 8> kMagic{'D', 'O', 'M', 'E', 'S', 'K', 'Y', 0};
 constexpr std::uint32_t kVersion = 1;
+// A mapped file begins on a page of memory, so parts at multiples of 4096 bytes are aligned as they
+// are in memory.
 constexpr std::size_t kPage = 4096, kMostText = 65536;
 // These bits of Header::panorama say how the panorama lies.
 constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPanorama = 8;
@@ -56,6 +58,8 @@ struct Header {
 };
 static_assert(sizeof(Header) == 64);
 
+// Each level has an entry, with one checksum for each face, so that a part of a file can be
+// verified.
 struct LevelEntry {
   std::uint32_t size, zero;
   std::uint64_t offset;
@@ -77,6 +81,7 @@ std::size_t header_bytes(std::size_t levels, std::size_t text) {
   return whole_pages(sizeof(Header) + levels * sizeof(LevelEntry) + text);
 }
 
+// Returns the length of a file whose finest level has this size, for a text of so many bytes.
 std::size_t file_bytes(int size, std::size_t text) {
   const std::vector<int> sizes = level_sizes(size);
   std::size_t bytes = header_bytes(sizes.size(), text);
@@ -91,6 +96,7 @@ std::uint64_t header_checksum(std::string_view header) {
   return XXH3_64bits(copy.data(), copy.size());
 }
 
+// Returns the checksum of a face with its border, since samples use that too.
 std::uint64_t face_checksum(const SkyLevel& level, int face) {
   return XXH3_64bits(level.face(face), SkyLevel::face_texels(level.size) * sizeof(SkyTexel));
 }
@@ -114,6 +120,7 @@ std::uint32_t panorama_flags(const std::optional<Orientation>& o) {
          (o->longitude_right ? kLongitudeRight : 0) | (o->south_up ? kSouthUp : 0);
 }
 
+// Returns the orientation for such bits, or nothing for kNoPanorama.
 std::optional<Orientation> panorama_of(const Header& h) {
   if (h.panorama & kNoPanorama) return std::nullopt;
   return Orientation{h.panorama & kGalactic ? SkyFrame::kGalactic : SkyFrame::kEquatorial,
@@ -139,6 +146,7 @@ Header read_header(const std::filesystem::path& path, std::string_view file) {
     fail(path, offsetof(Header, version),
          fmt::format("a .sky file of version {}; this Domefall reads version {}", h.version,
                      kVersion));
+  // Only what finds the end of the header is believed before its checksum is right.
   if (h.header_bytes < sizeof h || h.header_bytes > kMostHeader || h.header_bytes % kPage)
     fail(path, offsetof(Header, header_bytes), "the header is damaged: its size makes no sense");
   if (file.size() < h.header_bytes) fail(path, file.size(), "the file ends within its header");
@@ -182,6 +190,7 @@ std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const He
   return entries;
 }
 
+// Returns the header of a map.  Its checksum and the length of the file are left to finish().
 Header sky_header(const SkyMap& map, const SkyOrigin& origin) {
   Header h;
   h.levels = static_cast<std::uint32_t>(map.levels().size());
@@ -284,6 +293,7 @@ void SkyFile::verify(int largest_face) const {
   for (std::size_t k = 0; k < face_checksums_.size(); ++k)
     for (int face = 0; face < 6; ++face) {
       const SkyLevel& level = map_.levels()[k];
+      // No face of this level is looked at.
       if (level.size > largest_face) break;
       if (face_checksum(level, face) == face_checksums_[k][static_cast<std::size_t>(face)])
         continue;

@@ -17,6 +17,7 @@ SkyMap::SkyMap(SkyMapKind kind, double unit, std::vector<SkyLevel> levels,
     : kind_(kind), unit_(unit), levels_(std::move(levels)), owner_(std::move(owner)) {}
 
 SkyMap SkyMap::without_levels_above(int size) const {
+  // The last level is not asked, so that it is kept whatever its size.
   auto first = std::find_if(levels_.begin(), levels_.end() - 1,
                             [size](const SkyLevel& level) { return level.size <= size; });
   return {kind_, unit_, {first, levels_.end()}, owner_};
@@ -27,6 +28,7 @@ SkyMap SkyMap::without_levels_above(int size) const {
 SkyMap::Value SkyMap::bilinear(const SkyLevel& level, int face, double u, double v) {
   const int n = level.size;
   const double x = (u + 1) / 2 * n + 0.5, y = (v + 1) / 2 * n + 0.5;  // counted from the border on
+  // x and y go from 0.5 to n + 0.5, so that texels i and i + 1 are among the n + 2 of a row.
   const int i = std::min(static_cast<int>(x), n), j = std::min(static_cast<int>(y), n);
   const auto fx = static_cast<float>(x - i), fy = static_cast<float>(y - j);
   const SkyTexel* a = level.face(face) + static_cast<std::size_t>(j) * (n + 2) + i;
@@ -58,12 +60,14 @@ SkyMap::Value SkyMap::filtered(const V3d& direction, double footprint) const {
   const Value a = bilinear(levels_[fine], at.face, at.u, at.v);
   const Value b = bilinear(levels_[coarse], at.face, at.u, at.v);
   Value out;
+  // Mixing two levels in this way is trilinear filtering (Williams 1983).
   for (int k = 0; k < 4; ++k) out.channel[k] = a.channel[k] + w * (b.channel[k] - a.channel[k]);
   return out;
 }
 
 ThermalLight SkyMap::thermal(const Value& value) const {
   if (!(value.channel[0] > 0)) return {0, kThermalBase};
+  // T is kThermalBase times 2^theta (SkyMapKind::kThermal).
   return {unit_ * value.channel[0], kThermalBase * std::exp2(value.channel[1] / value.channel[0])};
 }
 
@@ -75,6 +79,7 @@ WorkingRgb SkyMap::sample(const V3d& direction, double footprint) const {
   const Value value = filtered(direction, footprint);
   if (kind_ == SkyMapKind::kThermal) {
     const ThermalLight light = thermal(value);
+    // The colour is light per unit of bolometric flux, which the radiance multiplies.
     const WorkingRgb c = blackbody_colours().per_flux(light.temperature);
     const auto f = static_cast<float>(light.radiance);
     return {c.r * f, c.g * f, c.b * f};

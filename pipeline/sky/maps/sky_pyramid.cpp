@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kGreatestExponent = 14;  // of the brightest texel; halves reach almost 2^16
 
-// Returns the texel of the next level that covers these four.
+// Returns the texel of the next level that covers these four.  The sum is in single precision and
+// is rounded to a half once.
 SkyTexel mean(const SkyTexel& a, const SkyTexel& b, const SkyTexel& c, const SkyTexel& d) {
   SkyTexel out{};
   for (int k = 0; k < 4; ++k)
@@ -32,6 +33,8 @@ struct Between {
   float part;
 };
 
+// Returns the place of a face's coordinate u among its texels, whose centres are at u = (2 i + 1)/n
+// - 1.  A place beyond the outermost centres is moved to the nearest.
 Between between(double u, int n) {
   const double x = std::clamp((u + 1) / 2 * n - 0.5, 0.0, n - 1.0);
   const int first = static_cast<int>(x);
@@ -41,6 +44,7 @@ Between between(double u, int n) {
 // Returns the light of the neighbouring face in the direction of a texel of the border.
 SkyTexel sample_across(const SkyPyramid::Level& level, int face, int i, int j) {
   const int n = level.size;
+  // direction_of() also holds beyond the edge, and face_of() then finds the face across it.
   const FacePoint at = face_of(direction_of(texel_centre(face, i, j, n)));
   const Between x = between(at.u, n), y = between(at.v, n);
   const SkyTexel &a = level.at(at.face, x.first, y.first),
@@ -57,7 +61,8 @@ SkyTexel sample_across(const SkyPyramid::Level& level, int face, int i, int j) {
   return out;
 }
 
-// Makes a level from the next finer one.  Each of its texels is the mean of four.
+// Makes a level from the next finer one.  Each of its texels is the mean of four.  Its border is
+// filled anew, from its own inner texels.
 void halve(const SkyPyramid::Level& fine, const SkyPyramid::Level& coarse) {
   for (int face = 0; face < 6; ++face)
     for (int j = 0; j < coarse.size; ++j) {
@@ -77,6 +82,8 @@ void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painte
     for (int y = 0; y < across; ++y)
       for (int x = 0; x < across; ++x) {
         std::array<float, 4> channel{};
+        // The samples are the centres of a grid that is `across` times as fine.  In the border they
+        // lie beyond the face.
         painter(direction_of(texel_centre(face, i * across + x, j * across + y, fine)),
                 channel.data());
         for (int k = 0; k < 4; ++k) sum[k] += channel[k];
@@ -91,6 +98,7 @@ void paint_row(const SkyPyramid::Level& level, int row, const SkyPainter& painte
 
 double sky_unit(double greatest) {
   if (!(greatest > 0)) return 1;
+  // With 2^e <= greatest < 2^(e + 1), greatest over 2^(e - 13) is at least 2^13 and less than 2^14.
   return std::ldexp(1.0, std::ilogb(greatest) + 1 - kGreatestExponent);
 }
 
@@ -137,6 +145,7 @@ SkyMap SkyPyramid::map() const {
 void fill_border(const SkyPyramid::Level& level) {
   const int n = level.size;
   for (int face = 0; face < 6; ++face)
+    // A corner of the border is set twice, to the same value.
     for (int k = -1; k <= n; ++k) {
       level.at(face, k, -1) = sample_across(level, face, k, -1);
       level.at(face, k, n) = sample_across(level, face, k, n);

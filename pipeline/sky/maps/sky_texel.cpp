@@ -6,6 +6,8 @@ namespace domefall {
 
 std::uint16_t half_bits(float value) {
   constexpr std::uint16_t kSmallestNormal = 0x0400;  // 2^-14
+  // Halves of one sign are ordered as their bits are, so that one comparison finds those that are
+  // subnormal.
   const std::uint16_t bits = Imath::half(value).bits();
   return bits < kSmallestNormal ? 0 : bits;
 }

@@ -224,8 +224,8 @@ TEST(DomeConfig, UnToneMappedIsTheStandardsPrimariesAndEncoding) {
   }
 }
 
-// DCI-P3's primaries against its own white, to which the scene's is adapted: a grey has equal codes.
-// P3's red is outside Rec.709 and inside Rec.2020.
+// DCI-P3 has its primaries against its own white, to which the scene's is adapted, so that a grey
+// has equal codes.  P3's red is outside Rec.709 and inside Rec.2020.
 TEST(DomeConfig, UnToneMappedHasThePrimariesOfWideDisplays) {
   const auto red = [](const char* display, double gamma) {
     Triple light = graded(settings("Un-tone-mapped", display), scene_of({1, 0, 0}, 1));

@@ -159,8 +159,8 @@ TEST(LargeFrames, AreStoodForBySmallOnes) {
   EXPECT_FALSE(grader.as_for(small.width, small.height).table_error(large));
 }
 
-// Their red is at the border of the display's gamut, where the code leaves black infinitely steeply:
-// 23 of 65535 off, between the places where the table was compared.
+// Their red is at the border of the display's gamut, where the code leaves black infinitely
+// steeply.  Between the places where the table was compared, it is off by 23 of 65535.
 TEST(LargeFrames, OfDarkBluesKeepTheBoundWhereRedLeavesBlack) {
   HalfFrame large(2048, 1024), small(2048, 48);
   for (HalfFrame* frame : {&large, &small})

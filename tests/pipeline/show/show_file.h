@@ -61,7 +61,8 @@ class ShowFile : public TestFolder {
 
   Show read(const std::string& yaml) { return read_show(write("show.yaml", yaml)); }
 
-  // The message of the error, of either kind, that reading it throws, without the folder; empty if it throws none.
+  // Returns the message, without the folder, of the error of either kind that reading it throws, or
+  // an empty text if it throws none.
   std::string complaint(const std::string& yaml) {
     try {
       read(yaml);

@@ -11,11 +11,13 @@ using StarIndices = std::vector<std::uint32_t>;
 
 class Repair {
  public:
+  // Finds the stars of each Hipparcos number, which components of one star share.
   Repair(RawCatalogue& catalogue, HipparcosRepair& done) : stars_(catalogue.stars), done_(done) {
     for (std::uint32_t i = 0; i < stars_.size(); ++i)
       if (stars_[i].hip != 0) with_number_[stars_[i].hip].push_back(i);
   }
 
+  // Lays one star of Hipparcos over those that bear its number, or adds it.
   void lay_over(const CatalogueStar& hipparcos) {
     const auto found = with_number_.find(hipparcos.hip);
     if (found == with_number_.end()) {
@@ -50,6 +52,8 @@ class Repair {
     }
     const double sum = -2.5 * std::log10(flux);
     for (const std::uint32_t i : places) {
+      // A shift that is the same for all multiplies all fluxes by one factor, so that their ratios
+      // stay.
       stars_[i].v = places.size() == 1 ? v : static_cast<float>(stars_[i].v + (v - sum));
       stars_[i].v_is_rough = false;
       ++done_.stars;

@@ -32,6 +32,7 @@ std::vector<std::string_view> alternatives(std::string_view cell) {
 
 class Corrections {
  public:
+  // Lists the stars by identifier and by name, and marks each name that several stars have.
   Corrections(RawCatalogue& catalogue, const std::filesystem::path& file)
       : catalogue_(catalogue), row_(file, {"star"}) {
     for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)
@@ -56,6 +57,7 @@ class Corrections {
       else
         row_.fail(fmt::format("action must be add, remove or empty, got '{}'", action));
     }
+    // Stars that still have no magnitude stay, since kNoMagnitude itself is within the limit.
     keep_brighter(catalogue_, kNoMagnitude);
     return rows;
   }
@@ -136,6 +138,7 @@ class Corrections {
     star.id = parse_star_id(cell).value_or(kNoStarId);
     for (const std::string_view alternative : alternatives(cell))
       if (find(alternative)) row_.fail(fmt::format("the catalogue has a star '{}' already", cell));
+    // take_numbers() allows these cells to be empty, but a new star needs them.
     row_.required("ra_deg", 0, 360);
     row_.required("dec_deg", -90, 90);
     row_.required("v_mag", kBrightestV, kFaintestV);

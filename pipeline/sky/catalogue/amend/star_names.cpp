@@ -27,8 +27,10 @@ constexpr std::array<Spelling, 35> kSpellings{
      {"¹", "1"},       {"²", "2"},    {"³", "3"},     {"⁴", "4"},     {"⁵", "5"},
      {"⁶", "6"},       {"⁷", "7"},    {"⁸", "8"},     {"⁹", "9"},     {"⁰", "0"}}};
 
+// Returns a text with its signs spelt out in ASCII, as people type the names of stars.
 std::string spelt_out(std::string text) {
   for (const auto& [sign, plain] : kSpellings)
+    // What replaces a sign holds none, so that the search ends.
     for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign))
       text.replace(at, sign.size(), plain);
   return text;
@@ -52,6 +54,8 @@ std::string designation(const json& entry) {
 std::unordered_map<StarId, std::uint32_t> places_of(const RawCatalogue& catalogue) {
   std::unordered_map<StarId, std::uint32_t> places;
   for (std::uint32_t i = 0; i < catalogue.stars.size(); ++i)
+    // Only the brightest star of a number bears it as its identifier (identify_by_hipparcos), so
+    // that names go to that one.
     if (catalogue.stars[i].hip != 0) places.emplace(catalogue.stars[i].id, i);
   return places;
 }

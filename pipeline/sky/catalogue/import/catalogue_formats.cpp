@@ -28,6 +28,8 @@ const CatalogueFormat* format_named(std::string_view name) {
   return found == kFormats.end() ? nullptr : &*found;
 }
 
+// Returns the format of a folder by the names of its files, or null.  A folder that cannot be read
+// tells nothing.
 const CatalogueFormat* guess_folder(const fs::path& folder) {
   std::error_code ignored;
   if (fs::exists(folder / "tyc2.dat.00", ignored)) return format_named("tycho2");
@@ -37,20 +39,25 @@ const CatalogueFormat* guess_folder(const fs::path& folder) {
   return nullptr;
 }
 
+// Says whether a line has a bar at a byte, counted from 1 as in the ReadMes of catalogues.
 bool is_bar(std::string_view line, std::size_t byte) { return line[byte - 1] == '|'; }
 
 // Tables with fixed columns differ in the lengths of their lines and in the characters between
 // columns.
 const CatalogueFormat* guess_table(std::string_view line) {
+  // These are the lengths of the lines by the ReadMes.  In both tables of Tycho-2 the flag at byte
+  // 14 stands between two bars.
   constexpr std::size_t kTycho = 206, kSupplement = 122, kAscc = 210, kDraper = 48;
   if (line.size() == kTycho && is_bar(line, 13) && is_bar(line, 15)) return format_named("tycho2");
   if (line.size() == kSupplement && is_bar(line, 13) && is_bar(line, 15))
     return format_named("tycho2");
+  // ASCC-2.5 gives right ascension as F12.9 in hours, with the point at byte 3.
   if (line.size() == kAscc && line[2] == '.') return format_named("ascc");
   if (line.size() == kDraper) return format_named("hd");
   return nullptr;
 }
 
+// Returns the format of a table by its header line, whose names may stand in quotes, or null.
 const CatalogueFormat* guess_csv(std::string_view line) {
   std::string plain(line);
   std::erase(plain, '"');
@@ -76,6 +83,7 @@ const CatalogueFormat* guess_format(const Paths& inputs) {
   // A table may begin with lines of comment.
   while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos)
     bytes.remove_prefix(bytes.find('\n') + 1);
+  // GeoJSON is one object.
   if (bytes.starts_with('{')) return format_named("d3-celestial");
   std::string_view line = bytes.substr(0, bytes.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);

@@ -54,6 +54,7 @@ bool FixedColumns::next() {
 
 std::string_view FixedColumns::text(const TextColumn& column) const {
   const std::size_t first = static_cast<std::size_t>(column.first) - 1;
+  // A column beyond the end of a line that has lost its trailing blanks is blank.
   if (first >= line_.size()) return {};
   return trimmed(line_.substr(first, static_cast<std::size_t>(column.last) - first));
 }
@@ -62,9 +63,11 @@ std::optional<double> FixedColumns::number(const NumberColumn& column) const {
   std::string_view cell = text({column.first, column.last});
   if (cell.empty()) return std::nullopt;
   const std::string_view whole = cell;
-  // std::from_chars() takes no plus sign, but catalogues write one.
+  // std::from_chars() takes no plus sign, but catalogues write one.  What follows must not be a
+  // second sign, which from_chars() would take.
   if (cell.front() == '+' && cell.size() > 1 && cell[1] != '-') cell.remove_prefix(1);
   double value = 0;
+  // from_chars() also reads nan and inf, which the test of the range refuses.
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() ||
       !(value >= column.low && value <= column.high))
@@ -82,11 +85,13 @@ double FixedColumns::required(const NumberColumn& column) const {
 }
 
 std::uint32_t FixedColumns::whole(const NumberColumn& column) const {
+  // The columns of whole numbers have ranges that a uint32 holds.
   const double value = number(column).value_or(0);
   if (value != std::floor(value)) fail(fmt::format("{} must be a whole number", column.name));
   return static_cast<std::uint32_t>(value);
 }
 
+// The end of a line is LF or CR LF, as in next().
 std::size_t first_line_length(const std::filesystem::path& file) {
   const MappedFile mapped(require_file(file));
   const std::string_view bytes = mapped.bytes();

@@ -42,6 +42,8 @@ float motion(const FixedColumns& line, const NumberColumn& column) {
   return value == kNoMotion ? 0 : static_cast<float>(value * kHundredth);
 }
 
+// Returns the Henry Draper number or else the Tycho number.  A Hipparcos number takes the place of
+// either later on.
 StarId identifier(const FixedColumns& line) {
   const std::uint32_t region = line.whole(kRegion), number = line.whole(kNumber),
                       component = line.whole(kComponent), hd = line.whole(kHd);
@@ -49,10 +51,13 @@ StarId identifier(const FixedColumns& line) {
   return region && number && component ? tycho_id(region, number, component) : kNoStarId;
 }
 
+// Returns the star of a line.  V of a star that was measured in B alone is B less the assumed
+// colour.
 CatalogueStar read_star(const FixedColumns& line) {
   CatalogueStar star;
   star.pm_ra = motion(line, kPmRa);
   star.pm_dec = motion(line, kPmDec);
+  // The file gives the places of J1991.25, and right ascension in hours.
   star.direction = moved(sky_direction(line.required(kRa) * kDegreesPerHour, line.required(kDec)),
                          star.pm_ra, star.pm_dec, 2000 - kEpoch);
   const auto b = magnitude(line, kB), v = magnitude(line, kV);

@@ -23,6 +23,7 @@ class Feature {
     CatalogueStar out;
     out.hip = hip();
     out.id = hipparcos_id(out.hip);
+    // A position of GeoJSON is longitude and latitude in this order (RFC 7946, sec. 3.1.1).
     const json& place = member(member(value_, "geometry"), "coordinates");
     if (!place.is_array() || place.size() != 2) fail("coordinates must be [RA, Dec]");
     // GeoJSON has longitudes from -180 to 180 degrees, and RA is negative beyond 180.
@@ -39,6 +40,7 @@ class Feature {
     throw InputError(fmt::format("{}: features[{}]: {}", file_.string(), index_, what));
   }
 
+  // Returns a member of an object, and throws InputError where there is none or no object.
   const json& member(const json& of, const char* name) const {
     const auto found = of.is_object() ? of.find(name) : of.end();
     if (!of.is_object() || found == of.end()) fail(fmt::format("has no {}", name));
@@ -53,6 +55,7 @@ class Feature {
     return number;
   }
 
+  // Returns the Hipparcos number, which is the id of the feature.
   std::uint32_t hip() const {
     const double id = number(member(value_, "id"), "id (the Hipparcos number)", 1, kLastHip);
     return static_cast<std::uint32_t>(id);
@@ -64,6 +67,7 @@ class Feature {
     const auto& text = value.get_ref<const std::string&>();
     if (text.empty()) return kNoColour;
     double b_v = 0;
+    // The test of the range is negated, so that it refuses the text nan as well.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), b_v);
     if (error != std::errc() || end != text.data() + text.size() || !(std::abs(b_v) <= kReddest))
       fail("bv must be a number in quotes, or empty quotes");
@@ -81,6 +85,7 @@ ImportedCatalogue import_d3_celestial(const Paths& inputs) {
   ImportedCatalogue out;
   for (const std::filesystem::path& input : inputs) {
     const json document = read_json(input);
+    // GeoJSON calls such a file a feature collection, whose members stand under `features`.
     const auto features = document.is_object() ? document.find("features") : document.end();
     if (!document.is_object() || features == document.end() || !features->is_array())
       throw InputError(input.string() + ": this is no list of stars (GeoJSON with features)");

@@ -40,6 +40,8 @@ SkyDirection to_j2000(const SkyDirection& b1900) {
   return {q / std::sqrt(q.dot(q))};
 }
 
+// Returns the place of a line, whose columns give right ascension to 0.1 minute and declination to
+// 1 arcminute.  Blank minutes count as 0.
 SkyDirection position(const FixedColumns& line) {
   constexpr double kDegreesPerHour = 15, kMinutes = 60, kTenths = 600;
   const double hours = line.required(kRaHours) + line.number(kRaTenths).value_or(0) / kTenths;
@@ -56,6 +58,7 @@ std::optional<double> measured(std::optional<double> magnitude) {
   return magnitude && *magnitude < kNebula ? magnitude : std::nullopt;
 }
 
+// These rows are counted for the notes of the import.
 struct Skipped {
   std::size_t deleted = 0, repeated = 0, nebulae = 0, unmeasured = 0;
 };
@@ -66,12 +69,15 @@ float magnitude(const FixedColumns& line, float colour) {
   const auto photographic = measured(line.number(kPhotographic));
   if (!photographic) return kNoMagnitude;
   // The catalogue's index, photographic less visual, is 0 at A0 and 1 at K0, which is nearly B-V.
+  // Types O and B, whose colour is a temperature, count as 0.
   const double index = is_temperature(colour) ? 0
                        : colour == kNoColour  ? kAssumedColour
                                               : static_cast<double>(colour);
   return static_cast<float>(*photographic - index);
 }
 
+// Says whether either magnitude is the code of a nebula or a cluster, which are no points of light.
+// Throws InputError for a number that is neither magnitude nor code.
 bool is_nebula_or_cluster(const FixedColumns& line) {
   for (const NumberColumn& column : {kVisual, kPhotographic}) {
     const double m = line.number(column).value_or(0);
@@ -105,6 +111,7 @@ ImportedCatalogue import_henry_draper(const Paths& inputs) {
   for (const std::filesystem::path& input : inputs) {
     FixedColumns line(input, kShortestLine, kLongestLine);
     while (line.next()) {
+      // whole() would take a blank number for 0, so that it is refused first.
       line.required(kHdNumber);
       CatalogueStar star;
       const std::uint32_t hd = line.whole(kHdNumber);
@@ -113,6 +120,7 @@ ImportedCatalogue import_henry_draper(const Paths& inputs) {
       star.colour = colour_of_spectral_type(line.text(kType));
       star.v = magnitude(line, star.colour);
       const bool nebula = is_nebula_or_cluster(line);
+      // A row is counted for one reason only, the first of these that holds.
       if (line.letter(kRemark) == 'D') {
         ++skipped.deleted;
       } else if (nebula) {

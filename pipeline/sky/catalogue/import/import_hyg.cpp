@@ -13,11 +13,13 @@ constexpr StarColumns kColumns{"ra", "dec", "mag", "ci", "pmra", "pmdec", 15, -k
 
 // Returns "alpha CMa" for "Alp" and "CMa", "alpha1 Cru" for "Alp-1" and "Cru".
 std::string bayer_name(std::string_view letter, std::string_view constellation) {
+  // The first name that begins with an abbreviation is taken, in the order of the alphabet.
   static constexpr std::array<std::string_view, 24> kLetters{
       "alpha", "beta",  "gamma",  "delta",   "epsilon", "zeta", "eta",     "theta",
       "iota",  "kappa", "lambda", "mu",      "nu",      "xi",   "omicron", "pi",
       "rho",   "sigma", "tau",    "upsilon", "phi",     "chi",  "psi",     "omega"};
   const std::string_view start = letter.substr(0, letter.find('-'));
+  // The shortest names of Greek letters (mu, nu, xi and pi) have two letters.
   if (start.size() < 2 || constellation.empty()) return "";
   for (const std::string_view full : kLetters) {
     // The table has only the beginning of a letter's name, with a capital.
@@ -37,6 +39,7 @@ ImportedCatalogue import_hyg(const Paths& inputs) {
   ImportedCatalogue out;
   RawCatalogue& catalogue = out.catalogue;
   for (const std::filesystem::path& input : inputs) {
+    // The other columns may be missing, and are empty then.
     CsvFile row(input, {"ra", "dec", "mag", "ci"});
     while (row.next()) {
       const std::string_view proper = row.text("proper");

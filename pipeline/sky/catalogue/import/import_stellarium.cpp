@@ -51,6 +51,7 @@ struct Full {
 };
 static_assert(sizeof(Full) == 28);
 
+// Returns a star of type 0.  The bytes are copied, since a record need not be aligned in the file.
 Packed unpack_full(const char* bytes) {
   Full star;
   std::memcpy(&star, bytes, sizeof star);
@@ -82,6 +83,9 @@ std::int64_t bits(const char* bytes, int first, int count, bool is_signed) {
 // A star of type 1 is packed into 80 bits.
 constexpr std::size_t kShortSize = 10;
 Packed unpack_short(const char* bytes) {
+  // x0 and x1 have 20 bits with a sign, so that 2^19 - 1 is their largest value.  Then come two
+  // motions of 14 bits, the colour of 7 and the magnitude of 5.  Such a star has no Hipparcos
+  // number.
   constexpr double kLargest = 524287;
   return {static_cast<double>(bits(bytes, 0, 20, true)) / kLargest,
           static_cast<double>(bits(bytes, 20, 20, true)) / kLargest,
@@ -103,6 +107,8 @@ class Reader {
       fail(4, fmt::format("stars of type {}; those of types 0 and 1 can be read", head_.type));
     if (head_.level < 0 || head_.level > kDeepestZones)
       fail(16, fmt::format("level {} is beyond 0 to {}", head_.level, kDeepestZones));
+    // No star is fainter than V = 40 (kFaintestV), which is 40,000 in thousandths.  A step count of
+    // 0 would be divided by.
     if (head_.mag_steps < 1 || head_.mag_range < 0 || std::abs(head_.mag_min) > 40000 ||
         head_.mag_range > 40000)
       fail(20, "the range of magnitudes makes no sense");
@@ -116,6 +122,7 @@ class Reader {
     std::uint64_t total = 0;
     for (const std::uint32_t count : counts) total += count;
     const std::size_t first = sizeof head_ + zones * sizeof(std::uint32_t);
+    // The size of the file checks the table of zones, so that no record is read beyond its end.
     if (total * size != bytes().size() - first)
       fail(first, fmt::format("the zones should have {} stars in {} bytes, but {} follow",
                               with_commas(total), with_commas(total * size),
@@ -168,6 +175,8 @@ class Reader {
   Header head_{};
 };
 
+// Returns the catalogues of a folder in the order of their names, so that the result does not
+// depend on the order in which the system lists them.
 Paths catalogues_in(const fs::path& folder) {
   Paths files;
   std::error_code error;
@@ -206,6 +215,7 @@ ImportedCatalogue import_stellarium(const Paths& inputs) {
     std::error_code ignored;
     const Paths files = fs::is_directory(input, ignored) ? catalogues_in(input) : Paths{input};
     for (const fs::path& file : files) Reader(file).read(out.catalogue.stars);
+    // Below an input that is a file there is no such path, so that only a folder brings motions.
     if (const fs::path motions = input / "hip_pm.dat"; fs::is_regular_file(motions, ignored))
       take_motions(motions, out.catalogue.stars);
   }

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 // Lines of the main table and of the supplement have these lengths, by which they are told apart.
 constexpr std::size_t kMainLine = 206, kSupplementLine = 122;
+// The ReadMe gives both: the epoch of the supplement's places, and the number of files into which
+// the main table is split.
 constexpr double kSupplementEpoch = 1991.25;
 constexpr int kMainParts = 20;
 
@@ -30,6 +32,7 @@ constexpr int kPositionFlag = 14, kSupplementBand = 82;
 constexpr NumberColumn kObservedRa{153, 164, "observed RA", 0, 360},
     kObservedDec{166, 177, "observed Dec", -90, 90};
 
+// The two tables have magnitudes and Hipparcos numbers in different columns.
 struct Photometry {
   NumberColumn bt, vt, hip;
 };
@@ -44,7 +47,8 @@ bool read_photometry(const FixedColumns& line, const Photometry& columns, Catalo
   star.hip = line.whole(columns.hip);
   if (!bt && !vt) return false;
   // A star that was measured in BT alone is assumed to have the colour with which it is drawn.  Its
-  // V is BT - (BT - VT) - 0.090 (BT - VT).  A star measured in VT alone has VT for V.
+  // V is BT - (BT - VT) - 0.090 (BT - VT).  A star measured in VT alone has VT for V.  The factors
+  // are those of note 7 of the ReadMe (catalogue_formats.h).
   const double bt_vt = bt && vt ? *bt - *vt : kAssumedColour / 0.850;
   if (bt && vt) star.colour = colour_of_b_v(0.850 * bt_vt);
   star.v_is_rough = !bt || !vt;
@@ -54,6 +58,7 @@ bool read_photometry(const FixedColumns& line, const Photometry& columns, Catalo
 
 // Returns a star with its identifier and proper motion.
 CatalogueStar start_of(const FixedColumns& line) {
+  // whole() takes a blank column for 0, which is no part of an identifier.
   for (const NumberColumn& part : {kRegion, kNumber, kComponent}) line.required(part);
   CatalogueStar star;
   star.id = tycho_id(line.whole(kRegion), line.whole(kNumber), line.whole(kComponent));
@@ -80,6 +85,7 @@ class Tycho {
     FixedColumns line(file, kSupplementLine, kSupplementLine);
     while (line.next()) {
       CatalogueStar star = start_of(line);
+      // The supplement gives the places of J1991.25, the main table those of J2000.
       star.direction = moved(sky_direction(line.required(kRa), line.required(kDec)), star.pm_ra,
                              star.pm_dec, 2000 - kSupplementEpoch);
       // The supplement marks with H the stars whose V is the magnitude Hp of Hipparcos.
@@ -88,6 +94,7 @@ class Tycho {
     }
   }
 
+  // Returns all stars that were read, with notes of those that are left out or lack a colour.
   ImportedCatalogue finished() {
     ImportedCatalogue out;
     if (unmeasured_)
@@ -103,6 +110,7 @@ class Tycho {
   }
 
  private:
+  // Keeps a star of which either band was measured, and counts the others.
   void keep(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {
     if (read_photometry(line, columns, star))
       stars_.push_back(star);

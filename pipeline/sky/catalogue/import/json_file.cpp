@@ -11,6 +11,7 @@ namespace domefall {
 nlohmann::json read_json(const std::filesystem::path& file) {
   const MappedFile mapped(require_file(file));
   const std::string_view bytes = mapped.bytes();
+  // The parser would report an empty file as damaged at its first byte, which it does not have.
   if (bytes.empty()) throw InputError(file.string() + ": the file is empty");
   try {
     return nlohmann::json::parse(bytes.begin(), bytes.end());

@@ -17,9 +17,11 @@ constexpr double kSteps = 10, kMiddle = 5;
 struct Node {
   double step, value;
 };
+// Returns the steps from O0 to a type, for example 25 to A5.
 constexpr double step_of(std::size_t letter, double digit) {
   return kSteps * static_cast<double>(letter) + digit;
 }
+// Both tables are those of the header, in ascending order of steps from O0.
 constexpr std::array kTemperatures{Node{step_of(0, 5), 41400}, Node{step_of(1, 0), 31400},
                                    Node{step_of(1, 5), 15700}, Node{step_of(2, 0), 9700}};
 constexpr std::array kColours{Node{step_of(2, 0), 0.07}, Node{step_of(2, 5), 0.26},
@@ -57,9 +59,11 @@ float colour_of_spectral_type(std::string_view type) {
   if (type[0] == 'S') return kOfS;
   if (type[0] == 'N') return kOfN;
   if (type[0] == 'R') return kOfR;
+  // S, N and R lie off the sequence of temperatures and have returned.
   const std::size_t letter = kLetters.find(type[0]);
   if (letter == std::string_view::npos) return kNoColour;
   const double step = step_of(letter, digit_of(type.substr(1)));
+  // Types before A0 have a temperature, and those from A0 on an observed B-V.
   if (step < step_of(2, 0)) return static_cast<float>(interpolated(kTemperatures, step, true));
   return static_cast<float>(interpolated(kColours, step, false));
 }

@@ -10,6 +10,8 @@ using Triangle = std::array<V3d, 3>;
 
 V3d unit(const V3d& v) { return v / std::sqrt(v.dot(v)); }
 
+// Returns the faces of an icosahedron.  Corners and faces have the order of the files, which number
+// their zones by it.
 std::vector<Triangle> icosahedron() {
   // The corners of an icosahedron lie at (0, +-1, +-golden ratio) and its cyclic permutations.
   const double golden = 0.5 * (1 + std::sqrt(5.0));
@@ -70,6 +72,7 @@ StellariumZones::StellariumZones(int level) {
 
 StellariumZones::Place StellariumZones::place(std::size_t zone, double x0, double x1) const {
   const Zone& z = zones_[zone];
+  // p lies in the plane that touches the sphere at the zone's centre, so that p.p = 1/cos^2(angle).
   const V3d p = z.centre + (z.east * x0 + z.north * x1) * scale_;
   return {{unit(p)}, p.dot(p)};
 }
