@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pipeline/show/clock_section.h"
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/orbit_section.h"
 #include "pipeline/show/path_section.h"
@@ -184,11 +185,10 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage)
   return is_curved(item) ? read_curved_infall(item, stage) : read_radial_infall(item, stage);
 }
 
-// A Type holds the word for a kind of trajectory, whether flat space has that kind, whether a body
-// may move so, and its reader.
+// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its reader.
 struct Type {
   std::string_view name;
-  bool in_flat_space, for_bodies;
+  bool in_flat_space;
   std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
 };
 
@@ -198,39 +198,34 @@ std::optional<TimedTrajectory> without_lookup(const Item& item, const Stage& sta
   return Read(item, stage);
 }
 
-// These are the types of trajectory that a show can name.
-constexpr std::array kTypes{Type{"static", true, true, without_lookup<read_static>},
-                            Type{"circular", false, true, without_lookup<read_circular>},
-                            Type{"parabolic", false, true, without_lookup<read_parabolic>},
-                            Type{"hyperbolic", false, true, without_lookup<read_hyperbolic>},
-                            Type{"bound", false, true, without_lookup<read_bound>},
-                            Type{"infall", false, true, without_lookup<read_infall>},
-                            Type{"thrown", false, true, read_thrown},
-                            Type{"kruskal", false, false, without_lookup<read_kruskal>},
-                            Type{"path", false, false, read_path},
-                            Type{"velocity", true, false, read_velocity},
-                            Type{"body", false, false, without_lookup<read_ride>},
-                            Type{"continue", true, false, without_lookup<read_continue>}};
+// These are the types of trajectory that a show can name.  Those that a body can follow come first.
+constexpr std::array kTypes{Type{"static", true, without_lookup<read_static>},
+                            Type{"circular", false, without_lookup<read_circular>},
+                            Type{"parabolic", false, without_lookup<read_parabolic>},
+                            Type{"hyperbolic", false, without_lookup<read_hyperbolic>},
+                            Type{"bound", false, without_lookup<read_bound>},
+                            Type{"infall", false, without_lookup<read_infall>},
+                            Type{"thrown", false, read_thrown},
+                            Type{"kruskal", false, without_lookup<read_kruskal>},
+                            Type{"path", false, read_path},
+                            Type{"velocity", true, read_velocity},
+                            Type{"body", false, without_lookup<read_ride>},
+                            Type{"continue", true, without_lookup<read_continue>}};
 
-// Returns the names of the types for which `chosen` holds.
-template <std::size_t count>
-constexpr std::array<std::string_view, count> names_where(bool (*chosen)(const Type&)) {
-  std::array<std::string_view, count> names;
-  std::size_t k = 0;
-  for (const Type& type : kTypes)
-    if (chosen(type)) names[k++] = type.name;
+constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
+  std::array<std::string_view, kTypes.size()> names;
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = kTypes[k].name;
   return names;
-}
-
-constexpr bool is_any(const Type&) { return true; }
-constexpr bool is_for_bodies(const Type& type) { return type.for_bodies; }
-constexpr auto kTypeNames = names_where<kTypes.size()>(is_any);
-constexpr auto kTypesOfBodies =
-    names_where<std::count_if(kTypes.begin(), kTypes.end(), is_for_bodies)>(is_for_bodies);
+}();
+constexpr std::size_t kTypesOfBodies = 7;
+static_assert(kTypeNames[kTypesOfBodies - 1] == "thrown" &&
+              kTypeNames[kTypesOfBodies] == "kruskal");
 
 }  // namespace
 
-std::span<const std::string_view> trajectories_of_bodies() { return kTypesOfBodies; }
+std::span<const std::string_view> trajectories_of_bodies() {
+  return std::span(kTypeNames).first(kTypesOfBodies);
+}
 
 bool is_in_region_three(const Section& s) {
   return s.word<bool>("region", {{"I", false}, {"III", true}}).value_or(false);
