@@ -14,7 +14,7 @@ struct DeliveryRun {
   const Show& show;            // as large as its frames are
   std::filesystem::path from;  // holds graded/NAME_00000.png
   std::filesystem::path out;
-  std::optional<int> bits;  // a colour; with nothing the frames stay as they are
+  std::optional<int> bits;  // of a colour; none leaves the frames as they are
   std::string name;         // a NamePattern; empty for the show's own name
   std::vector<std::filesystem::path> sounds, subtitles;
   bool leader = false;

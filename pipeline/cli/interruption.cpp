@@ -21,7 +21,7 @@ namespace {
 
 std::atomic<bool> first_is_remembered{false}, nothing_is_unfinished{false};
 std::atomic<int> remembered{0};
-std::array<int, 2> told{-1, -1};  // a pipe, by which a handler tells a thread
+std::array<int, 2> signal_pipe{-1, -1};  // a pipe, by which a handler tells a thread
 
 constexpr int kSignalsCode = 128, kTryAgainCode = 75;
 
@@ -31,7 +31,7 @@ void on_signal(int signal) {
   if (first_is_remembered && remembered.compare_exchange_strong(none, signal)) return;
   const int error = errno;
   const auto number = static_cast<unsigned char>(signal);
-  if (write(told[1], &number, 1) != 1) _exit(code_after(signal));
+  if (write(signal_pipe[1], &number, 1) != 1) _exit(code_after(signal));
   errno = error;
 }
 
@@ -45,9 +45,9 @@ void say_to_terminal(std::string_view line) {
 
 // A thread waits for the signal's number and ends the program, because a handler is not allowed to
 // remove folders.
-void end_when_told() {
+void end_on_signal() {
   unsigned char signal = 0;
-  while (read(told[0], &signal, 1) != 1) {
+  while (read(signal_pipe[0], &signal, 1) != 1) {
   }
   remove_unfinished();
   nothing_is_unfinished = true;
@@ -58,10 +58,10 @@ void end_when_told() {
 }  // namespace
 
 void leave_nothing_when_stopped() {
-  if (pipe2(told.data(), O_CLOEXEC) != 0)
+  if (pipe2(signal_pipe.data(), O_CLOEXEC) != 0)
     throw TemporaryError("no pipe can be opened: " + std::generic_category().message(errno));
   try {
-    std::thread(end_when_told).detach();
+    std::thread(end_on_signal).detach();
   } catch (const std::system_error& error) {
     throw TemporaryError("no thread can be started: " + error.code().message());
   }

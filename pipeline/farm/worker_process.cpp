@@ -63,14 +63,12 @@ WorkerProcess::WorkerProcess(std::vector<std::string> arguments, const Way& way)
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   std::array<int, 2> talk{}, failed{};
-  const auto require_pipe = [&](std::array<int, 2>& pipe) {
-    if (pipe2(pipe.data(), O_CLOEXEC) == 0) return;
+  const bool talks = pipe2(talk.data(), O_CLOEXEC) == 0;
+  if (!talks || pipe2(failed.data(), O_CLOEXEC) != 0) {
     const std::string why = std::strerror(errno);
-    if (&pipe == &failed) close(talk[0]), close(talk[1]);
+    if (talks) close(talk[0]), close(talk[1]);
     throw TemporaryError(arguments.front() + ": no pipe can be made: " + why);
-  };
-  require_pipe(talk);
-  require_pipe(failed);
+  }
   // No signal reaches the child while it still has the handlers of this process.
   sigset_t all, before;
   sigfillset(&all);
